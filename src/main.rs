@@ -1,0 +1,3 @@
+//! The `replan` command. All logic lives in the library.
+
+fn main() {}
