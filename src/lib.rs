@@ -4,3 +4,4 @@
 //! lower floors, and `tests/it/floors.rs` holds that.
 
 pub mod seed;
+pub mod settings;

@@ -1,0 +1,17 @@
+//! Planners: one a file, all in [`REGISTRY`], over the kernel of `search`.
+//!
+//! A contender is a pipeline: a planner finds a plan, then stages tidy it. Both are entries of one registry; an
+//! entry says what world it needs, what columns its counts fill, and how to build it from its settings. Nothing
+//! here knows studies or records; nothing outside an entry's file knows its settings.
+
+mod entry;
+
+pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
+
+/// Every planner and stage, in the order of their names.
+pub static REGISTRY: &[&Entry] = &[];
+
+/// The entry called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    REGISTRY.iter().copied().find(|entry| entry.name == name)
+}

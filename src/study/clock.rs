@@ -1,0 +1,16 @@
+//! The only place where time is read.
+
+#![expect(clippy::disallowed_types, reason = "this module is where the clock lives")]
+
+use std::time::Instant;
+
+/// The column that holds a trial's planning time, in nanoseconds.
+pub const COLUMN: &str = "plan_wall_ns";
+
+/// How long `work` takes, in nanoseconds, and what it gives.
+pub fn timed<T>(work: impl FnOnce() -> T) -> (u64, T) {
+    let start = Instant::now();
+    let result = work();
+    let nanoseconds = start.elapsed().as_nanos();
+    (u64::try_from(nanoseconds).unwrap_or(u64::MAX), result)
+}

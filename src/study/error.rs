@@ -1,0 +1,77 @@
+//! What can go wrong between a spec and its records.
+
+use crate::settings::SettingsError;
+use std::path::PathBuf;
+
+/// An error of the study floor.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// A spec or settings table is wrong.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// A folder or file that must exist does not.
+    #[error("{}: {what}", path.display())]
+    Missing {
+        /// The place.
+        path: PathBuf,
+        /// What was expected there.
+        what: String,
+    },
+    /// The file system refused.
+    #[error("{}: {doing}: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What was being done.
+        doing: &'static str,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A stored file cannot be used.
+    #[error("{}: {reason}", path.display())]
+    Stored {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, and what helps.
+        reason: String,
+    },
+    /// Another process is running into the same folder.
+    #[error("{}: another run is writing here; wait for it or choose another place with --out", path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The run was asked to stop.
+    #[error("interrupted: {kept} of {total} units of study `{study}` are kept; the same command goes on from there")]
+    Interrupted {
+        /// The study.
+        study: String,
+        /// Units that are in the journal.
+        kept: usize,
+        /// Units in all.
+        total: usize,
+    },
+    /// A trial was asked for that the study does not have.
+    #[error("study `{study}` has no trial `{trial}`; {hint}")]
+    UnknownTrial {
+        /// The study.
+        study: String,
+        /// The trial asked for.
+        trial: String,
+        /// Trials that it has.
+        hint: String,
+    },
+}
+
+impl StudyError {
+    /// An input/output error at `path` while `doing` something.
+    pub fn io(path: impl Into<PathBuf>, doing: &'static str) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |source| Self::Io { path, doing, source }
+    }
+
+    /// A stored file that cannot be used.
+    pub fn stored(path: impl Into<PathBuf>, reason: impl Into<String>) -> Self {
+        Self::Stored { path: path.into(), reason: reason.into() }
+    }
+}

@@ -1,0 +1,64 @@
+//! One map from a file, with one start and one goal.
+
+use super::{Entry, Family, Query};
+use crate::grid::{Grid2, read_text_map};
+use crate::planner::Invalid;
+use crate::space::WorldKind;
+use crate::study::StudyError;
+use crate::study::judge::LATTICE_COLUMNS;
+use crate::study::prepared::{Prepared, lattice};
+use serde::Deserialize;
+use std::path::PathBuf;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "grid_map",
+    about: "one map from a text file (`.` free, `#` blocked), one start and one goal",
+    revision: 1,
+    prepared: lattice::ENTRY.name,
+    columns: LATTICE_COLUMNS,
+    build: |settings, inputs| {
+        let read: GridMap = settings.read()?;
+        let file = inputs.locate(&read.map).map_err(|message| settings.error(message))?;
+        let grid = read_text_map(&file).map_err(|e| settings.error(e.to_string()))?;
+        lattice::prepare(grid.clone(), read.corner_rule, read.start, read.goal)
+            .map_err(|invalid| settings.error(invalid.0))?;
+        let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());
+        let queries = [Query { name: String::new(), start, goal }];
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { read, grid, queries, inputs: [file] }))
+    },
+};
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GridMap {
+    map: String,
+    start: [u32; 2],
+    goal: [u32; 2],
+    corner_rule: lattice::CornerSetting,
+}
+
+struct Posed {
+    read: GridMap,
+    grid: Grid2,
+    queries: [Query; 1],
+    inputs: [PathBuf; 1],
+}
+
+impl Family for Posed {
+    fn world(&self) -> WorldKind {
+        WorldKind::Lattice
+    }
+
+    fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
+        lattice::prepare(self.grid.clone(), self.read.corner_rule, self.read.start, self.read.goal)
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+
+    fn inputs(&self) -> &[PathBuf] {
+        &self.inputs
+    }
+}

@@ -1,0 +1,70 @@
+//! Problem families: one a file, all in [`REGISTRY`].
+//!
+//! A family poses problems: it draws what is to be prepared from a seed, and names the queries that are asked of
+//! it. Its settings come from the study, with the reading's options laid on top.
+
+mod grid_map;
+mod random_cells;
+
+use super::prepared::Prepared;
+use super::{Inputs, StudyError};
+use crate::planner::Invalid;
+use crate::settings::Settings;
+use crate::space::WorldKind;
+use std::path::PathBuf;
+
+/// One question asked of a prepared object.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Query {
+    /// Its name within the draw; empty where a draw has one query only.
+    pub name: String,
+    /// The start configuration.
+    pub start: Vec<f64>,
+    /// The goal configuration.
+    pub goal: Vec<f64>,
+}
+
+/// A family with its settings.
+pub trait Family: Send + Sync {
+    /// The kind of world its problems are posed in.
+    fn world(&self) -> WorldKind;
+
+    /// The prepared object that belongs to `seed`.
+    ///
+    /// # Errors
+    /// [`Invalid`] if this draw cannot be posed; its trials are then rows with that status.
+    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid>;
+
+    /// The queries asked of every draw.
+    fn queries(&self) -> &[Query];
+
+    /// The files that were read for it.
+    fn inputs(&self) -> &[PathBuf] {
+        &[]
+    }
+}
+
+/// A registered family.
+#[derive(Debug)]
+pub struct Entry {
+    /// The name that specs use; also its file's name.
+    pub name: &'static str,
+    /// One line for `replan list`.
+    pub about: &'static str,
+    /// Raised whenever a change moves what it draws.
+    pub revision: u32,
+    /// The kind of prepared object it builds.
+    pub prepared: &'static str,
+    /// The columns that every trial on its problems has.
+    pub columns: &'static [&'static str],
+    /// How to build it from its settings.
+    pub build: fn(&Settings, &Inputs) -> Result<Box<dyn Family>, StudyError>,
+}
+
+/// Every family, in the order of their names.
+pub static REGISTRY: &[&Entry] = &[&grid_map::ENTRY, &random_cells::ENTRY];
+
+/// The entry called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    REGISTRY.iter().copied().find(|entry| entry.name == name)
+}

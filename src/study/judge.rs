@@ -1,0 +1,99 @@
+//! Hands what a planner returned to the verifier, in the verifier's own terms.
+//!
+//! The verifier shares no code with planners; this module only takes worlds apart for it and turns its answer
+//! into the trial's status and measured values.
+
+use super::checked::Pipeline;
+use super::family::Query;
+use super::record::Status;
+use crate::planner::{Counts, Ending, Plan, Request, Value};
+use crate::shorten;
+use crate::space::{LatticeWorld, World};
+use crate::verify::lattice::{Answer, Case};
+
+/// The columns of every trial on a lattice.
+pub const LATTICE_COLUMNS: &[&str] =
+    &["path_cost_cells", "turn_exterior_deg", "turn_interior_deg", "bends", "optimal_cost_cells"];
+
+/// What the verifier found out about a query before any planner ran.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    /// The least cost in the world's graph; `None` if the goal cannot be reached.
+    pub optimal: Option<f64>,
+}
+
+/// The verifier's answer about one plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// The trial's status, and the reason unless solved.
+    pub outcome: (Status, Option<String>),
+    /// What was measured.
+    pub values: Counts,
+}
+
+/// The truth about `query` in `world`.
+pub fn truth(world: &World, query: &Query) -> Truth {
+    match world {
+        World::Lattice(lattice) => {
+            Truth { optimal: case(lattice, &query.start, &query.goal).optimal_cost() }
+        }
+    }
+}
+
+/// Judges `plan`, which `pipeline` returned for `request`.
+pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Judged {
+    match request.world {
+        World::Lattice(lattice) => judge_lattice(lattice, request, plan, pipeline, truth),
+    }
+}
+
+fn case<'a>(lattice: &'a LatticeWorld, start: &'a [f64], goal: &'a [f64]) -> Case<'a> {
+    Case {
+        grid: lattice.grid(),
+        corner_rule: lattice.corner_rule(),
+        start,
+        goal,
+    }
+}
+
+fn judge_lattice(
+    lattice: &LatticeWorld,
+    request: &Request<'_>,
+    plan: &Plan,
+    pipeline: &Pipeline,
+    truth: &Truth,
+) -> Judged {
+    let case = case(lattice, request.start, request.goal);
+    let mut values = Counts::new();
+    if let Some(optimal) = truth.optimal {
+        values.insert("optimal_cost_cells", Value::Real(optimal));
+    }
+    let untouched = pipeline.stages.is_empty();
+    let answer = Answer {
+        path: &plan.path,
+        cost: plan.cost,
+        in_graph: untouched,
+        optimal: untouched && pipeline.planner.is_optimal(),
+    };
+    let refusal = match plan.ending {
+        Ending::Solved => case.refuse_path(&answer, truth.optimal),
+        Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(truth.optimal),
+        Ending::NoPath | Ending::BudgetSpent => None,
+    };
+    if plan.ending == Ending::Solved && refusal.is_none() {
+        let measures = shorten::measures(&plan.path);
+        values.insert("path_cost_cells", Value::Real(measures.length));
+        values.insert("turn_exterior_deg", Value::Real(measures.turn_exterior_deg));
+        values.insert("turn_interior_deg", Value::Real(measures.turn_interior_deg));
+        values.insert("bends", Value::Count(measures.bends));
+    }
+    let outcome = match (refusal, plan.ending) {
+        (Some(refusal), _) => (Status::Rejected, Some(refusal)),
+        (None, Ending::Solved) => (Status::Solved, None),
+        (None, Ending::NoPath) => (Status::NoPath, Some("the planner found no path".to_owned())),
+        (None, Ending::BudgetSpent) => {
+            (Status::BudgetSpent, Some(format!("budget of {} expansions spent", request.expansions)))
+        }
+    };
+    Judged { outcome, values }
+}

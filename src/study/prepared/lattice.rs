@@ -1,0 +1,74 @@
+//! A map turned into a lattice of moves, with what it is like.
+
+use super::{Entry, Prepared};
+use crate::grid::{CornerRule, Grid2, components};
+use crate::planner::{Counts, Exhibit, Invalid, Value};
+use crate::space::{LatticeWorld, World};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "lattice",
+    about: "a map, the moves its corner rule leaves, and its connected components",
+    columns: &["free_cells", "components", "octile_distance_cells"],
+};
+
+/// The corner rule as settings write it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CornerSetting {
+    /// Every corner may be cut.
+    Allow,
+    /// A corner may be cut unless both cells that flank it are blocked.
+    ForbidBoth,
+    /// A corner may be cut only if both cells that flank it are free.
+    ForbidAny,
+}
+
+impl From<CornerSetting> for CornerRule {
+    fn from(setting: CornerSetting) -> Self {
+        match setting {
+            CornerSetting::Allow => Self::Allow,
+            CornerSetting::ForbidBoth => Self::ForbidBoth,
+            CornerSetting::ForbidAny => Self::ForbidAny,
+        }
+    }
+}
+
+/// The lattice of `grid`, for a query from `start` to `goal` ([x, y] in cells).
+///
+/// # Errors
+/// [`Invalid`] if start or goal is outside or blocked.
+pub fn prepare(
+    grid: Grid2,
+    corners: CornerSetting,
+    start: [u32; 2],
+    goal: [u32; 2],
+) -> Result<Prepared, Invalid> {
+    let world = LatticeWorld::new(grid, corners.into());
+    for (what, cell) in [("start", start), ("goal", goal)] {
+        world.free_cell(what, &cell.map(f64::from)).map_err(Invalid)?;
+    }
+    let grid = world.grid();
+    let parts = components(world.moves(), |cell| grid.is_free(cell)).sizes().len();
+    let [dx, dy] = [0, 1].map(|axis: usize| start[axis].abs_diff(goal[axis]));
+    let octile = f64::from(dx.abs_diff(dy)) + f64::from(dx.min(dy)) * std::f64::consts::SQRT_2;
+    let values = Counts::from([
+        ("free_cells", Value::Count(u64::from(grid.free_count()))),
+        ("components", Value::Count(parts as u64)),
+        ("octile_distance_cells", Value::Real(octile)),
+    ]);
+    let exhibits = vec![size(grid), blocked(grid)];
+    Ok(Prepared { world: World::Lattice(world), values, exhibits })
+}
+
+fn size(grid: &Grid2) -> Exhibit {
+    let values = vec![f64::from(grid.width()), f64::from(grid.height())];
+    Exhibit { name: "size_cells".to_owned(), width: 2, values }
+}
+
+fn blocked(grid: &Grid2) -> Exhibit {
+    let cells = (0..grid.cell_count()).filter(|cell| !grid.is_free(*cell));
+    let values = cells.flat_map(|cell| grid.xy(cell).map(f64::from)).collect();
+    Exhibit { name: "blocked".to_owned(), width: 2, values }
+}

@@ -1,0 +1,36 @@
+//! Prepared objects: what is costly to build and shared by many trials; one a file, all in [`REGISTRY`].
+
+pub mod lattice;
+
+use crate::planner::{Counts, Exhibit};
+use crate::space::World;
+
+/// A prepared object.
+#[derive(Debug)]
+pub struct Prepared {
+    /// What planners plan in.
+    pub world: World,
+    /// What was measured while building it.
+    pub values: Counts,
+    /// What figures need of it.
+    pub exhibits: Vec<Exhibit>,
+}
+
+/// A registered kind of prepared object.
+#[derive(Debug)]
+pub struct Entry {
+    /// Its name; also its file's name.
+    pub name: &'static str,
+    /// One line for `replan list`.
+    pub about: &'static str,
+    /// The columns of its rows.
+    pub columns: &'static [&'static str],
+}
+
+/// Every kind, in the order of their names.
+pub static REGISTRY: &[&Entry] = &[&lattice::ENTRY];
+
+/// The entry called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    REGISTRY.iter().copied().find(|entry| entry.name == name)
+}

@@ -1,0 +1,279 @@
+//! Runs a study: units of work in parallel, each kept in the journal as soon as it is done.
+//!
+//! A unit is one prepared object with all its trials, so that parallelism and resume follow what is costly.
+//! Units are numbered by reading, problem group and replicate; results are put together in that order, so the
+//! number of threads and the order of completion change nothing.
+
+use super::checked::{Contender, Group, Pipeline, Study, SweepPoint, slug};
+use super::family::{Family, Query};
+use super::reading::Point;
+use super::record::{Batch, Timing};
+use super::store::Journal;
+use super::task::Task;
+use super::{Inputs, StudyError, clock};
+use crate::planner::Request;
+use crate::seed;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Who watches a run.
+pub trait Progress: Sync {
+    /// A pass over `total` steps begins.
+    fn begin(&self, what: &str, total: usize);
+    /// One more step is done.
+    fn step(&self);
+    /// The pass is over.
+    fn end(&self);
+}
+
+/// Nobody watches.
+#[derive(Debug, Clone, Copy)]
+pub struct Unwatched;
+
+impl Progress for Unwatched {
+    fn begin(&self, _what: &str, _total: usize) {}
+    fn step(&self) {}
+    fn end(&self) {}
+}
+
+/// One prepared object and the trials that share it.
+pub struct Unit<'a> {
+    /// Its name in records.
+    pub name: String,
+    /// The group its problems belong to.
+    pub group: &'a Group,
+    /// The group's family under this reading.
+    pub family: &'a dyn Family,
+    /// The reading.
+    pub point: &'a Point,
+    /// Who runs on it.
+    pub racers: &'a [Racer<'a>],
+    /// Which draw of the group.
+    pub replicate: u32,
+    /// The draw's seed; the same under every reading and for every contender.
+    pub seed: u64,
+}
+
+/// A contender at one point of the sweeps, ready to run.
+pub struct Racer<'a> {
+    /// The contender.
+    pub contender: &'a Contender,
+    /// The sweeps' values.
+    pub sweep: SweepPoint,
+    /// The pipeline built from both.
+    pub pipeline: Pipeline,
+}
+
+impl Unit<'_> {
+    /// The name of the problem that `query` poses in this unit.
+    pub fn problem(&self, query: &Query) -> String {
+        let draw = draw_name(self.group, self.replicate);
+        if query.name.is_empty() { draw } else { format!("{draw}/{}", query.name) }
+    }
+
+    /// The name of a trial in this unit.
+    pub fn trial(&self, query: &Query, racer: &Racer<'_>, repeat: u32) -> String {
+        let mut name = format!("{}/{}", self.problem(query), slug(&racer.contender.label));
+        if !racer.sweep.name.is_empty() {
+            name += &format!("/{}", racer.sweep.name);
+        }
+        if racer.contender.repeats > 1 {
+            name += &format!("/{repeat}");
+        }
+        name + &reading_suffix(self.point)
+    }
+
+    /// Whether exhibits of this unit (of `contender`, if given) are kept.
+    pub fn is_kept(&self, study: &Study, contender: Option<&str>) -> bool {
+        let shown = study.figures.iter().flat_map(|figure| &figure.shows);
+        shown.chain(&study.keeps).any(|trials| {
+            let named = match (contender, &trials.contender) {
+                (Some(contender), Some(wanted)) => contender == wanted,
+                _ => true,
+            };
+            named && trials.problems == self.group.label && self.replicate < trials.replicates
+        })
+    }
+}
+
+fn draw_name(group: &Group, replicate: u32) -> String {
+    let slug = slug(&group.label);
+    if group.replicates == 1 { slug } else { format!("{slug}/{replicate}") }
+}
+
+fn reading_suffix(point: &Point) -> String {
+    if *point.name() == *"default" { String::new() } else { format!("/{}", point.name()) }
+}
+
+/// A study with everything built that its trials share.
+pub struct Field<'a> {
+    study: &'a Study,
+    task: Box<dyn Task>,
+    points: &'a [Point],
+    families: Vec<Vec<Box<dyn Family>>>,
+    racers: Vec<Vec<Racer<'a>>>,
+}
+
+impl<'a> Field<'a> {
+    /// Builds every family and pipeline under every point.
+    ///
+    /// # Errors
+    /// Those of families and pipelines; none in a study that was loaded with the same inputs.
+    pub fn new(study: &'a Study, points: &'a [Point], inputs: &Inputs) -> Result<Self, StudyError> {
+        let mut families = Vec::new();
+        let mut racers = Vec::new();
+        for point in points {
+            let built = study.groups.iter().map(|group| group.family(point, inputs));
+            families.push(built.collect::<Result<Vec<_>, _>>()?);
+            let mut line_up = Vec::new();
+            for contender in &study.contenders {
+                for sweep in study.sweep_points() {
+                    let pipeline = contender.pipeline(point, &sweep)?;
+                    line_up.push(Racer { contender, sweep, pipeline });
+                }
+            }
+            racers.push(line_up);
+        }
+        Ok(Self { study, task: (study.task.build)(&study.task_settings)?, points, families, racers })
+    }
+
+    /// Every unit, in the order of records.
+    pub fn units(&self) -> Vec<Unit<'_>> {
+        let mut units = Vec::new();
+        for (i, point) in self.points.iter().enumerate() {
+            for (group, family) in self.study.groups.iter().zip(&self.families[i]) {
+                for replicate in 0..group.replicates {
+                    units.push(self.unit(point, &self.racers[i], group, family.as_ref(), replicate));
+                }
+            }
+        }
+        units
+    }
+
+    fn unit<'b>(
+        &self,
+        point: &'b Point,
+        racers: &'b [Racer<'b>],
+        group: &'b Group,
+        family: &'b dyn Family,
+        replicate: u32,
+    ) -> Unit<'b> {
+        let names = [&self.study.paper, &self.study.name, "problem", &group.label, &replicate.to_string()];
+        Unit {
+            name: draw_name(group, replicate) + &reading_suffix(point),
+            group,
+            family,
+            point,
+            racers,
+            replicate,
+            seed: seed::derive(self.study.seed, &names),
+        }
+    }
+
+    /// Files that the families read.
+    pub fn inputs(&self) -> Vec<std::path::PathBuf> {
+        let mut files: Vec<_> =
+            self.families.iter().flatten().flat_map(|family| family.inputs().to_vec()).collect();
+        files.sort();
+        files.dedup();
+        files
+    }
+
+    /// One unit's records.
+    pub fn run_unit(&self, unit: &Unit<'_>) -> Batch {
+        self.task.run(self.study, unit)
+    }
+
+    /// Runs every unit that `done` does not hold yet, in the current thread pool.
+    ///
+    /// # Errors
+    /// [`StudyError::Interrupted`] if `stop` was set; an error of the journal.
+    pub fn run(
+        &self,
+        mut done: BTreeMap<usize, Batch>,
+        journal: &Mutex<Journal>,
+        stop: &AtomicBool,
+        progress: &dyn Progress,
+    ) -> Result<Batch, StudyError> {
+        let units = self.units();
+        let todo: Vec<usize> = (0..units.len()).filter(|index| !done.contains_key(index)).collect();
+        progress.begin(&format!("{}: trials", self.study.name), todo.len());
+        let work = |index: &usize| -> Result<Option<(usize, Batch)>, StudyError> {
+            if stop.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            let batch = self.run_unit(&units[*index]);
+            journal.lock().expect("no thread panics while it writes").append(*index, &batch)?;
+            progress.step();
+            Ok(Some((*index, batch)))
+        };
+        let fresh: Vec<_> = todo.par_iter().map(work).collect::<Result<_, _>>()?;
+        progress.end();
+        done.extend(fresh.into_iter().flatten());
+        if done.len() < units.len() {
+            let study = self.study.name.clone();
+            return Err(StudyError::Interrupted { study, kept: done.len(), total: units.len() });
+        }
+        Ok(done.into_values().fold(Batch::default(), |mut all, batch| {
+            all.prepared.extend(batch.prepared);
+            all.rows.extend(batch.rows);
+            all.kept.extend(batch.kept);
+            all
+        }))
+    }
+
+    /// The timed pass: one thread, warmed up, with only the pipeline's call between two readings of the clock.
+    ///
+    /// It times the first draws of every group under the first point, every contender and sweep.
+    pub fn time(&self, stop: &AtomicBool, progress: &dyn Progress) -> Vec<Timing> {
+        let Some(timing) = self.study.timing else { return Vec::new() };
+        let sample: Vec<Unit<'_>> = self
+            .units()
+            .into_iter()
+            .filter(|unit| *unit.point == self.points[0] && unit.replicate < timing.problems)
+            .collect();
+        progress.begin(&format!("{}: clock", self.study.name), sample.len());
+        let mut readings = Vec::new();
+        for unit in &sample {
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
+            self.time_unit(unit, timing.repeats, &mut readings);
+            progress.step();
+        }
+        progress.end();
+        readings
+    }
+
+    fn time_unit(&self, unit: &Unit<'_>, repeats: u32, readings: &mut Vec<Timing>) {
+        let Ok(prepared) = unit.family.prepare(unit.seed) else { return };
+        for query in unit.family.queries() {
+            for racer in unit.racers {
+                let request = Request {
+                    world: &prepared.world,
+                    start: &query.start,
+                    goal: &query.goal,
+                    expansions: self.study.budget.expansions,
+                    seed: racer.seed(self.study, &unit.problem(query), 0),
+                    trace: false,
+                };
+                if racer.pipeline.plan(&request).is_err() {
+                    continue;
+                }
+                for repeat in 0..repeats {
+                    let (plan_wall_ns, _) = clock::timed(|| racer.pipeline.plan(&request));
+                    readings.push(Timing {
+                        trial: unit.trial(query, racer, 0),
+                        group: unit.group.label.clone(),
+                        contender: racer.contender.label.clone(),
+                        replicate: unit.replicate,
+                        repeat,
+                        plan_wall_ns,
+                    });
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! A run from beginning to end: lock, resume or reuse, trials, clock, records, manifest.
+
+use super::checked::Study;
+use super::manifest::{Manifest, key};
+use super::reading::Point;
+use super::record::{Batch, Row};
+use super::runner::{Field, Progress};
+use super::store::{Journal, Records, read_records, write_records};
+use super::{Inputs, StudyError};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File, TryLockError};
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
+
+/// How to run.
+pub struct Options<'a> {
+    /// Where records go.
+    pub folder: &'a Path,
+    /// The readings to run; the first is the one that clocks are read under.
+    pub points: &'a [Point],
+    /// Where input files are.
+    pub inputs: &'a Inputs,
+    /// The command line, for the manifest.
+    pub command: String,
+    /// SHA-256 of the paper's claims.
+    pub claims: String,
+    /// Cut down by `--quick`.
+    pub quick: bool,
+    /// Run everything again, even what is stored and unchanged.
+    pub fresh: bool,
+    /// How many threads; the machine's number if absent.
+    pub threads: Option<usize>,
+    /// Set to stop after the units at work.
+    pub stop: &'a AtomicBool,
+    /// Who watches.
+    pub progress: &'a dyn Progress,
+}
+
+/// What a run did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// The manifest that was written.
+    pub manifest: Manifest,
+    /// How many trials there are.
+    pub trials: usize,
+    /// How many units came from the journal of an interrupted run.
+    pub resumed: usize,
+    /// How many units came from stored records.
+    pub reused: usize,
+    /// How many units there are.
+    pub units: usize,
+    /// Why stored trials were not reused; empty if there were none or all were.
+    pub why: Vec<String>,
+    /// Trials that were run again and now differ from what was stored under equal dependencies.
+    pub moved: Vec<String>,
+}
+
+/// Runs `study`.
+///
+/// # Errors
+/// [`StudyError::Busy`] if another process runs into the folder, [`StudyError::Interrupted`] if it was stopped,
+/// and those of the file system. Records that existed before stay as they are unless the run succeeds.
+pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
+    let field = Field::new(study, options.points, options.inputs)?;
+    let mut manifest = Manifest::new(
+        study,
+        options.points,
+        &field,
+        options.claims.clone(),
+        options.command.clone(),
+        options.quick,
+    )?;
+    let _lock = lock(options.folder)?;
+    let (journal, mut done) = Journal::open(&journal_path(options.folder, &study.name), &manifest.depends)?;
+    let resumed = done.len();
+    let stored = stored(options.folder, &study.name);
+    let why = stored.as_ref().map_or_else(Vec::new, |(before, _)| manifest.differs_from(before));
+    let mut reused = 0;
+    if let (Some((before, records)), false) = (&stored, options.fresh) {
+        let found = reusable(&field, &manifest, before, records);
+        reused = found.keys().filter(|index| !done.contains_key(index)).count();
+        for (index, batch) in found {
+            done.entry(index).or_insert(batch);
+        }
+    }
+    let units = field.units().len();
+    let journal = Mutex::new(journal);
+    let pool = pool(options.threads);
+    let batch = pool.install(|| field.run(done, &journal, options.stop, options.progress))?;
+    let times = match &stored {
+        Some((before, records)) if reused == units && before.depends == manifest.depends => {
+            records.times.clone()
+        }
+        _ => field.time(options.stop, options.progress),
+    };
+    let moved = stored.map_or_else(Vec::new, |(before, records)| moved(&manifest, &before, &records, &batch));
+    let records = Records { batch, times };
+    let columns: Vec<&'static str> = study.columns().into_iter().collect();
+    manifest.files = write_records(options.folder, &study.name, &columns, &records)?;
+    manifest.write(options.folder)?;
+    journal.into_inner().expect("no thread panicked while it wrote").remove()?;
+    Ok(Report { manifest, trials: records.batch.rows.len(), resumed, reused, units, why, moved })
+}
+
+/// The trial called `trial` run alone, without touching any file, and the same row as it is stored.
+///
+/// # Errors
+/// [`StudyError::UnknownTrial`].
+pub fn run_one(
+    study: &Study,
+    points: &[Point],
+    inputs: &Inputs,
+    folder: &Path,
+    trial: &str,
+) -> Result<(Batch, Option<Row>), StudyError> {
+    let field = Field::new(study, points, inputs)?;
+    let units = field.units();
+    let owner = units.iter().find(|unit| {
+        let names = unit.family.queries().iter().flat_map(|query| {
+            let racer_names = move |racer| {
+                let racer: &super::runner::Racer<'_> = racer;
+                (0..racer.contender.repeats).map(move |repeat| unit.trial(query, racer, repeat))
+            };
+            unit.racers.iter().flat_map(racer_names)
+        });
+        names.into_iter().any(|name| name == trial)
+    });
+    let Some(owner) = owner else {
+        let first = units.first().and_then(|unit| {
+            let query = unit.family.queries().first()?;
+            Some(unit.trial(query, unit.racers.first()?, 0))
+        });
+        let hint = format!("its first one is `{}/{}`", study.name, first.unwrap_or_default());
+        return Err(StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint });
+    };
+    let mut batch = field.run_unit(owner);
+    batch.rows.retain(|row| row.trial == trial);
+    batch.kept.retain(|kept| kept.of == trial);
+    let before = stored(folder, &study.name).and_then(|(_, records)| {
+        records.batch.rows.into_iter().find(|row| row.trial == trial)
+    });
+    Ok((batch, before))
+}
+
+fn lock(folder: &Path) -> Result<File, StudyError> {
+    fs::create_dir_all(folder).map_err(StudyError::io(folder, "creating the folder"))?;
+    let path = folder.join(".lock");
+    let file = File::create(&path).map_err(StudyError::io(&path, "creating the lock"))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(StudyError::Busy { path: folder.to_owned() }),
+        Err(TryLockError::Error(e)) => Err(StudyError::io(&path, "locking")(e)),
+    }
+}
+
+fn journal_path(folder: &Path, study: &str) -> std::path::PathBuf {
+    folder.join(format!("{study}.journal"))
+}
+
+fn pool(threads: Option<usize>) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()
+        .expect("the system gives a process its first threads")
+}
+
+fn stored(folder: &Path, study: &str) -> Option<(Manifest, Records)> {
+    let manifest = Manifest::read(folder, study).ok()?;
+    let records = read_records(folder, study, &manifest.files).ok()?;
+    Some((manifest, records))
+}
+
+/// The units of which every record is stored and depends on nothing that has changed.
+fn reusable(
+    field: &Field<'_>,
+    manifest: &Manifest,
+    before: &Manifest,
+    records: &Records,
+) -> BTreeMap<usize, Batch> {
+    let same_contenders = manifest.contenders == before.contenders;
+    let mut by_name: BTreeMap<&str, Batch> = BTreeMap::new();
+    for row in &records.batch.prepared {
+        by_name.entry(&row.prepared).or_default().prepared.push(row.clone());
+    }
+    let mut reusable = BTreeMap::new();
+    for (index, unit) in field.units().iter().enumerate() {
+        let key = key(unit.point.name(), &unit.group.label);
+        let same_problems = manifest.problems.get(&key) == before.problems.get(&key);
+        if same_contenders && same_problems && by_name.contains_key(unit.name.as_str()) {
+            let mut batch = by_name.remove(unit.name.as_str()).expect("it was just found");
+            let is_own = |row: &&Row| {
+                row.group == unit.group.label
+                    && row.replicate == unit.replicate
+                    && row.reading == unit.point.name()
+            };
+            batch.rows = records.batch.rows.iter().filter(is_own).cloned().collect();
+            let names: BTreeSet<&str> =
+                batch.rows.iter().map(|row| row.trial.as_str()).chain([unit.name.as_str()]).collect();
+            let own = records.batch.kept.iter().filter(|kept| names.contains(kept.of.as_str()));
+            batch.kept = own.cloned().collect();
+            reusable.insert(index, batch);
+        }
+    }
+    reusable
+}
+
+/// Trials whose problem and contender are unchanged but whose row is not what was stored.
+fn moved(manifest: &Manifest, before: &Manifest, records: &Records, batch: &Batch) -> Vec<String> {
+    let old: BTreeMap<&str, &Row> =
+        records.batch.rows.iter().map(|row| (row.trial.as_str(), row)).collect();
+    let unchanged = |row: &Row| {
+        let (problem, contender) = (key(&row.reading, &row.group), key(&row.reading, &row.contender));
+        manifest.problems.get(&problem) == before.problems.get(&problem)
+            && manifest.contenders.get(&contender) == before.contenders.get(&contender)
+    };
+    let differs = |row: &&Row| old.get(row.trial.as_str()).is_some_and(|stored| *stored != *row);
+    batch.rows.iter().filter(|row| unchanged(row)).filter(differs).map(|row| row.trial.clone()).collect()
+}

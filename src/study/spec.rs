@@ -1,0 +1,192 @@
+//! A study's TOML as written, before anything in it is looked up.
+//!
+//! Unknown keys are refused everywhere; settings stay tables and are read by the entry they name.
+
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::{Spanned, Table};
+
+/// One study file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StudySpec {
+    /// The paper it belongs to: the name of its folder.
+    pub paper: Spanned<String>,
+    /// The question it answers, one sentence.
+    pub question: String,
+    /// The root of every seed.
+    pub seed: u64,
+    /// What is done with the problems; `plan` unless said otherwise.
+    pub task: Option<Spanned<String>>,
+    /// Settings of the task.
+    pub task_settings: Option<Spanned<Table>>,
+    /// Inputs were searched for so that claims would hold: at best *attainable*.
+    #[serde(default)]
+    pub searched: bool,
+    /// Claims that something in the study was chosen to meet: at best *fitted*.
+    #[serde(default)]
+    pub fitted_to: Vec<Spanned<String>>,
+    /// Groups of problems.
+    #[serde(default)]
+    pub problems: Vec<ProblemsSpec>,
+    /// What is compared.
+    #[serde(default, rename = "contender")]
+    pub contenders: Vec<ContenderSpec>,
+    /// Factors that the paper varies.
+    #[serde(default, rename = "sweep")]
+    pub sweeps: Vec<SweepSpec>,
+    /// Ways to fill in what the paper leaves open.
+    #[serde(default, rename = "reading")]
+    pub readings: Vec<ReadingSpec>,
+    /// Limits on each trial.
+    pub budget: BudgetSpec,
+    /// How clocks are read.
+    pub timing: Option<TimingSpec>,
+    /// Trials whose exhibits are kept besides those that figures name.
+    #[serde(default, rename = "keep")]
+    pub keeps: Vec<TrialsSpec>,
+    /// What `--quick` cuts down to.
+    pub quick: QuickSpec,
+    /// Figures drawn from this study.
+    #[serde(default, rename = "figure")]
+    pub figures: Vec<FigureSpec>,
+}
+
+/// A group of problems drawn from one family.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProblemsSpec {
+    /// Its name in records.
+    pub label: Spanned<String>,
+    /// The problem family.
+    pub family: Spanned<String>,
+    /// How many independent draws.
+    pub replicates: Option<Spanned<u32>>,
+    /// The family's settings.
+    pub settings: Spanned<Table>,
+}
+
+/// A pipeline under a label.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContenderSpec {
+    /// Its name in records and tables.
+    pub label: Spanned<String>,
+    /// The planner.
+    pub planner: Spanned<String>,
+    /// The planner's settings.
+    pub settings: Option<Spanned<Table>>,
+    /// Stages that tidy the plan, in order.
+    #[serde(default)]
+    pub then: Vec<StageSpec>,
+    /// How many seeds it runs on each problem; more than 1 only where it draws.
+    pub repeats: Option<Spanned<u32>>,
+}
+
+/// A stage of a pipeline.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StageSpec {
+    /// Its name in the registry.
+    pub stage: Spanned<String>,
+    /// Its settings.
+    pub settings: Option<Spanned<Table>>,
+}
+
+/// A factor that the paper varies.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SweepSpec {
+    /// The setting that it fills, in every planner or stage named by `of`.
+    pub key: Spanned<String>,
+    /// The planner or stage whose setting it is.
+    pub of: Spanned<String>,
+    /// The values, in the paper's order.
+    pub values: Spanned<Vec<toml::Value>>,
+}
+
+/// A way to fill in what the paper leaves open.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReadingSpec {
+    /// Its name.
+    pub id: Spanned<String>,
+    /// What the paper leaves open, and why the default was taken.
+    pub why: String,
+    /// The option taken unless asked otherwise.
+    pub default: Spanned<String>,
+    /// The options.
+    pub option: Spanned<BTreeMap<String, OptionSpec>>,
+}
+
+/// What one option of a reading changes.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OptionSpec {
+    /// Settings laid over every problem's.
+    #[serde(default)]
+    pub problem: Table,
+    /// Settings laid over those of a planner or stage, by its name.
+    #[serde(default)]
+    pub stage: BTreeMap<String, Table>,
+    /// What a metric's name stands for under this option: no trial is rerun.
+    #[serde(default)]
+    pub metric: BTreeMap<String, String>,
+}
+
+/// Limits on each trial.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BudgetSpec {
+    /// At most this many expansions.
+    pub expansions: u64,
+}
+
+/// How clocks are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TimingSpec {
+    /// How many problems of each group are timed, from the first replicate on.
+    pub problems: u32,
+    /// How many timed runs of each.
+    pub repeats: u32,
+}
+
+/// Which trials.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrialsSpec {
+    /// The problem group's label.
+    pub problems: String,
+    /// The contender's label; all of them if absent.
+    pub contender: Option<String>,
+    /// Replicates below this number.
+    pub replicates: u32,
+}
+
+/// What `--quick` cuts down to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct QuickSpec {
+    /// Draws kept of each problem group.
+    pub replicates: u32,
+    /// Seeds kept of each contender.
+    pub repeats: Option<u32>,
+}
+
+/// A figure: its kind and what that kind wants to know.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FigureSpec {
+    /// Its file name, after the paper's figure where there is one.
+    pub id: Spanned<String>,
+    /// The kind of figure.
+    pub kind: Spanned<String>,
+    /// What it shows, printed below it.
+    pub caption: String,
+    /// Trials whose exhibits it needs.
+    #[serde(default)]
+    pub shows: Vec<TrialsSpec>,
+    /// The kind's settings.
+    pub settings: Option<Spanned<Table>>,
+}

@@ -1,0 +1,42 @@
+//! Tasks: what a study does with its problems and contenders; one a file, all in [`REGISTRY`].
+
+mod plan;
+
+use super::checked::Study;
+use super::record::Batch;
+use super::runner::Unit;
+use crate::settings::{Settings, SettingsError};
+
+/// A task with its settings.
+pub trait Task: Send + Sync {
+    /// Does one unit of work: everything that shares one prepared object.
+    fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch;
+}
+
+/// A registered task.
+#[derive(Debug)]
+pub struct Entry {
+    /// The name that specs use; also its file's name.
+    pub name: &'static str,
+    /// One line for `replan list`.
+    pub about: &'static str,
+    /// Raised whenever a change moves what it records.
+    pub revision: u32,
+    /// The columns that it fills besides those of planners and families.
+    pub columns: &'static [&'static str],
+    /// How to build it from its settings.
+    pub build: fn(&Settings) -> Result<Box<dyn Task>, SettingsError>,
+}
+
+/// Every task, in the order of their names.
+pub static REGISTRY: &[&Entry] = &[&plan::ENTRY];
+
+/// The entry called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    REGISTRY.iter().copied().find(|entry| entry.name == name)
+}
+
+/// The task of a study that names none.
+pub fn default() -> &'static Entry {
+    &plan::ENTRY
+}

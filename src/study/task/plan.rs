@@ -1,0 +1,180 @@
+//! Every contender plans on every problem; the verifier judges what comes back.
+
+use super::{Entry, Task};
+use crate::planner::{Exhibit, Invalid, Plan, Request, Value};
+use crate::seed;
+use crate::settings::Settings;
+use crate::study::checked::{Pipeline, Study};
+use crate::study::family::Query;
+use crate::study::judge::{self, Truth};
+use crate::study::prepared::Prepared;
+use crate::study::record::{Batch, Kept, PreparedRow, Row, Status, Values};
+use crate::study::runner::{Racer, Unit};
+use serde::Deserialize;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "plan",
+    about: "every contender plans on every problem; the verifier judges what comes back",
+    revision: 1,
+    columns: &[],
+    build: |settings| {
+        let NoSettings {} = settings.read()?;
+        Ok(Box::new(PlanTask))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NoSettings {}
+
+struct PlanTask;
+
+impl Task for PlanTask {
+    fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch {
+        let prepared = unit.family.prepare(unit.seed);
+        let mut batch = Batch::default();
+        batch.prepared.push(prepared_row(unit, prepared.as_ref()));
+        if let Ok(prepared) = &prepared
+            && unit.is_kept(study, None)
+        {
+            batch.keep(&unit.name, prepared.exhibits.clone());
+        }
+        for query in unit.family.queries() {
+            let truth = prepared.as_ref().ok().map(|p| judge::truth(&p.world, query));
+            for racer in unit.racers {
+                for repeat in 0..racer.contender.repeats {
+                    let trial = Trial { study, unit, query, racer, repeat };
+                    match (&prepared, &truth) {
+                        (Ok(prepared), Some(truth)) => trial.run(prepared, truth, &mut batch),
+                        (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
+                        (Ok(_), None) => unreachable!("the truth is known wherever the world is"),
+                    }
+                }
+            }
+        }
+        batch
+    }
+}
+
+impl Batch {
+    fn keep(&mut self, of: &str, exhibits: Vec<Exhibit>) {
+        self.kept.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.to_owned(), exhibit }));
+    }
+}
+
+struct Trial<'a> {
+    study: &'a Study,
+    unit: &'a Unit<'a>,
+    query: &'a Query,
+    racer: &'a Racer<'a>,
+    repeat: u32,
+}
+
+impl Trial<'_> {
+    fn run(&self, prepared: &Prepared, truth: &Truth, batch: &mut Batch) {
+        let seed = self.racer.seed(self.study, &self.problem(), self.repeat);
+        let trace = self.unit.is_kept(self.study, Some(&self.racer.contender.label));
+        let request = Request {
+            world: &prepared.world,
+            start: &self.query.start,
+            goal: &self.query.goal,
+            expansions: self.study.budget.expansions,
+            seed,
+            trace,
+        };
+        let mut row = self.row(seed);
+        match catch_unwind(AssertUnwindSafe(|| self.racer.pipeline.plan(&request))) {
+            Err(panic) => (row.status, row.reason) = (Status::Crashed, Some(panic_text(panic.as_ref()))),
+            Ok(Err(invalid)) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),
+            Ok(Ok(mut plan)) => {
+                let judged = judge::judge(&request, &plan, &self.racer.pipeline, truth);
+                (row.status, row.reason) = judged.outcome;
+                row.values = named(plan.counts.iter().chain(&judged.values));
+                if trace {
+                    batch.keep(&row.trial, std::mem::take(&mut plan.exhibits));
+                    batch.keep(&row.trial, path_exhibit(&plan));
+                }
+            }
+        }
+        batch.rows.push(row);
+    }
+
+    fn invalid(&self, invalid: &Invalid) -> Row {
+        let seed = self.racer.seed(self.study, &self.problem(), self.repeat);
+        let mut row = self.row(seed);
+        (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0.clone()));
+        row
+    }
+
+    fn problem(&self) -> String {
+        self.unit.problem(self.query)
+    }
+
+    fn row(&self, seed: u64) -> Row {
+        let unit = self.unit;
+        Row {
+            trial: unit.trial(self.query, self.racer, self.repeat),
+            problem: self.problem(),
+            group: unit.group.label.clone(),
+            replicate: unit.replicate,
+            contender: self.racer.contender.label.clone(),
+            sweep: self.racer.sweep.name.clone(),
+            reading: unit.point.name().to_owned(),
+            repeat: self.repeat,
+            seed,
+            status: Status::Crashed,
+            reason: None,
+            values: Values::new(),
+        }
+    }
+}
+
+impl Pipeline {
+    /// Runs the planner and, on its plan, every stage.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the planner says that the query cannot be posed.
+    pub fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let plan = self.planner.plan(request)?;
+        Ok(self.stages.iter().fold(plan, |plan, stage| stage.refine(request, plan)))
+    }
+}
+
+impl Racer<'_> {
+    /// The seed of one run: it depends on names only, so that adding a contender moves no other.
+    pub fn seed(&self, study: &Study, problem: &str, repeat: u32) -> u64 {
+        let label = &self.contender.label;
+        let names = [&study.paper, &study.name, "contender", problem, label, &repeat.to_string()];
+        seed::derive(study.seed, &names)
+    }
+}
+
+fn prepared_row(unit: &Unit<'_>, prepared: Result<&Prepared, &Invalid>) -> PreparedRow {
+    PreparedRow {
+        prepared: unit.name.clone(),
+        kind: unit.group.family.prepared.to_owned(),
+        group: unit.group.label.clone(),
+        replicate: unit.replicate,
+        reading: unit.point.name().to_owned(),
+        seed: unit.seed,
+        reason: prepared.err().map(|invalid| invalid.0.clone()),
+        values: prepared.map(|p| named(&p.values)).unwrap_or_default(),
+    }
+}
+
+fn named<'a>(values: impl IntoIterator<Item = (&'a &'static str, &'a Value)>) -> Values {
+    values.into_iter().map(|(name, value)| ((*name).to_owned(), *value)).collect()
+}
+
+fn path_exhibit(plan: &Plan) -> Vec<Exhibit> {
+    let Some(first) = plan.path.first() else { return Vec::new() };
+    vec![Exhibit { name: "path".to_owned(), width: first.len(), values: plan.path.concat() }]
+}
+
+fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "a panic without a message".to_owned())
+}
