@@ -5,3 +5,15 @@
 
 pub mod seed;
 pub mod settings;
+
+pub mod grid;
+
+pub mod space;
+
+pub mod shorten;
+
+pub mod planner;
+
+pub mod verify;
+
+pub mod study;

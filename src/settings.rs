@@ -4,7 +4,6 @@
 //! entry's file knows the fields. Whoever reads a table and finds it wrong gets an error with the file, line and
 //! column of the value, also after the table was handed through several floors.
 
-use serde::Deserialize;
 use serde::de::{DeserializeOwned, IntoDeserializer as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -211,6 +210,7 @@ fn find<'a>(value: Spanned<DeValue<'a>>, span: &Range<usize>) -> Option<Spanned<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde::Deserialize;
 
     #[derive(Debug, Deserialize)]
     #[serde(deny_unknown_fields)]

@@ -4,7 +4,8 @@ use super::error::StudyError;
 use super::family::{self, Family};
 use super::reading::{Point, Reading};
 use super::spec::{
-    BudgetSpec, ContenderSpec, FigureSpec, ProblemsSpec, QuickSpec, StageSpec, StudySpec, TimingSpec, TrialsSpec,
+    BudgetSpec, ContenderSpec, FigureSpec, ProblemsSpec, QuickSpec, StageSpec, StudySpec, TimingSpec,
+    TrialsSpec,
 };
 use super::{Inputs, task};
 use crate::planner::{self, Build, Planner, Stage};
@@ -185,10 +186,11 @@ impl Study {
             None => task::default(),
             Some(task) => look_up(document, "task", task, task::find, task::REGISTRY.iter().map(|e| e.name))?,
         };
-        let sweeps = spec
-            .sweeps
-            .into_iter()
-            .map(|s| Sweep { key: s.key.into_inner(), of: s.of.into_inner(), values: s.values.into_inner() });
+        let sweeps = spec.sweeps.into_iter().map(|s| Sweep {
+            key: s.key.into_inner(),
+            of: s.of.into_inner(),
+            values: s.values.into_inner(),
+        });
         let readings = spec.readings.into_iter().map(|r| Reading {
             id: r.id.into_inner(),
             why: r.why,
@@ -380,10 +382,8 @@ fn unique<'a>(
             return Err(document.error(label.span(), message));
         }
         if !seen.insert(slug.clone()) {
-            let message = format!(
-                "{what} `{}` is the second to be called `{slug}` in trial names",
-                label.get_ref()
-            );
+            let message =
+                format!("{what} `{}` is the second to be called `{slug}` in trial names", label.get_ref());
             return Err(document.error(label.span(), message));
         }
     }

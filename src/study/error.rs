@@ -42,7 +42,9 @@ pub enum StudyError {
         path: PathBuf,
     },
     /// The run was asked to stop.
-    #[error("interrupted: {kept} of {total} units of study `{study}` are kept; the same command goes on from there")]
+    #[error(
+        "interrupted: {kept} of {total} units of study `{study}` are kept; the same command goes on from there"
+    )]
     Interrupted {
         /// The study.
         study: String,

@@ -34,9 +34,7 @@ pub struct Judged {
 /// The truth about `query` in `world`.
 pub fn truth(world: &World, query: &Query) -> Truth {
     match world {
-        World::Lattice(lattice) => {
-            Truth { optimal: case(lattice, &query.start, &query.goal).optimal_cost() }
-        }
+        World::Lattice(lattice) => Truth { optimal: case(lattice, &query.start, &query.goal).optimal_cost() },
     }
 }
 
@@ -48,12 +46,7 @@ pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Tr
 }
 
 fn case<'a>(lattice: &'a LatticeWorld, start: &'a [f64], goal: &'a [f64]) -> Case<'a> {
-    Case {
-        grid: lattice.grid(),
-        corner_rule: lattice.corner_rule(),
-        start,
-        goal,
-    }
+    Case { grid: lattice.grid(), corner_rule: lattice.corner_rule(), start, goal }
 }
 
 fn judge_lattice(

@@ -183,8 +183,9 @@ fn problem_hashes(
     let mut hashes = BTreeMap::new();
     for point in points {
         for group in &study.groups {
-            let settings =
-                point.over_problem().fold(group.settings.clone(), |s, (over, origin)| s.overlaid(over, origin));
+            let settings = point
+                .over_problem()
+                .fold(group.settings.clone(), |s, (over, origin)| s.overlaid(over, origin));
             let text = format!(
                 "{} {} {} {} {:?} {} {} {} {:?} {:?} {inputs:?}",
                 study.paper,

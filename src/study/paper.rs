@@ -177,7 +177,8 @@ impl Paper {
     pub fn load(folder: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
         let path = folder.join("paper.toml");
         if !path.is_file() {
-            let what = "no such file; a paper is a folder with a paper.toml and one TOML file a study".to_owned();
+            let what =
+                "no such file; a paper is a folder with a paper.toml and one TOML file a study".to_owned();
             return Err(StudyError::Missing { path, what });
         }
         let document = Document::open(&path)?;
@@ -222,8 +223,10 @@ impl Paper {
         }
         let claims: BTreeSet<&str> = self.claims.iter().map(|claim| claim.id.as_str()).collect();
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
-        let drawn = self.studies.iter().flat_map(|study| study.figures.iter().map(|f| f.id.get_ref().as_str()));
-        let figures: BTreeSet<&str> = drawn.chain(self.tables.iter().map(|table| table.id.as_str())).collect();
+        let drawn =
+            self.studies.iter().flat_map(|study| study.figures.iter().map(|f| f.id.get_ref().as_str()));
+        let figures: BTreeSet<&str> =
+            drawn.chain(self.tables.iter().map(|table| table.id.as_str())).collect();
         for row in &self.ledger {
             self.known("claim", &row.claims, &claims)?;
             self.known("figure or table", &row.figures, &figures)?;
@@ -264,11 +267,17 @@ impl Paper {
         Ok(())
     }
 
-    fn known(&self, what: &str, names: &[Spanned<String>], known: &BTreeSet<&str>) -> Result<(), SettingsError> {
+    fn known(
+        &self,
+        what: &str,
+        names: &[Spanned<String>],
+        known: &BTreeSet<&str>,
+    ) -> Result<(), SettingsError> {
         for name in names {
             if !known.contains(name.get_ref().as_str()) {
                 let list: Vec<&str> = known.iter().copied().collect();
-                let message = format!("there is no {what} `{}`; there are {}", name.get_ref(), list.join(", "));
+                let message =
+                    format!("there is no {what} `{}`; there are {}", name.get_ref(), list.join(", "));
                 return Err(self.document.error(name.span(), message));
             }
         }
@@ -284,7 +293,8 @@ impl Paper {
             for number in 1..=count {
                 let item = format!("{kind} {number}");
                 if !items.contains(item.as_str()) {
-                    let message = format!("the ledger has no row for {item}; the paper has {count} of its kind");
+                    let message =
+                        format!("the ledger has no row for {item}; the paper has {count} of its kind");
                     return Err(self.document.error(0..0, message));
                 }
             }
@@ -316,7 +326,8 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         return Err(document.error(printed.span(), message));
     }
     if spec.check.is_empty() == spec.untestable.is_none() {
-        let message = format!("claim `{id}` needs checks, or `untestable` with what the paper leaves out, not both");
+        let message =
+            format!("claim `{id}` needs checks, or `untestable` with what the paper leaves out, not both");
         return Err(document.error(spec.id.span(), message));
     }
     let checks = spec.check.iter().map(|(name, table)| (name.clone(), Settings::written(document, table)));

@@ -25,14 +25,8 @@ pub enum Status {
 
 impl Status {
     /// Every status.
-    pub const ALL: [Self; 6] = [
-        Self::Solved,
-        Self::NoPath,
-        Self::BudgetSpent,
-        Self::Rejected,
-        Self::InvalidProblem,
-        Self::Crashed,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::Solved, Self::NoPath, Self::BudgetSpent, Self::Rejected, Self::InvalidProblem, Self::Crashed];
 
     /// Its name in records.
     pub fn name(self) -> &'static str {

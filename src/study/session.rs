@@ -137,9 +137,8 @@ pub fn run_one(
     let mut batch = field.run_unit(owner);
     batch.rows.retain(|row| row.trial == trial);
     batch.kept.retain(|kept| kept.of == trial);
-    let before = stored(folder, &study.name).and_then(|(_, records)| {
-        records.batch.rows.into_iter().find(|row| row.trial == trial)
-    });
+    let before = stored(folder, &study.name)
+        .and_then(|(_, records)| records.batch.rows.into_iter().find(|row| row.trial == trial));
     Ok((batch, before))
 }
 
@@ -207,8 +206,7 @@ fn reusable(
 
 /// Trials whose problem and contender are unchanged but whose row is not what was stored.
 fn moved(manifest: &Manifest, before: &Manifest, records: &Records, batch: &Batch) -> Vec<String> {
-    let old: BTreeMap<&str, &Row> =
-        records.batch.rows.iter().map(|row| (row.trial.as_str(), row)).collect();
+    let old: BTreeMap<&str, &Row> = records.batch.rows.iter().map(|row| (row.trial.as_str(), row)).collect();
     let unchanged = |row: &Row| {
         let (problem, contender) = (key(&row.reading, &row.group), key(&row.reading, &row.contender));
         manifest.problems.get(&problem) == before.problems.get(&problem)

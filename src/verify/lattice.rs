@@ -129,8 +129,7 @@ impl Case<'_> {
         let unit = [step_x.signum(), step_y.signum()];
         let cells_before = [(step_x - unit[0]) / 2, (step_y - unit[1]) / 2];
         (0..parts).find_map(|part| {
-            let at =
-                [from[0] + part * step_x + cells_before[0], from[1] + part * step_y + cells_before[1]];
+            let at = [from[0] + part * step_x + cells_before[0], from[1] + part * step_y + cells_before[1]];
             (!self.may_step(at, unit))
                 .then(|| format!("the path cuts the corner after {at:?}, which the corner rule forbids"))
         })
@@ -177,7 +176,9 @@ impl Case<'_> {
 fn enters(from: [i32; 2], to: [i32; 2], cell: [i32; 2]) -> bool {
     let doubled = |[x, y]: [i32; 2]| [2 * i64::from(x), 2 * i64::from(y)];
     let (a, b, c) = (doubled(from), doubled(to), doubled(cell));
-    let apart = |axis: usize| a[axis].max(b[axis]) <= c[axis] - 1 || a[axis].min(b[axis]) >= c[axis] + 1;
+    let apart = |axis: usize| a[axis].max(b[axis]) < c[axis] || a[axis].min(b[axis]) > c[axis];
+    if apart(0) || apart(1) {
+        return false;
     }
     let side = |x: i64, y: i64| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
     let corners = [[-1, -1], [-1, 1], [1, -1], [1, 1]].map(|[dx, dy]| side(c[0] + dx, c[1] + dy));

@@ -48,9 +48,8 @@ impl RandomCells {
         let cell = |what: &str, [x, y]: [u32; 2]| {
             empty.cell(x as i32, y as i32).ok_or_else(|| {
                 let [width, height] = self.size_cells;
-                let message = format!(
-                    "{what} is [{x}, {y}], outside the map; cells are 0..{width} by 0..{height}"
-                );
+                let message =
+                    format!("{what} is [{x}, {y}], outside the map; cells are 0..{width} by 0..{height}");
                 settings.error(message)
             })
         };

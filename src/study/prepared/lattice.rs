@@ -50,7 +50,7 @@ pub fn prepare(
         world.free_cell(what, &cell.map(f64::from)).map_err(Invalid)?;
     }
     let grid = world.grid();
-    let parts = components(world.moves(), |cell| grid.is_free(cell)).sizes().len();
+    let parts = components(grid, world.moves()).sizes().len();
     let [dx, dy] = [0, 1].map(|axis: usize| start[axis].abs_diff(goal[axis]));
     let octile = f64::from(dx.abs_diff(dy)) + f64::from(dx.min(dy)) * std::f64::consts::SQRT_2;
     let values = Counts::from([

@@ -5,7 +5,8 @@ use crate::study::StudyError;
 use crate::study::column::{self, Kind};
 use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
 use polars::prelude::{
-    Column, DataFrame, NamedFrom as _, ParquetCompression, ParquetReader, ParquetWriter, SerReader as _, Series,
+    Column, DataFrame, NamedFrom as _, ParquetCompression, ParquetReader, ParquetWriter, SerReader as _,
+    Series,
 };
 use std::collections::BTreeSet;
 use std::io::Cursor;
@@ -147,13 +148,16 @@ impl Stored {
     }
 
     fn column(&self, name: &str) -> Result<&Column, StudyError> {
-        self.frame
-            .column(name)
-            .map_err(|_| StudyError::stored(&self.path, format!("has no column `{name}`; run the study again")))
+        self.frame.column(name).map_err(|_| {
+            StudyError::stored(&self.path, format!("has no column `{name}`; run the study again"))
+        })
     }
 
     fn wrong(&self, name: &str) -> StudyError {
-        StudyError::stored(&self.path, format!("column `{name}` does not hold what it should; run the study again"))
+        StudyError::stored(
+            &self.path,
+            format!("column `{name}` does not hold what it should; run the study again"),
+        )
     }
 
     fn maybe_texts(&self, name: &str) -> Result<Vec<Option<String>>, StudyError> {
@@ -247,8 +251,8 @@ impl Stored {
         let (of, name, width) = (self.texts("of")?, self.texts("name")?, self.wholes("width")?);
         let lists = self.column("values")?.list().map_err(|_| self.wrong("values"))?.clone();
         let mut kept = Vec::new();
-        for (i, list) in lists.into_iter().enumerate() {
-            let list = list.ok_or_else(|| self.wrong("values"))?;
+        for i in 0..of.len() {
+            let list = lists.get_as_series(i).ok_or_else(|| self.wrong("values"))?;
             let values = list.f64().map_err(|_| self.wrong("values"))?.into_no_null_iter().collect();
             let exhibit = Exhibit { name: name[i].clone(), width: width[i] as usize, values };
             kept.push(Kept { of: of[i].clone(), exhibit });
@@ -258,7 +262,8 @@ impl Stored {
 
     /// The frame as clock readings.
     pub fn times(&self) -> Result<Vec<Timing>, StudyError> {
-        let (trial, group, contender) = (self.texts("trial")?, self.texts("group")?, self.texts("contender")?);
+        let (trial, group, contender) =
+            (self.texts("trial")?, self.texts("group")?, self.texts("contender")?);
         let (replicate, repeat) = (self.wholes("replicate")?, self.wholes("repeat")?);
         let plan_wall_ns = self.wholes("plan_wall_ns")?;
         let row = |i: usize| Timing {

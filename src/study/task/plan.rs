@@ -3,7 +3,6 @@
 use super::{Entry, Task};
 use crate::planner::{Exhibit, Invalid, Plan, Request, Value};
 use crate::seed;
-use crate::settings::Settings;
 use crate::study::checked::{Pipeline, Study};
 use crate::study::family::Query;
 use crate::study::judge::{self, Truth};

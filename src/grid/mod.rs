@@ -1,0 +1,131 @@
+//! Flat lattices: which cells are free, which moves between them are legal, what can see what.
+//!
+//! A grid has `width × height` unit cells, x to the right and y **up**. A cell is named by its row-major index
+//! `y · width + x`, a `u32`; cell (0, 0) is the lower left one. Map files list their highest row first (text maps)
+//! or count y downwards (`MovingAI`); both readers turn that into y up and nothing later needs to know.
+//!
+//! The order of neighbours is written once, as [`DIRECTIONS`], and every mask, search and tie rule follows it.
+//! Costs belong to the search floor.
+
+mod components;
+mod error;
+mod moves;
+mod movingai;
+mod offsets;
+mod random;
+mod sight;
+mod text;
+
+pub use components::{Components, components};
+pub use error::GridError;
+pub use moves::{CornerRule, DIRECTIONS, Moves};
+pub use movingai::{Scenario, parse_movingai_map, parse_scenarios, read_movingai_map, read_scenarios};
+pub use offsets::Offsets;
+pub use random::{bars, independent_cells, rectangles};
+pub use sight::Sight;
+pub use text::{parse_text_map, read_text_map};
+
+/// The longest side that is accepted, in cells; 65 535² cells still have `u32` indices.
+pub const MAX_SIDE_CELLS: u32 = 65_535;
+
+/// A dense occupancy grid.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Grid2 {
+    width: u32,
+    height: u32,
+    blocked: Vec<bool>,
+}
+
+impl Grid2 {
+    /// A grid whose cells are all free.
+    ///
+    /// # Errors
+    /// [`GridError::Size`] unless both sides lie in 1..=[`MAX_SIDE_CELLS`].
+    pub fn new(width: u32, height: u32) -> Result<Self, GridError> {
+        let accepted = 1..=MAX_SIDE_CELLS;
+        if !accepted.contains(&width) || !accepted.contains(&height) {
+            return Err(GridError::Size { width, height });
+        }
+        Ok(Self { width, height, blocked: vec![false; width as usize * height as usize] })
+    }
+
+    /// Number of columns.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Number of cells, free or not.
+    pub fn cell_count(&self) -> u32 {
+        self.width * self.height
+    }
+
+    /// The cell at column `x` and row `y`, or `None` outside the grid.
+    pub fn cell(&self, x: i32, y: i32) -> Option<u32> {
+        let (x, y) = (u32::try_from(x).ok()?, u32::try_from(y).ok()?);
+        (x < self.width && y < self.height).then(|| y * self.width + x)
+    }
+
+    /// Column and row of `cell`.
+    pub fn xy(&self, cell: u32) -> [i32; 2] {
+        [(cell % self.width) as i32, (cell / self.width) as i32]
+    }
+
+    /// Whether `cell` can be stood on.
+    ///
+    /// # Panics
+    /// If `cell` is outside the grid.
+    pub fn is_free(&self, cell: u32) -> bool {
+        !self.blocked[cell as usize]
+    }
+
+    /// Whether column `x`, row `y` is inside the grid and free.
+    pub fn is_free_xy(&self, x: i32, y: i32) -> bool {
+        self.cell(x, y).is_some_and(|cell| self.is_free(cell))
+    }
+
+    /// Marks `cell` as blocked or free.
+    ///
+    /// # Panics
+    /// If `cell` is outside the grid.
+    pub fn set_blocked(&mut self, cell: u32, blocked: bool) {
+        self.blocked[cell as usize] = blocked;
+    }
+
+    /// Number of free cells.
+    pub fn free_count(&self) -> u32 {
+        self.blocked.iter().filter(|&&blocked| !blocked).count() as u32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_row_major_from_the_lower_left() {
+        let grid = Grid2::new(5, 3).unwrap();
+        assert_eq!(grid.cell(0, 0), Some(0));
+        assert_eq!(grid.cell(4, 0), Some(4));
+        assert_eq!(grid.cell(0, 1), Some(5));
+        for cell in 0..grid.cell_count() {
+            let [x, y] = grid.xy(cell);
+            assert_eq!(grid.cell(x, y), Some(cell));
+        }
+        for (x, y) in [(-1, 0), (0, -1), (5, 0), (0, 3)] {
+            assert_eq!(grid.cell(x, y), None, "({x}, {y})");
+            assert!(!grid.is_free_xy(x, y), "({x}, {y}) is outside");
+        }
+    }
+
+    #[test]
+    fn a_grid_without_cells_is_refused() {
+        let error = Grid2::new(0, 3).unwrap_err();
+        assert_eq!(error.to_string(), "a grid of 0 × 3 cells; each side may have 1 to 65535 cells");
+        assert!(Grid2::new(3, 65_536).is_err());
+    }
+}

@@ -1,0 +1,133 @@
+//! Random maps: independent cells, rectangles, bars.
+//!
+//! Each map is a function of its stream alone. Cells listed in `keep_free` are freed after everything else was
+//! drawn, so that the list moves no draw.
+
+use super::{Grid2, GridError};
+use crate::seed::Stream;
+use rand::RngExt as _;
+
+/// A `size_cells` = [width, height] map whose cells are blocked independently with probability `blocked_share`.
+///
+/// # Errors
+/// [`GridError::Size`] as for [`Grid2::new`].
+///
+/// # Panics
+/// If `blocked_share` is not in 0..=1 or `keep_free` names a cell outside.
+pub fn independent_cells(
+    stream: &mut Stream,
+    size_cells: [u32; 2],
+    blocked_share: f64,
+    keep_free: &[u32],
+) -> Result<Grid2, GridError> {
+    let mut grid = Grid2::new(size_cells[0], size_cells[1])?;
+    for cell in 0..grid.cell_count() {
+        grid.set_blocked(cell, stream.random_bool(blocked_share));
+    }
+    free(&mut grid, keep_free);
+    Ok(grid)
+}
+
+/// A map with `count` filled rectangles whose sides are uniform in `side_cells` = [least, most] and whose lower
+/// left corner is uniform in the grid; they may overlap, and what sticks out is cut off.
+///
+/// # Errors
+/// [`GridError::Size`] as for [`Grid2::new`].
+///
+/// # Panics
+/// If `side_cells` is not 1 ≤ least ≤ most or `keep_free` names a cell outside.
+pub fn rectangles(
+    stream: &mut Stream,
+    size_cells: [u32; 2],
+    count: u32,
+    side_cells: [u32; 2],
+    keep_free: &[u32],
+) -> Result<Grid2, GridError> {
+    let mut grid = Grid2::new(size_cells[0], size_cells[1])?;
+    for _ in 0..count {
+        let corner = [stream.random_range(0..size_cells[0]), stream.random_range(0..size_cells[1])];
+        let sides = [0, 1].map(|_| stream.random_range(side_cells[0]..=side_cells[1]));
+        fill(&mut grid, corner, sides);
+    }
+    free(&mut grid, keep_free);
+    Ok(grid)
+}
+
+/// A map with `count` bars one cell thick, lying or standing with equal chance, of a length uniform in
+/// `length_cells` = [least, most] and a lower left end uniform in the grid; they may cross and are cut at the rim.
+///
+/// # Errors
+/// [`GridError::Size`] as for [`Grid2::new`].
+///
+/// # Panics
+/// If `length_cells` is not 1 ≤ least ≤ most or `keep_free` names a cell outside.
+pub fn bars(
+    stream: &mut Stream,
+    size_cells: [u32; 2],
+    count: u32,
+    length_cells: [u32; 2],
+    keep_free: &[u32],
+) -> Result<Grid2, GridError> {
+    let mut grid = Grid2::new(size_cells[0], size_cells[1])?;
+    for _ in 0..count {
+        let corner = [stream.random_range(0..size_cells[0]), stream.random_range(0..size_cells[1])];
+        let length = stream.random_range(length_cells[0]..=length_cells[1]);
+        let sides = if stream.random_bool(0.5) { [length, 1] } else { [1, length] };
+        fill(&mut grid, corner, sides);
+    }
+    free(&mut grid, keep_free);
+    Ok(grid)
+}
+
+fn fill(grid: &mut Grid2, corner: [u32; 2], sides: [u32; 2]) {
+    for y in corner[1]..(corner[1].saturating_add(sides[1])).min(grid.height()) {
+        for x in corner[0]..(corner[0].saturating_add(sides[0])).min(grid.width()) {
+            grid.set_blocked(y * grid.width() + x, true);
+        }
+    }
+}
+
+fn free(grid: &mut Grid2, cells: &[u32]) {
+    for &cell in cells {
+        grid.set_blocked(cell, false);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seed;
+
+    #[test]
+    fn cells_are_blocked_in_the_share_asked_for() {
+        let grid = independent_cells(&mut seed::stream(4), [200, 200], 0.3, &[]).unwrap();
+        let blocked = f64::from(grid.cell_count() - grid.free_count()) / f64::from(grid.cell_count());
+        assert!((blocked - 0.3).abs() < 0.01, "seed 4: {blocked}"); // four standard errors
+    }
+
+    #[test]
+    fn what_is_kept_free_moves_no_other_cell() {
+        let draw = |keep: &[u32]| {
+            [
+                independent_cells(&mut seed::stream(5), [20, 30], 0.5, keep).unwrap(),
+                rectangles(&mut seed::stream(5), [20, 30], 30, [2, 7], keep).unwrap(),
+                bars(&mut seed::stream(5), [20, 30], 60, [3, 9], keep).unwrap(),
+            ]
+        };
+        for (mut drawn, kept) in draw(&[]).into_iter().zip(draw(&[0, 123, 599])) {
+            assert!((100..500).contains(&drawn.free_count()), "{} free", drawn.free_count());
+            free(&mut drawn, &[0, 123, 599]);
+            assert_eq!(drawn, kept);
+        }
+    }
+
+    #[test]
+    fn one_bar_is_one_cell_thick_and_one_rectangle_has_its_sides() {
+        for seed in 0..50 {
+            let bar = bars(&mut seed::stream(seed), [40, 40], 1, [4, 4], &[]).unwrap();
+            assert!((1..=4).contains(&(1600 - bar.free_count())), "seed {seed}");
+            let rectangle = rectangles(&mut seed::stream(seed), [40, 40], 1, [3, 3], &[]).unwrap();
+            assert!((1..=9).contains(&(1600 - rectangle.free_count())), "seed {seed}");
+        }
+    }
+}
