@@ -17,3 +17,5 @@ pub mod planner;
 pub mod verify;
 
 pub mod study;
+
+pub mod analysis;

@@ -1,0 +1,224 @@
+//! A printed number, kept as its digits.
+//!
+//! Papers round, truncate, and do both in one table. A printed number is therefore a set of true values, and
+//! the set depends on how the digits end. Ends of the sets are exact: they are held in half units of the last
+//! printed place.
+
+use std::{fmt, str::FromStr};
+
+use super::AuditError;
+use crate::analysis::interval::Interval;
+
+/// How the digits of a printed number end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Digits {
+    /// Rounded to nearest; a tie may have gone either way.
+    Rounded,
+    /// Cut off, towards zero.
+    Truncated,
+    /// Either of the two.
+    Unknown,
+}
+
+/// A decimal number as printed: `units` in the last of `decimals` places.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Printed {
+    units: i64,
+    decimals: u32,
+}
+
+/// The true values that print alike, in half units of the last place; an end is a member only if `closed`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct HalfUnits {
+    pub(super) low: i64,
+    pub(super) low_closed: bool,
+    pub(super) high: i64,
+    pub(super) high_closed: bool,
+}
+
+impl Printed {
+    /// The number `units / 10^decimals`.
+    ///
+    /// # Panics
+    /// With more than 15 digits, or more than 15 decimals: [`FromStr`] refuses such a text.
+    pub fn from_units(units: i64, decimals: u32) -> Self {
+        assert!(units.unsigned_abs() < 10_u64.pow(15) && decimals <= 15, "{units} with {decimals} decimals");
+        Self { units, decimals }
+    }
+
+    /// The number that the digits say.
+    pub fn value(self) -> f64 {
+        self.units as f64 / self.scale() as f64
+    }
+
+    /// How many digits stand after the point.
+    pub fn decimals(self) -> u32 {
+        self.decimals
+    }
+
+    /// The digits without their point: 1465 for 14.65.
+    pub fn units(self) -> i64 {
+        self.units
+    }
+
+    /// How many units of the last place make one: 100 for 14.65.
+    pub fn scale(self) -> i64 {
+        10_i64.pow(self.decimals)
+    }
+
+    /// The closed hull of the true values that would print so.
+    ///
+    /// The end that truncation would not reach (14.66 for a truncated 14.65) is included here and is not
+    /// accepted by [`agrees`](Self::agrees).
+    pub fn interval(self, digits: Digits) -> Interval {
+        let ends = self.half_units(digits);
+        let half = 2.0 * self.scale() as f64;
+        Interval::new(ends.low as f64 / half, ends.high as f64 / half)
+    }
+
+    /// Whether the true value `x` would print so.
+    ///
+    /// A float within a billionth of the last place of an end counts as that end. Lengths on the lattice are
+    /// decided without floats by [`lattice`](super::lattice).
+    pub fn agrees(self, x: f64, digits: Digits) -> bool {
+        let ends = self.half_units(digits);
+        let y = x * 2.0 * self.scale() as f64;
+        let slack = 1e-9 + 4.0 * f64::EPSILON * y.abs();
+        let above = |end: i64, closed: bool| y > end as f64 + if closed { -slack } else { slack };
+        let below = |end: i64, closed: bool| y < end as f64 + if closed { slack } else { -slack };
+        above(ends.low, ends.low_closed) && below(ends.high, ends.high_closed)
+    }
+
+    pub(super) fn half_units(self, digits: Digits) -> HalfUnits {
+        let centre = 2 * self.units;
+        let rounded = HalfUnits { low: centre - 1, low_closed: true, high: centre + 1, high_closed: true };
+        let truncated = HalfUnits {
+            low: if self.units > 0 { centre } else { centre - 2 },
+            low_closed: self.units > 0,
+            high: if self.units < 0 { centre } else { centre + 2 },
+            high_closed: self.units < 0,
+        };
+        match digits {
+            Digits::Rounded => rounded,
+            Digits::Truncated => truncated,
+            Digits::Unknown => HalfUnits {
+                low: rounded.low.min(truncated.low),
+                low_closed: rounded.low < truncated.low,
+                high: rounded.high.max(truncated.high),
+                high_closed: rounded.high > truncated.high,
+            },
+        }
+    }
+}
+
+impl HalfUnits {
+    /// Whether a value that compares with an end as `cmp` says of it is a member.
+    pub(super) fn holds(self, mut cmp: impl FnMut(i64) -> std::cmp::Ordering) -> bool {
+        let (low, high) = (cmp(self.low), cmp(self.high));
+        (low.is_gt() || self.low_closed && low.is_eq()) && (high.is_lt() || self.high_closed && high.is_eq())
+    }
+}
+
+impl FromStr for Printed {
+    type Err = AuditError;
+
+    fn from_str(text: &str) -> Result<Self, AuditError> {
+        let refuse = || AuditError::NotANumber { text: text.to_owned() };
+        let (negative, body) = match text.strip_prefix(['-', '−']) {
+            Some(body) => (true, body),
+            None => (false, text),
+        };
+        let (whole, fraction) = body.split_once('.').unwrap_or((body, ""));
+        let digits = format!("{whole}{fraction}");
+        let well_formed = !whole.is_empty()
+            && body.contains('.') != fraction.is_empty()
+            && digits.len() <= 15
+            && digits.bytes().all(|byte| byte.is_ascii_digit());
+        if !well_formed {
+            return Err(refuse());
+        }
+        let units: i64 = digits.parse().map_err(|_| refuse())?;
+        Ok(Self::from_units(if negative { -units } else { units }, fraction.len() as u32))
+    }
+}
+
+impl fmt::Display for Printed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = if self.units < 0 { "-" } else { "" };
+        let (units, scale) = (self.units.abs(), self.scale());
+        write!(f, "{sign}{}", units / scale)?;
+        if self.decimals > 0 {
+            write!(f, ".{:0width$}", units % scale, width = self.decimals as usize)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn printed(text: &str) -> Printed {
+        text.parse().unwrap()
+    }
+
+    #[test]
+    fn digits_survive_reading_and_writing() {
+        for text in ["14.65", "270.00", "8.5", "69", "0.0018", "-41", "-0.05", "0.00"] {
+            assert_eq!(printed(text).to_string(), text);
+        }
+        assert_eq!(printed("270.00").decimals(), 2);
+        assert_eq!(printed("−0.5").value(), -0.5);
+        for text in ["", ".5", "5.", "1e3", "+4", "1 000", "14,65", "--1", "1.2.3", "1234567890123456", "4٣"]
+        {
+            assert_eq!(text.parse::<Printed>(), Err(AuditError::NotANumber { text: text.to_owned() }));
+        }
+    }
+
+    #[test]
+    fn the_interval_is_what_prints_so() {
+        for (text, digits, low, high) in [
+            ("14.65", Digits::Rounded, 14.645, 14.655),
+            ("14.65", Digits::Truncated, 14.65, 14.66),
+            ("14.65", Digits::Unknown, 14.645, 14.66),
+            ("-14.65", Digits::Truncated, -14.66, -14.65),
+            ("-14.65", Digits::Unknown, -14.66, -14.645),
+            ("0.0", Digits::Truncated, -0.1, 0.1),
+            ("69", Digits::Rounded, 68.5, 69.5),
+        ] {
+            assert_eq!(printed(text).interval(digits), Interval::new(low, high), "{text} {digits:?}");
+        }
+    }
+
+    #[test]
+    fn agreement_is_what_formatting_the_number_gives() {
+        // The oracle writes the number out; the sample walks through ends and between them.
+        let (mut yes, mut no) = (0, 0);
+        for thousandth in -40_000..=40_000_i64 {
+            let x = thousandth as f64 / 1000.0 + 1e-5;
+            let rounded = format!("{x:.2}");
+            let cut = x.abs() * 100.0;
+            let truncated = Printed::from_units(cut.floor() as i64 * if x < 0.0 { -1 } else { 1 }, 2);
+            assert!(printed(&rounded).agrees(x, Digits::Rounded), "{x} as {rounded}");
+            assert!(truncated.agrees(x, Digits::Truncated), "{x} as {truncated}");
+            for other in [printed(&rounded), truncated] {
+                let either = other == printed(&rounded) || other == truncated;
+                assert_eq!(other.agrees(x, Digits::Unknown), either);
+                assert_eq!(other.agrees(x, Digits::Rounded), other == printed(&rounded), "{x} as {other}");
+                let is_cut = other.agrees(x, Digits::Truncated);
+                assert_eq!(is_cut, other == truncated, "{x} as {other}");
+                if is_cut { yes += 1 } else { no += 1 }
+            }
+        }
+        assert!(yes > 50_000 && no > 10_000, "one-sided sample: {yes} and {no}");
+    }
+
+    #[test]
+    fn floats_at_an_end_count_as_the_end() {
+        // 14.65 as a sum of floats may fall a bit short; 14.66 must not print as a truncated 14.65.
+        assert!(printed("14.65").agrees(14.65 - 1e-14, Digits::Truncated));
+        assert!(!printed("14.65").agrees(14.66 - 1e-14, Digits::Truncated));
+        assert!(printed("14.65").agrees(14.655 + 1e-14, Digits::Rounded));
+        assert!(!printed("0.0018").agrees(0.0019, Digits::Unknown));
+    }
+}

@@ -1,0 +1,132 @@
+//! The segments that a turn query may use, with what each costs at least.
+
+use std::collections::BTreeMap;
+
+use super::{super::Cell, Convention, TurnQuery, change_deg, difference, distance};
+
+/// A segment from some cell.
+pub(super) struct Segment {
+    pub(super) to: usize,
+    pub(super) direction: usize,
+    pub(super) length: f64,
+    /// Its length and the straight line from its end to the nearest goal.
+    pub(super) least_total: f64,
+}
+
+/// Cells within the query's ellipse, the segments between them, and the angles between directions.
+pub(super) struct Net {
+    cells: Vec<Cell>,
+    starts: Vec<usize>,
+    is_goal: Vec<bool>,
+    /// By cell, least total first.
+    segments: Vec<Vec<Segment>>,
+    /// By direction of arrival, then of departure.
+    bends_deg: Vec<Vec<f64>>,
+    /// By cell, then by direction of arrival: no way on to a goal turns less.
+    least_turns_deg: Vec<Vec<f64>>,
+}
+
+impl Net {
+    pub(super) fn new(query: &TurnQuery) -> Self {
+        let nearest = |cell: Cell, ends: &[Cell]| {
+            ends.iter().map(|&end| distance(cell, end)).fold(f64::INFINITY, f64::min)
+        };
+        let all = (0..query.size[1]).flat_map(|y| (0..query.size[0]).map(move |x| [x, y]));
+        let cells: Vec<Cell> =
+            all.filter(|&c| nearest(c, &query.starts) + nearest(c, &query.goals) <= query.at_most).collect();
+        let from_start: Vec<f64> = cells.iter().map(|&c| nearest(c, &query.starts)).collect();
+        let to_goal: Vec<f64> = cells.iter().map(|&c| nearest(c, &query.goals)).collect();
+        let mut directions = BTreeMap::new();
+        let mut segments: Vec<Vec<Segment>> = Vec::new();
+        for (i, &from) in cells.iter().enumerate() {
+            let mut leaving = Vec::new();
+            for (j, &to) in cells.iter().enumerate() {
+                let length = distance(from, to);
+                let least_total = length + to_goal[j];
+                if i != j && from_start[i] + least_total <= query.at_most {
+                    let known = directions.len();
+                    let direction = *directions.entry(primitive(difference(from, to))).or_insert(known);
+                    leaving.push(Segment { to: j, direction, length, least_total });
+                }
+            }
+            leaving.sort_by(|a, b| a.least_total.total_cmp(&b.least_total));
+            segments.push(leaving);
+        }
+        let starts = (0..cells.len()).filter(|&i| query.starts.contains(&cells[i])).collect();
+        let is_goal = cells.iter().map(|cell| query.goals.contains(cell)).collect();
+        let vectors = by_index(&directions);
+        let bends_deg = bends_deg(&vectors, query.convention);
+        let least_turns_deg = least_turns_deg(&cells, &vectors, query);
+        Self { cells, starts, is_goal, segments, bends_deg, least_turns_deg }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.cells.len()
+    }
+
+    pub(super) fn directions(&self) -> usize {
+        self.bends_deg.len()
+    }
+
+    pub(super) fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
+    pub(super) fn is_goal(&self, cell: usize) -> bool {
+        self.is_goal[cell]
+    }
+
+    pub(super) fn cell(&self, cell: usize) -> Cell {
+        self.cells[cell]
+    }
+
+    pub(super) fn segments(&self, cell: usize) -> &[Segment] {
+        &self.segments[cell]
+    }
+
+    pub(super) fn bend_deg(&self, arrival: usize, departure: usize) -> f64 {
+        self.bends_deg[arrival][departure]
+    }
+
+    pub(super) fn least_turn_deg(&self, cell: usize, direction: usize) -> f64 {
+        self.least_turns_deg[cell][direction]
+    }
+}
+
+fn by_index(directions: &BTreeMap<Cell, usize>) -> Vec<Cell> {
+    let mut vectors = vec![[0, 0]; directions.len()];
+    for (&vector, &index) in directions {
+        vectors[index] = vector;
+    }
+    vectors
+}
+
+fn bends_deg(vectors: &[Cell], convention: Convention) -> Vec<Vec<f64>> {
+    let row = |&u: &Cell| vectors.iter().map(|&v| convention.bend_deg(change_deg(u, v))).collect();
+    vectors.iter().map(row).collect()
+}
+
+/// A way from `cell` to a goal ends up displaced towards the goal, so some segment of it deviates from the
+/// arrival by at least the angle to the goal. Interior angles shrink as bends sharpen: there the bound is 0.
+fn least_turns_deg(cells: &[Cell], vectors: &[Cell], query: &TurnQuery) -> Vec<Vec<f64>> {
+    let least = |cell: Cell, arrival: Cell| {
+        let towards = query.goals.iter().map(|&goal| difference(cell, goal));
+        towards.map(|ahead| change_deg(arrival, ahead)).fold(f64::INFINITY, f64::min)
+    };
+    let row = |&cell: &Cell| {
+        let of = |&arrival: &Cell| match query.convention {
+            Convention::Exterior => least(cell, arrival),
+            Convention::Interior => 0.0,
+        };
+        vectors.iter().map(of).collect()
+    };
+    cells.iter().map(row).collect()
+}
+
+fn primitive(vector: Cell) -> Cell {
+    let (mut a, mut b) = (vector[0].abs(), vector[1].abs());
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    vector.map(|component| component / a)
+}

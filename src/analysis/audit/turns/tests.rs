@@ -1,0 +1,189 @@
+use std::collections::BTreeSet;
+
+use super::{super::lattice::Octile, super::neighbourhood, octile::octile_turn_sums, *};
+
+const SIZE: [i32; 2] = [30, 30];
+const SIMPLE: [Cell; 2] = [[22, 15], [26, 28]];
+const COMPLEX: [Cell; 2] = [[28, 19], [13, 16]];
+
+fn shortest(ends: [Cell; 2], low: f64, high: f64, at_most: f64, convention: Convention) -> Option<Polyline> {
+    let (starts, goals) = (vec![ends[0]], vec![ends[1]]);
+    let turn_deg = Interval::new(low, high);
+    shortest_polyline(&TurnQuery { size: SIZE, starts, goals, convention, turn_deg, at_most })
+}
+
+#[test]
+fn the_grid_papers_turns_need_the_lengths_that_the_search_finds() {
+    use Convention::{Exterior, Interior};
+    for (ends, low, high, convention, length, turn) in [
+        (SIMPLE, 229.165, 229.18, Exterior, 16.0375, 229.1654),
+        (SIMPLE, 229.16, f64::INFINITY, Exterior, 14.0486, 233.1301),
+        (COMPLEX, 309.135, 309.15, Exterior, 17.0703, 309.1427),
+        (COMPLEX, 309.13, f64::INFINITY, Exterior, 16.4237, 314.3327),
+        (SIMPLE, 229.165, 229.18, Interior, 18.5275, 229.1654),
+        (COMPLEX, 309.135, 309.15, Interior, 16.6808, 309.1440),
+    ] {
+        let found = shortest(ends, low, high, length + 0.2, convention).unwrap();
+        assert!((found.length - length).abs() < 5e-5, "{found:?}");
+        assert!((found.turn_deg - turn).abs() < 5e-5, "{found:?}");
+        assert!(found.turn_deg >= low && found.turn_deg <= high, "{found:?}");
+        assert_eq!((found.cells[0], found.cells[found.cells.len() - 1]), (ends[0], ends[1]));
+        assert_eq!(shortest(ends, low, high, found.length - 1e-9, convention), None);
+    }
+}
+
+#[test]
+fn ends_off_by_a_cell_do_not_rescue_the_grid_papers_pairs() {
+    for ([start, goal], low, high, printed) in
+        [(SIMPLE, 229.165, 229.18, 13.41), (COMPLEX, 309.135, 309.15, 16.41)]
+    {
+        let query = TurnQuery {
+            size: SIZE,
+            starts: neighbourhood(start, SIZE),
+            goals: neighbourhood(goal, SIZE),
+            convention: Convention::Exterior,
+            turn_deg: Interval::new(low, high),
+            at_most: printed,
+        };
+        assert_eq!(shortest_polyline(&query), None);
+    }
+}
+
+/// Every polyline of at most `at_most` on a grid: its length and its turn sum by arc cosine.
+fn enumerate(
+    size: i32,
+    path: &mut Vec<Cell>,
+    goal: Cell,
+    at_most: f64,
+    convention: Convention,
+    out: &mut Vec<[f64; 2]>,
+) {
+    let length: f64 = path.windows(2).map(|w| distance(w[0], w[1])).sum();
+    if path.len() > 1 && path[path.len() - 1] == goal {
+        let turns = path.windows(3).map(|w| {
+            let (u, v) = (difference(w[0], w[1]), difference(w[1], w[2]));
+            let dot = f64::from(u[0] * v[0] + u[1] * v[1]);
+            libm::acos((dot / distance(w[0], w[1]) / distance(w[1], w[2])).clamp(-1.0, 1.0)).to_degrees()
+        });
+        let bends = turns.filter(|&turn| turn > 1e-5);
+        out.push([
+            length,
+            bends.map(|turn| if convention == Convention::Exterior { turn } else { 180.0 - turn }).sum(),
+        ]);
+    }
+    let at = path[path.len() - 1];
+    for to in (0..size).flat_map(|x| (0..size).map(move |y| [x, y])) {
+        if to != at && length + distance(at, to) + distance(to, goal) <= at_most {
+            path.push(to);
+            enumerate(size, path, goal, at_most, convention, out);
+            path.pop();
+        }
+    }
+}
+
+#[test]
+fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
+    let (mut found, mut missing) = (0, 0);
+    for (start, goal, at_most) in [([0, 0], [3, 2], 5.7), ([1, 1], [2, 2], 4.4), ([0, 3], [3, 3], 5.3)] {
+        for convention in [Convention::Exterior, Convention::Interior] {
+            let mut all = Vec::new();
+            enumerate(4, &mut vec![start], goal, at_most, convention, &mut all);
+            assert!(all.len() > 1000, "only {} polylines", all.len());
+            for i in 0..200 {
+                let low = f64::from(i) * 2.7;
+                let turn_deg = Interval::new(low, if i % 10 == 0 { f64::INFINITY } else { low + 0.9 });
+                let expected =
+                    all.iter().filter(|p| turn_deg.contains(p[1])).map(|p| p[0]).min_by(f64::total_cmp);
+                let query = TurnQuery {
+                    size: [4, 4],
+                    starts: vec![start],
+                    goals: vec![goal],
+                    convention,
+                    turn_deg,
+                    at_most,
+                };
+                let got = shortest_polyline(&query);
+                if got.is_some() {
+                    found += 1
+                } else {
+                    missing += 1
+                }
+                let (got, expected) = (got.map_or(-1.0, |p| p.length), expected.unwrap_or(-1.0));
+                assert!((got - expected).abs() < 1e-9, "{start:?} {goal:?} {query:?}: {got}, not {expected}");
+            }
+        }
+    }
+    assert!(found > 200 && missing > 200, "one-sided sample: {found} and {missing}");
+}
+
+#[test]
+fn several_ends_give_the_best_pair() {
+    let (starts, goals) = (vec![[3, 3], [4, 3], [3, 5]], vec![[8, 9], [9, 7]]);
+    let convention = Convention::Exterior;
+    for low in [0.0, 30.0, 77.0, 120.0, 165.0] {
+        let turn_deg = Interval::new(low, low + 4.0);
+        let one = |start, goal| shortest([start, goal], low, low + 4.0, 10.0, convention).map(|p| p.length);
+        let pairs = starts.iter().flat_map(|&s| goals.iter().filter_map(move |&g| one(s, g)));
+        let best = pairs.min_by(f64::total_cmp).unwrap();
+        let (starts, goals) = (starts.clone(), goals.clone());
+        let query = TurnQuery { size: SIZE, starts, goals, convention, turn_deg, at_most: 10.0 };
+        let found = shortest_polyline(&query).unwrap();
+        assert!((found.length - best).abs() < 1e-9, "from {low}: {found:?}, not {best}");
+    }
+}
+
+/// Turn sums of all walks with exactly `left` over what remains, by walking them.
+fn walk(left: Octile, to: Cell, path: &mut Vec<Cell>, convention: Convention, sums: &mut BTreeSet<u32>) {
+    if left.straight + left.diagonal == 0 && to == path[path.len() - 1] {
+        sums.insert((turn_sum_deg(path, convention) / 45.0).round() as u32);
+    }
+    let at = path[path.len() - 1];
+    for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
+        let diagonal = u32::from(dx * dy != 0);
+        let straight = u32::from(dx != 0 || dy != 0) - diagonal;
+        let (Some(s), Some(d)) = (left.straight.checked_sub(straight), left.diagonal.checked_sub(diagonal))
+        else {
+            continue;
+        };
+        if straight + diagonal > 0 {
+            path.push([at[0] + dx, at[1] + dy]);
+            walk(Octile { straight: s, diagonal: d }, to, path, convention, sums);
+            path.pop();
+        }
+    }
+}
+
+#[test]
+fn octile_turn_sums_are_those_of_the_walks() {
+    let mut listed = 0;
+    for convention in [Convention::Exterior, Convention::Interior] {
+        for (straight, diagonal, to) in
+            [(2, 1, [3, 1]), (3, 2, [3, 2]), (1, 3, [2, 1]), (4, 1, [1, 0]), (2, 2, [2, 2])]
+        {
+            let moves = Octile { straight, diagonal };
+            let mut sums = BTreeSet::new();
+            walk(moves, to, &mut vec![[0, 0]], convention, &mut sums);
+            listed += sums.len();
+            assert_eq!(
+                octile_turn_sums(moves, to, convention),
+                sums.into_iter().collect::<Vec<_>>(),
+                "{moves:?}"
+            );
+        }
+    }
+    assert!(listed > 40, "only {listed} sums");
+    assert_eq!(
+        octile_turn_sums(Octile { straight: 1, diagonal: 0 }, [5, 5], Convention::Exterior),
+        [0_u32; 0]
+    );
+}
+
+#[test]
+fn the_grid_papers_astar_rows_are_attainable_pairs() {
+    let simple = octile_turn_sums(Octile { straight: 9, diagonal: 4 }, [4, 13], Convention::Exterior);
+    assert!(simple.contains(&(270 / 45)), "{simple:?}");
+    let complex = octile_turn_sums(Octile { straight: 12, diagonal: 4 }, [-15, -3], Convention::Exterior);
+    assert!(complex.contains(&(315 / 45)), "{complex:?}");
+    // 17.6569 is longer than the octile distance 12 + 3√2 by one diagonal for a straight move.
+    assert_eq!(super::super::lattice::octile_distance([-15, -3]), Octile { straight: 12, diagonal: 3 });
+}

@@ -1,0 +1,5 @@
+//! What runs mean: audits of printed numbers and the statistics that verdicts rest on.
+
+pub mod audit;
+pub mod interval;
+pub mod stats;
