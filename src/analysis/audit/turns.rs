@@ -4,10 +4,12 @@
 //! length is Euclidean in cells, and its turn sum follows the stated convention. Obstacles are left out, so
 //! the polylines of every map are among those searched and the bound holds on every map.
 //!
-//! The search is best-first over labels (cell, direction of arrival, turn so far) with the straight line to
-//! the nearest goal as its estimate; two labels alike in all three differ only in length. Cells outside the
-//! ellipse `|start cell| + |cell goal| ≤ at_most` cannot serve. Turns are told apart to 1e-7°, and the window
-//! is widened by 1e-5° on either side in return: widening can only shorten the answer, so it stays a bound.
+//! The search is best-first over labels (cell, direction of arrival, turn so far); two labels alike in all
+//! three differ only in length, so the shorter one serves, unless a least length is asked for too: then
+//! labels of different length are kept. Its estimate is the least length on which the missing turn, or more,
+//! can still be had ([`reserve`]). Cells outside the ellipse `|start cell| + |cell goal| ≤ longest` cannot
+//! serve. Turns and lengths are told apart to 1e-7, and both windows are widened by 1e-5 on either side in
+//! return: widening can only admit more polylines, so what is not found does not exist.
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
@@ -16,11 +18,13 @@ use crate::analysis::interval::Interval;
 
 mod net;
 pub mod octile;
+mod reserve;
 
 #[cfg(test)]
 mod tests;
 
 use net::Net;
+use reserve::Reserve;
 
 /// How a bend counts towards a turn sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,8 +59,9 @@ pub struct TurnQuery {
     pub convention: Convention,
     /// The turn sum wanted, degrees; `high` may be infinite.
     pub turn_deg: Interval,
-    /// Nothing longer than this is looked for, cells.
-    pub at_most: f64,
+    /// The length wanted, cells; `low` may be 0, which is much faster. The greater `high`, the longer the
+    /// search: two cells above the straight line take tenths of a second.
+    pub length: Interval,
 }
 
 /// A polyline through cell centres.
@@ -80,25 +85,26 @@ struct Label {
     from: usize,
 }
 
-/// The shortest polyline that `query` describes, of one segment at least; none if there is none of at most
-/// `at_most`.
+/// The shortest polyline that `query` describes, of one segment at least; none if there is none.
 ///
 /// Its length is a lower bound on the length of any path with that turn sum on any map, under the module's
-/// premises. It may pass a goal or a cell twice.
+/// premises. It may pass a goal or a cell twice. None means that no path on any map has a length and a turn
+/// sum in the two windows.
 pub fn shortest_polyline(query: &TurnQuery) -> Option<Polyline> {
     let net = Net::new(query);
-    let mut search = Search { net: &net, query, labels: Vec::new(), queue: BinaryHeap::new() };
+    let reserve = Reserve::new(&net, query.turn_deg.low - SLACK);
+    let mut search =
+        Search { net: &net, reserve: &reserve, query, labels: Vec::new(), queue: BinaryHeap::new() };
     for &start in net.starts() {
         search.extend(start, None);
     }
-    let mut settled: Vec<Vec<i64>> = vec![Vec::new(); net.len() * net.directions()];
+    let mut settled: Vec<Vec<(i64, i64)>> = vec![Vec::new(); net.len() * net.directions()];
     while let Some(Reverse((_, id))) = search.queue.pop() {
         let label = &search.labels[id];
         let known = &mut settled[label.cell * net.directions() + label.direction];
-        let turn = (label.turn_deg * 1e7).round() as i64;
-        let Err(place) = known.binary_search(&turn) else { continue };
-        known.insert(place, turn);
-        if net.is_goal(label.cell) && label.turn_deg >= query.turn_deg.low - WINDOW_SLACK_DEG {
+        let Err(place) = known.binary_search(&search.key(label)) else { continue };
+        known.insert(place, search.key(label));
+        if search.is_answer(label) {
             return Some(search.polyline(id));
         }
         search.extend(label.cell, Some(id));
@@ -112,10 +118,12 @@ pub fn turn_sum_deg(cells: &[Cell], convention: Convention) -> f64 {
     bends.filter(|&change| change > 0.0).map(|change| convention.bend_deg(change)).sum()
 }
 
-const WINDOW_SLACK_DEG: f64 = 1e-5;
+/// By how much both windows are widened, degrees and cells.
+const SLACK: f64 = 1e-5;
 
 struct Search<'a> {
     net: &'a Net,
+    reserve: &'a Reserve,
     query: &'a TurnQuery,
     labels: Vec<Label>,
     /// Least estimate first (as the bits of a non-negative float), then the older label.
@@ -123,35 +131,42 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// What two labels at one cell and direction must share for one of them to be superfluous.
+    fn key(&self, label: &Label) -> (i64, i64) {
+        let told_apart = |quantity: f64| (quantity * 1e7).round() as i64;
+        let length = if self.query.length.low > 0.0 { told_apart(label.length) } else { 0 };
+        (told_apart(label.turn_deg), length)
+    }
+
+    fn is_answer(&self, label: &Label) -> bool {
+        let (turn_deg, length) = (self.query.turn_deg, self.query.length);
+        self.net.is_goal(label.cell)
+            && label.turn_deg >= turn_deg.low - SLACK
+            && label.length >= length.low - SLACK
+    }
+
     /// Queues every segment that leaves `cell` with a bend, or every one if there is no label to bend from.
     fn extend(&mut self, cell: usize, parent: Option<usize>) {
         let (length, turn_deg, arrival) = parent.map_or((0.0, 0.0, None), |id| {
             let label = &self.labels[id];
             (label.length, label.turn_deg, Some(label.direction))
         });
-        let most_deg = self.query.turn_deg.high + WINDOW_SLACK_DEG;
+        let (longest, most_deg) = (self.query.length.high + SLACK, self.query.turn_deg.high + SLACK);
         for segment in self.net.segments(cell) {
-            if length + segment.least_total > self.query.at_most {
+            if length + segment.least_total > longest {
                 break;
             }
             if arrival == Some(segment.direction) {
                 continue;
             }
-            let bend = arrival.map_or(0.0, |arrival| self.net.bend_deg(arrival, segment.direction));
-            let turn_deg = turn_deg + bend;
-            if turn_deg + self.net.least_turn_deg(segment.to, segment.direction) > most_deg {
-                continue;
+            let bend_deg = arrival.map_or(0.0, |arrival| self.net.bend_deg(arrival, segment.direction));
+            let (length, turn_deg) = (length + segment.length, turn_deg + bend_deg);
+            let (cell, direction, from) = (segment.to, segment.direction, cell);
+            let least_total = length + self.reserve.least_length(cell, direction, turn_deg);
+            if least_total <= longest && turn_deg + self.net.least_turn_deg(cell, direction) <= most_deg {
+                self.queue.push(Reverse((least_total.to_bits(), self.labels.len())));
+                self.labels.push(Label { cell, direction, length, turn_deg, parent, from });
             }
-            let estimate = (length + segment.least_total).to_bits();
-            self.queue.push(Reverse((estimate, self.labels.len())));
-            self.labels.push(Label {
-                cell: segment.to,
-                direction: segment.direction,
-                length: length + segment.length,
-                turn_deg,
-                parent,
-                from: cell,
-            });
         }
     }
 

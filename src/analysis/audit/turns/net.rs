@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{super::Cell, Convention, TurnQuery, change_deg, difference, distance};
+use super::{super::Cell, Convention, SLACK, TurnQuery, change_deg, difference, distance};
 
 /// A segment from some cell.
 pub(super) struct Segment {
@@ -17,7 +17,10 @@ pub(super) struct Segment {
 pub(super) struct Net {
     cells: Vec<Cell>,
     starts: Vec<usize>,
+    /// By cell, the straight line from the nearest start.
+    from_start: Vec<f64>,
     is_goal: Vec<bool>,
+    longest: f64,
     /// By cell, least total first.
     segments: Vec<Vec<Segment>>,
     /// By direction of arrival, then of departure.
@@ -28,12 +31,13 @@ pub(super) struct Net {
 
 impl Net {
     pub(super) fn new(query: &TurnQuery) -> Self {
+        let longest = query.length.high + SLACK;
         let nearest = |cell: Cell, ends: &[Cell]| {
             ends.iter().map(|&end| distance(cell, end)).fold(f64::INFINITY, f64::min)
         };
         let all = (0..query.size[1]).flat_map(|y| (0..query.size[0]).map(move |x| [x, y]));
         let cells: Vec<Cell> =
-            all.filter(|&c| nearest(c, &query.starts) + nearest(c, &query.goals) <= query.at_most).collect();
+            all.filter(|&c| nearest(c, &query.starts) + nearest(c, &query.goals) <= longest).collect();
         let from_start: Vec<f64> = cells.iter().map(|&c| nearest(c, &query.starts)).collect();
         let to_goal: Vec<f64> = cells.iter().map(|&c| nearest(c, &query.goals)).collect();
         let mut directions = BTreeMap::new();
@@ -43,7 +47,7 @@ impl Net {
             for (j, &to) in cells.iter().enumerate() {
                 let length = distance(from, to);
                 let least_total = length + to_goal[j];
-                if i != j && from_start[i] + least_total <= query.at_most {
+                if i != j && from_start[i] + least_total <= longest {
                     let known = directions.len();
                     let direction = *directions.entry(primitive(difference(from, to))).or_insert(known);
                     leaving.push(Segment { to: j, direction, length, least_total });
@@ -57,7 +61,7 @@ impl Net {
         let vectors = by_index(&directions);
         let bends_deg = bends_deg(&vectors, query.convention);
         let least_turns_deg = least_turns_deg(&cells, &vectors, query);
-        Self { cells, starts, is_goal, segments, bends_deg, least_turns_deg }
+        Self { cells, starts, from_start, is_goal, longest, segments, bends_deg, least_turns_deg }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -72,8 +76,17 @@ impl Net {
         &self.starts
     }
 
+    pub(super) fn from_start(&self, cell: usize) -> f64 {
+        self.from_start[cell]
+    }
+
     pub(super) fn is_goal(&self, cell: usize) -> bool {
         self.is_goal[cell]
+    }
+
+    /// What no polyline may exceed, slack included.
+    pub(super) fn longest(&self) -> f64 {
+        self.longest
     }
 
     pub(super) fn cell(&self, cell: usize) -> Cell {

@@ -1,0 +1,121 @@
+//! Percentile bootstrap over units that were drawn independently.
+
+use rand::RngExt as _;
+
+use super::summary;
+use crate::{analysis::interval::Interval, seed};
+
+/// How a bootstrap is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan {
+    /// How many times the units are drawn again; B.
+    pub resamples: usize,
+    /// Probability that the interval is to hold.
+    pub level: f64,
+    /// Where the stream of draws starts.
+    pub seed: u64,
+}
+
+/// A statistic with its bootstrap interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// The statistic of the sample itself.
+    pub value: f64,
+    /// Percentile interval over the resamples that had a value.
+    pub interval: Interval,
+    /// Units in the sample.
+    pub units: usize,
+    /// Resamples for which the statistic has no value; left out of the interval.
+    pub undefined: usize,
+}
+
+/// `statistic` of the units, with the interval between the type-7 quantiles of its values over resamples.
+///
+/// A unit is what was drawn independently (a roadmap with all its queries, a map with all contenders), so that
+/// dependence within a unit is kept. The sampling order of units does not matter, their order in `units` does
+/// to the last bit. None if the sample has fewer than two units or no value, or no resample has one.
+///
+/// # Panics
+/// If the statistic gives NaN.
+///
+/// # Source
+/// Efron, *The Jackknife, the Bootstrap and Other Resampling Plans* (1982), section 10.4.
+pub fn percentile<T>(units: &[T], statistic: impl Fn(&[&T]) -> Option<f64>, plan: Plan) -> Option<Estimate> {
+    let all: Vec<&T> = units.iter().collect();
+    let value = statistic(&all).filter(|_| units.len() > 1)?;
+    let values: Vec<f64> = resamples(units.len(), plan)
+        .filter_map(|picks| statistic(&picks.iter().map(|&pick| &units[pick]).collect::<Vec<_>>()))
+        .collect();
+    let sorted = summary::sorted(&values);
+    let tail = (1.0 - plan.level) / 2.0;
+    let end = |share: f64| summary::quantile_of_sorted(&sorted, share);
+    (!sorted.is_empty()).then(|| Estimate {
+        value,
+        interval: Interval::new(end(tail), end(1.0 - tail)),
+        units: units.len(),
+        undefined: plan.resamples - sorted.len(),
+    })
+}
+
+/// The resamples of a plan: indices of the units drawn, with replacement.
+pub(super) fn resamples(units: usize, plan: Plan) -> impl Iterator<Item = Vec<usize>> {
+    let mut stream = seed::stream(plan.seed);
+    (0..plan.resamples).map(move |_| (0..units).map(|_| stream.random_range(0..units)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAN: Plan = Plan { resamples: 2000, level: 0.95, seed: 17 };
+
+    fn mean(units: &[&f64]) -> Option<f64> {
+        Some(units.iter().copied().sum::<f64>() / units.len() as f64)
+    }
+
+    #[test]
+    fn the_interval_of_a_mean_is_near_the_normal_one() {
+        let sample: Vec<f64> = (0..200).map(|i| f64::from(i * 37 % 101)).collect();
+        let found = percentile(&sample, mean, PLAN).unwrap();
+        let error = summary::standard_deviation(&sample).unwrap() / 200.0_f64.sqrt();
+        let half = 1.96 * error;
+        assert!((found.interval.half_width() / half - 1.0).abs() < 0.06, "{found:?} against ±{half}");
+        assert!(found.interval.contains(found.value) && found.units == 200 && found.undefined == 0);
+        assert_eq!(percentile(&sample, mean, PLAN), Some(found), "the same seed gives the same interval");
+        assert_ne!(percentile(&sample, mean, Plan { seed: 18, ..PLAN }), Some(found));
+    }
+
+    #[test]
+    fn units_that_repeat_themselves_inside_say_no_more_for_it() {
+        // Ten roadmaps of ten equal queries each: over units the interval is √10 wider than over queries.
+        let roadmaps: Vec<[f64; 10]> = (0..10).map(|i| [f64::from(i % 2); 10]).collect();
+        let share = |units: &[&[f64; 10]]| Some(units.iter().flat_map(|u| u.iter()).sum::<f64>() / 100.0);
+        let wide = percentile(&roadmaps, share, PLAN).unwrap().interval.half_width();
+        let queries: Vec<f64> = roadmaps.concat();
+        let narrow = percentile(&queries, mean, PLAN).unwrap().interval.half_width();
+        assert!((wide / narrow - 10.0_f64.sqrt()).abs() < 0.4, "{wide} against {narrow}");
+    }
+
+    #[test]
+    fn intervals_cover_the_truth_about_as_often_as_they_say() {
+        let mut stream = seed::stream(seed::derive(23, &["coverage"]));
+        let mut covered = 0;
+        for run in 0..400 {
+            let sample: Vec<f64> = (0..40).map(|_| stream.random::<f64>()).collect();
+            let plan = Plan { resamples: 400, level: 0.9, seed: run };
+            covered += u32::from(percentile(&sample, mean, plan).unwrap().interval.contains(0.5));
+        }
+        assert!((330..=380).contains(&covered), "seed 23: {covered} of 400 at level 0.9");
+    }
+
+    #[test]
+    fn what_has_no_value_is_counted_and_left_out() {
+        let sample = [1.0, 2.0, 3.0];
+        let first_if_mixed = |units: &[&f64]| units.iter().any(|u| *u != units[0]).then(|| *units[0]);
+        let found = percentile(&sample, first_if_mixed, PLAN).unwrap();
+        // All alike in one of nine resamples.
+        assert!((150..300).contains(&found.undefined), "{found:?}");
+        assert_eq!(percentile(&sample[..1], mean, PLAN), None);
+        assert_eq!(percentile(&sample, |_| None, PLAN), None);
+    }
+}

@@ -1,0 +1,94 @@
+//! Two measurements of the same units: what one contender changes of another.
+
+use super::bootstrap::{self, Estimate, Plan};
+
+/// How many pairs went which way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Signs {
+    /// The second is below the first.
+    pub lower: usize,
+    /// The two are equal, both infinite included.
+    pub equal: usize,
+    /// The second is above the first.
+    pub higher: usize,
+}
+
+/// The directions of `(first, second)` pairs; failures may be infinite.
+///
+/// # Panics
+/// If a value is NaN.
+pub fn signs(pairs: &[(f64, f64)]) -> Signs {
+    assert!(pairs.iter().all(|(a, b)| !a.is_nan() && !b.is_nan()), "NaN in a pair");
+    let count = |is: fn(f64, f64) -> bool| pairs.iter().filter(|&&(a, b)| is(a, b)).count();
+    Signs { lower: count(|a, b| b < a), equal: count(|a, b| a == b), higher: count(|a, b| b > a) }
+}
+
+/// The mean of `second - first`, bootstrapped over pairs; none below two pairs.
+///
+/// # Panics
+/// If a value is not finite: pairs with a failure have no difference and are counted by the caller.
+pub fn mean_difference(pairs: &[(f64, f64)], plan: Plan) -> Option<Estimate> {
+    assert_finite(pairs);
+    let mean = |units: &[&(f64, f64)]| {
+        (!units.is_empty()).then(|| units.iter().map(|(a, b)| b - a).sum::<f64>() / units.len() as f64)
+    };
+    bootstrap::percentile(pairs, mean, plan)
+}
+
+/// The ratio of the means, `Σ second / Σ first`, bootstrapped over pairs; none below two pairs or where the
+/// first sum is not positive.
+///
+/// # Panics
+/// If a value is not finite.
+pub fn ratio_of_means(pairs: &[(f64, f64)], plan: Plan) -> Option<Estimate> {
+    assert_finite(pairs);
+    let ratio = |units: &[&(f64, f64)]| {
+        let first: f64 = units.iter().map(|(a, _)| a).sum();
+        (first > 0.0).then(|| units.iter().map(|(_, b)| b).sum::<f64>() / first)
+    };
+    bootstrap::percentile(pairs, ratio, plan)
+}
+
+fn assert_finite(pairs: &[(f64, f64)]) {
+    assert!(pairs.iter().all(|(a, b)| a.is_finite() && b.is_finite()), "a pair without a difference");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAN: Plan = Plan { resamples: 1000, level: 0.95, seed: 3 };
+
+    #[test]
+    fn pairing_removes_what_the_units_share() {
+        // Units differ by thousands, the change is 5 ± 1: the interval knows only the change.
+        let pairs: Vec<(f64, f64)> =
+            (0..50).map(|i| f64::from(i * i)).map(|x| (x, x + 5.0 + f64::from(x as i32 % 3) - 1.0)).collect();
+        let found = mean_difference(&pairs, PLAN).unwrap();
+        let exact = pairs.iter().map(|(a, b)| b - a).sum::<f64>() / 50.0;
+        assert!((found.value - exact).abs() < 1e-9 && found.interval.contains(exact), "{found:?}");
+        assert!(found.interval.half_width() < 0.4, "{found:?}");
+    }
+
+    #[test]
+    fn a_constant_factor_is_found_without_spread() {
+        let pairs = [(1.0, 0.5), (8.0, 4.0), (3.0, 1.5)];
+        let found = ratio_of_means(&pairs, PLAN).unwrap();
+        assert_eq!((found.value, found.interval.low, found.interval.high), (0.5, 0.5, 0.5));
+        assert_eq!(ratio_of_means(&[(0.0, 1.0), (0.0, 2.0)], PLAN), None);
+        assert_eq!(mean_difference(&pairs[..1], PLAN), None);
+    }
+
+    #[test]
+    fn the_ratio_weighs_units_by_their_size() {
+        let found = ratio_of_means(&[(1.0, 2.0), (9.0, 3.0)], PLAN).unwrap();
+        assert_eq!(found.value, 0.5);
+    }
+
+    #[test]
+    fn signs_count_failures_as_infinite() {
+        let inf = f64::INFINITY;
+        let pairs = [(1.0, 0.5), (inf, 3.0), (2.0, inf), (inf, inf), (4.0, 4.0), (1.0, 2.0)];
+        assert_eq!(signs(&pairs), Signs { lower: 2, equal: 2, higher: 2 });
+    }
+}

@@ -1,0 +1,201 @@
+//! Intervals for a share of independent trials, and where one value ranks among draws.
+//!
+//! Special functions come from `libm`, so that the same counts give the same bits everywhere.
+
+use super::summary;
+use crate::analysis::interval::Interval;
+
+/// The normal quantile: the `z` below which a standard normal value falls with probability `share`.
+///
+/// Solved by bisection on `libm::erfc` to the last bit that moves it.
+///
+/// # Panics
+/// If `share` is not inside (0, 1).
+pub fn normal_quantile(share: f64) -> f64 {
+    assert!(share > 0.0 && share < 1.0, "a normal quantile at {share}; shares lie inside (0, 1)");
+    if share > 0.5 {
+        return -normal_quantile(1.0 - share);
+    }
+    bisect(-40.0, 0.0, |z| libm::erfc(-z / std::f64::consts::SQRT_2) / 2.0 < share)
+}
+
+/// The two-sided normal multiplier of a `level`: 1.96 for 0.95.
+pub fn normal_multiplier(level: f64) -> f64 {
+    normal_quantile(f64::midpoint(1.0, level))
+}
+
+/// Wilson's score interval for a share, from `hits` of `trials`; none without trials.
+///
+/// # Panics
+/// If `hits > trials`, or `level` is not inside (0, 1).
+///
+/// # Source
+/// Wilson, JASA 22 (1927) 209–212; Brown, Cai & DasGupta, Statistical Science 16 (2001) 101–133, eq. 4.
+pub fn wilson(hits: usize, trials: usize, level: f64) -> Option<Interval> {
+    assert!(hits <= trials, "{hits} hits in {trials} trials");
+    (trials > 0).then(|| wilson_of_share(hits as f64 / trials as f64, trials as f64, level))
+}
+
+/// Clopper and Pearson's exact interval for a share, from `hits` of `trials`; none without trials.
+///
+/// # Panics
+/// If `hits > trials`, or `level` is not inside (0, 1).
+///
+/// # Source
+/// Clopper & Pearson, Biometrika 26 (1934) 404–413.
+pub fn clopper_pearson(hits: usize, trials: usize, level: f64) -> Option<Interval> {
+    assert!(hits <= trials && level > 0.0 && level < 1.0, "{hits} hits in {trials} trials at level {level}");
+    let tail = (1.0 - level) / 2.0;
+    let least = |hits: usize| bisect(0.0, 1.0, |share| at_least(hits, trials, share) < tail);
+    (trials > 0).then(|| {
+        let low = if hits == 0 { 0.0 } else { least(hits) };
+        // P(X ≤ hits) at a share is P(X ≥ trials − hits) at its complement.
+        let high = if hits == trials { 1.0 } else { 1.0 - least(trials - hits) };
+        Interval::new(low, high)
+    })
+}
+
+/// The least number of trials for which Wilson's interval about `share` is at most `margin` to either side.
+///
+/// # Panics
+/// If `share` is outside [0, 1], `margin` is not positive, or `level` is not inside (0, 1).
+pub fn trials_for_margin(share: f64, margin: f64, level: f64) -> usize {
+    assert!((0.0..=1.0).contains(&share) && margin > 0.0, "a share of {share} within {margin}");
+    let fits = |trials: usize| wilson_of_share(share, trials as f64, level).half_width() <= margin;
+    let mut enough = 1;
+    while !fits(enough) {
+        enough *= 2;
+    }
+    let (mut low, mut high) = (enough / 2, enough);
+    while low + 1 < high {
+        let middle = low.midpoint(high);
+        if fits(middle) { high = middle } else { low = middle }
+    }
+    high
+}
+
+/// The number of units for which an interval fits `margin` to either side, if `units` gave it `half_width`.
+///
+/// Half widths of means and of smooth functions of them shrink as one over the square root.
+///
+/// # Panics
+/// If `margin` is not positive.
+pub fn units_for_margin(half_width: f64, units: usize, margin: f64) -> usize {
+    assert!(margin > 0.0, "a margin of {margin}");
+    let ratio = half_width / margin;
+    (units as f64 * ratio * ratio).ceil() as usize
+}
+
+/// Where one value stands among draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rank {
+    /// Draws below the value.
+    pub below: usize,
+    /// Draws equal to it.
+    pub equal: usize,
+    /// Draws above it.
+    pub above: usize,
+}
+
+impl Rank {
+    /// The rank of `value` among `draws`.
+    ///
+    /// # Panics
+    /// If a number is NaN.
+    pub fn of(value: f64, draws: &[f64]) -> Self {
+        assert!(!value.is_nan() && draws.iter().all(|draw| !draw.is_nan()), "NaN in a rank");
+        let count = |is: fn(&f64, &f64) -> bool| draws.iter().filter(|draw| is(draw, &value)).count();
+        Self { below: count(|a, b| a < b), equal: count(|a, b| a == b), above: count(|a, b| a > b) }
+    }
+
+    /// How many draws there were.
+    pub fn draws(self) -> usize {
+        self.below + self.equal + self.above
+    }
+
+    /// The share of draws at or below the value; none without draws.
+    pub fn share_at_most(self) -> Option<f64> {
+        (self.draws() > 0).then(|| (self.below + self.equal) as f64 / self.draws() as f64)
+    }
+
+    /// The exact interval of [`share_at_most`](Self::share_at_most) for the population of draws.
+    pub fn interval_at_most(self, level: f64) -> Option<Interval> {
+        clopper_pearson(self.below + self.equal, self.draws(), level)
+    }
+
+    /// Two-sided Monte Carlo p-value that the value is one more such draw: twice the smaller tail, the value
+    /// counted in it, at most 1.
+    ///
+    /// # Source
+    /// Davison & Hinkley, *Bootstrap Methods and their Application* (1997), section 4.2.
+    pub fn p_two_sided(self) -> f64 {
+        let tail = (self.below + self.equal).min(self.above + self.equal) + 1;
+        (2.0 * tail as f64 / (self.draws() + 1) as f64).min(1.0)
+    }
+}
+
+/// An interval that holds the next draw with probability at least `level`, whatever the distribution.
+///
+/// Ends are order statistics: with n exchangeable draws the next one falls outside the k-th from either end
+/// with probability at most 2k / (n + 1). None if even the extremes do not reach the level (below 39 draws at
+/// 0.95).
+///
+/// # Panics
+/// If a draw is NaN or `level` is not inside (0, 1).
+///
+/// # Source
+/// Wilks, Annals of Mathematical Statistics 12 (1941) 91–96.
+pub fn predictive(draws: &[f64], level: f64) -> Option<Interval> {
+    assert!(level > 0.0 && level < 1.0, "a predictive interval at level {level}");
+    let sorted = summary::sorted(draws);
+    // The nudge undoes what 1 - 0.95 loses, so that 39 draws reach 0.95.
+    let cut = ((1.0 - level) * (sorted.len() + 1) as f64 / 2.0 + 1e-9).floor() as usize;
+    (cut > 0).then(|| Interval::new(sorted[cut - 1], sorted[sorted.len() - cut]))
+}
+
+fn wilson_of_share(share: f64, trials: f64, level: f64) -> Interval {
+    let z = normal_multiplier(level);
+    let z2 = z * z / trials;
+    let centre = (share + z2 / 2.0) / (1.0 + z2);
+    let half = z / (1.0 + z2) * (share * (1.0 - share) / trials + z2 / (4.0 * trials)).sqrt();
+    Interval::new((centre - half).max(0.0), (centre + half).min(1.0))
+}
+
+/// P(X ≥ hits) for a binomial X, summed from its largest term outwards.
+fn at_least(hits: usize, trials: usize, share: f64) -> f64 {
+    if hits == 0 {
+        return 1.0;
+    }
+    if share <= 0.0 || share >= 1.0 {
+        return f64::from(share >= 1.0);
+    }
+    let (n, odds) = (trials as f64, share / (1.0 - share));
+    let mode = (((n + 1.0) * share) as usize).clamp(hits, trials);
+    let m = mode as f64;
+    let log_choose = libm::lgamma(n + 1.0) - libm::lgamma(m + 1.0) - libm::lgamma(n - m + 1.0);
+    let peak = libm::exp(log_choose + m * libm::log(share) + (n - m) * libm::log1p(-share));
+    let up = (mode + 1..=trials).scan(1.0, |term, k| {
+        *term *= odds * (n - k as f64 + 1.0) / k as f64;
+        Some(*term)
+    });
+    let down = (hits..mode).rev().scan(1.0, |term, k| {
+        *term *= (k as f64 + 1.0) / (odds * (n - k as f64));
+        Some(*term)
+    });
+    let tail = |terms: &mut dyn Iterator<Item = f64>| terms.take_while(|&term| term > 1e-18).sum::<f64>();
+    peak * (1.0 + tail(&mut { up }) + tail(&mut { down }))
+}
+
+/// The point between `low` and `high` up to which `is_below` holds, to the last bit.
+fn bisect(mut low: f64, mut high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
+    loop {
+        let middle = f64::midpoint(low, high);
+        if middle <= low || middle >= high {
+            return middle;
+        }
+        if is_below(middle) { low = middle } else { high = middle }
+    }
+}
+
+#[cfg(test)]
+mod tests;

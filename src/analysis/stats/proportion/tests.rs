@@ -1,0 +1,130 @@
+use rand::RngExt as _;
+
+use super::*;
+use crate::seed;
+
+fn close(found: Option<Interval>, low: f64, high: f64, within: f64) {
+    let found = found.unwrap();
+    assert!(
+        (found.low - low).abs() < within && (found.high - high).abs() < within,
+        "{found:?}, not {low} {high}"
+    );
+}
+
+#[test]
+fn normal_quantiles_are_the_tabled_ones() {
+    for (share, z) in [
+        (0.975, 1.959_963_984_540_054),
+        (0.95, 1.644_853_626_951_472_2),
+        (0.5, 0.0),
+        (0.001, -3.090_232_306_167_813_6),
+    ] {
+        assert!((normal_quantile(share) - z).abs() < 1e-13, "{share}: {}", normal_quantile(share));
+    }
+    assert!((normal_multiplier(0.99) - 2.575_829_303_548_901).abs() < 1e-13);
+}
+
+#[test]
+fn wilson_gives_what_newcombe_prints() {
+    // Newcombe, Statistics in Medicine 17 (1998) 857–872, table I, method 3.
+    close(wilson(81, 263, 0.95), 0.2553, 0.3662, 5e-5);
+    close(wilson(15, 148, 0.95), 0.0624, 0.1605, 5e-5);
+    close(wilson(0, 20, 0.95), 0.0000, 0.1611, 5e-5);
+    close(wilson(1, 29, 0.95), 0.0061, 0.1718, 5e-5);
+    assert_eq!(wilson(0, 0, 0.95), None);
+}
+
+#[test]
+fn clopper_pearson_gives_what_newcombe_and_r_print() {
+    // Newcombe 1998, table I, method 5; the last is R's binom.test(682, 925).
+    close(clopper_pearson(81, 263, 0.95), 0.2527, 0.3676, 5e-5);
+    close(clopper_pearson(15, 148, 0.95), 0.0578, 0.1617, 5e-5);
+    close(clopper_pearson(0, 20, 0.95), 0.0000, 0.1684, 5e-5);
+    close(clopper_pearson(1, 29, 0.95), 0.0009, 0.1776, 5e-5);
+    close(clopper_pearson(682, 925, 0.95), 0.707_668_3, 0.765_406_6, 5e-8);
+    // All of n: the lower end is the n-th root of the tail.
+    close(clopper_pearson(10, 10, 0.95), libm::pow(0.025, 0.1), 1.0, 1e-12);
+    assert_eq!(clopper_pearson(0, 0, 0.95), None);
+}
+
+#[test]
+fn binomial_tails_add_up_to_what_pascals_triangle_gives() {
+    for trials in 1..40 {
+        for share in [0.01, 0.3, 0.5, 0.97] {
+            let mut mass = vec![1.0];
+            for _ in 0..trials {
+                let next = |k: usize| {
+                    let stay = mass.get(k).copied().unwrap_or(0.0) * (1.0 - share);
+                    stay + if k > 0 { mass[k - 1] * share } else { 0.0 }
+                };
+                mass = (0..=mass.len()).map(next).collect();
+            }
+            for hits in 0..=trials {
+                let expected: f64 = mass[hits..].iter().sum();
+                let found = at_least(hits, trials, share);
+                assert!(
+                    (found - expected).abs() < 1e-12,
+                    "{hits} of {trials} at {share}: {found}, {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_intervals_cover_at_their_level_and_wilson_nearly() {
+    let (mut least_exact, mut least_wilson) = (1.0_f64, 1.0_f64);
+    for share in (1..50).map(|i| f64::from(i) / 50.0) {
+        let covered = |interval: fn(usize, usize, f64) -> Option<Interval>| -> f64 {
+            let hit = |&hits: &usize| interval(hits, 30, 0.95).unwrap().contains(share);
+            let mass = |hits| {
+                at_least(hits, 30, share) - if hits == 30 { 0.0 } else { at_least(hits + 1, 30, share) }
+            };
+            (0..=30).filter(hit).map(mass).sum()
+        };
+        least_exact = least_exact.min(covered(clopper_pearson));
+        least_wilson = least_wilson.min(covered(wilson));
+    }
+    assert!(least_exact >= 0.95 && least_exact < 0.97, "{least_exact}");
+    assert!(least_wilson > 0.83 && least_wilson < 0.95, "{least_wilson}");
+}
+
+#[test]
+fn the_trials_asked_for_suffice_and_one_less_does_not() {
+    for (share, margin) in [(0.5, 0.05), (0.7, 0.1), (0.0, 0.01), (1.0, 0.3)] {
+        let trials = trials_for_margin(share, margin, 0.95);
+        let half = |trials: usize| wilson_of_share(share, trials as f64, 0.95).half_width();
+        assert!(
+            half(trials) <= margin && (trials == 1 || half(trials - 1) > margin),
+            "{share} {margin}: {trials}"
+        );
+    }
+    assert_eq!(units_for_margin(0.04, 200, 0.02), 800);
+}
+
+#[test]
+fn a_rank_counts_ties_apart() {
+    let rank = Rank::of(3.0, &[1.0, 3.0, 5.0, 3.0, f64::INFINITY]);
+    assert_eq!(rank, Rank { below: 1, equal: 2, above: 2 });
+    assert_eq!(rank.share_at_most(), Some(0.6));
+    assert_eq!(rank.interval_at_most(0.95), clopper_pearson(3, 5, 0.95));
+    assert_eq!(Rank::of(9.0, &[1.0; 99]).p_two_sided(), 0.02);
+    assert_eq!(Rank::of(1.0, &[1.0; 99]).p_two_sided(), 1.0);
+    assert_eq!(Rank::of(1.0, &[]).share_at_most(), None);
+}
+
+#[test]
+fn predictive_intervals_hold_the_next_draw_at_their_level() {
+    let mut stream = seed::stream(seed::derive(5, &["predictive"]));
+    let (mut inside, runs) = (0, 4000);
+    for _ in 0..runs {
+        let draws: Vec<f64> = (0..59).map(|_| stream.random::<f64>()).collect();
+        inside += u32::from(predictive(&draws, 0.9).unwrap().contains(stream.random()));
+    }
+    let share = f64::from(inside) / f64::from(runs);
+    // 59 draws and k = 3: exactly 0.9; three standard errors are 0.014.
+    assert!((share - 0.9).abs() < 0.015, "seed 5: {share}");
+    let ramp: Vec<f64> = (1..=39).map(f64::from).collect();
+    assert_eq!(predictive(&ramp, 0.95), Some(Interval::new(1.0, 39.0)));
+    assert_eq!(predictive(&ramp[1..], 0.95), None);
+}

@@ -1,0 +1,93 @@
+//! Mean, standard deviation and quantiles of a sample.
+
+/// Arithmetic mean; none for an empty sample.
+pub fn mean(sample: &[f64]) -> Option<f64> {
+    (!sample.is_empty()).then(|| sample.iter().sum::<f64>() / sample.len() as f64)
+}
+
+/// Standard deviation with the divisor n − 1; none below two values or where a value is infinite.
+pub fn standard_deviation(sample: &[f64]) -> Option<f64> {
+    let centre = mean(sample).filter(|centre| centre.is_finite() && sample.len() > 1)?;
+    let squares: f64 = sample.iter().map(|x| (x - centre) * (x - centre)).sum();
+    Some((squares / (sample.len() - 1) as f64).sqrt())
+}
+
+/// The quantile of type 7: linear between order statistics, the least at `share` 0 and the greatest at 1.
+///
+/// Between a finite value and an infinite one it is infinite. None for an empty sample.
+///
+/// # Panics
+/// If `share` is outside [0, 1] or a value is NaN.
+///
+/// # Source
+/// Hyndman & Fan, "Sample quantiles in statistical packages", The American Statistician 50 (1996) 361–365,
+/// definition 7; the default of R's `quantile`.
+pub fn quantile_type7(sample: &[f64], share: f64) -> Option<f64> {
+    let sorted = sorted(sample);
+    (!sorted.is_empty()).then(|| quantile_of_sorted(&sorted, share))
+}
+
+/// The median: [`quantile_type7`] at a half.
+pub fn median(sample: &[f64]) -> Option<f64> {
+    quantile_type7(sample, 0.5)
+}
+
+/// The sample in rising order.
+///
+/// # Panics
+/// If a value is NaN.
+pub(super) fn sorted(sample: &[f64]) -> Vec<f64> {
+    assert!(sample.iter().all(|x| !x.is_nan()), "NaN in a sample of {}", sample.len());
+    let mut sorted = sample.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted
+}
+
+/// [`quantile_type7`] of a sample that is sorted and not empty.
+pub(super) fn quantile_of_sorted(sorted: &[f64], share: f64) -> f64 {
+    assert!((0.0..=1.0).contains(&share), "a quantile at {share}; shares lie in [0, 1]");
+    let place = (sorted.len() - 1) as f64 * share;
+    let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
+    if low == high { low } else { low + (high - low) * (place - place.floor()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_those_that_r_prints() {
+        // R: quantile(c(1, 2, 4, 8, 16)) and quantile(1:10, c(.1, .25, .9)).
+        let powers = [8.0, 1.0, 16.0, 2.0, 4.0];
+        for (share, value) in [(0.0, 1.0), (0.25, 2.0), (0.5, 4.0), (0.75, 8.0), (1.0, 16.0), (0.9, 12.8)] {
+            let found = quantile_type7(&powers, share).unwrap();
+            assert!((found - value).abs() < 1e-12, "{share}: {found}");
+        }
+        let ten: Vec<f64> = (1..=10).map(f64::from).collect();
+        for (share, value) in [(0.1, 1.9), (0.25, 3.25), (0.9, 9.1)] {
+            assert!((quantile_type7(&ten, share).unwrap() - value).abs() < 1e-12);
+        }
+        assert_eq!(median(&ten), Some(5.5));
+        assert_eq!(median(&[]), None);
+    }
+
+    #[test]
+    fn failures_are_infinite_and_move_a_median_as_such() {
+        let inf = f64::INFINITY;
+        assert_eq!(median(&[1.0, inf, 2.0]), Some(2.0));
+        assert_eq!(median(&[1.0, inf, inf]), Some(inf));
+        assert_eq!(median(&[1.0, inf]), Some(inf));
+        assert_eq!(mean(&[1.0, inf]), Some(inf));
+        assert_eq!(standard_deviation(&[1.0, inf]), None);
+    }
+
+    #[test]
+    fn the_deviation_divides_by_n_minus_one() {
+        // NIST StRD "NumAcc1": mean 10000002, standard deviation 1.
+        let sample = [10_000_001.0, 10_000_003.0, 10_000_002.0];
+        assert_eq!(mean(&sample), Some(10_000_002.0));
+        assert_eq!(standard_deviation(&sample), Some(1.0));
+        assert_eq!(standard_deviation(&[3.0]), None);
+        assert_eq!(mean(&[]), None);
+    }
+}
