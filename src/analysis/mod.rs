@@ -1,5 +1,13 @@
-//! What runs mean: audits of printed numbers and the statistics that verdicts rest on.
+//! What runs mean: audits of printed numbers, statistics, and the verdicts that rest on them.
+//!
+//! Nothing here starts a trial. [`Evidence`](evidence::Evidence) is the stored runs of a paper; a
+//! [`check`] judges one claim by them; [`judge`](claims::judge) judges all.
 
 pub mod audit;
+pub mod check;
+pub mod claims;
+pub mod evidence;
 pub mod interval;
+pub mod metric;
 pub mod stats;
+pub mod verdict;

@@ -65,6 +65,8 @@ pub struct Group {
     pub family: &'static family::Entry,
     /// How many independent draws.
     pub replicates: u32,
+    /// Whether the spec asks for more than one draw: their names then carry a number.
+    pub is_numbered: bool,
     /// The family's settings.
     pub settings: Settings,
 }
@@ -89,6 +91,8 @@ pub struct Contender {
     pub label: String,
     /// How many seeds it runs on each problem.
     pub repeats: u32,
+    /// Whether the spec asks for more than one seed: the trials' names then carry a number.
+    pub is_numbered: bool,
     /// The planner, then the stages that tidy its plan.
     pub stages: Vec<StageUse>,
 }
@@ -422,6 +426,7 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
         label: spec.label.get_ref().clone(),
         family: look_up(document, "problem family", &spec.family, family::find, known)?,
         replicates,
+        is_numbered: replicates > 1,
         settings: Settings::written(document, &spec.settings),
     })
 }
@@ -436,7 +441,7 @@ fn contender(document: &Arc<Document>, spec: &ContenderSpec) -> Result<Contender
     for StageSpec { stage: name, settings } in &spec.then {
         stages.push(stage(document, label, name, settings.as_ref(), false)?);
     }
-    Ok(Contender { label: label.clone(), repeats, stages })
+    Ok(Contender { label: label.clone(), repeats, is_numbered: repeats > 1, stages })
 }
 
 fn stage(

@@ -2,7 +2,7 @@
 //!
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
-use super::{Inputs, Study, StudyError};
+use super::{Inputs, Reading, Study, StudyError};
 use crate::settings::{Document, Settings, SettingsError};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -206,6 +206,19 @@ impl Paper {
     /// The study called `name`.
     pub fn study(&self, name: &str) -> Option<&Study> {
         self.studies.iter().find(|study| study.name == name)
+    }
+
+    /// The readings of all studies.
+    ///
+    /// Studies may share a reading's name; they then mean the same by it, and the first one speaks for it.
+    pub fn readings(&self) -> Vec<Reading> {
+        let mut readings: Vec<Reading> = Vec::new();
+        for reading in self.studies.iter().flat_map(|study| &study.readings) {
+            if !readings.iter().any(|known| known.id == reading.id) {
+                readings.push(reading.clone());
+            }
+        }
+        readings
     }
 
     /// The claim called `id`.

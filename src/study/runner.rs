@@ -79,7 +79,7 @@ impl Unit<'_> {
         if !racer.sweep.name.is_empty() {
             name += &format!("/{}", racer.sweep.name);
         }
-        if racer.contender.repeats > 1 {
+        if racer.contender.is_numbered {
             name += &format!("/{repeat}");
         }
         name + &reading_suffix(self.point)
@@ -100,7 +100,7 @@ impl Unit<'_> {
 
 fn draw_name(group: &Group, replicate: u32) -> String {
     let slug = slug(&group.label);
-    if group.replicates == 1 { slug } else { format!("{slug}/{replicate}") }
+    if group.is_numbered { format!("{slug}/{replicate}") } else { slug }
 }
 
 fn reading_suffix(point: &Point) -> String {

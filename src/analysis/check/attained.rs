@@ -1,0 +1,203 @@
+//! Whether the printed number is met exactly by any stored trial, alone or together with other printed numbers.
+
+use super::{Check, Context, Entry};
+use crate::analysis::audit::printed::{Digits, Printed};
+use crate::analysis::evidence::{Evidence, Pair, Run};
+use crate::analysis::metric::Metric;
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::settings::SettingsError;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "attained",
+    about: "does any stored trial meet the printed number exactly, where other named claims are met too?",
+    build: |context| Ok(Box::new(Attained::new(context)?)),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The metric, or the metric whose reduction is claimed.
+    metric: String,
+    /// Contenders that may stand for the paper's.
+    contenders: Vec<String>,
+    /// Contender that a reduction is relative to.
+    against: Option<String>,
+    /// Where to look.
+    r#in: Vec<Place>,
+    /// Claims that must be met on the same problem.
+    #[serde(default)]
+    given: Vec<String>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Place {
+    study: String,
+    problems: Vec<String>,
+}
+
+struct Attained<'a> {
+    settings: Settings,
+    metric: &'static Metric,
+    printed: Printed,
+    digits: Digits,
+    given: Vec<Attained<'a>>,
+    claim: &'a str,
+}
+
+/// A trial that was looked at: its problem, its value, and its name with the study's.
+struct Seen {
+    problem: (String, String),
+    contender: String,
+    value: f64,
+    trial: String,
+}
+
+/// The problems (study and problem) on which the claim of `context` is met, with the contender that meets it.
+///
+/// # Errors
+/// A settings error of the check.
+pub fn problems(
+    context: &Context<'_>,
+    evidence: &Evidence<'_>,
+) -> Result<Vec<(String, String, String, bool)>, SettingsError> {
+    let attained = Attained::new(context)?;
+    let seen = attained.seen(evidence).into_iter();
+    Ok(seen
+        .map(|seen| {
+            let is_met = attained.is_met(seen.value);
+            (seen.problem.0, seen.problem.1, seen.contender, is_met)
+        })
+        .collect())
+}
+
+impl<'a> Attained<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let mut metric = None;
+        for place in &settings.r#in {
+            let wanted = settings.contenders.iter().chain(&settings.against);
+            // A place need not have every contender, but each must exist in some place.
+            let study = context.study(&place.study, &place.problems, &[])?;
+            metric = Some(context.metric(&settings.metric, study)?);
+            for label in wanted {
+                let is_known = settings.r#in.iter().any(|place| {
+                    context
+                        .paper
+                        .study(&place.study)
+                        .is_some_and(|study| study.contenders.iter().any(|c| c.label == *label))
+                });
+                if !is_known {
+                    let message = format!("no study that is looked at has a contender `{label}`");
+                    return Err(context.settings.error(message));
+                }
+            }
+        }
+        let metric = metric.ok_or_else(|| context.settings.error("`in` names no study to look at"))?;
+        let mut given = Vec::new();
+        for id in &settings.given {
+            let claim = context.claim_called(id)?;
+            let settings = claim.checks.get(ENTRY.name).ok_or_else(|| {
+                context.settings.error(format!("claim `{id}` cannot be given: it has no `attained` check"))
+            })?;
+            given.push(Attained::new(&Context { claim, settings, paper: context.paper })?);
+        }
+        let printed = context.printed()?;
+        Ok(Self { settings, metric, printed, digits: context.digits(), given, claim: &context.claim.id })
+    }
+
+    fn is_met(&self, value: f64) -> bool {
+        self.printed.agrees(value, self.digits)
+    }
+
+    fn seen(&self, evidence: &Evidence<'_>) -> Vec<Seen> {
+        let mut seen = Vec::new();
+        for place in &self.settings.r#in {
+            let Some(run) = evidence.run(&place.study) else { continue };
+            for group in &place.problems {
+                for contender in &self.settings.contenders {
+                    seen.extend(self.seen_in(run, group, contender));
+                }
+            }
+        }
+        seen
+    }
+
+    fn seen_in(&self, run: &Run<'_>, group: &str, contender: &str) -> Vec<Seen> {
+        let base = self.settings.against.as_deref().unwrap_or(contender);
+        let value = |pair: &Pair<'_>| {
+            let other = run.value(pair.other, self.metric)?;
+            if self.settings.against.is_none() {
+                return Some(other);
+            }
+            let base = run.value(pair.base, self.metric)?;
+            (base > 0.0).then(|| 100.0 * (base - other) / base)
+        };
+        let pairs = run.pairs(group, base, contender);
+        let seen = pairs.iter().filter_map(|pair| {
+            Some(Seen {
+                problem: (run.study.name.clone(), pair.other.problem.clone()),
+                contender: contender.to_owned(),
+                value: value(pair)?,
+                trial: format!("{}/{}", run.study.name, pair.other.trial),
+            })
+        });
+        seen.collect()
+    }
+
+    /// Every trial on a problem where all given claims are met.
+    fn eligible(&self, evidence: &Evidence<'_>) -> Vec<Seen> {
+        let mut eligible = self.seen(evidence);
+        for given in &self.given {
+            let mut met: BTreeMap<(String, String), bool> = BTreeMap::new();
+            for seen in given.seen(evidence) {
+                *met.entry(seen.problem).or_default() |= given.is_met(seen.value);
+            }
+            eligible.retain(|seen| met.get(&seen.problem).copied().unwrap_or(false));
+        }
+        eligible
+    }
+}
+
+impl Check for Attained<'_> {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let eligible = self.eligible(evidence);
+        let met: Vec<&Seen> = eligible.iter().filter(|seen| self.is_met(seen.value)).collect();
+        let given: Vec<&str> = self.given.iter().map(|given| given.claim).collect();
+        let condition =
+            if given.is_empty() { String::new() } else { format!(" on which {} hold", given.join(", ")) };
+        let nearest = eligible.iter().min_by(|a, b| {
+            let distance = |seen: &Seen| (seen.value - self.printed.value()).abs();
+            distance(a).total_cmp(&distance(b))
+        });
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let shown = met.first().copied().or(nearest);
+        if let Some(shown) = shown {
+            finding.trial = Some(shown.trial.clone());
+            let what = if met.is_empty() { "nearest" } else { "met" };
+            finding.ours = Some(Estimate {
+                value: shown.value,
+                interval: None,
+                what: format!("{what}, {} by {}", self.metric.label, shown.contender),
+                n: eligible.len(),
+            });
+        }
+        finding.verdict = Some(if met.is_empty() { Verdict::Undecided } else { Verdict::Attainable });
+        finding.because.push(match met.first() {
+            Some(first) => format!(
+                "met by {} of {} trials{condition}; first by `{}` on {}",
+                met.len(),
+                eligible.len(),
+                first.contender,
+                first.problem.1
+            ),
+            None => {
+                format!("met by none of {} trials{condition}; this proves nothing either way", eligible.len())
+            }
+        });
+        finding
+    }
+}

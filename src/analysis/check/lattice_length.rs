@@ -1,0 +1,72 @@
+//! Whether a printed length is that of any 8-connected path between the two cells.
+
+use super::{Check, Entry};
+use crate::analysis::audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
+use crate::analysis::audit::printed::{Digits, Printed};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::{Finding, Verdict};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "lattice_length",
+    about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        Ok(Box::new(LatticeLength { settings, printed: context.printed()?, digits: context.digits() }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    start: [i32; 2],
+    goal: [i32; 2],
+}
+
+struct LatticeLength {
+    settings: Settings,
+    printed: Printed,
+    digits: Digits,
+}
+
+impl Check for LatticeLength {
+    fn judge(&self, _evidence: &Evidence<'_>) -> Finding {
+        let displacement = [0, 1].map(|axis| self.settings.goal[axis] - self.settings.start[axis]);
+        let lengths = |digits| lengths_printing(self.printed, digits, Step::ONE, Some(displacement));
+        let (rounded, truncated) = (lengths(Digits::Rounded), lengths(Digits::Truncated));
+        let mut because = Vec::new();
+        for (how, found) in [("rounded", &rounded), ("truncated", &truncated)] {
+            let listed: Vec<String> = found.iter().map(|moves| spelled(*moves)).collect();
+            let said = if listed.is_empty() { "no such length".to_owned() } else { listed.join(", ") };
+            because.push(format!("{} read as {how}: {said}", self.printed));
+        }
+        let is_possible = match self.digits {
+            Digits::Rounded => !rounded.is_empty(),
+            Digits::Truncated => !truncated.is_empty(),
+            Digits::Unknown => !rounded.is_empty() || !truncated.is_empty(),
+        };
+        if !is_possible {
+            let (below, above) = nearest_lengths(self.printed, displacement);
+            let near: Vec<String> = [below, above].into_iter().flatten().map(spelled).collect();
+            because.push(format!("the nearest lengths there are: {}", near.join(" and ")));
+        }
+        Finding {
+            check: ENTRY.name.to_owned(),
+            verdict: (!is_possible).then_some(Verdict::Impossible),
+            because,
+            premises: vec![
+                format!(
+                    "the path goes from cell {:?} to cell {:?} by moves to one of eight neighbours",
+                    self.settings.start, self.settings.goal
+                ),
+                "a straight move costs 1 and a diagonal one √2".to_owned(),
+            ],
+            ..Finding::default()
+        }
+    }
+}
+
+fn spelled(moves: Octile) -> String {
+    format!("{} + {}√2 = {:.4}", moves.straight, moves.diagonal, moves.length())
+}

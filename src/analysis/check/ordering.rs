@@ -1,0 +1,141 @@
+//! Whether one contender is lower than another, on average over problems or on every one.
+
+use super::{Check, Entry};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::bootstrap::Plan;
+use crate::analysis::stats::paired::{mean_difference, signs};
+use crate::analysis::stats::proportion::{units_for_margin, wilson};
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::seed;
+use crate::study::Study;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "ordering",
+    about: "is one contender lower than another in a metric, on average or on every problem?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders = [settings.lower.as_str(), settings.higher.as_str()];
+        let study = context.study(&settings.study, &settings.problems, &contenders)?;
+        let metric = context.metric(&settings.metric, study)?;
+        let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);
+        Ok(Box::new(Ordering { settings, study, metric, seed }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: Vec<String>,
+    metric: String,
+    /// The contender that is claimed to be lower.
+    lower: String,
+    /// The contender that is claimed to be higher.
+    higher: String,
+    on: On,
+}
+
+/// On which problems the claim is to hold.
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum On {
+    /// On average over the problems.
+    Average,
+    /// On every problem: one counterexample contradicts it.
+    Every,
+}
+
+struct Ordering<'a> {
+    settings: Settings,
+    study: &'a Study,
+    metric: &'static Metric,
+    seed: u64,
+}
+
+impl Ordering<'_> {
+    /// Every pair's values, the one claimed to be higher first, and the trial of the other.
+    fn pairs(&self, evidence: &Evidence<'_>) -> Vec<((f64, f64), String)> {
+        let Some(run) = evidence.run(&self.settings.study) else { return Vec::new() };
+        let mut pairs = Vec::new();
+        for group in &self.settings.problems {
+            let found = run.pairs(group, &self.settings.higher, &self.settings.lower);
+            let values = found.iter().filter_map(|pair| {
+                let values = (run.value(pair.base, self.metric)?, run.value(pair.other, self.metric)?);
+                Some((values, format!("{}/{}", run.study.name, pair.other.trial)))
+            });
+            pairs.extend(values);
+        }
+        pairs
+    }
+
+    fn holds(&self) -> Verdict {
+        if self.study.searched { Verdict::Attainable } else { Verdict::Reproduced }
+    }
+
+    fn on_every(&self, pairs: &[(f64, f64)], finding: &mut Finding) {
+        let signs = signs(pairs);
+        let kept = signs.lower;
+        finding.verdict = Some(match pairs.len() {
+            0 => Verdict::Undecided,
+            n if kept == n => self.holds(),
+            _ => Verdict::NotReproduced,
+        });
+        if let Some(interval) = wilson(kept, pairs.len(), 0.95) {
+            let share = kept as f64 / pairs.len() as f64;
+            let what = "share of problems on which it is lower, Wilson 95 %";
+            finding.ours = Some(Estimate::new(share, interval, what, pairs.len()));
+        }
+    }
+
+    fn on_average(&self, pairs: &[(f64, f64)], finding: &mut Finding) {
+        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let Some(mean) = mean_difference(pairs, plan) else {
+            finding.verdict = Some(Verdict::Undecided);
+            finding.because.push(format!("{} pairs were measured; at least 2 are needed", pairs.len()));
+            return;
+        };
+        finding.verdict = Some(if mean.interval.high < 0.0 {
+            self.holds()
+        } else if mean.interval.low > 0.0 {
+            Verdict::NotReproduced
+        } else {
+            Verdict::Undecided
+        });
+        if finding.verdict == Some(Verdict::Undecided) && mean.value != 0.0 {
+            let needed = units_for_margin(mean.interval.half_width(), pairs.len(), mean.value.abs());
+            finding.because.push(format!("about {needed} pairs would settle a mean difference of this size"));
+        }
+        let what = format!("mean difference of {}, bootstrap 95 %", self.metric.label.to_lowercase());
+        finding.ours = Some(Estimate::new(mean.value, mean.interval, what, pairs.len()));
+    }
+}
+
+impl Check for Ordering<'_> {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let found = self.pairs(evidence);
+        let pairs: Vec<(f64, f64)> = found.iter().map(|(pair, _)| *pair).collect();
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let signs = signs(&pairs);
+        finding.because.push(format!(
+            "{} against {} on {} of {}: {} lower on {}, equal on {}, higher on {} of {} problems",
+            self.settings.lower,
+            self.settings.higher,
+            self.settings.problems.join(", "),
+            self.settings.study,
+            self.metric.label.to_lowercase(),
+            signs.lower,
+            signs.equal,
+            signs.higher,
+            pairs.len()
+        ));
+        finding.trial = found.iter().find(|((a, b), _)| b > a).map(|(_, trial)| trial.clone());
+        match self.settings.on {
+            On::Every => self.on_every(&pairs, &mut finding),
+            On::Average => self.on_average(&pairs, &mut finding),
+        }
+        finding
+    }
+}

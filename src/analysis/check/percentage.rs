@@ -1,0 +1,65 @@
+//! Whether a printed percentage is what the printed cells give.
+
+use super::{Check, Entry};
+use crate::analysis::audit::percent::Reduction;
+use crate::analysis::audit::printed::{Digits, Printed};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::{Finding, Verdict};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "percentage",
+    about: "is a printed reduction what the printed cells give?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let (before, digits) = context.printed_of(&settings.before)?;
+        let (after, _) = context.printed_of(&settings.after)?;
+        let reduction =
+            Reduction::between(before, after, digits).map_err(|e| context.settings.error(e.to_string()))?;
+        let printed = context.printed()?;
+        Ok(Box::new(Percentage { reduction, before, after, printed, digits: context.digits() }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    before: String,
+    after: String,
+}
+
+struct Percentage {
+    reduction: Reduction,
+    before: Printed,
+    after: Printed,
+    printed: Printed,
+    digits: Digits,
+}
+
+impl Check for Percentage {
+    fn judge(&self, _evidence: &Evidence<'_>) -> Finding {
+        let cells = format!("({} − {}) / {}", self.before, self.after, self.before);
+        let computed = format!("{cells} = {:.3} %", self.reduction.as_printed);
+        let possible = self.reduction.possible;
+        let (found, verdict) = if self.reduction.gives(self.printed, self.digits) {
+            (format!("which prints as {}", self.printed), None)
+        } else if self.reduction.allows(self.printed, self.digits) {
+            let range = format!("{:.3} to {:.3} %", possible.low, possible.high);
+            (format!("{} needs digits that the cells do not show; they allow {range}", self.printed), None)
+        } else {
+            let range = format!("{:.3} to {:.3} %", possible.low, possible.high);
+            (
+                format!("{} is outside of what the cells allow, {range}", self.printed),
+                Some(Verdict::Impossible),
+            )
+        };
+        Finding {
+            check: ENTRY.name.to_owned(),
+            verdict,
+            because: vec![computed, found],
+            premises: vec!["the percentage was computed from the two cells of the table".to_owned()],
+            ..Finding::default()
+        }
+    }
+}

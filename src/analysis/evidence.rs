@@ -1,0 +1,134 @@
+//! The records that claims are judged by, ready to be asked.
+
+use super::metric::{self, Metric};
+use crate::planner::Exhibit;
+use crate::study::manifest::Manifest;
+use crate::study::paper::Paper;
+use crate::study::record::{Row, Status};
+use crate::study::store::{Records, read_records};
+use crate::study::{Point, Study, StudyError};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A paper with the stored runs of its studies.
+pub struct Evidence<'a> {
+    /// The paper.
+    pub paper: &'a Paper,
+    /// The reading that claims are judged under.
+    pub point: Point,
+    runs: BTreeMap<&'a str, Run<'a>>,
+}
+
+/// The stored run of one study.
+pub struct Run<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// What the records depend on.
+    pub manifest: Manifest,
+    /// The records.
+    pub records: Records,
+    reading: String,
+    median_ns: BTreeMap<String, f64>,
+}
+
+/// Trials of two contenders on one problem.
+pub struct Pair<'a> {
+    /// The one that the other is compared with.
+    pub base: &'a Row,
+    /// The other.
+    pub other: &'a Row,
+}
+
+impl<'a> Evidence<'a> {
+    /// Reads the runs of every study of `paper` from `folder`, to be judged under the reading `point`.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`] for a run that is missing, damaged or made by another spec.
+    pub fn read(paper: &'a Paper, point: Point, folder: &Path) -> Result<Self, StudyError> {
+        let mut runs = BTreeMap::new();
+        for study in &paper.studies {
+            runs.insert(study.name.as_str(), Run::read(study, point.name(), folder)?);
+        }
+        Ok(Self { paper, point, runs })
+    }
+
+    /// The run of the study called `name`.
+    pub fn run(&self, name: &str) -> Option<&Run<'a>> {
+        self.runs.get(name)
+    }
+
+    /// Every run, in the order of the studies' names.
+    pub fn runs(&self) -> impl Iterator<Item = &Run<'a>> {
+        self.runs.values()
+    }
+
+    /// The metric that `name` stands for under the reading.
+    pub fn metric(&self, name: &str) -> Option<&'static Metric> {
+        metric::find(self.point.metric(name))
+    }
+}
+
+/// The default point over the readings of all studies of `paper`.
+pub fn default_point(paper: &Paper) -> Point {
+    Point::new(&paper.readings(), &BTreeMap::new()).expect("a loaded study's defaults are among its options")
+}
+
+impl<'a> Run<'a> {
+    fn read(study: &'a Study, reading: &str, folder: &Path) -> Result<Self, StudyError> {
+        let manifest = Manifest::read(folder, &study.name)?;
+        let spec = crate::study::store::sha256(study.document.text().as_bytes());
+        if manifest.spec != spec {
+            let path = Manifest::path(folder, &study.name);
+            let reason = format!("the stored run was made by another spec; run study `{}` again", study.name);
+            return Err(StudyError::stored(path, reason));
+        }
+        let records = read_records(folder, &study.name, &manifest.files)?;
+        let mut readings: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        for time in &records.times {
+            readings.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
+        }
+        let median_ns = readings.into_iter().map(|(trial, times)| (trial, median(times))).collect();
+        Ok(Self { study, manifest, records, reading: reading.to_owned(), median_ns })
+    }
+
+    /// What `metric` is for `row`; `None` if it was not measured.
+    pub fn value(&self, row: &Row, metric: &Metric) -> Option<f64> {
+        let raw = if metric.is_clock() {
+            self.median_ns.get(&row.trial).copied()
+        } else {
+            row.value(metric.column)
+        };
+        raw.map(|value| value * metric.scale)
+    }
+
+    /// The trials of `contender` in the problem group `group` under the reading, in the order of draws.
+    pub fn rows<'b>(&'b self, group: &'b str, contender: &'b str) -> impl Iterator<Item = &'b Row> {
+        self.records.batch.rows.iter().filter(move |row| {
+            row.group == group && row.contender == contender && row.reading == self.reading
+        })
+    }
+
+    /// The trials of two contenders on the same problems, solved by both.
+    pub fn pairs(&self, group: &str, base: &str, other: &str) -> Vec<Pair<'_>> {
+        let key = |row: &Row| (row.problem.clone(), row.sweep.clone(), row.repeat);
+        let solved = |row: &&Row| row.status == Status::Solved;
+        let bases: BTreeMap<_, &Row> =
+            self.rows(group, base).filter(solved).map(|row| (key(row), row)).collect();
+        self.rows(group, other)
+            .filter(solved)
+            .filter_map(|other| Some(Pair { base: bases.get(&key(other))?, other }))
+            .collect()
+    }
+
+    /// The exhibit called `name` of a trial or prepared object.
+    pub fn exhibit(&self, of: &str, name: &str) -> Option<&Exhibit> {
+        let kept = &self.records.batch.kept;
+        kept.iter().find(|kept| kept.of == of && kept.exhibit.name == name).map(|kept| &kept.exhibit)
+    }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    if values.len() % 2 == 1 { values[middle] } else { (values[middle - 1] + values[middle]) / 2.0 }
+}

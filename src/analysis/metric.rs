@@ -1,0 +1,87 @@
+//! Metrics: what can be compared, its unit, which way is better, and how to get it from a record.
+
+use crate::study::clock;
+
+/// Which way is better.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Better {
+    /// Less is better.
+    Lower,
+    /// More is better.
+    Higher,
+    /// Neither.
+    Neither,
+}
+
+/// A metric: one column of trials, or the median clock reading of a timed trial.
+#[derive(Debug, PartialEq)]
+pub struct Metric {
+    /// The name that claims and figures use.
+    pub name: &'static str,
+    /// Its name in tables and on axes, without the unit.
+    pub label: &'static str,
+    /// Its unit as it is printed; empty for counts.
+    pub unit: &'static str,
+    /// Which way is better.
+    pub better: Better,
+    /// The column it is read from.
+    pub column: &'static str,
+    /// By how much the column is multiplied to give the unit.
+    pub scale: f64,
+}
+
+const fn metric(name: &'static str, label: &'static str, unit: &'static str, better: Better) -> Metric {
+    Metric { name, label, unit, better, column: name, scale: 1.0 }
+}
+
+/// Every metric, in the order of their names.
+pub static METRICS: &[Metric] = &[
+    metric("bends", "Bends", "", Better::Lower),
+    metric("closed", "Closed nodes", "", Better::Lower),
+    metric("expansions", "Expansions", "", Better::Lower),
+    metric("generated", "Generated successors", "", Better::Lower),
+    metric("opened", "Opened nodes", "", Better::Lower),
+    metric("optimal_cost_cells", "Optimal cost", "cells", Better::Neither),
+    metric("path_cost_cells", "Path cost", "cells", Better::Lower),
+    Metric {
+        name: "plan_time_us",
+        label: "Planning time",
+        unit: "µs",
+        better: Better::Lower,
+        column: clock::COLUMN,
+        scale: 1e-3,
+    },
+    metric("turn_exterior_deg", "Turn sum, exterior angles", "°", Better::Lower),
+    metric("turn_interior_deg", "Turn sum, interior angles", "°", Better::Lower),
+];
+
+/// The metric called `name`.
+pub fn find(name: &str) -> Option<&'static Metric> {
+    METRICS.iter().find(|metric| metric.name == name)
+}
+
+impl Metric {
+    /// Label and unit, as an axis shows them.
+    pub fn title(&self) -> String {
+        if self.unit.is_empty() { self.label.to_owned() } else { format!("{} ({})", self.label, self.unit) }
+    }
+
+    /// Whether it is read from the clock.
+    pub fn is_clock(&self) -> bool {
+        self.column == clock::COLUMN
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::column;
+
+    #[test]
+    fn metrics_are_in_order_and_read_columns_that_exist() {
+        assert!(METRICS.windows(2).all(|pair| pair[0].name < pair[1].name));
+        for metric in METRICS {
+            assert!(metric.is_clock() || column::find(metric.column).is_some(), "{}", metric.name);
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Verdicts: what was found about each claim, and the file that keeps them.
+
+use super::interval::Interval;
+use crate::settings::Document;
+use crate::study::StudyError;
+use crate::study::store::write_whole;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// What we found about a claim, from the best that can be said to the worst.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Our interval and the printed value agree within the margin, and nothing was fitted to the claim.
+    Reproduced,
+    /// They agree, but something in the study was chosen so that they would.
+    Fitted,
+    /// An input exists on which it holds; it was searched for.
+    Attainable,
+    /// The sign is right, the size is not.
+    DirectionOnly,
+    /// The interval straddles the margin, or too little is known to say.
+    Undecided,
+    /// It is contradicted by what we measured.
+    NotReproduced,
+    /// The printed numbers contradict arithmetic or geometry.
+    Impossible,
+    /// The paper leaves out what is needed.
+    Untestable,
+}
+
+impl Verdict {
+    /// Every verdict.
+    pub const ALL: [Self; 8] = [
+        Self::Reproduced,
+        Self::Fitted,
+        Self::Attainable,
+        Self::DirectionOnly,
+        Self::Undecided,
+        Self::NotReproduced,
+        Self::Impossible,
+        Self::Untestable,
+    ];
+
+    /// Its name in tables and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::Fitted => "fitted",
+            Self::Attainable => "attainable",
+            Self::DirectionOnly => "direction only",
+            Self::Undecided => "undecided",
+            Self::NotReproduced => "not reproduced",
+            Self::Impossible => "impossible",
+            Self::Untestable => "untestable",
+        }
+    }
+}
+
+/// Our number beside the printed one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Estimate {
+    /// The number.
+    pub value: f64,
+    /// Its interval, if it has one.
+    pub interval: Option<[f64; 2]>,
+    /// What the number and its interval are.
+    pub what: String,
+    /// How many independent draws it rests on.
+    pub n: usize,
+}
+
+impl Estimate {
+    /// A number with its interval.
+    pub fn new(value: f64, interval: Interval, what: impl Into<String>, n: usize) -> Self {
+        Self { value, interval: Some([interval.low, interval.high]), what: what.into(), n }
+    }
+}
+
+/// What one check found.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Finding {
+    /// The check.
+    pub check: String,
+    /// Its verdict; absent if the check can only refuse and did not.
+    pub verdict: Option<Verdict>,
+    /// Our number.
+    pub ours: Option<Estimate>,
+    /// The trial that shows it, as `--trial` takes it.
+    pub trial: Option<String>,
+    /// The computation, step by step, and what was found.
+    pub because: Vec<String>,
+    /// What the computation takes for granted.
+    #[serde(default)]
+    pub premises: Vec<String>,
+}
+
+/// A claim with what was found about it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Judged {
+    /// The claim.
+    pub claim: String,
+    /// Where it stands in the paper.
+    pub at: String,
+    /// The sentence, where it is not a number alone.
+    pub says: Option<String>,
+    /// The number as printed.
+    pub printed: Option<String>,
+    /// The number's unit.
+    pub unit: Option<String>,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The reading it was judged under.
+    pub reading: String,
+    /// What each check found.
+    #[serde(default, rename = "finding")]
+    pub findings: Vec<Finding>,
+}
+
+impl Judged {
+    /// The number of ours that stands beside the printed one.
+    pub fn ours(&self) -> Option<&Estimate> {
+        let deciding = self.findings.iter().find(|finding| finding.verdict == Some(self.verdict));
+        deciding
+            .and_then(|finding| finding.ours.as_ref())
+            .or_else(|| self.findings.iter().find_map(|finding| finding.ours.as_ref()))
+    }
+}
+
+/// Claims that hold together on one problem under one reading.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Together {
+    /// The study.
+    pub study: String,
+    /// The problem.
+    pub problem: String,
+    /// The reading, and the contenders that stand for the paper's.
+    pub under: String,
+    /// The claims that hold there.
+    pub hold: Vec<String>,
+    /// The claims about the same numbers that do not.
+    pub fail: Vec<String>,
+}
+
+/// What stands in `verdicts.toml`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Verdicts {
+    /// The paper.
+    pub paper: String,
+    /// The command that made the records they rest on.
+    pub command: String,
+    /// Whether the records are those of a quick run.
+    pub quick: bool,
+    /// Studies whose claims changed after their run: a margin may have moved after seeing the data.
+    pub claims_changed_since: Vec<String>,
+    /// Every claim.
+    #[serde(default, rename = "claim")]
+    pub claims: Vec<Judged>,
+    /// Which claims hold jointly.
+    #[serde(default, rename = "together")]
+    pub together: Vec<Together>,
+}
+
+impl Verdicts {
+    /// Where they lie in the folder of a paper's runs.
+    pub fn path(folder: &Path) -> PathBuf {
+        folder.join("verdicts.toml")
+    }
+
+    /// Reads the verdicts in `folder`.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`] if there are none, or a settings error if they cannot be understood.
+    pub fn read(folder: &Path) -> Result<Self, StudyError> {
+        let path = Self::path(folder);
+        let document = Document::open(&path)
+            .map_err(|e| StudyError::stored(&path, format!("no verdicts ({e}); run `replan judge` first")))?;
+        Ok(document.read()?)
+    }
+
+    /// Writes the verdicts into `folder`.
+    ///
+    /// # Errors
+    /// [`StudyError::Io`].
+    pub fn write(&self, folder: &Path) -> Result<(), StudyError> {
+        write_whole(&Self::path(folder), self.text().as_bytes())
+    }
+
+    /// The verdicts as TOML.
+    pub fn text(&self) -> String {
+        toml::to_string(self).expect("verdicts are strings, numbers and tables of them")
+    }
+
+    /// The claim called `id`.
+    pub fn claim(&self, id: &str) -> Option<&Judged> {
+        self.claims.iter().find(|judged| judged.claim == id)
+    }
+}
