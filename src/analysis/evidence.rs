@@ -102,10 +102,11 @@ impl<'a> Run<'a> {
     }
 
     /// The trials of `contender` in the problem group `group` under the reading, in the order of draws.
-    pub fn rows<'b>(&'b self, group: &'b str, contender: &'b str) -> impl Iterator<Item = &'b Row> {
-        self.records.batch.rows.iter().filter(move |row| {
+    pub fn rows(&self, group: &str, contender: &str) -> Vec<&Row> {
+        let is_wanted = |row: &&Row| {
             row.group == group && row.contender == contender && row.reading == self.reading
-        })
+        };
+        self.records.batch.rows.iter().filter(is_wanted).collect()
     }
 
     /// The trials of two contenders on the same problems, solved by both.
@@ -113,8 +114,9 @@ impl<'a> Run<'a> {
         let key = |row: &Row| (row.problem.clone(), row.sweep.clone(), row.repeat);
         let solved = |row: &&Row| row.status == Status::Solved;
         let bases: BTreeMap<_, &Row> =
-            self.rows(group, base).filter(solved).map(|row| (key(row), row)).collect();
+            self.rows(group, base).into_iter().filter(solved).map(|row| (key(row), row)).collect();
         self.rows(group, other)
+            .into_iter()
             .filter(solved)
             .filter_map(|other| Some(Pair { base: bases.get(&key(other))?, other }))
             .collect()
