@@ -6,3 +6,6 @@
 pub mod seed;
 
 pub mod grid;
+
+pub mod search;
+pub mod shorten;
