@@ -6,6 +6,8 @@
 mod inflection;
 mod measure;
 mod straighten;
+#[cfg(test)]
+mod tests;
 
 pub use inflection::{bends, inflection_deletion};
 pub use measure::{TurnAngle, path_length, turn_sum_deg};
