@@ -10,6 +10,7 @@ pub mod grid;
 
 pub mod space;
 
+pub mod search;
 pub mod shorten;
 
 pub mod planner;

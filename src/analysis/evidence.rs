@@ -103,9 +103,8 @@ impl<'a> Run<'a> {
 
     /// The trials of `contender` in the problem group `group` under the reading, in the order of draws.
     pub fn rows(&self, group: &str, contender: &str) -> Vec<&Row> {
-        let is_wanted = |row: &&Row| {
-            row.group == group && row.contender == contender && row.reading == self.reading
-        };
+        let is_wanted =
+            |row: &&Row| row.group == group && row.contender == contender && row.reading == self.reading;
         self.records.batch.rows.iter().filter(is_wanted).collect()
     }
 

@@ -4,12 +4,16 @@
 //! entry says what world it needs, what columns its counts fill, and how to build it from its settings. Nothing
 //! here knows studies or records; nothing outside an entry's file knows its settings.
 
+mod astar;
+mod bidirectional;
+mod delete_inflections;
 mod entry;
+mod lattice;
 
 pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
 
 /// Every planner and stage, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[];
+pub static REGISTRY: &[&Entry] = &[&astar::ENTRY, &bidirectional::ENTRY, &delete_inflections::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

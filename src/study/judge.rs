@@ -7,7 +7,7 @@ use super::checked::Pipeline;
 use super::family::Query;
 use super::record::Status;
 use crate::planner::{Counts, Ending, Plan, Request, Value};
-use crate::shorten;
+use crate::shorten::{TurnAngle, bends, path_length, turn_sum_deg};
 use crate::space::{LatticeWorld, World};
 use crate::verify::lattice::{Answer, Case};
 
@@ -74,11 +74,14 @@ fn judge_lattice(
         Ending::NoPath | Ending::BudgetSpent => None,
     };
     if plan.ending == Ending::Solved && refusal.is_none() {
-        let measures = shorten::measures(&plan.path);
-        values.insert("path_cost_cells", Value::Real(measures.length));
-        values.insert("turn_exterior_deg", Value::Real(measures.turn_exterior_deg));
-        values.insert("turn_interior_deg", Value::Real(measures.turn_interior_deg));
-        values.insert("bends", Value::Count(measures.bends));
+        values.insert("path_cost_cells", Value::Real(path_length(&plan.path)));
+        for (column, angle) in
+            [("turn_exterior_deg", TurnAngle::Exterior), ("turn_interior_deg", TurnAngle::Interior)]
+        {
+            values.insert(column, Value::Real(turn_sum_deg(&plan.path, angle)));
+        }
+        let inner = bends(&plan.path).len().saturating_sub(2);
+        values.insert("bends", Value::Count(inner as u64));
     }
     let outcome = match (refusal, plan.ending) {
         (Some(refusal), _) => (Status::Rejected, Some(refusal)),

@@ -1,0 +1,111 @@
+//! Watching a search without changing it.
+
+/// Told what a search does. Every method does nothing unless written, and `()` watches nothing at no cost.
+pub trait Observer {
+    /// `node` entered OPEN for the first time.
+    fn opened(&mut self, node: u32) {
+        let _ = node;
+    }
+
+    /// `node` was taken from OPEN and closed.
+    fn closed(&mut self, node: u32) {
+        let _ = node;
+    }
+
+    /// The best open node is about to be taken.
+    fn selecting(&mut self, lists: Lists) {
+        let _ = lists;
+    }
+
+    /// A successor was generated and found in `place`; `lists` are as they were before it was dealt with.
+    fn generated(&mut self, place: Place, lists: Lists) {
+        let _ = (place, lists);
+    }
+}
+
+/// How long the two lists are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lists {
+    /// Nodes in OPEN.
+    pub open: u64,
+    /// Nodes in CLOSED.
+    pub closed: u64,
+}
+
+/// Where a generated node is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In neither list.
+    Unseen,
+    /// In OPEN.
+    Open,
+    /// In CLOSED.
+    Closed,
+}
+
+impl Observer for () {}
+
+/// The order in which nodes were opened and closed, for figures.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Trace {
+    /// Nodes in the order in which they first entered OPEN.
+    pub opened: Vec<u32>,
+    /// Nodes in the order in which they were closed; a node that reopened stands here again.
+    pub closed: Vec<u32>,
+}
+
+impl Observer for Trace {
+    fn opened(&mut self, node: u32) {
+        self.opened.push(node);
+    }
+
+    fn closed(&mut self, node: u32) {
+        self.closed.push(node);
+    }
+}
+
+/// What the same search would compare if OPEN and CLOSED were plain lists scanned from end to end, as short MATLAB
+/// programs keep them.
+///
+/// Taking the best of n open nodes costs n comparisons. Looking a successor up costs the length of CLOSED and,
+/// unless it is found there, the length of OPEN; scans do not stop early.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ListScans {
+    /// Comparisons of f to find the smallest in OPEN.
+    pub minimum_comparisons: u64,
+    /// Comparisons of nodes to look successors up.
+    pub membership_comparisons: u64,
+}
+
+impl Observer for ListScans {
+    fn selecting(&mut self, lists: Lists) {
+        self.minimum_comparisons += lists.open;
+    }
+
+    fn generated(&mut self, place: Place, lists: Lists) {
+        let in_open = if place == Place::Closed { 0 } else { lists.open };
+        self.membership_comparisons += lists.closed + in_open;
+    }
+}
+
+impl<A: Observer, B: Observer> Observer for (A, B) {
+    fn opened(&mut self, node: u32) {
+        self.0.opened(node);
+        self.1.opened(node);
+    }
+
+    fn closed(&mut self, node: u32) {
+        self.0.closed(node);
+        self.1.closed(node);
+    }
+
+    fn selecting(&mut self, lists: Lists) {
+        self.0.selecting(lists);
+        self.1.selecting(lists);
+    }
+
+    fn generated(&mut self, place: Place, lists: Lists) {
+        self.0.generated(place, lists);
+        self.1.generated(place, lists);
+    }
+}

@@ -1,0 +1,207 @@
+//! One side of a search: its records, its frontier, and the step that every driver repeats.
+
+use super::Counters;
+use super::cost::{Cost, quantised};
+use super::estimate::Estimate;
+use super::frontier::{Frontier, Offer};
+use super::graph::Graph;
+use super::observe::{Lists, Observer, Place};
+
+const NONE: u32 = u32::MAX;
+
+/// What happens when a better way to a known node is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Update {
+    /// Whether an open node takes the better way.
+    pub lower_open: bool,
+    /// Whether a closed node takes it and returns to OPEN.
+    pub reopen_closed: bool,
+}
+
+impl Default for Update {
+    /// Open nodes are lowered, closed nodes stay closed.
+    fn default() -> Self {
+        Self { lower_open: true, reopen_closed: false }
+    }
+}
+
+/// What a side searches, how it values nodes, and who watches.
+#[derive(Debug)]
+pub struct Terms<'a, G, E, O> {
+    /// The successor rule.
+    pub graph: &'a mut G,
+    /// The key of open nodes.
+    pub estimate: &'a E,
+    /// Who watches.
+    pub observer: &'a mut O,
+    /// What a better way changes.
+    pub update: Update,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Record<C> {
+    g: C,
+    parent: u32,
+    /// How many nodes were opened before, or `NONE` if the node was never opened.
+    rank: u32,
+    /// The stamp of the node's last offer while it is open, else 0.
+    stamp: u32,
+}
+
+impl<C: Cost> Record<C> {
+    const UNSEEN: Self = Self { g: C::ZERO, parent: NONE, rank: NONE, stamp: 0 };
+}
+
+/// Records and frontier of one side; memory is kept from search to search.
+#[derive(Clone, Debug)]
+pub(super) struct Side<C, Q> {
+    records: Vec<Record<C>>,
+    frontier: Q,
+    opened: Vec<u32>,
+    open: u64,
+    stamp: u32,
+    pub(super) counters: Counters,
+}
+
+impl<C: Cost, Q: Frontier> Side<C, Q> {
+    pub(super) fn new(frontier: Q) -> Self {
+        let counters = Counters::default();
+        Self { records: Vec::new(), frontier, opened: Vec::new(), open: 0, stamp: 0, counters }
+    }
+
+    /// Forgets the last search and opens `root`.
+    pub(super) fn begin<G, E, O>(&mut self, root: u32, terms: &mut Terms<'_, G, E, O>)
+    where
+        G: Graph<Cost = C>,
+        E: Estimate<C>,
+        O: Observer,
+    {
+        for node in self.opened.drain(..) {
+            self.records[node as usize] = Record::UNSEEN;
+        }
+        self.frontier.clear();
+        (self.open, self.stamp, self.counters) = (0, 0, Counters::default());
+        if self.records.len() < terms.graph.node_count() {
+            self.records.resize(terms.graph.node_count(), Record::UNSEEN);
+        }
+        self.receive(root, NONE, C::ZERO, terms.estimate, terms.observer, terms.update);
+        self.counters.peak_open = 1;
+    }
+
+    /// The best open node, still open.
+    pub(super) fn best(&mut self) -> Option<Offer> {
+        loop {
+            let offer = self.frontier.first()?;
+            if self.records[offer.node as usize].stamp == offer.stamp {
+                return Some(offer);
+            }
+            self.frontier.pop();
+        }
+    }
+
+    /// Moves `node`, which [`best`](Self::best) just gave, from OPEN to CLOSED.
+    pub(super) fn close(&mut self, node: u32, observer: &mut impl Observer) {
+        observer.selecting(self.lists());
+        self.frontier.pop();
+        self.records[node as usize].stamp = 0;
+        self.open -= 1;
+        self.counters.closed += 1;
+        observer.closed(node);
+    }
+
+    /// Generates the successors of `node` and deals with each; `each` is told of every one after that.
+    pub(super) fn expand<G, E, O>(
+        &mut self,
+        node: u32,
+        terms: &mut Terms<'_, G, E, O>,
+        mut each: impl FnMut(&Self, u32),
+    ) where
+        G: Graph<Cost = C>,
+        E: Estimate<C>,
+        O: Observer,
+    {
+        let g = self.records[node as usize].g;
+        let Terms { graph, estimate, observer, update } = terms;
+        self.counters.expansions += 1;
+        graph.successors(node, |to, cost| {
+            self.counters.generated += 1;
+            self.receive(to, node, g.plus(cost), *estimate, *observer, *update);
+            each(self, to);
+        });
+        self.counters.peak_open = self.counters.peak_open.max(self.open);
+    }
+
+    fn receive(
+        &mut self,
+        node: u32,
+        parent: u32,
+        g: C,
+        estimate: &impl Estimate<C>,
+        observer: &mut impl Observer,
+        update: Update,
+    ) {
+        if self.records.len() <= node as usize {
+            self.records.resize(node as usize + 1, Record::UNSEEN);
+        }
+        let place = self.place(node);
+        if parent != NONE {
+            observer.generated(place, self.lists());
+        }
+        let better = g.compare(self.records[node as usize].g).is_lt();
+        match place {
+            Place::Unseen => {
+                self.records[node as usize].rank = self.opened.len() as u32;
+                self.opened.push(node);
+                self.counters.opened += 1;
+                self.open += 1;
+                observer.opened(node);
+            }
+            Place::Open if better && update.lower_open => {}
+            Place::Closed if better && update.reopen_closed => {
+                self.counters.closed -= 1;
+                self.open += 1;
+            }
+            Place::Open | Place::Closed => return,
+        }
+        self.stamp += 1;
+        let record = &mut self.records[node as usize];
+        (record.g, record.parent, record.stamp) = (g, parent, self.stamp);
+        let (rank, stamp) = (record.rank, self.stamp);
+        self.frontier.push(Offer { f: estimate.key(node, g), g: quantised(g.value()), rank, stamp, node });
+    }
+
+    fn lists(&self) -> Lists {
+        Lists { open: self.open, closed: self.counters.closed }
+    }
+
+    /// Where `node` is.
+    pub(super) fn place(&self, node: u32) -> Place {
+        match self.records.get(node as usize) {
+            Some(record) if record.stamp != 0 => Place::Open,
+            Some(record) if record.rank != NONE => Place::Closed,
+            _ => Place::Unseen,
+        }
+    }
+
+    /// The cost of the best way known to `node`, if it was opened.
+    pub(super) fn g(&self, node: u32) -> Option<C> {
+        self.records.get(node as usize).filter(|record| record.rank != NONE).map(|record| record.g)
+    }
+
+    /// The nodes from the root to `node`, both included; empty if `node` was not opened.
+    pub(super) fn chain(&self, node: u32) -> Vec<u32> {
+        let mut nodes = Vec::new();
+        let mut at = if self.g(node).is_some() { node } else { NONE };
+        while at != NONE {
+            nodes.push(at);
+            at = self.records[at as usize].parent;
+        }
+        nodes.reverse();
+        nodes
+    }
+
+    /// The nodes ever opened, in that order.
+    pub(super) fn opened(&self) -> &[u32] {
+        &self.opened
+    }
+}

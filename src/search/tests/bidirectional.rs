@@ -1,0 +1,79 @@
+//! The bidirectional driver under every rule.
+
+use super::*;
+
+const MEETINGS: [Meeting; 4] =
+    [Meeting::GeneratedAny, Meeting::ClosedByOther, Meeting::BothClosed, Meeting::OptimalStop];
+
+fn rules(meeting: Meeting, choice: SideChoice) -> BidirectionalRules {
+    BidirectionalRules { meeting, choice, update: Update::default(), max_expansions: u64::MAX }
+}
+
+fn run(case: &Case, rules: BidirectionalRules) -> BidirectionalReport<Octile> {
+    let towards = |target| Combined { h: euclidean_to(&case.grid, target), combine: sum };
+    let estimates = [towards(case.ends[1]), towards(case.ends[0])];
+    let graph = &mut GridGraph::new(&case.moves);
+    Bidirectional::new(Heap::default()).run(graph, &estimates, &mut [(), ()], case.ends, rules)
+}
+
+#[test]
+fn every_rule_solves_what_can_be_solved_and_the_optimal_stop_is_optimal() {
+    let (mut solved, mut longer, mut count) = (0, [0; 4], 0);
+    for case in cases(400, 0.35) {
+        let best = astar(&case.grid, &case.moves, case.ends).outcome.route().map(|route| route.cost.value());
+        for (index, meeting) in MEETINGS.into_iter().enumerate() {
+            for choice in [SideChoice::Alternate, SideChoice::SmallerF] {
+                let report = run(&case, rules(meeting, choice));
+                let place = format!("seed {}, {meeting:?}, {choice:?}", case.seed);
+                let got = report.outcome.route().map(|route| walked(&case, route));
+                assert_eq!(got.is_some(), best.is_some(), "{place}");
+                let (Some(got), Some(best)) = (got, best) else { continue };
+                assert!(got > best - 1e-9, "{place}: {got} below {best}");
+                longer[index] += u32::from(got > best + 1e-9);
+                let on_path = report.outcome.route().unwrap().nodes.contains(&report.meeting.unwrap());
+                assert!(on_path, "{place}: the meeting node is not on the path");
+            }
+        }
+        count += 1;
+        solved += u32::from(best.is_some());
+    }
+    assert!((count / 4..count).contains(&solved), "one-sided sample: {solved} of {count} solvable");
+    assert_eq!(longer[3], 0, "the optimal stop was longer {} times", longer[3]);
+    assert!(longer[..3].iter().all(|&times| times > 2), "the other rules were longer {longer:?} times");
+}
+
+#[test]
+fn sides_alternate_and_the_budget_holds_for_both_together() {
+    for case in cases(60, 0.2) {
+        let full = run(&case, rules(Meeting::BothClosed, SideChoice::Alternate));
+        let made = full.sides.map(|side| side.expansions);
+        if full.outcome.route().is_some() {
+            assert!(made[0].abs_diff(made[1]) <= 1, "seed {}: {made:?}", case.seed);
+        }
+        let Some(max_expansions) = (made[0] + made[1]).checked_sub(1) else { continue };
+        let limited = run(
+            &case,
+            BidirectionalRules { max_expansions, ..rules(Meeting::BothClosed, SideChoice::Alternate) },
+        );
+        if limited.outcome == Outcome::BudgetSpent {
+            assert_eq!(limited.sides.map(|side| side.expansions).iter().sum::<u64>(), max_expansions);
+            assert_eq!(limited.meeting, None);
+        } else {
+            // Under this rule the last expansion can only have been a dead end or the meeting itself.
+            assert_eq!(limited.outcome, full.outcome, "seed {}", case.seed);
+        }
+    }
+}
+
+#[test]
+fn a_start_that_is_the_goal_is_met_at_once() {
+    for case in cases(20, 0.2) {
+        let case = Case { ends: [case.ends[0]; 2], ..case };
+        for meeting in MEETINGS {
+            let report = run(&case, rules(meeting, SideChoice::Alternate));
+            let route = Route { nodes: vec![case.ends[0]], cost: Octile::ZERO };
+            assert_eq!(report.outcome, Outcome::Solved(route), "seed {}, {meeting:?}", case.seed);
+            assert_eq!(report.sides.map(|side| side.expansions), [0, 0]);
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! What tidies a path, and what measures it.
+//!
+//! A path is a list of points of any one dimension, handed over as slices; what may be joined by a straight line
+//! is the caller's to say. Nothing here knows of obstacles.
+
+mod inflection;
+mod measure;
+mod straighten;
+#[cfg(test)]
+mod tests;
+
+pub use inflection::{bends, inflection_deletion};
+pub use measure::{TurnAngle, path_length, turn_sum_deg};
+pub use straighten::{LastNode, straightening};
