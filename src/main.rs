@@ -1,3 +1,5 @@
 //! The `replan` command. All logic lives in the library.
 
-fn main() {}
+fn main() -> std::process::ExitCode {
+    replan::cli::run()
+}

@@ -9,6 +9,7 @@ mod largest_saving;
 mod lattice_length;
 mod ordering;
 mod percentage;
+mod point_distance;
 mod straight_line;
 
 use super::audit::printed::{Digits, Printed};
@@ -54,6 +55,7 @@ pub static REGISTRY: &[&Entry] = &[
     &lattice_length::ENTRY,
     &ordering::ENTRY,
     &percentage::ENTRY,
+    &point_distance::ENTRY,
     &straight_line::ENTRY,
 ];
 

@@ -1,0 +1,59 @@
+//! Whether a printed distance is that between the two printed points.
+
+use super::{Check, Entry};
+use crate::analysis::audit::bounds::straight_line;
+use crate::analysis::audit::printed::{Digits, Printed};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "point_distance",
+    about: "is a printed distance that between two printed points?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        Ok(Box::new(PointDistance { settings, printed: context.printed()?, digits: context.digits() }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    from: [f64; 2],
+    to: [f64; 2],
+}
+
+struct PointDistance {
+    settings: Settings,
+    printed: Printed,
+    digits: Digits,
+}
+
+impl Check for PointDistance {
+    fn judge(&self, _evidence: &Evidence<'_>) -> Finding {
+        let Settings { from, to } = self.settings;
+        let distance = straight_line(from, to);
+        let agrees = |digits| self.printed.agrees(distance, digits);
+        let how = match (agrees(Digits::Rounded), agrees(Digits::Truncated)) {
+            (true, true) => "which prints so, rounded and truncated",
+            (true, false) => "which prints so if rounded, and not if truncated",
+            (false, true) => "which prints so if truncated, and not if rounded",
+            (false, false) => "which does not print so",
+        };
+        let verdict = if agrees(self.digits) { Verdict::Reproduced } else { Verdict::Impossible };
+        Finding {
+            check: ENTRY.name.to_owned(),
+            verdict: Some(verdict),
+            ours: Some(Estimate {
+                value: distance,
+                interval: None,
+                what: "computed from the printed points".to_owned(),
+                n: 1,
+            }),
+            because: vec![format!("from {from:?} to {to:?} it is {distance:.4}, {how}")],
+            premises: vec!["the distance is Euclidean, in the unit of the coordinates".to_owned()],
+            ..Finding::default()
+        }
+    }
+}

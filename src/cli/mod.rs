@@ -1,0 +1,156 @@
+//! The command line: one subcommand a file.
+//!
+//! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
+//! wrong input files; 3 done, but what was checked is not as stored; 130 interrupted, and what was done is kept.
+
+mod check;
+mod judge;
+mod list;
+mod places;
+mod progress;
+mod render;
+mod repro;
+mod run;
+mod trial;
+mod verdicts;
+
+use crate::settings::SettingsError;
+use crate::study::StudyError;
+use clap::{Args, Parser, Subcommand};
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+#[derive(Parser)]
+#[command(version, about, after_help = EXAMPLES, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "Examples:
+  replan repro zhang                 run the paper's studies, judge its claims, draw its figures
+  replan repro zhang --quick         the same with few replicates, below target/replan/
+  replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
+  replan repro zhang --trial witness/w1/a-star
+  replan render zhang --check        are the committed plots and tables what the stored run gives?
+  replan list planners               what contenders can name";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run every study of a paper, judge its claims, draw its figures and write its report
+    Repro(repro::Repro),
+    /// Check papers and specs without running anything
+    Check(check::Check),
+    /// Run the studies of a paper; stored trials are reused where nothing they depend on has changed
+    Run(run::Run),
+    /// Judge a paper's claims again from its stored run
+    Judge(judge::Judge),
+    /// Draw a paper's figures and tables again from its stored run and verdicts
+    Render(render::Render),
+    /// List papers, studies, planners, tasks, checks, metrics, figure kinds, readings and more
+    List(list::List),
+}
+
+/// What to run: shared by the subcommands that read a paper.
+#[derive(Args, Clone)]
+struct Which {
+    /// A paper's name, or a folder that holds a paper.toml
+    paper: String,
+    /// Write below this folder instead of the committed places
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// How to run.
+#[derive(Args, Clone)]
+struct How {
+    /// Few replicates; every output says so
+    #[arg(long)]
+    quick: bool,
+    /// The root of every seed, instead of the studies' own
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    seed: Option<u64>,
+    /// Readings: `all`, or `corner_cutting=forbid_any,ties=lifo`
+    #[arg(long, value_name = "READINGS")]
+    readings: Option<String>,
+    /// Threads for the trials; the machine's number if absent
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    threads: Option<u32>,
+}
+
+/// Why a command ended without success.
+#[derive(Debug)]
+struct Failure {
+    code: u8,
+    message: String,
+}
+
+impl Failure {
+    fn input(message: impl Into<String>) -> Self {
+        Self { code: 2, message: message.into() }
+    }
+
+    fn stale(message: impl Into<String>) -> Self {
+        Self { code: 3, message: message.into() }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        let code = match &error {
+            StudyError::Interrupted { .. } => 130,
+            StudyError::Io { .. } | StudyError::Busy { .. } => 1,
+            _ => 2,
+        };
+        Self { code, message: error.to_string() }
+    }
+}
+
+impl From<SettingsError> for Failure {
+    fn from(error: SettingsError) -> Self {
+        Self::input(error.to_string())
+    }
+}
+
+impl From<crate::render::RenderError> for Failure {
+    fn from(error: crate::render::RenderError) -> Self {
+        Self::input(error.to_string())
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self { code: 1, message: error.to_string() }
+    }
+}
+
+/// Runs the command that the process was called with.
+pub fn run() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Repro(command) => command.run(),
+        Command::Check(command) => command.run(),
+        Command::Run(command) => command.run(),
+        Command::Judge(command) => command.run(),
+        Command::Render(command) => command.run(),
+        Command::List(command) => command.run(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            // A reader that closed the pipe early (head) is no failure of ours, and cannot be told anything.
+            let _ = writeln!(io::stderr(), "replan: {}", failure.message);
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// The command line as it would be typed.
+fn command_line() -> String {
+    let words = std::env::args().skip(1);
+    let quoted = words.map(|word| {
+        let is_plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,".contains(c));
+        if is_plain { word } else { format!("'{word}'") }
+    });
+    std::iter::once("replan".to_owned()).chain(quoted).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,108 @@
+//! `replan run`: the trials, and nothing after them.
+
+use super::places::Places;
+use super::progress::{Bar, stop_flag};
+use super::{Failure, How, Which, command_line};
+use crate::analysis::claims;
+use crate::study::paper::Paper;
+use crate::study::session::{self, Options, Report};
+use clap::Args;
+
+/// Runs the studies of a paper.
+#[derive(Args)]
+pub struct Run {
+    #[command(flatten)]
+    which: Which,
+    #[command(flatten)]
+    how: How,
+    /// Run every trial again, also those that are stored and unchanged
+    #[arg(long)]
+    fresh: bool,
+    /// Say why stored trials were or were not reused
+    #[arg(long)]
+    why: bool,
+}
+
+impl Run {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        let places = Places::find(&self.which, &self.how.variant())?;
+        let paper = load(&places, &self.how)?;
+        for report in run_studies(&paper, &places, &self.how, self.fresh)? {
+            println!("{}", summary(&report, self.why));
+        }
+        println!("records are in {}", places.runs.display());
+        Ok(())
+    }
+}
+
+/// The paper as the flags ask for it, with every claim's checks understood.
+pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
+    let paper = how.apply(Paper::load(&places.folder, &places.inputs)?);
+    how.check_readings(&paper)?;
+    claims::validate(&paper)?;
+    crate::render::figure::validate(&paper)?;
+    Ok(paper)
+}
+
+/// Runs every study of `paper`.
+pub fn run_studies(
+    paper: &Paper,
+    places: &Places,
+    how: &How,
+    fresh: bool,
+) -> Result<Vec<Report>, Failure> {
+    let (stop, bar) = (stop_flag(), Bar::default());
+    let mut reports = Vec::new();
+    for study in &paper.studies {
+        let points = how.points(study)?;
+        let options = Options {
+            folder: &places.runs,
+            points: &points,
+            inputs: &places.inputs,
+            command: command_line(),
+            claims: claims::claims_hash(paper),
+            quick: how.quick,
+            fresh,
+            threads: how.threads.map(|threads| threads as usize),
+            stop,
+            progress: &bar,
+        };
+        reports.push(session::run(study, &options)?);
+    }
+    Ok(reports)
+}
+
+/// What a run did, in a few words.
+pub fn summary(report: &Report, why: bool) -> String {
+    let mut text = format!("{}: {} trials", report.manifest.study, report.trials);
+    let parts = [(report.resumed, "resumed"), (report.reused, "reused")];
+    let parts = parts.iter().filter(|(count, _)| *count > 0);
+    let said: Vec<String> =
+        parts.map(|(count, what)| format!("{count} of {} units {what}", report.units)).collect();
+    if !said.is_empty() {
+        text += &format!(" ({})", said.join(", "));
+    }
+    if !report.moved.is_empty() {
+        let first = &report.moved[0];
+        text += &format!(
+            "\n  {} trials differ from what was stored although nothing they depend on has changed; the first is \
+             {}/{first}",
+            report.moved.len(),
+            report.manifest.study
+        );
+    }
+    if why {
+        let reasons = if report.why.is_empty() && report.reused > 0 {
+            vec!["nothing that the stored trials depend on has changed".to_owned()]
+        } else if report.why.is_empty() {
+            vec!["there were no stored trials, or --fresh was given".to_owned()]
+        } else {
+            report.why.clone()
+        };
+        for reason in reasons {
+            text += &format!("\n  why: {reason}");
+        }
+    }
+    text
+}

@@ -1,0 +1,59 @@
+//! The verdict table on the terminal.
+
+use crate::analysis::verdict::{Estimate, Verdict, Verdicts};
+use std::collections::BTreeMap;
+use std::io::IsTerminal as _;
+
+/// Prints every claim's verdict, and how many there are of each.
+pub fn print(verdicts: &Verdicts) {
+    let is_coloured = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    print!("{}", table(verdicts, is_coloured));
+}
+
+/// The table as text.
+fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
+    let width = verdicts.claims.iter().map(|judged| judged.claim.len()).max().unwrap_or(0).max(5);
+    let mut text = format!("{:<width$}  {:>9}  {:<28}  verdict\n", "claim", "printed", "ours");
+    for judged in &verdicts.claims {
+        let printed = judged.printed.as_deref().unwrap_or("–");
+        let ours = judged.ours().map_or_else(|| "–".to_owned(), estimate);
+        let name = judged.verdict.name();
+        let verdict =
+            if is_coloured { format!("\x1b[{}m{name}\x1b[0m", colour(judged.verdict)) } else { name.to_owned() };
+        text += &format!("{:<width$}  {printed:>9}  {ours:<28}  {verdict}\n", judged.claim);
+    }
+    let mut counts: BTreeMap<Verdict, usize> = BTreeMap::new();
+    for judged in &verdicts.claims {
+        *counts.entry(judged.verdict).or_default() += 1;
+    }
+    let counted: Vec<String> =
+        counts.into_iter().map(|(verdict, count)| format!("{count} {}", verdict.name())).collect();
+    text += &format!("{} claims: {}\n", verdicts.claims.len(), counted.join(", "));
+    if verdicts.quick {
+        text += "a quick run: few replicates, so these verdicts are not the study's\n";
+    }
+    if !verdicts.claims_changed_since.is_empty() {
+        let studies = verdicts.claims_changed_since.join(", ");
+        text += &format!("claims or margins changed after the run of {studies}; run it again\n");
+    }
+    text
+}
+
+fn estimate(estimate: &Estimate) -> String {
+    match estimate.interval {
+        Some([low, high]) => {
+            format!("{:.4} [{low:.4}, {high:.4}] n={}", estimate.value, estimate.n)
+        }
+        None => format!("{:.4}", estimate.value),
+    }
+}
+
+fn colour(verdict: Verdict) -> u8 {
+    match verdict {
+        Verdict::Reproduced => 32,
+        Verdict::Fitted | Verdict::Attainable => 36,
+        Verdict::DirectionOnly | Verdict::Undecided => 33,
+        Verdict::NotReproduced | Verdict::Impossible => 31,
+        Verdict::Untestable => 90,
+    }
+}
