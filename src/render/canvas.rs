@@ -172,6 +172,18 @@ impl Canvas {
         self.push(format_args!("<path{paint}{rim} fill-rule=\"evenodd\" d=\"{path}\"/>\n"));
     }
 
+    /// Fills closed outlines as one shape with unsmoothed edges, for rasters whose cells must not part.
+    pub fn raster(&mut self, outlines: &[Rect], fill: Fill) {
+        let mut path = String::new();
+        for rect in outlines {
+            let (x, y, right, bottom) =
+                (short(rect.x), short(rect.y), short(rect.right()), short(rect.bottom()));
+            write!(path, "M{x} {y}H{right}V{bottom}H{x}Z").expect("a string takes everything");
+        }
+        let paint = surface(Some(fill));
+        self.push(format_args!("<path{paint} shape-rendering=\"crispEdges\" d=\"{path}\"/>\n"));
+    }
+
     /// Fills a rectangle and, if given, strokes its edge.
     pub fn rect(&mut self, rect: Rect, fill: Option<Fill>, stroke: Option<&Stroke>) {
         let (x, y, w, h) = (short(rect.x), short(rect.y), short(rect.w), short(rect.h));
