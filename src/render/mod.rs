@@ -97,3 +97,6 @@ pub enum RenderError {
     #[error("`{0}` gives no macro name; a key needs at least one letter or digit of ASCII")]
     EmptyMacro(String),
 }
+
+#[cfg(test)]
+mod demo;
