@@ -20,3 +20,7 @@ pub mod verify;
 pub mod study;
 
 pub mod analysis;
+
+pub mod render;
+
+pub mod cli;

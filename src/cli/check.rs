@@ -18,7 +18,9 @@ impl Check {
     pub fn run(self) -> Result<(), Failure> {
         let specs = if self.specs.is_empty() { papers() } else { self.specs };
         if specs.is_empty() {
-            return Err(Failure::input("there is no paper here to check; run replan from the project's own folder"));
+            return Err(Failure::input(
+                "there is no paper here to check; run replan from the project's own folder",
+            ));
         }
         for spec in specs {
             let which = Which { paper: folder_of(&spec), out: None };

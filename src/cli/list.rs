@@ -63,11 +63,13 @@ fn rows(what: What) -> Result<Vec<(String, String)>, Failure> {
         }
         What::Readings => {
             let papers = loaded()?;
-            let readings = papers.iter().flat_map(|paper| paper.readings().into_iter().map(|r| (&paper.id, r)));
+            let readings =
+                papers.iter().flat_map(|paper| paper.readings().into_iter().map(|r| (&paper.id, r)));
             readings
                 .map(|(paper, reading)| {
                     let options: Vec<&str> = reading.options.keys().map(String::as_str).collect();
-                    let about = format!("{} (default {}): {}", options.join(" | "), reading.default, reading.why);
+                    let about =
+                        format!("{} (default {}): {}", options.join(" | "), reading.default, reading.why);
                     (format!("{paper}/{}", reading.id), about)
                 })
                 .collect()

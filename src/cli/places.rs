@@ -79,7 +79,9 @@ fn paper_id(folder: &Path) -> Result<String, Failure> {
 fn unknown(name: &str) -> Failure {
     let known = papers();
     let known = if known.is_empty() {
-        format!("there is no folder `{EXPERIMENTS}` with papers here; run replan from the project's own folder")
+        format!(
+            "there is no folder `{EXPERIMENTS}` with papers here; run replan from the project's own folder"
+        )
     } else {
         format!("the papers are {}", known.join(", "))
     };
@@ -94,7 +96,9 @@ impl How {
             parts.push("quick".to_owned());
         }
         parts.extend(self.seed.map(|seed| format!("seed-{seed}")));
-        parts.extend(self.readings.as_deref().map(|readings| format!("readings-{}", crate::study::slug(readings))));
+        parts.extend(
+            self.readings.as_deref().map(|readings| format!("readings-{}", crate::study::slug(readings))),
+        );
         parts.join("-")
     }
 
@@ -126,7 +130,9 @@ impl How {
     /// An option that is not among a reading's. Readings that a study does not have are left to others.
     pub fn point(&self, readings: &[crate::study::Reading]) -> Result<Point, Failure> {
         let mut chosen = BTreeMap::new();
-        for part in self.readings.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(',')) {
+        for part in
+            self.readings.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(','))
+        {
             let Some((id, option)) = part.split_once('=') else {
                 return Err(Failure::input(format!(
                     "--readings: `{part}` is not `reading=option`; `all` or `a=x,b=y` is accepted"
@@ -145,11 +151,14 @@ impl How {
     /// The first unknown reading, with those that exist.
     pub fn check_readings(&self, paper: &Paper) -> Result<(), Failure> {
         let known = paper.readings();
-        for part in self.readings.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(',')) {
+        for part in
+            self.readings.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(','))
+        {
             let id = part.split('=').next().unwrap_or(part);
             if !known.iter().any(|reading| reading.id == id) {
                 let ids: Vec<&str> = known.iter().map(|reading| reading.id.as_str()).collect();
-                let message = format!("--readings: there is no reading `{id}`; the readings are {}", ids.join(", "));
+                let message =
+                    format!("--readings: there is no reading `{id}`; the readings are {}", ids.join(", "));
                 return Err(Failure::input(message));
             }
         }

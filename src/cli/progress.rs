@@ -44,7 +44,8 @@ impl Progress for Bar {
     }
 
     fn end(&self) {
-        let Some((what, bar)) = self.bar.lock().expect("no thread panics while it holds the bar").take() else {
+        let Some((what, bar)) = self.bar.lock().expect("no thread panics while it holds the bar").take()
+        else {
             return;
         };
         let (done, seconds) = (bar.position(), bar.elapsed().as_secs_f64());

@@ -46,12 +46,7 @@ pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
 }
 
 /// Runs every study of `paper`.
-pub fn run_studies(
-    paper: &Paper,
-    places: &Places,
-    how: &How,
-    fresh: bool,
-) -> Result<Vec<Report>, Failure> {
+pub fn run_studies(paper: &Paper, places: &Places, how: &How, fresh: bool) -> Result<Vec<Report>, Failure> {
     let (stop, bar) = (stop_flag(), Bar::default());
     let mut reports = Vec::new();
     for study in &paper.studies {

@@ -18,8 +18,11 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
         let printed = judged.printed.as_deref().unwrap_or("–");
         let ours = judged.ours().map_or_else(|| "–".to_owned(), estimate);
         let name = judged.verdict.name();
-        let verdict =
-            if is_coloured { format!("\x1b[{}m{name}\x1b[0m", colour(judged.verdict)) } else { name.to_owned() };
+        let verdict = if is_coloured {
+            format!("\x1b[{}m{name}\x1b[0m", colour(judged.verdict))
+        } else {
+            name.to_owned()
+        };
         text += &format!("{:<width$}  {printed:>9}  {ours:<28}  {verdict}\n", judged.claim);
     }
     let mut counts: BTreeMap<Verdict, usize> = BTreeMap::new();

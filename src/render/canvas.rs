@@ -1,0 +1,410 @@
+//! A page to draw on, in points: origin at the upper left corner, x right, y down.
+//!
+//! A canvas writes SVG elements in the order of the calls. Text becomes outlines at once and its box is
+//! remembered, so that [`Canvas::finish`] can say which labels run into each other or off the page.
+
+use super::RenderError;
+use super::font::{self, CAP_EM, DEPTH_EM, UNITS_PER_EM, Weight};
+use super::style::{Fill, INK, Marker, Rgb, Stroke, TextSize, WHITE, Width};
+use super::vector::{self, Figure, Provenance};
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+/// A rectangle on the page: upper left corner and extent, points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rect {
+    /// Left edge.
+    pub x: f64,
+    /// Upper edge.
+    pub y: f64,
+    /// Width.
+    pub w: f64,
+    /// Height.
+    pub h: f64,
+}
+
+impl Rect {
+    /// Right edge.
+    pub fn right(self) -> f64 {
+        self.x + self.w
+    }
+
+    /// Lower edge.
+    pub fn bottom(self) -> f64 {
+        self.y + self.h
+    }
+
+    /// Whether the two share more than an edge.
+    pub fn overlaps(self, other: Self) -> bool {
+        self.x < other.right() && other.x < self.right() && self.y < other.bottom() && other.y < self.bottom()
+    }
+
+    /// Whether `point` lies inside or on the edge.
+    pub fn contains(self, [x, y]: [f64; 2]) -> bool {
+        (self.x..=self.right()).contains(&x) && (self.y..=self.bottom()).contains(&y)
+    }
+}
+
+/// Where a text lies relative to its anchor, along the line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Align {
+    /// The text starts at the anchor.
+    Start,
+    /// The text is centred on the anchor.
+    Middle,
+    /// The text ends at the anchor.
+    End,
+}
+
+/// Where a text lies relative to its anchor, across the line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stand {
+    /// Capitals hang below the anchor.
+    Below,
+    /// Capitals are centred on the anchor.
+    Centre,
+    /// The anchor is on the baseline.
+    Base,
+}
+
+/// How a text is set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Type {
+    /// Size.
+    pub size: TextSize,
+    /// Weight.
+    pub weight: Weight,
+    /// Ink.
+    pub color: Rgb,
+    /// Along the line.
+    pub align: Align,
+    /// Across the line.
+    pub stand: Stand,
+    /// Turn about the anchor, clockwise on the page.
+    pub turn_deg: f64,
+    /// Whether a white rim parts the text from what lies below.
+    pub rim: bool,
+}
+
+impl Type {
+    /// Regular dark text of `size` that starts at its anchor, on the baseline.
+    pub const fn of(size: TextSize) -> Self {
+        let (weight, align, stand) = (Weight::Regular, Align::Start, Stand::Base);
+        Self { size, weight, color: INK, align, stand, turn_deg: 0.0, rim: false }
+    }
+
+    /// The same with another alignment.
+    #[must_use]
+    pub const fn aligned(self, align: Align, stand: Stand) -> Self {
+        Self { align, stand, ..self }
+    }
+
+    /// The same in bold.
+    #[must_use]
+    pub const fn bold(self) -> Self {
+        Self { weight: Weight::Bold, ..self }
+    }
+
+    /// The same in another colour.
+    #[must_use]
+    pub const fn colored(self, color: Rgb) -> Self {
+        Self { color, ..self }
+    }
+
+    /// Width of one line of `text`, points.
+    pub fn width_pt(&self, text: &str) -> f64 {
+        font::width_em(text, self.weight) * self.size.pt()
+    }
+}
+
+/// A page under the pen.
+#[derive(Debug)]
+pub struct Canvas {
+    width: Width,
+    height_pt: f64,
+    body: String,
+    clips: Vec<Rect>,
+    glyphs: BTreeSet<(Weight, u16)>,
+    texts: Vec<(String, Rect)>,
+    missing: Option<(char, String)>,
+}
+
+impl Canvas {
+    /// An empty white page.
+    pub fn new(width: Width, height_pt: f64) -> Self {
+        Self {
+            width,
+            height_pt,
+            body: String::new(),
+            clips: Vec::new(),
+            glyphs: BTreeSet::new(),
+            texts: Vec::new(),
+            missing: None,
+        }
+    }
+
+    /// The whole page.
+    pub fn page(&self) -> Rect {
+        Rect { x: 0.0, y: 0.0, w: self.width.pt(), h: self.height_pt }
+    }
+
+    fn push(&mut self, element: std::fmt::Arguments<'_>) {
+        self.body.write_fmt(element).expect("a string takes everything");
+    }
+
+    /// Draws a line through `points`; nothing for fewer than two.
+    pub fn polyline(&mut self, points: &[[f64; 2]], stroke: &Stroke) {
+        if points.len() > 1 {
+            let path = path_data(points);
+            self.push(format_args!("<path fill=\"none\"{} d=\"{path}\"/>\n", ink(stroke)));
+        }
+    }
+
+    /// Fills the closed outline through `points` and, if given, strokes it.
+    pub fn polygon(&mut self, points: &[[f64; 2]], fill: Option<Fill>, stroke: Option<&Stroke>) {
+        self.outlines(&[points], fill, stroke);
+    }
+
+    /// Fills several closed outlines as one shape (no seam where they touch; a hole where they nest).
+    pub fn outlines(&mut self, outlines: &[&[[f64; 2]]], fill: Option<Fill>, stroke: Option<&Stroke>) {
+        let path: String = outlines.iter().map(|points| path_data(points) + "Z").collect();
+        let (paint, rim) = (surface(fill), stroke.map(ink).unwrap_or_default());
+        self.push(format_args!("<path{paint}{rim} fill-rule=\"evenodd\" d=\"{path}\"/>\n"));
+    }
+
+    /// Fills closed outlines as one shape with unsmoothed edges, for rasters whose cells must not part.
+    pub fn raster(&mut self, outlines: &[Rect], fill: Fill) {
+        let mut path = String::new();
+        for rect in outlines {
+            let (x, y, right, bottom) =
+                (short(rect.x), short(rect.y), short(rect.right()), short(rect.bottom()));
+            write!(path, "M{x} {y}H{right}V{bottom}H{x}Z").expect("a string takes everything");
+        }
+        let paint = surface(Some(fill));
+        self.push(format_args!("<path{paint} shape-rendering=\"crispEdges\" d=\"{path}\"/>\n"));
+    }
+
+    /// Fills a rectangle and, if given, strokes its edge.
+    pub fn rect(&mut self, rect: Rect, fill: Option<Fill>, stroke: Option<&Stroke>) {
+        let (x, y, w, h) = (short(rect.x), short(rect.y), short(rect.w), short(rect.h));
+        let (paint, rim) = (surface(fill), stroke.map(ink).unwrap_or_default());
+        self.push(format_args!("<rect{paint}{rim} x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/>\n"));
+    }
+
+    /// Fills a disc and, if given, strokes its edge.
+    pub fn circle(&mut self, centre: [f64; 2], radius_pt: f64, fill: Option<Fill>, stroke: Option<&Stroke>) {
+        let (x, y, r) = (short(centre[0]), short(centre[1]), short(radius_pt));
+        let (paint, rim) = (surface(fill), stroke.map(ink).unwrap_or_default());
+        self.push(format_args!("<circle{paint}{rim} cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>\n"));
+    }
+
+    /// Draws a data point about `radius_pt` in radius, with a thin white rim that parts neighbours.
+    pub fn marker(&mut self, at: [f64; 2], marker: Marker, radius_pt: f64, color: Rgb) {
+        let fill = Some(Fill::solid(color));
+        let rim = Stroke::solid(WHITE, 0.35);
+        let put = |shape: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            shape.iter().map(|[x, y]| [at[0] + radius_pt * x, at[1] + radius_pt * y]).collect()
+        };
+        match marker {
+            Marker::Circle => self.circle(at, radius_pt, fill, Some(&rim)),
+            Marker::Square => {
+                let side = 0.88;
+                let corners = put(&[[-side, -side], [side, -side], [side, side], [-side, side]]);
+                self.polygon(&corners, fill, Some(&rim));
+            }
+            Marker::Triangle => {
+                self.polygon(&put(&[[0.0, -1.2], [1.1, 0.8], [-1.1, 0.8]]), fill, Some(&rim));
+            }
+            Marker::Wedge => self.polygon(&put(&[[0.0, 1.2], [1.1, -0.8], [-1.1, -0.8]]), fill, Some(&rim)),
+            Marker::Diamond => {
+                self.polygon(&put(&[[0.0, -1.3], [1.1, 0.0], [0.0, 1.3], [-1.1, 0.0]]), fill, Some(&rim));
+            }
+            Marker::Plus => self.strokes(&put(&[[-1.1, 0.0], [1.1, 0.0], [0.0, -1.1], [0.0, 1.1]]), color),
+            Marker::Cross => self.strokes(&put(&[[-0.9, -0.9], [0.9, 0.9], [-0.9, 0.9], [0.9, -0.9]]), color),
+        }
+    }
+
+    fn strokes(&mut self, ends: &[[f64; 2]], color: Rgb) {
+        for pair in ends.chunks_exact(2) {
+            self.polyline(pair, &Stroke::solid(color, 1.0));
+        }
+    }
+
+    /// Draws one line of text.
+    pub fn text(&mut self, at: [f64; 2], text: &str, set: &Type) {
+        if let Some(found) = font::missing(text, set.weight) {
+            self.missing.get_or_insert_with(|| (found, text.to_owned()));
+        }
+        let (placed, units) = font::line(text, set.weight);
+        let (scale, size) = (set.size.pt() / UNITS_PER_EM, set.size.pt());
+        let width = f64::from(units) * scale;
+        let back = match set.align {
+            Align::Start => 0.0,
+            Align::Middle => width / 2.0,
+            Align::End => width,
+        };
+        let drop = match set.stand {
+            Stand::Below => CAP_EM * size,
+            Stand::Centre => CAP_EM * size / 2.0,
+            Stand::Base => 0.0,
+        };
+        let bounds = Rect { x: -back, y: drop - CAP_EM * size, w: width, h: (CAP_EM + DEPTH_EM) * size };
+        self.texts.push((text.to_owned(), turned(bounds, at, set.turn_deg)));
+        let turn =
+            if set.turn_deg == 0.0 { String::new() } else { format!(" rotate({})", short(set.turn_deg)) };
+        let place = format!(
+            "translate({} {}){turn} translate({} {}) scale({scale:.6})",
+            short(at[0]),
+            short(at[1]),
+            short(-back),
+            short(drop)
+        );
+        let glyphs: Vec<_> = placed.iter().map(|glyph| (glyph.glyph, glyph.x)).collect();
+        self.glyph_run(text, &place, &glyphs, set);
+    }
+
+    fn glyph_run(&mut self, text: &str, place: &str, glyphs: &[(u16, i32)], set: &Type) {
+        let rim = if set.rim {
+            let width = (2.0 / (set.size.pt() / UNITS_PER_EM)).round();
+            format!(
+                " stroke=\"#ffffff\" stroke-width=\"{width}\" stroke-linejoin=\"round\" paint-order=\"stroke\""
+            )
+        } else {
+            String::new()
+        };
+        let (label, fill) = (vector::escaped(text), set.color.hex());
+        let mut uses = String::new();
+        for &(glyph, x) in glyphs {
+            if !font::outline(glyph, set.weight).is_empty() {
+                self.glyphs.insert((set.weight, glyph));
+                let id = vector::glyph_id(set.weight, glyph);
+                write!(uses, "<use xlink:href=\"#{id}\" x=\"{x}\"/>").expect("a string takes everything");
+            }
+        }
+        self.push(format_args!(
+            "<g aria-label=\"{label}\" transform=\"{place}\" fill=\"{fill}\"{rim}>{uses}</g>\n"
+        ));
+    }
+
+    /// Draws what `draw` draws, cut off at the edges of `window`.
+    pub fn clipped(&mut self, window: Rect, draw: impl FnOnce(&mut Self)) {
+        let index = self.clips.iter().position(|known| *known == window).unwrap_or_else(|| {
+            self.clips.push(window);
+            self.clips.len() - 1
+        });
+        self.push(format_args!("<g clip-path=\"url(#clip{index})\">\n"));
+        draw(self);
+        self.body.push_str("</g>\n");
+    }
+
+    /// Pairs of texts that overlap and texts that leave the page, in words.
+    fn flaws(&self) -> Vec<String> {
+        let page = self.page();
+        let mut flaws = Vec::new();
+        for (index, (text, bounds)) in self.texts.iter().enumerate() {
+            let corners = [[bounds.x, bounds.y], [bounds.right(), bounds.bottom()]];
+            if !corners.into_iter().all(|corner| page.contains(corner)) {
+                flaws.push(format!("`{text}` leaves the page"));
+            }
+            for (other, taken) in &self.texts[..index] {
+                if bounds.overlaps(*taken) {
+                    flaws.push(format!("`{text}` overlaps `{other}`"));
+                }
+            }
+        }
+        flaws
+    }
+
+    /// The finished figure.
+    ///
+    /// # Errors
+    /// [`RenderError::MissingGlyph`] if a text holds a character that the font lacks; the errors of
+    /// rasterising ([`RenderError::Svg`], [`RenderError::Size`], [`RenderError::Png`]).
+    pub fn finish(self, provenance: &Provenance) -> Result<Figure, RenderError> {
+        let flaws = self.flaws();
+        if let Some((found, text)) = self.missing {
+            return Err(RenderError::MissingGlyph { found, text });
+        }
+        let mut defs = String::new();
+        for (index, clip) in self.clips.iter().enumerate() {
+            let (x, y, w, h) = (short(clip.x), short(clip.y), short(clip.w), short(clip.h));
+            writeln!(
+                defs,
+                "<clipPath id=\"clip{index}\"><rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/></clipPath>"
+            )
+            .expect("a string takes everything");
+        }
+        for &(weight, glyph) in &self.glyphs {
+            let (id, path) = (vector::glyph_id(weight, glyph), font::outline(glyph, weight));
+            writeln!(defs, "<path id=\"{id}\" d=\"{path}\"/>").expect("a string takes everything");
+        }
+        let svg = vector::document(self.width.mm(), self.height_pt, &defs, &self.body, provenance);
+        let png = vector::png(&svg, provenance)?;
+        Ok(Figure { svg, png, flaws })
+    }
+}
+
+/// The number to a hundredth of a point, without idle digits.
+fn short(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+fn path_data(points: &[[f64; 2]]) -> String {
+    let mut path = String::new();
+    let mut last = None;
+    for &[x, y] in points {
+        let pair = (short(x), short(y));
+        if last.as_ref() != Some(&pair) {
+            let letter = if last.is_none() { 'M' } else { 'L' };
+            write!(path, "{letter}{} {}", pair.0, pair.1).expect("a string takes everything");
+            last = Some(pair);
+        }
+    }
+    path
+}
+
+fn surface(fill: Option<Fill>) -> String {
+    match fill {
+        None => " fill=\"none\"".to_owned(),
+        Some(fill) if fill.opacity >= 1.0 => format!(" fill=\"{}\"", fill.color.hex()),
+        Some(fill) => format!(" fill=\"{}\" fill-opacity=\"{}\"", fill.color.hex(), short(fill.opacity)),
+    }
+}
+
+fn ink(stroke: &Stroke) -> String {
+    let mut text = format!(" stroke=\"{}\" stroke-width=\"{}\"", stroke.color.hex(), short(stroke.width_pt));
+    if stroke.opacity < 1.0 {
+        write!(text, " stroke-opacity=\"{}\"", short(stroke.opacity)).expect("a string takes everything");
+    }
+    let pattern = stroke.dash.pattern();
+    if !pattern.is_empty() {
+        let lengths: Vec<String> = pattern.iter().map(|share| short(share * stroke.width_pt)).collect();
+        write!(text, " stroke-dasharray=\"{}\"", lengths.join(" ")).expect("a string takes everything");
+    }
+    text
+}
+
+/// The upright box around `bounds` turned by `turn_deg` about the origin and moved to `at`.
+fn turned(bounds: Rect, at: [f64; 2], turn_deg: f64) -> Rect {
+    let (sine, cosine) = libm::sincos(turn_deg.to_radians());
+    let corners = [
+        (bounds.x, bounds.y),
+        (bounds.right(), bounds.y),
+        (bounds.right(), bounds.bottom()),
+        (bounds.x, bounds.bottom()),
+    ];
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for (x, y) in corners {
+        let point = [at[0] + x * cosine - y * sine, at[1] + x * sine + y * cosine];
+        for axis in 0..2 {
+            low[axis] = low[axis].min(point[axis]);
+            high[axis] = high[axis].max(point[axis]);
+        }
+    }
+    Rect { x: low[0], y: low[1], w: high[0] - low[0], h: high[1] - low[1] }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,113 @@
+use super::*;
+use crate::render::style::{BLUE, Dash, ORANGE};
+
+fn provenance() -> Provenance {
+    Provenance {
+        command: "cargo run -- render demo --only \"fig1\"".to_owned(),
+        spec_hash: "3f2a".to_owned(),
+        title: "θ₁ & θ₂ along the path".to_owned(),
+    }
+}
+
+fn drawn() -> Figure {
+    let mut canvas = Canvas::new(Width::Single, 100.0);
+    canvas.clipped(Rect { x: 20.0, y: 20.0, w: 60.0, h: 60.0 }, |canvas| {
+        canvas.rect(Rect { x: 0.0, y: 0.0, w: 200.0, h: 50.0 }, Some(Fill::solid(ORANGE)), None);
+    });
+    canvas.polyline(&[[100.0, 50.0], [230.0, 50.0]], &Stroke::solid(BLUE, 2.0).dashed(Dash::Dashed));
+    canvas.text([100.0, 40.0], "θ₁ = −√2 / °", &Type::of(TextSize::TICK));
+    canvas.finish(&provenance()).unwrap()
+}
+
+fn pixels(png: &[u8]) -> (Vec<[u8; 3]>, usize) {
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(png));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut bytes).unwrap();
+    (bytes.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(), reader.info().width as usize)
+}
+
+fn at(png: &[u8], [x, y]: [f64; 2]) -> [u8; 3] {
+    let (pixels, width) = pixels(png);
+    let px = |pt: f64| (pt / 72.0 * vector::DPI) as usize;
+    pixels[px(y) * width + px(x)]
+}
+
+#[test]
+fn the_same_drawing_gives_the_same_bytes() {
+    assert_eq!(drawn(), drawn());
+}
+
+#[test]
+fn text_is_outlined_and_no_font_is_asked_for() {
+    let svg = drawn().svg;
+    assert!(!svg.contains("<text") && !svg.contains("font-family"), "{svg}");
+    assert!(svg.contains("aria-label=\"θ₁ = −√2 / °\""), "{svg}");
+    assert!(svg.matches("<use ").count() >= 8, "{svg}");
+}
+
+#[test]
+fn both_files_tell_command_and_spec() {
+    let figure = drawn();
+    let xml = resvg::usvg::roxmltree::Document::parse(&figure.svg).unwrap();
+    let note = xml.descendants().find(|node| node.has_tag_name(("urn:replan", "replan"))).unwrap();
+    assert_eq!(note.attribute("command"), Some(provenance().command.as_str()));
+    assert_eq!(note.attribute("spec-hash"), Some("3f2a"));
+    let reader = png::Decoder::new(std::io::Cursor::new(&figure.png)).read_info().unwrap();
+    let texts: Vec<(String, String)> =
+        reader.info().utf8_text.iter().map(|t| (t.keyword.clone(), t.get_text().unwrap())).collect();
+    let told = provenance();
+    let expected = [("Title", told.title), ("Software", told.command), ("Spec-Hash", told.spec_hash)];
+    assert_eq!(texts, expected.map(|(key, text)| (key.to_owned(), text)));
+}
+
+#[test]
+fn a_single_column_is_85_mm_wide_and_1004_pixels() {
+    let figure = drawn();
+    assert!(figure.svg.contains("width=\"85mm\""), "{}", &figure.svg[..300]);
+    let (pixels, width) = pixels(&figure.png);
+    assert_eq!((width, pixels.len() / width), (1004, 417));
+}
+
+#[test]
+fn ink_falls_where_it_was_put_and_clips_and_dashes_hold() {
+    let png = drawn().png;
+    assert_eq!(at(&png, [50.0, 30.0]), [230, 159, 0]);
+    assert_eq!(at(&png, [10.0, 30.0]), [255; 3], "left of the clip");
+    assert_eq!(at(&png, [120.0, 30.0]), [255; 3], "right of the clip");
+    // Dashes of 8 pt and gaps of 5 pt from x = 100.
+    assert_eq!(at(&png, [104.0, 50.0]), [0, 114, 178]);
+    assert_eq!(at(&png, [110.5, 50.0]), [255; 3]);
+    assert_eq!(at(&png, [117.0, 50.0]), [0, 114, 178]);
+}
+
+#[test]
+fn overlapping_and_escaping_labels_are_named() {
+    let mut canvas = Canvas::new(Width::Single, 50.0);
+    let set = Type::of(TextSize::TICK);
+    canvas.text([10.0, 20.0], "first", &set);
+    canvas.text([15.0, 22.0], "second", &set);
+    canvas.text([230.0, 40.0], "outside", &set);
+    canvas.text([100.0, 20.0], "alone", &set);
+    let flaws = canvas.finish(&provenance()).unwrap().flaws;
+    assert_eq!(flaws, ["`second` overlaps `first`", "`outside` leaves the page"]);
+    assert!(drawn().flaws.is_empty());
+}
+
+#[test]
+fn a_turned_text_takes_the_room_of_its_turned_box() {
+    let upright = turned(Rect { x: 0.0, y: -7.0, w: 30.0, h: 10.0 }, [50.0, 60.0], -90.0);
+    let expected = [43.0, 30.0, 10.0, 30.0];
+    for (found, expected) in [upright.x, upright.y, upright.w, upright.h].into_iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-9, "{upright:?}");
+    }
+}
+
+#[test]
+fn an_undrawable_character_is_refused_by_name() {
+    let mut canvas = Canvas::new(Width::Single, 50.0);
+    canvas.text([10.0, 20.0], "路径", &Type::of(TextSize::TICK));
+    let message = canvas.finish(&provenance()).unwrap_err().to_string();
+    assert!(message.contains("'路'") && message.contains("`路径`"), "{message}");
+}

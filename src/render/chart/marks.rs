@@ -1,0 +1,269 @@
+//! Marks in data coordinates: lines, bands, points, cells, shapes, rules, notes.
+
+use super::legend::{Key, Swatch};
+use super::{Mark, View};
+use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
+use crate::render::style::{Fill, Marker, Rgb, Stroke, TextSize};
+use std::collections::BTreeMap;
+
+/// A chain of straight pieces, perhaps with a marker on each point.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Points in data units; a point that is not finite breaks the line.
+    pub points: Vec<[f64; 2]>,
+    /// How it is drawn.
+    pub stroke: Stroke,
+    /// Marker on each point.
+    pub marker: Option<Marker>,
+    /// Entry in the legend; none if empty.
+    pub label: String,
+}
+
+impl Line {
+    /// A line without markers and label.
+    pub fn through(points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
+        Self { points, stroke, marker: None, label: String::new() }
+    }
+
+    /// The share of `values` that is at most x, as steps; values that are infinite never count as reached.
+    pub fn ecdf(values: &[f64], stroke: Stroke) -> Self {
+        let mut sorted: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let mut points = Vec::new();
+        for (index, &value) in sorted.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+            points.push([value, index as f64 / sorted.len() as f64]);
+            points.push([value, (index + 1) as f64 / sorted.len() as f64]);
+        }
+        Self::through(points, stroke)
+    }
+
+    /// The same with an entry in the legend.
+    #[must_use]
+    pub fn labelled(self, label: impl Into<String>) -> Self {
+        Self { label: label.into(), ..self }
+    }
+
+    /// The same with markers.
+    #[must_use]
+    pub fn marked(self, marker: Marker) -> Self {
+        Self { marker: Some(marker), ..self }
+    }
+}
+
+impl Mark for Line {
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        for piece in self.points.split(|point| !point.iter().all(|value| value.is_finite())) {
+            canvas.polyline(&view.all(piece), &self.stroke);
+        }
+    }
+
+    fn draw_over(&self, canvas: &mut Canvas, view: &View) {
+        let Some(marker) = self.marker else { return };
+        Points {
+            points: self.points.clone(),
+            marker,
+            radius_pt: 2.2,
+            color: self.stroke.color,
+            label: String::new(),
+        }
+        .draw_over(canvas, view);
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        labelled(
+            &self.label,
+            Swatch::Line(self.stroke, self.marker.map(|marker| (marker, self.stroke.color))),
+        )
+    }
+}
+
+fn labelled(label: &str, swatch: Swatch) -> Vec<Key> {
+    if label.is_empty() { Vec::new() } else { vec![Key { swatch, label: label.to_owned() }] }
+}
+
+/// A filled strip between two curves over the same abscissae.
+#[derive(Clone, Debug)]
+pub struct Band {
+    /// `[x, low, high]` in data units, in order of x.
+    pub edges: Vec<[f64; 3]>,
+    /// Fill.
+    pub fill: Fill,
+    /// Entry in the legend; none if empty.
+    pub label: String,
+}
+
+impl Mark for Band {
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        let low = self.edges.iter().map(|&[x, low, _]| view.at([x, low]));
+        let high = self.edges.iter().rev().map(|&[x, _, high]| view.at([x, high]));
+        canvas.polygon(&low.chain(high).collect::<Vec<_>>(), Some(self.fill), None);
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        labelled(&self.label, Swatch::Area(self.fill, None))
+    }
+}
+
+/// Single data points; those outside the frame or not finite are left out.
+#[derive(Clone, Debug)]
+pub struct Points {
+    /// Where they are, in data units.
+    pub points: Vec<[f64; 2]>,
+    /// Their shape.
+    pub marker: Marker,
+    /// Their size.
+    pub radius_pt: f64,
+    /// Their colour.
+    pub color: Rgb,
+    /// Entry in the legend; none if empty.
+    pub label: String,
+}
+
+impl Mark for Points {
+    fn draw(&self, _: &mut Canvas, _: &View) {}
+
+    fn draw_over(&self, canvas: &mut Canvas, view: &View) {
+        let slack = 0.01;
+        let frame = view.frame;
+        let frame = Rect {
+            x: frame.x - slack,
+            y: frame.y - slack,
+            w: frame.w + 2.0 * slack,
+            h: frame.h + 2.0 * slack,
+        };
+        for at in view.all(&self.points) {
+            if frame.contains(at) {
+                canvas.marker(at, self.marker, self.radius_pt, self.color);
+            }
+        }
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        labelled(&self.label, Swatch::Point(self.marker, self.color))
+    }
+}
+
+/// A closed outline in data units: an obstacle, a region, a bar.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// Corners in order.
+    pub corners: Vec<[f64; 2]>,
+    /// Fill, if any.
+    pub fill: Option<Fill>,
+    /// Edge, if any.
+    pub stroke: Option<Stroke>,
+    /// Entry in the legend; none if empty.
+    pub label: String,
+}
+
+impl Mark for Shape {
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        canvas.polygon(&view.all(&self.corners), self.fill, self.stroke.as_ref());
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        let swatch = match (self.fill, self.stroke) {
+            (Some(fill), stroke) => Swatch::Area(fill, stroke),
+            (None, Some(stroke)) => Swatch::Line(stroke, None),
+            (None, None) => return Vec::new(),
+        };
+        labelled(&self.label, swatch)
+    }
+}
+
+/// Coloured cells of a lattice; equal neighbours become one shape, so that no seam shows.
+#[derive(Clone, Debug)]
+pub struct Cells {
+    /// Lower left corner of the lattice, data units.
+    pub corner: [f64; 2],
+    /// Width and height of one cell, data units.
+    pub cell: [f64; 2],
+    /// Cells in a row.
+    pub columns: usize,
+    /// Colour of each cell, rows from the bottom up, each from left to right; none leaves the paper.
+    pub colors: Vec<Option<Rgb>>,
+    /// Lines between cells, if any.
+    pub lines: Option<Stroke>,
+    /// Entries for the legend.
+    pub keys: Vec<Key>,
+}
+
+impl Cells {
+    /// Runs of equal cells, `[column, row, end column]`, by colour.
+    fn runs(&self) -> BTreeMap<Rgb, Vec<[usize; 3]>> {
+        let mut runs: BTreeMap<Rgb, Vec<[usize; 3]>> = BTreeMap::new();
+        for (row, colors) in self.colors.chunks(self.columns).enumerate() {
+            let mut column = 0;
+            for run in colors.chunk_by(|a, b| a == b) {
+                if let Some(color) = run[0] {
+                    runs.entry(color).or_default().push([column, row, column + run.len()]);
+                }
+                column += run.len();
+            }
+        }
+        runs
+    }
+
+    fn corner_at(&self, view: &View, column: usize, row: usize) -> [f64; 2] {
+        let [x, y] = self.corner;
+        view.at([x + column as f64 * self.cell[0], y + row as f64 * self.cell[1]])
+    }
+}
+
+impl Mark for Cells {
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        for (color, runs) in self.runs() {
+            let boxed = |&[from, row, to]: &[usize; 3]| {
+                let ([x0, y0], [x1, y1]) =
+                    (self.corner_at(view, from, row), self.corner_at(view, to, row + 1));
+                Rect { x: x0.min(x1), y: y0.min(y1), w: (x1 - x0).abs(), h: (y1 - y0).abs() }
+            };
+            canvas.raster(&runs.iter().map(boxed).collect::<Vec<_>>(), Fill::solid(color));
+        }
+        let Some(stroke) = &self.lines else { return };
+        let rows = self.colors.len() / self.columns;
+        for column in 0..=self.columns {
+            canvas.polyline(&[self.corner_at(view, column, 0), self.corner_at(view, column, rows)], stroke);
+        }
+        for row in 0..=rows {
+            canvas.polyline(&[self.corner_at(view, 0, row), self.corner_at(view, self.columns, row)], stroke);
+        }
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        self.keys.clone()
+    }
+}
+
+/// A text at a data point, moved off it by a few points on the page.
+#[derive(Clone, Debug)]
+pub struct Note {
+    /// Anchor in data units.
+    pub at: [f64; 2],
+    /// Shift on the page, right and down.
+    pub shift_pt: [f64; 2],
+    /// What it says.
+    pub text: String,
+    /// How it is set.
+    pub set: Type,
+}
+
+impl Note {
+    /// A small text right of `at`, with a white rim.
+    pub fn beside(at: [f64; 2], text: impl Into<String>) -> Self {
+        let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
+        Self { at, shift_pt: [4.0, 0.0], text: text.into(), set }
+    }
+}
+
+impl Mark for Note {
+    fn draw(&self, _: &mut Canvas, _: &View) {}
+
+    fn draw_over(&self, canvas: &mut Canvas, view: &View) {
+        let [x, y] = view.at(self.at);
+        canvas.text([x + self.shift_pt[0], y + self.shift_pt[1]], &self.text, &self.set);
+    }
+}
+
+#[cfg(test)]
+mod tests;

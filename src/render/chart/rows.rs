@@ -1,0 +1,125 @@
+//! Marks that summarise many values: intervals in rows, boxes with strips of values, bars.
+
+use super::legend::{Key, Swatch};
+use super::{Mark, View};
+use crate::render::canvas::{Canvas, Rect};
+use crate::render::style::{Fill, INK, Marker, Rgb, Stroke, WHITE};
+
+/// A dot with a whisker, lying in a row of a horizontal chart.
+#[derive(Clone, Debug)]
+pub struct Interval {
+    /// Position across the rows, data units.
+    pub row: f64,
+    /// Lower end, value and upper end; an end that is not finite is drawn as running off the frame.
+    pub values: [f64; 3],
+    /// Shape of the dot.
+    pub marker: Marker,
+    /// Ink of dot and whisker.
+    pub color: Rgb,
+    /// Entry in the legend; none if empty.
+    pub label: String,
+}
+
+impl Mark for Interval {
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        let [low, _, high] = self.values;
+        let (left, y) = (view.frame.x - 1.0, view.at([0.0, self.row])[1]);
+        let end =
+            |value: f64, open: f64| if value.is_finite() { view.at([value, self.row])[0] } else { open };
+        let (from, to) = (end(low, left), end(high, view.frame.right() + 1.0));
+        let stroke = Stroke::solid(self.color, 1.0);
+        canvas.polyline(&[[from, y], [to, y]], &stroke);
+        for x in [from, to] {
+            canvas.polyline(&[[x, y - 2.0], [x, y + 2.0]], &stroke);
+        }
+    }
+
+    fn draw_over(&self, canvas: &mut Canvas, view: &View) {
+        let at = view.at([self.values[1], self.row]);
+        if view.frame.contains(at) {
+            canvas.marker(at, self.marker, 2.5, self.color);
+        }
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        let swatch = Swatch::Line(Stroke::solid(self.color, 1.0), Some((self.marker, self.color)));
+        if self.label.is_empty() { Vec::new() } else { vec![Key { swatch, label: self.label.clone() }] }
+    }
+}
+
+/// Five quantiles as a box with whiskers, over a strip of the single values.
+#[derive(Clone, Debug)]
+pub struct BoxStrip {
+    /// Position along the axis of names, data units.
+    pub at: f64,
+    /// Width of the box, data units.
+    pub width: f64,
+    /// Ends of the whiskers, quartiles and median, in rising order.
+    pub quantiles: [f64; 5],
+    /// Values to scatter behind the box; may be empty.
+    pub values: Vec<f64>,
+    /// Ink.
+    pub color: Rgb,
+    /// Entry in the legend; none if empty.
+    pub label: String,
+}
+
+impl Mark for BoxStrip {
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        let pale = Fill::sheer(self.color, 0.35);
+        for (index, &value) in self.values.iter().enumerate() {
+            // Golden-ratio steps spread neighbours evenly without a random stream.
+            let jitter = (index as f64 * 0.618_033_988_749_895).fract() - 0.5;
+            canvas.circle(view.at([self.at + jitter * self.width * 1.5, value]), 0.9, Some(pale), None);
+        }
+        let (ink, half) = (Stroke::solid(self.color.mixed(INK, 0.35), 0.9), self.width / 2.0);
+        let [bottom, lower, median, upper, top] = self.quantiles;
+        canvas.polyline(&view.all(&[[self.at, bottom], [self.at, lower]]), &ink);
+        canvas.polyline(&view.all(&[[self.at, upper], [self.at, top]]), &ink);
+        for end in [bottom, top] {
+            canvas.polyline(&view.all(&[[self.at - half / 2.0, end], [self.at + half / 2.0, end]]), &ink);
+        }
+        let corners = view.all(&[
+            [self.at - half, lower],
+            [self.at + half, lower],
+            [self.at + half, upper],
+            [self.at - half, upper],
+        ]);
+        canvas.polygon(&corners, Some(Fill::sheer(self.color.mixed(WHITE, 0.55), 0.85)), Some(&ink));
+        let thick = Stroke { width_pt: 1.8, ..ink };
+        canvas.polyline(&view.all(&[[self.at - half, median], [self.at + half, median]]), &thick);
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        let edge = Some(Stroke::solid(self.color.mixed(INK, 0.35), 0.9));
+        let swatch = Swatch::Area(Fill::solid(self.color.mixed(WHITE, 0.55)), edge);
+        if self.label.is_empty() { Vec::new() } else { vec![Key { swatch, label: self.label.clone() }] }
+    }
+}
+
+/// Upright bars that stand on zero: counts, or a histogram if they touch.
+#[derive(Clone, Debug)]
+pub struct Bars {
+    /// `[left, right, height]` of each, data units.
+    pub bars: Vec<[f64; 3]>,
+    /// Fill.
+    pub fill: Fill,
+    /// Entry in the legend; none if empty.
+    pub label: String,
+}
+
+impl Mark for Bars {
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        let rim = Stroke::solid(WHITE, 0.4);
+        for &[left, right, height] in self.bars.iter().filter(|bar| bar[2] != 0.0) {
+            let ([x0, y0], [x1, y1]) = (view.at([left, 0.0]), view.at([right, height]));
+            let bar = Rect { x: x0.min(x1), y: y0.min(y1), w: (x1 - x0).abs(), h: (y1 - y0).abs() };
+            canvas.rect(bar, Some(self.fill), Some(&rim));
+        }
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        let swatch = Swatch::Area(self.fill, None);
+        if self.label.is_empty() { Vec::new() } else { vec![Key { swatch, label: self.label.clone() }] }
+    }
+}

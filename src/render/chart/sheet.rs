@@ -1,0 +1,300 @@
+//! How panels share a page.
+
+use super::axis::{Axis, Tick};
+use super::legend::{self, Key};
+use super::{Panel, Trim, View};
+use crate::render::RenderError;
+use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
+use crate::render::font::{LINE_EM, Weight, wrapped};
+use crate::render::style::{GREY, GRID, INK, Stroke, TextSize, Width};
+use crate::render::vector::{Figure, Provenance};
+
+const EDGE_PT: f64 = 3.0;
+const TICK_PT: f64 = 2.5;
+const TICK: Type = Type::of(TextSize::TICK);
+const LABEL: Type = Type::of(TextSize::LABEL);
+/// Turn of names under a horizontal axis that is too short for them.
+const TILT_DEG: f64 = -35.0;
+
+/// Panels in equal columns under one title, above one legend and one note.
+pub struct Sheet {
+    width: Width,
+    columns: usize,
+    plot_pt: f64,
+    title: String,
+    note: String,
+    panels: Vec<Panel>,
+}
+
+/// Room left of and above the plot of one panel: for its axis, its title and what its marks ask for.
+#[derive(Clone, Copy, Default)]
+struct Margin {
+    left: f64,
+    head: f64,
+    over: f64,
+}
+
+fn line_pt(size: TextSize) -> f64 {
+    size.pt() * LINE_EM
+}
+
+impl Sheet {
+    /// A sheet of `columns` columns (at least one) whose plots are at most `plot_pt` points high.
+    pub fn new(width: Width, columns: usize, plot_pt: f64) -> Self {
+        let (title, note) = (String::new(), String::new());
+        Self { width, columns: columns.max(1), plot_pt, title, note, panels: Vec::new() }
+    }
+
+    /// The same under a title in bold; it is wrapped to the page.
+    #[must_use]
+    pub fn titled(self, title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..self }
+    }
+
+    /// The same with a note below the legend; it is wrapped to the page.
+    #[must_use]
+    pub fn noted(self, note: impl Into<String>) -> Self {
+        Self { note: note.into(), ..self }
+    }
+
+    /// Puts `panel` in the next place, row by row.
+    pub fn add(&mut self, panel: Panel) {
+        self.panels.push(panel);
+    }
+
+    /// Draws everything.
+    ///
+    /// # Errors
+    /// [`RenderError::NoRoom`] if labels leave a panel too little room; the errors of [`Canvas::finish`].
+    pub fn draw(&self, provenance: &Provenance) -> Result<Figure, RenderError> {
+        let inner_pt = self.width.pt() - 2.0 * EDGE_PT;
+        let title = wrapped(&self.title, Weight::Bold, inner_pt / TextSize::TITLE.pt());
+        let note = wrapped(&self.note, Weight::Regular, inner_pt / TextSize::TICK.pt());
+        let mut y = EDGE_PT + title.len() as f64 * line_pt(TextSize::TITLE);
+        let mut views = Vec::new();
+        for (row, panels) in self.panels.chunks(self.columns).enumerate() {
+            let (placed, height) = self.row(row, panels, y)?;
+            views.extend(placed);
+            y += height;
+        }
+        let keys = self.keys();
+        let legend = Rect { x: EDGE_PT, y, w: inner_pt, h: legend::height_pt(&keys, inner_pt) };
+        let below = legend.bottom() + if note.is_empty() { 0.0 } else { 3.0 };
+        let height_pt = below + note.len() as f64 * line_pt(TextSize::TICK) + EDGE_PT;
+        let mut canvas = Canvas::new(self.width, height_pt);
+        let set = Type::of(TextSize::TITLE).bold().aligned(Align::Start, Stand::Below);
+        lines(&mut canvas, &title, [EDGE_PT, EDGE_PT], &set);
+        for (index, (panel, (view, margin))) in self.panels.iter().zip(&views).enumerate() {
+            self.heading(&mut canvas, index, view, margin);
+            panel.draw(&mut canvas, view);
+        }
+        legend::draw(&mut canvas, &keys, legend);
+        let set = TICK.colored(GREY.mixed(INK, 0.4)).aligned(Align::Start, Stand::Below);
+        lines(&mut canvas, &note, [EDGE_PT, below], &set);
+        canvas.finish(provenance)
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        let mut keys: Vec<Key> = Vec::new();
+        for key in self.panels.iter().flat_map(|panel| &panel.marks).flat_map(|mark| mark.keys()) {
+            if !keys.contains(&key) {
+                keys.push(key);
+            }
+        }
+        keys
+    }
+
+    fn cell_pt(&self) -> (f64, f64) {
+        let gap = if self.columns > 1 { 9.0 } else { 0.0 };
+        let gaps = gap * (self.columns - 1) as f64;
+        ((self.width.pt() - 2.0 * EDGE_PT - gaps) / self.columns as f64, gap)
+    }
+
+    /// Places one row of panels at height `y`; also the height that it takes.
+    #[expect(
+        clippy::type_complexity,
+        reason = "a view, its margin and the row's height belong to this call alone"
+    )]
+    fn row(&self, row: usize, panels: &[Panel], y: f64) -> Result<(Vec<(View, Margin)>, f64), RenderError> {
+        let (cell, gap) = self.cell_pt();
+        let side = self.sides(cell);
+        let mut placed = Vec::new();
+        let (mut head, mut over, mut tallest, mut foot) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+        for (column, panel) in panels.iter().enumerate() {
+            let (left, right) = if panel.trim == Trim::Bare { (0.0, 0.0) } else { side[column] };
+            let x = EDGE_PT + column as f64 * (cell + gap) + left;
+            let frame = panel.fitted(Rect { x, y: 0.0, w: cell - left - right, h: self.plot_pt });
+            if frame.w < 30.0 || frame.h < 30.0 {
+                let panel = row * self.columns + column;
+                return Err(RenderError::NoRoom { panel, width_pt: frame.w, height_pt: frame.h });
+            }
+            let view = View { frame, x: panel.x.clone(), y: panel.y.clone() };
+            let heading = self.heading_lines(row * self.columns + column, cell).len();
+            head = head.max(if heading > 0 { heading as f64 * line_pt(TextSize::LABEL) + 3.0 } else { 4.0 });
+            over = panel.marks.iter().map(|mark| mark.headroom_pt(&view)).fold(over, f64::max);
+            tallest = tallest.max(frame.h);
+            foot = foot.max(panel.foot(&view));
+            placed.push((view, Margin { left: frame.x - (x - left), ..Margin::default() }));
+        }
+        for (view, margin) in &mut placed {
+            view.frame.y = y + head + over;
+            *margin = Margin { head, over, ..*margin };
+        }
+        Ok((placed, head + over + tallest + foot + 5.0))
+    }
+
+    /// Room left and right of the plots of each column, so that they line up.
+    fn sides(&self, cell: f64) -> Vec<(f64, f64)> {
+        let mut side = vec![(0.0_f64, 4.0_f64); self.columns];
+        for (index, panel) in self.panels.iter().enumerate().filter(|(_, panel)| panel.trim != Trim::Bare) {
+            let (left, right) = &mut side[index % self.columns];
+            let guess = panel.fitted(Rect { x: 0.0, y: 0.0, w: cell * 0.8, h: self.plot_pt });
+            *left = left.max(panel.left(guess.h)).max(panel.left(self.plot_pt.min(guess.h * 1.25)));
+            *right = right.max(panel.right(guess.w));
+        }
+        side
+    }
+
+    fn heading_lines(&self, index: usize, cell: f64) -> Vec<String> {
+        let indent = if self.panels.len() > 1 { 16.0 } else { 0.0 };
+        let lines =
+            wrapped(&self.panels[index].title, Weight::Regular, (cell - indent) / TextSize::LABEL.pt());
+        if lines.is_empty() && self.panels.len() > 1 { vec![String::new()] } else { lines }
+    }
+
+    fn heading(&self, canvas: &mut Canvas, index: usize, view: &View, margin: &Margin) {
+        let (cell, _) = self.cell_pt();
+        let set = LABEL.aligned(Align::Start, Stand::Below);
+        let (x, y) = (view.frame.x - margin.left, view.frame.y - margin.over - margin.head + 2.0);
+        let several = self.panels.len() > 1;
+        if several {
+            canvas.text([x, y], &format!("({})", letter(index)), &set.bold());
+        }
+        let indent = if several { 16.0 } else { 0.0 };
+        lines(canvas, &self.heading_lines(index, cell), [x + indent, y], &set);
+    }
+}
+
+/// a…z, then aa, ab and so on.
+fn letter(index: usize) -> String {
+    let last = char::from(b'a' + (index % 26) as u8);
+    if index < 26 { last.to_string() } else { letter(index / 26 - 1) + &last.to_string() }
+}
+
+fn lines(canvas: &mut Canvas, lines: &[String], [x, y]: [f64; 2], set: &Type) {
+    for (index, line) in lines.iter().enumerate().filter(|(_, line)| !line.is_empty()) {
+        canvas.text([x, y + index as f64 * line_pt(set.size)], line, set);
+    }
+}
+
+impl Panel {
+    /// The plot inside `room`: all of it, or as much as equal scales allow, centred.
+    fn fitted(&self, room: Rect) -> Rect {
+        let span = |axis: &Axis| (axis.ends()[1] - axis.ends()[0]).abs();
+        if !self.equal {
+            return room;
+        }
+        let shape = span(&self.y) / span(&self.x);
+        let w = room.w.min(room.h / shape);
+        Rect { x: room.x + (room.w - w) / 2.0, y: room.y, w, h: w * shape }
+    }
+
+    fn left(&self, height_pt: f64) -> f64 {
+        let widest =
+            self.y.ticks(height_pt, false).iter().map(|tick| TICK.width_pt(&tick.label)).fold(0.0, f64::max);
+        let label = if self.y.label().is_empty() { 0.0 } else { line_pt(TextSize::LABEL) + 1.0 };
+        label + widest + TICK_PT + 2.5
+    }
+
+    fn right(&self, width_pt: f64) -> f64 {
+        let over = |tick: &Tick| TICK.width_pt(&tick.label) / 2.0 - (1.0 - self.x.share(tick.at)) * width_pt;
+        let ticks = self.x.ticks(width_pt, true);
+        if self.x.fits(&ticks, width_pt) { ticks.iter().map(over).fold(0.0, f64::max) + 1.0 } else { 1.0 }
+    }
+
+    fn foot(&self, view: &View) -> f64 {
+        if self.trim == Trim::Bare {
+            return 0.0;
+        }
+        let ticks = self.x.ticks(view.frame.w, true);
+        let label = if self.x.label().is_empty() { 0.0 } else { line_pt(TextSize::LABEL) };
+        TICK_PT + 2.0 + self.names_height(&ticks, view.frame.w) + label
+    }
+
+    fn names_height(&self, ticks: &[Tick], width_pt: f64) -> f64 {
+        if self.x.fits(ticks, width_pt) {
+            return line_pt(TextSize::TICK);
+        }
+        let widest = ticks.iter().map(|tick| TICK.width_pt(&tick.label)).fold(0.0, f64::max);
+        widest * libm::sin(-TILT_DEG.to_radians()) + line_pt(TextSize::TICK)
+    }
+
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        let frame = view.frame;
+        let (xs, ys) = (view.x.ticks(frame.w, true), view.y.ticks(frame.h, false));
+        if self.trim == Trim::Grid {
+            grid(canvas, view, &xs, &ys);
+        }
+        canvas.clipped(frame, |canvas| self.marks.iter().for_each(|mark| mark.draw(canvas, view)));
+        if self.trim != Trim::Bare {
+            canvas.rect(frame, None, Some(&Stroke::solid(INK, 0.6)));
+            self.x_axis(canvas, view, &xs);
+            self.y_axis(canvas, view, &ys);
+        }
+        self.marks.iter().for_each(|mark| mark.draw_over(canvas, view));
+    }
+
+    fn x_axis(&self, canvas: &mut Canvas, view: &View, ticks: &[Tick]) {
+        let (frame, y) = (view.frame, view.frame.bottom());
+        let level = self.x.fits(ticks, frame.w);
+        for tick in ticks {
+            let x = frame.x + view.x.share(tick.at) * frame.w;
+            let length = if tick.label.is_empty() { TICK_PT * 0.6 } else { TICK_PT };
+            canvas.polyline(&[[x, y], [x, y + length]], &Stroke::solid(INK, 0.5));
+            let level_set = TICK.aligned(Align::Middle, Stand::Below);
+            let tilted_set = Type { turn_deg: TILT_DEG, ..TICK.aligned(Align::End, Stand::Centre) };
+            if level && !tick.label.is_empty() {
+                canvas.text([x, y + TICK_PT + 2.0], &tick.label, &level_set);
+            } else if !tick.label.is_empty() {
+                canvas.text([x + 1.0, y + TICK_PT + 3.0], &tick.label, &tilted_set);
+            }
+        }
+        if !self.x.label().is_empty() {
+            let below = TICK_PT + 3.5 + self.names_height(ticks, frame.w);
+            let set = LABEL.aligned(Align::Middle, Stand::Below);
+            canvas.text([frame.x + frame.w / 2.0, y + below], self.x.label(), &set);
+        }
+    }
+
+    fn y_axis(&self, canvas: &mut Canvas, view: &View, ticks: &[Tick]) {
+        let frame = view.frame;
+        let mut widest = 0.0_f64;
+        for tick in ticks {
+            let y = frame.bottom() - view.y.share(tick.at) * frame.h;
+            let length = if tick.label.is_empty() { TICK_PT * 0.6 } else { TICK_PT };
+            canvas.polyline(&[[frame.x - length, y], [frame.x, y]], &Stroke::solid(INK, 0.5));
+            if !tick.label.is_empty() {
+                let set = TICK.aligned(Align::End, Stand::Centre);
+                canvas.text([frame.x - TICK_PT - 2.0, y], &tick.label, &set);
+            }
+            widest = widest.max(TICK.width_pt(&tick.label));
+        }
+        if !self.y.label().is_empty() {
+            let set = Type { turn_deg: -90.0, ..LABEL.aligned(Align::Middle, Stand::Base) };
+            let x = frame.x - TICK_PT - 2.0 - widest - 3.5;
+            canvas.text([x, frame.y + frame.h / 2.0], self.y.label(), &set);
+        }
+    }
+}
+
+fn grid(canvas: &mut Canvas, view: &View, xs: &[Tick], ys: &[Tick]) {
+    let (frame, thin) = (view.frame, Stroke::solid(GRID, 0.4));
+    for tick in xs.iter().filter(|tick| !tick.label.is_empty()) {
+        let x = frame.x + view.x.share(tick.at) * frame.w;
+        canvas.polyline(&[[x, frame.y], [x, frame.bottom()]], &thin);
+    }
+    for tick in ys.iter().filter(|tick| !tick.label.is_empty()) {
+        let y = frame.bottom() - view.y.share(tick.at) * frame.h;
+        canvas.polyline(&[[frame.x, y], [frame.right(), y]], &thin);
+    }
+}

@@ -1,0 +1,149 @@
+//! The embedded font: widths and outlines of DejaVu Sans.
+//!
+//! Text is measured and outlined here, with the font's own kerning, so that it looks the same on a
+//! machine without fonts. Lengths come in ems; outlines in font units, [`UNITS_PER_EM`] to the em, y down.
+
+use std::fmt::Write as _;
+use std::sync::OnceLock;
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
+
+/// Font units in one em of DejaVu Sans.
+pub const UNITS_PER_EM: f64 = 2048.0;
+/// Height of a capital letter, in ems.
+pub const CAP_EM: f64 = 0.729;
+/// Depth of a letter such as g below the baseline, in ems.
+pub const DEPTH_EM: f64 = 0.236;
+/// Distance from baseline to baseline, in ems.
+pub const LINE_EM: f64 = 1.25;
+
+/// Weight of the type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Weight {
+    /// Text.
+    Regular,
+    /// Titles and panel letters.
+    Bold,
+}
+
+/// One glyph on its line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Placed {
+    /// Index in the font.
+    pub glyph: u16,
+    /// Distance from the start of the line, font units.
+    pub x: i32,
+}
+
+fn face(weight: Weight) -> &'static Face<'static> {
+    static FACES: [OnceLock<Face<'static>>; 2] = [OnceLock::new(), OnceLock::new()];
+    let data = match weight {
+        Weight::Regular => dejavu::sans::regular(),
+        Weight::Bold => dejavu::sans::bold(),
+    };
+    FACES[weight as usize].get_or_init(|| Face::parse(data, 0).expect("the embedded font is well formed"))
+}
+
+/// The first character of `text` that the font cannot draw.
+pub(super) fn missing(text: &str, weight: Weight) -> Option<char> {
+    text.chars().find(|&found| face(weight).glyph_index(found).is_none())
+}
+
+fn kerning(face: &Face<'_>, left: GlyphId, right: GlyphId) -> i32 {
+    let Some(kern) = face.tables().kern else { return 0 };
+    let subtables = kern.subtables.into_iter().filter(|table| table.horizontal && !table.has_state_machine);
+    subtables.filter_map(|table| table.glyphs_kerning(left, right)).map(i32::from).sum()
+}
+
+/// Glyphs of one line of text and its width in font units; unknown characters become the font's box.
+pub(super) fn line(text: &str, weight: Weight) -> (Vec<Placed>, i32) {
+    let face = face(weight);
+    let (mut x, mut last, mut placed) = (0, None, Vec::new());
+    for character in text.chars() {
+        let glyph = face.glyph_index(character).unwrap_or(GlyphId(0));
+        x += last.map_or(0, |left| kerning(face, left, glyph));
+        placed.push(Placed { glyph: glyph.0, x });
+        x += i32::from(face.glyph_hor_advance(glyph).unwrap_or(0));
+        last = Some(glyph);
+    }
+    (placed, x)
+}
+
+/// Width of one line of text at one point of size, kerning included.
+pub fn width_em(text: &str, weight: Weight) -> f64 {
+    f64::from(line(text, weight).1) / UNITS_PER_EM
+}
+
+struct PathWriter(String);
+
+impl OutlineBuilder for PathWriter {
+    fn move_to(&mut self, x: f32, y: f32) {
+        write!(self.0, "M{x} {}", -y).expect("a string takes everything");
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        write!(self.0, "L{x} {}", -y).expect("a string takes everything");
+    }
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        write!(self.0, "Q{x1} {} {x} {}", -y1, -y).expect("a string takes everything");
+    }
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        write!(self.0, "C{x1} {} {x2} {} {x} {}", -y1, -y2, -y).expect("a string takes everything");
+    }
+    fn close(&mut self) {
+        self.0.push('Z');
+    }
+}
+
+/// Outline of a glyph as SVG path data; empty for a space.
+pub(super) fn outline(glyph: u16, weight: Weight) -> String {
+    let mut path = PathWriter(String::new());
+    let _blank_if_none = face(weight).outline_glyph(GlyphId(glyph), &mut path);
+    path.0
+}
+
+/// `text` broken at spaces into lines no wider than `width_em`; a longer word keeps a line of its own.
+pub fn wrapped(text: &str, weight: Weight, most_em: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        if let Some(last) = lines.last_mut() {
+            let longer = format!("{last} {word}");
+            if width_em(&longer, weight) <= most_em {
+                *last = longer;
+                continue;
+            }
+        }
+        lines.push(word.to_owned());
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_font_has_every_sign_that_figures_use() {
+        let signs = "θρδπαβφμΔΣ°√−×·±≤≥≠→∞½₀₁₂₃₄₅₆₇₈₉⁰¹²³⁴⁵⁶⁷⁸⁹⁻…–—′″‖∈\u{2009}";
+        for weight in [Weight::Regular, Weight::Bold] {
+            assert_eq!(missing(signs, weight), None);
+        }
+        assert_eq!(missing("a\u{4e00}", Weight::Regular), Some('\u{4e00}'));
+    }
+
+    #[test]
+    fn widths_are_the_fonts_advances_less_its_kerning() {
+        // Advances printed in DejaVu Sans' hmtx table: zero 1303, A 1401, V 1401.
+        assert_eq!(line("0", Weight::Regular).1, 1303);
+        let apart = line("A", Weight::Regular).1 + line("V", Weight::Regular).1;
+        assert_eq!(apart, 2802);
+        assert!(line("AV", Weight::Regular).1 < apart, "A and V are kerned");
+    }
+
+    #[test]
+    fn wrapping_keeps_every_word_and_the_width() {
+        let text = "path length of the improved search against the original one";
+        let lines = wrapped(text, Weight::Regular, 14.0);
+        assert_eq!(lines.join(" "), text);
+        assert!(lines.len() > 2, "{lines:?}");
+        assert!(lines.iter().all(|line| width_em(line, Weight::Regular) <= 14.0), "{lines:?}");
+    }
+}

@@ -1,0 +1,96 @@
+//! Everything that is drawn for a paper: figures, tables, numbers, the report's chapter.
+
+use super::RenderError;
+use super::figure::{self, Scene};
+use super::report;
+use super::tables;
+use super::vector::Provenance;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::Verdicts;
+use crate::study::StudyError;
+use crate::study::store::write_whole;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A file as it should be.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Output {
+    /// Its name in the paper's folder of plots.
+    pub name: String,
+    /// Its content.
+    pub bytes: Vec<u8>,
+}
+
+/// Every file for the paper of `evidence`, or only those whose name without its ending is `only`.
+///
+/// # Errors
+/// A figure that cannot be drawn from what is stored; two numbers with one macro name.
+pub fn outputs(
+    evidence: &Evidence<'_>,
+    verdicts: &Verdicts,
+    only: Option<&str>,
+) -> Result<Vec<Output>, RenderError> {
+    let is_wanted = |id: &str| only.is_none_or(|only| only == id);
+    let paper = evidence.paper;
+    let mut outputs = Vec::new();
+    for run in evidence.runs() {
+        for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
+            let id = spec.id.get_ref();
+            let kind = figure::build(spec, run.study, paper)?;
+            let sheet = kind.draw(&Scene { evidence, run, verdicts })?;
+            let sheet = if run.manifest.quick { sheet.noted(QUICK) } else { sheet };
+            let drawn = sheet.draw(&Provenance {
+                command: format!("replan render {} --only {id}", paper.id),
+                spec_hash: run.manifest.spec.clone(),
+                title: spec.caption.clone(),
+            })?;
+            outputs.push(Output { name: format!("{id}.svg"), bytes: drawn.svg.into_bytes() });
+            outputs.push(Output { name: format!("{id}.png"), bytes: drawn.png });
+        }
+    }
+    for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
+        let text = tables::table(paper, table, verdicts)?;
+        outputs.push(Output { name: format!("{}.tex", table.id), bytes: text.into_bytes() });
+    }
+    if is_wanted("numbers") {
+        let text = tables::numbers(paper, verdicts)?;
+        outputs.push(Output { name: "numbers.tex".to_owned(), bytes: text.into_bytes() });
+    }
+    if outputs.is_empty() {
+        return Err(RenderError::NotStored {
+            what: format!("a figure or table `{}`", only.unwrap_or_default()),
+        });
+    }
+    Ok(outputs)
+}
+
+/// What every quick figure says.
+pub const QUICK: &str = "Quick run: few replicates, not the study's result.";
+
+/// Writes `outputs` into `folder`.
+///
+/// # Errors
+/// [`StudyError::Io`].
+pub fn write(folder: &Path, outputs: &[Output]) -> Result<(), StudyError> {
+    outputs.iter().try_for_each(|output| write_whole(&folder.join(&output.name), &output.bytes))
+}
+
+/// The files among `outputs` that are missing in `folder` or hold something else.
+pub fn stale(folder: &Path, outputs: &[Output]) -> Vec<PathBuf> {
+    let is_stale =
+        |output: &&Output| fs::read(folder.join(&output.name)).is_ok_and(|bytes| bytes == output.bytes);
+    outputs.iter().filter(|output| !is_stale(output)).map(|output| folder.join(&output.name)).collect()
+}
+
+/// The text of the report at `path` with the paper's chapter as it should be.
+pub fn report_with_chapter(
+    path: &Path,
+    evidence: &Evidence<'_>,
+    verdicts: &Verdicts,
+    plots: &Path,
+) -> String {
+    let before = fs::read_to_string(path).unwrap_or_default();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let link = plots.strip_prefix(folder).unwrap_or(plots);
+    report::with_chapter(&before, &evidence.paper.id, &report::chapter(evidence, verdicts, link))
+}

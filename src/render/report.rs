@@ -1,0 +1,253 @@
+//! The report: one chapter a paper, between markers, so that each is generated alone.
+
+use super::tables::short;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::{Finding, Judged, Verdict, Verdicts};
+use crate::study::paper::Paper;
+use std::fmt::Write as _;
+use std::path::Path;
+
+const OPENING: &str = "# What the papers claim and what we found
+
+Every chapter is written by `replan repro <paper>` from its specs and stored runs, and stands between markers; do not
+edit it by hand. `replan render <paper> --check` says whether it is current. How to read a verdict stands in README.md.
+";
+
+/// `report` with the chapter of `paper` put in place of its former one, or in the order of names if it had none.
+pub fn with_chapter(report: &str, paper: &str, chapter: &str) -> String {
+    let mut chapters: std::collections::BTreeMap<String, String> = split(report);
+    chapters.insert(paper.to_owned(), chapter.trim().to_owned());
+    let mut text = OPENING.to_owned();
+    for (paper, chapter) in chapters {
+        let (begin, end) = markers(&paper);
+        let _ = write!(text, "\n{begin}\n\n{chapter}\n\n{end}\n");
+    }
+    text
+}
+
+fn markers(paper: &str) -> (String, String) {
+    (format!("<!-- replan begin {paper} -->"), format!("<!-- replan end {paper} -->"))
+}
+
+fn split(report: &str) -> std::collections::BTreeMap<String, String> {
+    let mut chapters = std::collections::BTreeMap::new();
+    for piece in report.split("<!-- replan begin ").skip(1) {
+        let Some((paper, rest)) = piece.split_once(" -->") else { continue };
+        let Some((chapter, _)) = rest.split_once(&format!("<!-- replan end {paper} -->")) else { continue };
+        chapters.insert(paper.to_owned(), chapter.trim().to_owned());
+    }
+    chapters
+}
+
+/// The chapter of the evidence's paper; `plots` is where its figures are, as seen from the report.
+pub fn chapter(evidence: &Evidence<'_>, verdicts: &Verdicts, plots: &Path) -> String {
+    let paper = evidence.paper;
+    let mut text = String::new();
+    heading(&mut text, paper, verdicts);
+    counts(&mut text, verdicts);
+    claims(&mut text, verdicts);
+    together(&mut text, verdicts);
+    reasons(&mut text, verdicts);
+    figures(&mut text, paper, plots);
+    readings(&mut text, paper);
+    studies(&mut text, evidence);
+    ledger(&mut text, paper);
+    text
+}
+
+/// Writing to a string cannot fail; this keeps that in one place.
+macro_rules! line {
+    ($text:expr) => { $text.push('\n') };
+    ($text:expr, $($arguments:tt)*) => {{
+        let _ = writeln!($text, $($arguments)*);
+    }};
+}
+
+fn heading(text: &mut String, paper: &Paper, verdicts: &Verdicts) {
+    line!(text, "## {}: {}\n", paper.id, paper.source.title);
+    let source: Vec<&str> =
+        [paper.source.authors.as_deref(), paper.source.published.as_deref()].into_iter().flatten().collect();
+    if !source.is_empty() {
+        line!(text, "{}\n", source.join(". "));
+    }
+    line!(text, "Made by `{}`.", verdicts.command);
+    if verdicts.quick {
+        line!(text, "\n**{}**", super::output::QUICK);
+    }
+    for study in &verdicts.claims_changed_since {
+        line!(text, "\n**Claims or margins changed after study `{study}` was run.**");
+    }
+    for note in &paper.source.notes {
+        line!(text, "\n> {note}");
+    }
+}
+
+fn counts(text: &mut String, verdicts: &Verdicts) {
+    let counted = Verdict::ALL.iter().filter_map(|verdict| {
+        let count = verdicts.claims.iter().filter(|judged| judged.verdict == *verdict).count();
+        (count > 0).then(|| format!("{count} {}", verdict.name()))
+    });
+    line!(text, "\n{} claims: {}.", verdicts.claims.len(), counted.collect::<Vec<_>>().join(", "));
+}
+
+fn claims(text: &mut String, verdicts: &Verdicts) {
+    line!(text, "\n### Claims\n");
+    line!(text, "| claim | place in the paper | printed | ours | n | verdict |");
+    line!(text, "|---|---|---|---|---|---|");
+    for judged in &verdicts.claims {
+        let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+        let said = match (&judged.printed, &judged.says) {
+            (Some(printed), _) => format!("{printed}{unit}"),
+            (None, Some(says)) => format!("“{says}”"),
+            (None, None) => "–".to_owned(),
+        };
+        let (ours, n) = judged.ours().map_or_else(
+            || ("–".to_owned(), "–".to_owned()),
+            |ours| (format!("{} ({})", short(ours), ours.what), ours.n.to_string()),
+        );
+        line!(
+            text,
+            "| `{}` | {} | {said} | {ours} | {n} | **{}** |",
+            judged.claim,
+            judged.at,
+            judged.verdict.name()
+        );
+    }
+}
+
+fn together(text: &mut String, verdicts: &Verdicts) {
+    if verdicts.together.is_empty() {
+        return;
+    }
+    line!(text, "\n### What holds together\n");
+    line!(
+        text,
+        "Claims met exactly on one problem by the same contenders, the largest sets first; reading: {}.\n",
+        verdicts.claims.first().map_or("default", |judged| judged.reading.as_str())
+    );
+    line!(text, "| study | problem | contenders | hold | fail |");
+    line!(text, "|---|---|---|---|---|");
+    for set in &verdicts.together {
+        let listed =
+            |claims: &[String]| claims.iter().map(|c| format!("`{c}`")).collect::<Vec<_>>().join(", ");
+        let (hold, fail) = (listed(&set.hold), listed(&set.fail));
+        line!(text, "| {} | {} | {} | {hold} | {fail} |", set.study, set.problem, set.under);
+    }
+}
+
+fn reasons(text: &mut String, verdicts: &Verdicts) {
+    line!(text, "\n### Why\n");
+    for judged in &verdicts.claims {
+        reason(text, judged);
+    }
+}
+
+fn reason(text: &mut String, judged: &Judged) {
+    line!(text, "**`{}`** ({}): {}\n", judged.claim, judged.at, judged.verdict.name());
+    for finding in &judged.findings {
+        let because = finding.because.join("; ");
+        line!(text, "- {}: {because}.{}", finding.check, aside(finding));
+        for premise in &finding.premises {
+            line!(text, "  - premise: {premise}");
+        }
+    }
+    line!(text);
+}
+
+fn aside(finding: &Finding) -> String {
+    let verdict = finding.verdict.map_or_else(String::new, |verdict| format!(" *{}*", verdict.name()));
+    let trial = finding.trial.as_ref().map_or_else(String::new, |trial| format!(" Trial `{trial}`."));
+    verdict + &trial
+}
+
+fn figures(text: &mut String, paper: &Paper, plots: &Path) {
+    line!(text, "### Figures and tables\n");
+    for study in &paper.studies {
+        for figure in &study.figures {
+            let id = figure.id.get_ref();
+            line!(text, "![{id}]({}/{id}.png)\n", plots.display());
+            line!(text, "*{id}: {}*\n", figure.caption);
+        }
+    }
+    let tables: Vec<String> =
+        paper.tables.iter().map(|table| format!("`{}/{}.tex`", plots.display(), table.id)).collect();
+    line!(
+        text,
+        "Tables in LaTeX: {}; every number as a macro: `{}/numbers.tex`.",
+        tables.join(", "),
+        plots.display()
+    );
+}
+
+fn readings(text: &mut String, paper: &Paper) {
+    let readings = paper.readings();
+    if readings.is_empty() {
+        return;
+    }
+    line!(text, "\n### Readings\n");
+    line!(text, "| reading | options (default in bold) | what the paper leaves open |");
+    line!(text, "|---|---|---|");
+    for reading in readings {
+        let option =
+            |name: &String| if *name == reading.default { format!("**{name}**") } else { name.clone() };
+        let options: Vec<String> = reading.options.keys().map(option).collect();
+        line!(text, "| {} | {} | {} |", reading.id, options.join(", "), reading.why);
+    }
+}
+
+fn studies(text: &mut String, evidence: &Evidence<'_>) {
+    line!(text, "\n### Studies\n");
+    line!(text, "| study | question | trials | seed | spec |");
+    line!(text, "|---|---|---|---|---|");
+    for run in evidence.runs() {
+        line!(
+            text,
+            "| {} | {} | {} | {} | `{}` |",
+            run.study.name,
+            run.study.question,
+            run.records.batch.rows.len(),
+            run.manifest.seed,
+            &run.manifest.spec[..12]
+        );
+    }
+    statuses(text, evidence);
+}
+
+fn statuses(text: &mut String, evidence: &Evidence<'_>) {
+    line!(text, "\n| study | problems | contender | trials by status |");
+    line!(text, "|---|---|---|---|");
+    for run in evidence.runs() {
+        for group in &run.study.groups {
+            for contender in &run.study.contenders {
+                let rows = run.rows(&group.label, &contender.label);
+                let counted = crate::study::record::Status::ALL.iter().filter_map(|status| {
+                    let count = rows.iter().filter(|row| row.status == *status).count();
+                    (count > 0).then(|| format!("{count} {status}"))
+                });
+                let counted: Vec<String> = counted.collect();
+                line!(
+                    text,
+                    "| {} | {} | {} | {} |",
+                    run.study.name,
+                    group.label,
+                    contender.label,
+                    counted.join(", ")
+                );
+            }
+        }
+    }
+}
+
+fn ledger(text: &mut String, paper: &Paper) {
+    line!(text, "\n### Ledger\n");
+    line!(text, "| in the paper | what it says | answered by |");
+    line!(text, "|---|---|---|");
+    for row in &paper.ledger {
+        let mut answers: Vec<String> =
+            row.claims.iter().map(|claim| format!("`{}`", claim.get_ref())).collect();
+        answers.extend(row.figures.iter().map(|figure| figure.get_ref().clone()));
+        answers.extend(row.studies.iter().map(|study| format!("study {}", study.get_ref())));
+        answers.extend(row.none.iter().map(|none| format!("nothing: {none}")));
+        line!(text, "| {} | {} | {} |", row.item.get_ref(), row.says, answers.join(", "));
+    }
+}

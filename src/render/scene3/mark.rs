@@ -1,0 +1,167 @@
+//! A scene as a mark on a sheet.
+
+use super::order::{Item, Look, back_to_front};
+use super::{Camera, Scene, Vec3, along, dot, sub};
+use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
+use crate::render::chart::{Key, Mark, View};
+use crate::render::style::{BLUE, Fill, GREEN, INK, Stroke, TextSize, VERMILLION};
+
+/// A bar that shows how long a length looks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScaleBar {
+    /// Length in the scene.
+    pub length: f64,
+    /// Text beside it, with unit.
+    pub label: String,
+}
+
+/// A scene seen by a camera, filling the frame of its panel.
+#[derive(Clone, Debug)]
+pub struct SceneMark {
+    /// What there is to see.
+    pub scene: Scene,
+    /// From where.
+    pub camera: Camera,
+    /// The scale bar, drawn in a parallel view only.
+    pub bar: Option<ScaleBar>,
+    /// Entries for the legend.
+    pub keys: Vec<Key>,
+}
+
+/// Height kept free at the foot of the frame for the axes' directions and the scale bar.
+const FOOT_PT: f64 = 30.0;
+
+/// The map from the world to the page.
+pub(super) struct Lens {
+    camera: Camera,
+    middle: Vec3,
+    /// Distance of the eye from the middle; none in a parallel view.
+    distance: Option<f64>,
+    scale: f64,
+    shift: [f64; 2],
+}
+
+impl Lens {
+    /// A lens that shows all of `scene` inside `room`.
+    pub fn fitting(scene: &Scene, camera: Camera, room: Rect) -> Self {
+        let (middle, radius) = scene.ball();
+        let distance = camera.distance_radii.map(|radii| radii * radius);
+        let mut lens = Self { camera, middle, distance, scale: 1.0, shift: [0.0; 2] };
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for point in scene.extent().map(|point| lens.at(point)) {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(point[axis]);
+                high[axis] = high[axis].max(point[axis]);
+            }
+        }
+        let span = |axis: usize| (high[axis] - low[axis]).max(1e-300);
+        lens.scale = (room.w / span(0)).min(room.h / span(1));
+        lens.shift = [
+            room.x + room.w / 2.0 - lens.scale * low[0].midpoint(high[0]),
+            room.y + room.h / 2.0 - lens.scale * low[1].midpoint(high[1]),
+        ];
+        lens
+    }
+
+    /// Where a point of the world lies on the page.
+    pub fn at(&self, point: Vec3) -> [f64; 2] {
+        let ([right, up, back], offset) = (self.camera.axes(), sub(point, self.middle));
+        let near = self.distance.map_or(1.0, |distance| distance / (distance - dot(offset, back)));
+        let place = |axis: Vec3, sign: f64| self.scale * sign * near * dot(offset, axis);
+        [self.shift[0] + place(right, 1.0), self.shift[1] + place(up, -1.0)]
+    }
+
+    fn eye(&self) -> Vec3 {
+        along(self.middle, self.camera.axes()[2], self.distance.unwrap_or(0.0))
+    }
+}
+
+impl SceneMark {
+    /// Everything to draw, back to front.
+    pub(super) fn items(&self, lens: &Lens) -> Vec<Item> {
+        let eye = lens.eye();
+        let mut items = Vec::new();
+        for (solid, mesh) in self.scene.meshes.iter().enumerate() {
+            items.extend(mesh.visible(solid, &self.camera, eye));
+        }
+        for (index, chain) in self.scene.chains.iter().enumerate() {
+            let solid = self.scene.meshes.len() + index;
+            let piece = |pair: &[Vec3]| Item { solid, points: pair.to_vec(), look: Look::Line(chain.stroke) };
+            items.extend(chain.points.windows(2).map(piece));
+        }
+        let (_, radius) = self.scene.ball();
+        let parallel = lens.distance.is_none();
+        let eye = if parallel { self.camera.axes()[2] } else { eye };
+        back_to_front(items, eye, parallel, radius * 1e-7)
+    }
+
+    fn triad(&self, canvas: &mut Canvas, foot: Rect) {
+        let [right, up, back] = self.camera.axes();
+        let centre = [foot.x + 15.0, foot.bottom() - 12.0];
+        let mut arms: Vec<(usize, &str, crate::render::style::Rgb)> =
+            vec![(0, "x", VERMILLION), (1, "y", GREEN), (2, "z", BLUE)];
+        arms.sort_by(|a, b| back[a.0].total_cmp(&back[b.0]));
+        for (axis, name, color) in arms {
+            let (dx, dy) = (right[axis], -up[axis]);
+            if dx.abs().max(dy.abs()) < 0.15 {
+                continue;
+            }
+            let end = |length: f64| [centre[0] + length * dx, centre[1] + length * dy];
+            canvas.polyline(&[centre, end(11.0)], &Stroke::solid(color, 1.0));
+            let length = 11.0 + 4.5 / libm::hypot(dx, dy);
+            let set = Type::of(TextSize::TICK).colored(color).aligned(Align::Middle, Stand::Centre);
+            canvas.text(end(length), name, &set);
+        }
+    }
+
+    fn scale_bar(&self, canvas: &mut Canvas, lens: &Lens, foot: Rect) {
+        let Some(bar) = self.bar.as_ref().filter(|_| lens.distance.is_none()) else { return };
+        let (right, y, length) = (foot.right() - 4.0, foot.bottom() - 5.0, bar.length * lens.scale);
+        let ink = Stroke::solid(INK, 1.0);
+        canvas.polyline(&[[right - length, y], [right, y]], &ink);
+        for x in [right - length, right] {
+            canvas.polyline(&[[x, y - 2.0], [x, y + 2.0]], &ink);
+        }
+        let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Base);
+        let half = set.width_pt(&bar.label) / 2.0;
+        let middle = (right - length / 2.0).min(foot.right() - half - 1.0);
+        canvas.text([middle, y - 3.5], &bar.label, &set);
+    }
+}
+
+fn draw_item(canvas: &mut Canvas, lens: &Lens, item: &Item) {
+    let points: Vec<[f64; 2]> = item.points.iter().map(|&point| lens.at(point)).collect();
+    match item.look {
+        Look::Line(stroke) => canvas.polyline(&points, &stroke),
+        Look::Face(_, color, opacity) => {
+            // A hair of the face's own colour closes the seam to its neighbour.
+            let hair = Stroke::solid(color, 0.25);
+            let seam = (opacity >= 1.0).then_some(&hair);
+            canvas.polygon(&points, Some(Fill::sheer(color, opacity)), seam);
+        }
+    }
+}
+
+impl Mark for SceneMark {
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        let frame = view.frame;
+        let room = Rect { x: frame.x + 6.0, y: frame.y + 3.0, w: frame.w - 12.0, h: frame.h - FOOT_PT - 3.0 };
+        let lens = Lens::fitting(&self.scene, self.camera, room);
+        for item in self.items(&lens) {
+            draw_item(canvas, &lens, &item);
+        }
+        let foot = Rect { y: frame.bottom() - FOOT_PT, h: FOOT_PT, ..frame };
+        self.triad(canvas, foot);
+        self.scale_bar(canvas, &lens, foot);
+        let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
+        for tag in &self.scene.tags {
+            let [x, y] = lens.at(tag.at);
+            canvas.circle([x, y], 1.3, Some(Fill::solid(INK)), None);
+            canvas.text([x + 3.5, y - 3.0], &tag.text, &set);
+        }
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        self.keys.clone()
+    }
+}

@@ -1,0 +1,120 @@
+use super::mark::Lens;
+use super::order::{Item, Look};
+use super::*;
+use crate::render::canvas::Rect;
+use crate::render::style::{BLUE, GREEN, ORANGE};
+use crate::seed;
+use rand::RngExt as _;
+
+const ROOM: Rect = Rect { x: 0.0, y: 0.0, w: 200.0, h: 200.0 };
+
+fn marked(scene: Scene, camera: Camera) -> SceneMark {
+    SceneMark { scene, camera, bar: None, keys: Vec::new() }
+}
+
+/// Depth towards the eye at which the sight line through `page` meets the face, if it does.
+fn depth_at(item: &Item, lens: &Lens, camera: &Camera, page: [f64; 2]) -> Option<f64> {
+    let Look::Face(plane, ..) = item.look else { return None };
+    let corners: Vec<[f64; 2]> = item.points.iter().map(|&point| lens.at(point)).collect();
+    let side = |index: usize| {
+        let (a, b) = (corners[index], corners[(index + 1) % corners.len()]);
+        (b[0] - a[0]) * (page[1] - a[1]) - (b[1] - a[1]) * (page[0] - a[0])
+    };
+    let sides: Vec<f64> = (0..corners.len()).map(side).collect();
+    let inside = sides.iter().all(|&side| side > 1e-6) || sides.iter().all(|&side| side < -1e-6);
+    let [right, up, back] = camera.axes();
+    // In a parallel view the page's axes come from two probes of the lens.
+    let origin = lens.at([0.0; 3]);
+    let scale = lens.at(right)[0] - origin[0];
+    let base =
+        along(along([0.0; 3], right, (page[0] - origin[0]) / scale), up, (origin[1] - page[1]) / scale);
+    inside.then(|| (plane.offset - dot(plane.normal, base)) / dot(plane.normal, back))
+}
+
+fn crowded(case: u64) -> Scene {
+    let mut random = seed::stream(seed::derive(case, &["scene"]));
+    let mut scene = Scene::default();
+    let mut point = || -> Vec3 { [0, 1, 2].map(|_| random.random_range(-1.0..1.0)) };
+    for color in [BLUE, ORANGE, GREEN] {
+        let (a, b) = (point(), point());
+        let (low, high) =
+            ([0, 1, 2].map(|i: usize| a[i].min(b[i])), [0, 1, 2].map(|i: usize| a[i].max(b[i])));
+        scene.cuboid(low, high, Paint::solid(color));
+        scene.capsule(point(), point(), 0.2, Paint::solid(color));
+    }
+    scene
+}
+
+#[test]
+fn nothing_is_followed_by_what_lies_behind_it_even_where_solids_pierce_each_other() {
+    let (mut compared, mut pierced) = (0, 0);
+    for case in 0..12 {
+        let camera = Camera::parallel(30.0 * case as f64 + 7.0, 25.0);
+        let scene = marked(crowded(case), camera);
+        let lens = Lens::fitting(&scene.scene, camera, ROOM);
+        let items = scene.items(&lens);
+        let whole: usize =
+            scene.scene.meshes.iter().map(|mesh| mesh.visible(0, &camera, [0.0; 3]).len()).sum();
+        pierced += items.len() - whole;
+        let mut random = seed::stream(seed::derive(case, &["sight"]));
+        for _ in 0..400 {
+            let page = [random.random_range(0.0..200.0), random.random_range(0.0..200.0)];
+            let depths: Vec<f64> =
+                items.iter().filter_map(|item| depth_at(item, &lens, &camera, page)).collect();
+            for pair in depths.windows(2) {
+                assert!(pair[0] <= pair[1] + 1e-6, "case {case}, {page:?}: {depths:?}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 1000 && pierced > 500, "sample too easy: {compared} compared, {pierced} cuts");
+}
+
+#[test]
+fn cutting_keeps_the_area_that_is_seen() {
+    let area = |items: &[Item], lens: &Lens| -> f64 {
+        let shoelace = |item: &Item| {
+            let at: Vec<[f64; 2]> = item.points.iter().map(|&point| lens.at(point)).collect();
+            let term = |i: usize| at[i][0] * at[(i + 1) % at.len()][1] - at[i][1] * at[(i + 1) % at.len()][0];
+            (0..at.len()).map(term).sum::<f64>().abs() / 2.0
+        };
+        items.iter().filter(|item| matches!(item.look, Look::Face(..))).map(shoelace).sum()
+    };
+    for case in 0..12 {
+        let camera = Camera::parallel(30.0 * case as f64 + 7.0, 25.0);
+        let scene = marked(crowded(case), camera);
+        let lens = Lens::fitting(&scene.scene, camera, ROOM);
+        let whole: Vec<Item> =
+            scene.scene.meshes.iter().flat_map(|mesh| mesh.visible(0, &camera, [0.0; 3])).collect();
+        let (before, after) = (area(&whole, &lens), area(&scene.items(&lens), &lens));
+        assert!((before - after).abs() < 1e-6 * before, "case {case}: {before} became {after}");
+    }
+}
+
+#[test]
+fn a_camera_sees_z_up_and_what_is_near_larger() {
+    let mut scene = Scene::default();
+    scene.cuboid([-1.0; 3], [1.0; 3], Paint::solid(BLUE));
+    for distance_radii in [None, Some(3.0)] {
+        let camera = Camera { distance_radii, ..Camera::parallel(0.0, 10.0) };
+        let lens = Lens::fitting(&scene, camera, ROOM);
+        assert!(lens.at([0.0, 0.0, 1.0])[1] < lens.at([0.0, 0.0, -1.0])[1], "z is up");
+        assert!(lens.at([0.0, 1.0, 0.0])[0] > lens.at([0.0, -1.0, 0.0])[0], "from +x, +y is to the right");
+        let width = |x: f64| lens.at([x, 1.0, 0.0])[0] - lens.at([x, -1.0, 0.0])[0];
+        assert_eq!(width(1.0) > width(-1.0) + 1.0, distance_radii.is_some());
+    }
+}
+
+#[test]
+fn a_line_behind_a_solid_comes_first_and_a_line_before_it_last() {
+    let mut scene = Scene::default();
+    scene.cuboid([-1.0; 3], [1.0; 3], Paint::solid(BLUE));
+    scene.polyline(vec![[-3.0, -1.0, 0.0], [-3.0, 1.0, 0.0]], Stroke::solid(ORANGE, 1.0));
+    scene.polyline(vec![[3.0, -1.0, 0.0], [3.0, 1.0, 0.0]], Stroke::solid(GREEN, 1.0));
+    let camera = Camera::parallel(10.0, 10.0);
+    let scene = marked(scene, camera);
+    let items = scene.items(&Lens::fitting(&scene.scene, camera, ROOM));
+    let color = |item: &Item| if let Look::Line(stroke) = item.look { Some(stroke.color) } else { None };
+    assert_eq!((color(&items[0]), color(&items[items.len() - 1])), (Some(ORANGE), Some(GREEN)));
+    assert!(items.len() > 5);
+}

@@ -1,0 +1,83 @@
+//! The paper's tables with ours beside them, and every number as a macro.
+
+use super::RenderError;
+use super::latex::{Cell, Column, Numbers, Table};
+use crate::analysis::verdict::{Estimate, Judged, Verdicts};
+use crate::study::paper::{Paper, TableSpec};
+
+/// `table` in LaTeX: for each of its rows the printed numbers, ours with their intervals, and the verdicts.
+///
+/// # Errors
+/// Those of [`Table::latex`]; none for a checked paper.
+pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<String, RenderError> {
+    let mut columns = vec![Column::Left, Column::Left];
+    columns.extend(table.columns.iter().map(|_| Column::Right));
+    let label = format!("{}:{}", paper.id, table.id);
+    let mut latex = Table::new(label, &table.caption, &columns);
+    let mut head = vec![Cell::from(""), Cell::from("")];
+    head.extend(table.columns.iter().map(Cell::from));
+    latex.head(head);
+    for row in &table.rows {
+        let judged: Vec<Option<&Judged>> =
+            row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
+        let line = |first: &str, second: &str, text: &dyn Fn(&Judged) -> String| {
+            let mut cells = vec![Cell::from(first), Cell::from(second)];
+            cells.extend(judged.iter().map(|judged| Cell::from(judged.map_or_else(dash, text))));
+            cells
+        };
+        latex.row(line(&row.label, "printed", &|judged| judged.printed.clone().unwrap_or_else(dash)));
+        latex.row(line("", "ours", &|judged| judged.ours().map_or_else(dash, short)));
+        latex.row(line("", "verdict", &|judged| judged.verdict.name().to_owned()));
+    }
+    for note in &paper.source.notes {
+        latex.note(note);
+    }
+    if verdicts.quick {
+        latex.note(super::output::QUICK);
+    }
+    latex.latex(&made(paper, &table.id))
+}
+
+/// One macro for each printed number, each of ours and each verdict.
+///
+/// # Errors
+/// [`RenderError::DuplicateMacro`] if two claims' names differ in punctuation only.
+pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError> {
+    let mut numbers = Numbers::default();
+    for judged in &verdicts.claims {
+        let key = |what: &str| format!("{}.{what}", judged.claim);
+        if let Some(printed) = &judged.printed {
+            numbers.add(&key("printed"), printed)?;
+        }
+        if let Some(ours) = judged.ours() {
+            numbers.add(&key("ours"), &short(ours))?;
+            numbers.add(&key("n"), &ours.n.to_string())?;
+        }
+        numbers.add(&key("verdict"), judged.verdict.name())?;
+    }
+    Ok(numbers.latex(&paper.id, &made(paper, "numbers")))
+}
+
+fn made(paper: &Paper, id: &str) -> String {
+    format!("made by `replan render {} --only {id}`", paper.id)
+}
+
+fn dash() -> String {
+    "–".to_owned()
+}
+
+/// Our number as tables show it: four significant decimals at most, with its interval.
+pub fn short(estimate: &Estimate) -> String {
+    let number = |value: f64| {
+        let text = format!("{value:.4}");
+        let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+        if text == "-0" { "0".to_owned() } else { text }
+    };
+    match estimate.interval {
+        Some([low, high]) => {
+            let coarse = |value: f64| format!("{value:.2}");
+            format!("{} [{}, {}]", coarse(estimate.value), coarse(low), coarse(high))
+        }
+        None => number(estimate.value),
+    }
+}
