@@ -1,6 +1,9 @@
 //! The ways from the starts of a query that use up at most half of its turn.
 
-use std::{cmp::Reverse, collections::BinaryHeap};
+use std::{
+    cmp::Reverse,
+    collections::{BTreeMap, BinaryHeap, btree_map::Entry},
+};
 
 use super::{super::Cell, SLACK, TurnQuery, fits, net::Net, reserve::Reserve};
 
@@ -46,7 +49,8 @@ impl Half {
             labels: Vec::new(),
             queue: BinaryHeap::new(),
         };
-        let mut settled: Vec<Vec<((i64, i64), Label)>> = vec![Vec::new(); net.len() * net.directions()];
+        let mut settled: Vec<BTreeMap<(i64, i64), Label>> =
+            vec![BTreeMap::new(); net.len() * net.directions()];
         for &start in net.starts() {
             search.extend(start, None);
         }
@@ -54,9 +58,8 @@ impl Half {
         while let Some(Reverse((_, id))) = search.queue.pop() {
             let label = search.labels[id];
             let known = &mut settled[label.cell * net.directions() + label.direction];
-            let key = search.key(&label);
-            let Err(place) = known.binary_search_by_key(&key, |(key, _)| *key) else { continue };
-            known.insert(place, (key, label));
+            let Entry::Vacant(place) = known.entry(search.key(&label)) else { continue };
+            place.insert(label);
             if search.is_answer(&label) {
                 arrival = Some(label);
                 break;
@@ -64,7 +67,7 @@ impl Half {
             search.extend(label.cell, Some(id));
         }
         let labels = search.labels;
-        let kept = settled.into_iter().map(|known| known.into_iter().map(|(_, label)| label).collect());
+        let kept = settled.into_iter().map(|known| known.into_values().collect());
         Self { kept: kept.collect(), net, labels, arrival }
     }
 
