@@ -12,7 +12,7 @@
 //! serve. Turns and lengths are told apart to 1e-7, and both windows are widened by 1e-5 on either side in
 //! return: widening can only admit more polylines, so what is not found does not exist.
 
-use super::{Cell, distance};
+use super::{Cell, bounds::straight_line_between, distance};
 use crate::analysis::interval::Interval;
 
 mod half;
@@ -58,8 +58,9 @@ pub struct TurnQuery {
     pub convention: Convention,
     /// The turn sum wanted, degrees; `high` may be infinite.
     pub turn_deg: Interval,
-    /// The length wanted, cells; `low` may be 0, which is much faster. The greater `high`, the longer the
-    /// search: two cells above the straight line take tenths of a second.
+    /// The length wanted, cells; `high` is finite. With a `low` above 0 much more has to be kept. Work grows
+    /// about threefold for each half cell of the answer (or of `high`, if there is none) above the straight
+    /// line.
     pub length: Interval,
 }
 
@@ -79,7 +80,29 @@ pub struct Polyline {
 /// Its length is a lower bound on the length of any path with that turn sum on any map, under the module's
 /// premises. It may pass a goal or a cell twice. None means that no path on any map has a length and a turn
 /// sum in the two windows.
+///
+/// # Panics
+/// If `length.high` is infinite.
 pub fn shortest_polyline(query: &TurnQuery) -> Option<Polyline> {
+    assert!(query.length.high.is_finite(), "a polyline of any length");
+    let straight = straight_line_between(&query.starts, &query.goals)?;
+    // Looking a little further each time costs less than looking once much too far.
+    let first = if query.length.low > 0.0 { query.length.high } else { straight + STRIDE };
+    let strides = (0..).map(|stride| first + STRIDE * f64::from(stride));
+    for longest in strides {
+        let length = Interval { high: longest.min(query.length.high), ..query.length };
+        let found = shortest_within(&TurnQuery { length, ..query.clone() });
+        if found.is_some() || longest >= query.length.high {
+            return found;
+        }
+    }
+    None
+}
+
+/// How much further each search looks, cells.
+const STRIDE: f64 = 0.5;
+
+fn shortest_within(query: &TurnQuery) -> Option<Polyline> {
     let forward = Half::new(query);
     let mut best = forward.arrival().map(|label| (label.length, forward.chain(label)));
     if query.turn_deg.high.is_finite() {
