@@ -5,12 +5,13 @@
 //! the polylines of every map are among those searched and the bound holds on every map.
 //!
 //! Polylines are put together from two halves, one from a start and one from a goal, each with at most half
-//! of the greatest turn, that meet in the bend between them. A [`half`] is found best-first over labels (cell,
+//! of the greatest turn, that meet in the bend between them. A half is found best-first over labels (cell,
 //! direction of arrival, turn so far); two labels alike in all three differ only in length, so the shorter one
 //! serves, unless a least length is asked for too: then labels of different length are kept. The estimate is
-//! the least length on which the missing turn, or more, can still be had ([`reserve`]). Cells outside the ellipse `|start cell| + |cell goal| ≤ longest` cannot
-//! serve. Turns and lengths are told apart to 1e-7, and both windows are widened by 1e-5 on either side in
-//! return: widening can only admit more polylines, so what is not found does not exist.
+//! the least length on which the missing turn, or more, can still be had. Cells outside the ellipse
+//! `|start cell| + |cell goal| ≤ longest` cannot serve. Turns and lengths are told apart to 1e-7, and both
+//! windows are widened by 1e-5 on either side in return: widening can only admit more polylines, so what is
+//! not found does not exist.
 
 use super::{Cell, bounds::straight_line_between, distance};
 use crate::analysis::interval::Interval;

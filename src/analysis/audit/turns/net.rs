@@ -77,7 +77,7 @@ impl Net {
         &self.starts
     }
 
-    pub(super) fn from_start(&self, cell: usize) -> f64 {
+    pub(super) fn least_from_start(&self, cell: usize) -> f64 {
         self.from_start[cell]
     }
 
