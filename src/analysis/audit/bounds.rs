@@ -23,7 +23,7 @@ pub fn straight_line_between(starts: &[Cell], goals: &[Cell]) -> Option<f64> {
 
 /// By how much the longest value that `printed` can stand for falls short of `least`; none if it does not.
 pub fn shortfall(printed: Interval, least: f64) -> Option<f64> {
-    (printed.high < least).then(|| least - printed.high)
+    (printed.high < least).then_some(least - printed.high)
 }
 
 /// The largest saving, in per cent of the baseline, that any path no shorter than `least` can make.
@@ -42,7 +42,7 @@ pub fn largest_saving_percent(baseline: Interval, least: f64) -> f64 {
 /// [largest](largest_saving_percent); none if it does not.
 pub fn excess_saving(printed_percent: Interval, baseline: Interval, least: f64) -> Option<f64> {
     let largest = largest_saving_percent(baseline, least);
-    (printed_percent.low > largest).then(|| printed_percent.low - largest)
+    (printed_percent.low > largest).then_some(printed_percent.low - largest)
 }
 
 #[cfg(test)]

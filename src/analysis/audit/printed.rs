@@ -220,5 +220,9 @@ mod tests {
         assert!(!printed("14.65").agrees(14.66 - 1e-14, Digits::Truncated));
         assert!(printed("14.65").agrees(14.655 + 1e-14, Digits::Rounded));
         assert!(!printed("0.0018").agrees(0.0019, Digits::Unknown));
+        for digits in [Digits::Truncated, Digits::Unknown] {
+            assert!(!printed("-14.65").agrees(-14.66, digits) && printed("-14.65").agrees(-14.65, digits));
+            assert!(!printed("0.0").agrees(-0.1, digits) && printed("0.0").agrees(-0.09, digits));
+        }
     }
 }

@@ -4,18 +4,19 @@
 //! length is Euclidean in cells, and its turn sum follows the stated convention. Obstacles are left out, so
 //! the polylines of every map are among those searched and the bound holds on every map.
 //!
-//! The search is best-first over labels (cell, direction of arrival, turn so far); two labels alike in all
-//! three differ only in length, so the shorter one serves, unless a least length is asked for too: then
-//! labels of different length are kept. Its estimate is the least length on which the missing turn, or more,
-//! can still be had ([`reserve`]). Cells outside the ellipse `|start cell| + |cell goal| ≤ longest` cannot
-//! serve. Turns and lengths are told apart to 1e-7, and both windows are widened by 1e-5 on either side in
-//! return: widening can only admit more polylines, so what is not found does not exist.
+//! Polylines are put together from two halves, one from a start and one from a goal, each with at most half
+//! of the greatest turn, that meet in the bend between them. A half is found best-first over labels (cell,
+//! direction of arrival, turn so far); two labels alike in all three differ only in length, so the shorter one
+//! serves, unless a least length is asked for too: then labels of different length are kept. The estimate is
+//! the least length on which the missing turn, or more, can still be had. Cells outside the ellipse
+//! `|start cell| + |cell goal| ≤ longest` cannot serve. Turns and lengths are told apart to 1e-7, and both
+//! windows are widened by 1e-5 on either side in return: widening can only admit more polylines, so what is
+//! not found does not exist.
 
-use std::{cmp::Reverse, collections::BinaryHeap};
-
-use super::{Cell, distance};
+use super::{Cell, bounds::straight_line_between, distance};
 use crate::analysis::interval::Interval;
 
+mod half;
 mod net;
 pub mod octile;
 mod reserve;
@@ -23,8 +24,7 @@ mod reserve;
 #[cfg(test)]
 mod tests;
 
-use net::Net;
-use reserve::Reserve;
+use half::{Half, Label};
 
 /// How a bend counts towards a turn sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,8 +59,9 @@ pub struct TurnQuery {
     pub convention: Convention,
     /// The turn sum wanted, degrees; `high` may be infinite.
     pub turn_deg: Interval,
-    /// The length wanted, cells; `low` may be 0, which is much faster. The greater `high`, the longer the
-    /// search: two cells above the straight line take tenths of a second.
+    /// The length wanted, cells; `high` is finite. With a `low` above 0 much more has to be kept. Work grows
+    /// about threefold for each half cell of the answer (or of `high`, if there is none) above the straight
+    /// line.
     pub length: Interval,
 }
 
@@ -75,41 +76,94 @@ pub struct Polyline {
     pub turn_deg: f64,
 }
 
-/// A way to a cell. `parent` leads back to the start; there is none for the first segment.
-struct Label {
-    cell: usize,
-    direction: usize,
-    length: f64,
-    turn_deg: f64,
-    parent: Option<usize>,
-    from: usize,
-}
-
 /// The shortest polyline that `query` describes, of one segment at least; none if there is none.
 ///
 /// Its length is a lower bound on the length of any path with that turn sum on any map, under the module's
 /// premises. It may pass a goal or a cell twice. None means that no path on any map has a length and a turn
 /// sum in the two windows.
+///
+/// # Panics
+/// If `length.high` is infinite.
 pub fn shortest_polyline(query: &TurnQuery) -> Option<Polyline> {
-    let net = Net::new(query);
-    let reserve = Reserve::new(&net, query.turn_deg.low - SLACK);
-    let mut search =
-        Search { net: &net, reserve: &reserve, query, labels: Vec::new(), queue: BinaryHeap::new() };
-    for &start in net.starts() {
-        search.extend(start, None);
-    }
-    let mut settled: Vec<Vec<(i64, i64)>> = vec![Vec::new(); net.len() * net.directions()];
-    while let Some(Reverse((_, id))) = search.queue.pop() {
-        let label = &search.labels[id];
-        let known = &mut settled[label.cell * net.directions() + label.direction];
-        let Err(place) = known.binary_search(&search.key(label)) else { continue };
-        known.insert(place, search.key(label));
-        if search.is_answer(label) {
-            return Some(search.polyline(id));
+    assert!(query.length.high.is_finite(), "a polyline of any length");
+    let straight = straight_line_between(&query.starts, &query.goals)?;
+    // Looking a little further each time costs less than looking once much too far.
+    let first = if query.length.low > 0.0 { query.length.high } else { straight + STRIDE };
+    let strides = (0..).map(|stride| first + STRIDE * f64::from(stride));
+    for longest in strides {
+        let length = Interval { high: longest.min(query.length.high), ..query.length };
+        let found = shortest_within(&TurnQuery { length, ..query.clone() });
+        if found.is_some() || longest >= query.length.high {
+            return found;
         }
-        search.extend(label.cell, Some(id));
     }
     None
+}
+
+/// How much further each search looks, cells.
+const STRIDE: f64 = 0.5;
+
+fn shortest_within(query: &TurnQuery) -> Option<Polyline> {
+    let forward = Half::new(query);
+    let mut best = forward.arrival().map(|label| (label.length, forward.chain(label)));
+    if query.turn_deg.high.is_finite() {
+        let reverse = TurnQuery { starts: query.goals.clone(), goals: query.starts.clone(), ..query.clone() };
+        let backward = Half::new(&reverse);
+        for (towards, from) in meetings(query, &forward, &backward) {
+            let length = towards.length + from.length;
+            if best.as_ref().is_none_or(|(least, _)| length < *least) {
+                let mut cells = forward.chain(towards);
+                cells.extend(backward.chain(from).into_iter().rev().skip(1));
+                best = Some((length, cells));
+            }
+        }
+    }
+    best.map(|(_, cells)| {
+        let length = cells.windows(2).map(|w| distance(w[0], w[1])).sum();
+        let turn_deg = turn_sum_deg(&cells, query.convention);
+        Polyline { cells, length, turn_deg }
+    })
+}
+
+/// Every pair of halves that meet in one cell, bend there, and together have the length and turn asked for.
+fn meetings<'a>(query: &TurnQuery, forward: &'a Half, backward: &'a Half) -> Vec<(&'a Label, &'a Label)> {
+    let mut pairs = Vec::new();
+    for (cell, direction) in forward.states() {
+        let towards = forward.labels(cell, direction);
+        let ahead = forward.net().vector(direction);
+        for back in (0..backward.net().directions()).filter(|_| !towards.is_empty()) {
+            let onwards = backward.net().vector(back).map(|component| -component);
+            let from = backward.labels(cell, back);
+            if !from.is_empty() && onwards != ahead {
+                let bend_deg = query.convention.bend_deg(change_deg(ahead, onwards));
+                pair_up(query, bend_deg, towards, from, &mut pairs);
+            }
+        }
+    }
+    pairs
+}
+
+/// Adds the pairs of two lists, each by rising turn, that have the length and turn asked for.
+fn pair_up<'a>(
+    query: &TurnQuery,
+    bend_deg: f64,
+    towards: &'a [Label],
+    from: &'a [Label],
+    pairs: &mut Vec<(&'a Label, &'a Label)>,
+) {
+    let (low, high) = (query.turn_deg.low - SLACK - bend_deg, query.turn_deg.high + SLACK - bend_deg);
+    let mut end = from.len();
+    for first in towards {
+        while end > 0 && first.turn_deg + from[end - 1].turn_deg > high {
+            end -= 1;
+        }
+        let enough = from[..end].iter().rev().take_while(|second| first.turn_deg + second.turn_deg >= low);
+        pairs.extend(enough.map(|second| (first, second)).filter(|(a, b)| fits(query, a.length + b.length)));
+    }
+}
+
+fn fits(query: &TurnQuery, length: f64) -> bool {
+    query.length.low - SLACK <= length && length <= query.length.high + SLACK
 }
 
 /// Turn sum of a polyline, degrees. Corners at which the direction does not change are no bends.
@@ -120,69 +174,6 @@ pub fn turn_sum_deg(cells: &[Cell], convention: Convention) -> f64 {
 
 /// By how much both windows are widened, degrees and cells.
 const SLACK: f64 = 1e-5;
-
-struct Search<'a> {
-    net: &'a Net,
-    reserve: &'a Reserve,
-    query: &'a TurnQuery,
-    labels: Vec<Label>,
-    /// Least estimate first (as the bits of a non-negative float), then the older label.
-    queue: BinaryHeap<Reverse<(u64, usize)>>,
-}
-
-impl Search<'_> {
-    /// What two labels at one cell and direction must share for one of them to be superfluous.
-    fn key(&self, label: &Label) -> (i64, i64) {
-        let told_apart = |quantity: f64| (quantity * 1e7).round() as i64;
-        let length = if self.query.length.low > 0.0 { told_apart(label.length) } else { 0 };
-        (told_apart(label.turn_deg), length)
-    }
-
-    fn is_answer(&self, label: &Label) -> bool {
-        let (turn_deg, length) = (self.query.turn_deg, self.query.length);
-        self.net.is_goal(label.cell)
-            && label.turn_deg >= turn_deg.low - SLACK
-            && label.length >= length.low - SLACK
-    }
-
-    /// Queues every segment that leaves `cell` with a bend, or every one if there is no label to bend from.
-    fn extend(&mut self, cell: usize, parent: Option<usize>) {
-        let (length, turn_deg, arrival) = parent.map_or((0.0, 0.0, None), |id| {
-            let label = &self.labels[id];
-            (label.length, label.turn_deg, Some(label.direction))
-        });
-        let (longest, most_deg) = (self.query.length.high + SLACK, self.query.turn_deg.high + SLACK);
-        for segment in self.net.segments(cell) {
-            if length + segment.least_total > longest {
-                break;
-            }
-            if arrival == Some(segment.direction) {
-                continue;
-            }
-            let bend_deg = arrival.map_or(0.0, |arrival| self.net.bend_deg(arrival, segment.direction));
-            let (length, turn_deg) = (length + segment.length, turn_deg + bend_deg);
-            let (cell, direction, from) = (segment.to, segment.direction, cell);
-            let least_total = length + self.reserve.least_length(cell, direction, turn_deg);
-            if least_total <= longest && turn_deg + self.net.least_turn_deg(cell, direction) <= most_deg {
-                self.queue.push(Reverse((least_total.to_bits(), self.labels.len())));
-                self.labels.push(Label { cell, direction, length, turn_deg, parent, from });
-            }
-        }
-    }
-
-    fn polyline(&self, id: usize) -> Polyline {
-        let mut cells = vec![self.net.cell(self.labels[id].cell)];
-        let mut next = Some(id);
-        while let Some(id) = next {
-            cells.push(self.net.cell(self.labels[id].from));
-            next = self.labels[id].parent;
-        }
-        cells.reverse();
-        let length = cells.windows(2).map(|w| distance(w[0], w[1])).sum();
-        let turn_deg = turn_sum_deg(&cells, self.query.convention);
-        Polyline { cells, length, turn_deg }
-    }
-}
 
 fn difference(from: Cell, to: Cell) -> Cell {
     [to[0] - from[0], to[1] - from[1]]

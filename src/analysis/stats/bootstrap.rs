@@ -70,7 +70,7 @@ mod tests {
     const PLAN: Plan = Plan { resamples: 2000, level: 0.95, seed: 17 };
 
     fn mean(units: &[&f64]) -> Option<f64> {
-        Some(units.iter().copied().sum::<f64>() / units.len() as f64)
+        summary::mean(&units.iter().map(|unit| **unit).collect::<Vec<_>>())
     }
 
     #[test]

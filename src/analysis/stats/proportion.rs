@@ -30,7 +30,7 @@ pub fn normal_multiplier(level: f64) -> f64 {
 /// If `hits > trials`, or `level` is not inside (0, 1).
 ///
 /// # Source
-/// Wilson, JASA 22 (1927) 209–212; Brown, Cai & DasGupta, Statistical Science 16 (2001) 101–133, eq. 4.
+/// Wilson, JASA 22 (1927) 209–212; Brown, Cai & `DasGupta`, Statistical Science 16 (2001) 101–133, eq. 4.
 pub fn wilson(hits: usize, trials: usize, level: f64) -> Option<Interval> {
     assert!(hits <= trials, "{hits} hits in {trials} trials");
     (trials > 0).then(|| wilson_of_share(hits as f64 / trials as f64, trials as f64, level))

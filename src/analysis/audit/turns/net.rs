@@ -23,6 +23,7 @@ pub(super) struct Net {
     longest: f64,
     /// By cell, least total first.
     segments: Vec<Vec<Segment>>,
+    vectors: Vec<Cell>,
     /// By direction of arrival, then of departure.
     bends_deg: Vec<Vec<f64>>,
     /// By cell, then by direction of arrival: no way on to a goal turns less.
@@ -61,7 +62,7 @@ impl Net {
         let vectors = by_index(&directions);
         let bends_deg = bends_deg(&vectors, query.convention);
         let least_turns_deg = least_turns_deg(&cells, &vectors, query);
-        Self { cells, starts, from_start, is_goal, longest, segments, bends_deg, least_turns_deg }
+        Self { cells, starts, from_start, is_goal, longest, segments, vectors, bends_deg, least_turns_deg }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -76,7 +77,7 @@ impl Net {
         &self.starts
     }
 
-    pub(super) fn from_start(&self, cell: usize) -> f64 {
+    pub(super) fn least_from_start(&self, cell: usize) -> f64 {
         self.from_start[cell]
     }
 
@@ -91,6 +92,11 @@ impl Net {
 
     pub(super) fn cell(&self, cell: usize) -> Cell {
         self.cells[cell]
+    }
+
+    /// The shortest lattice vector in a direction.
+    pub(super) fn vector(&self, direction: usize) -> Cell {
+        self.vectors[direction]
     }
 
     pub(super) fn segments(&self, cell: usize) -> &[Segment] {

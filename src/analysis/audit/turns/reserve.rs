@@ -92,7 +92,7 @@ impl Backward<'_> {
         self.reserve.ways[state].push((turn_deg, length));
         for &(from, step) in &self.incoming[state] {
             let length = length + step;
-            if self.net.from_start(from) + length <= self.net.longest() {
+            if self.net.least_from_start(from) + length <= self.net.longest() {
                 self.queue.push(Reverse((length.to_bits(), self.found.len())));
                 self.found.push(Way { cell: from, direction, length, turn_deg });
             }

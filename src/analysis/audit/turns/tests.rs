@@ -30,7 +30,7 @@ fn the_grid_papers_turns_need_the_lengths_that_the_search_finds() {
         (SIMPLE, 229.165, 229.18, Interior, 18.5275, 229.1654),
         (COMPLEX, 309.135, 309.15, Interior, 16.6808, 309.1440),
     ] {
-        let found = shortest(ends, low, high, length + 0.2, convention).unwrap();
+        let found = shortest(ends, low, high, 25.0, convention).unwrap();
         assert!((found.length - length).abs() < 5e-5, "{found:?}");
         assert!((found.turn_deg - turn).abs() < 5e-5, "{found:?}");
         assert!(found.turn_deg >= low && found.turn_deg <= high, "{found:?}");
@@ -40,20 +40,20 @@ fn the_grid_papers_turns_need_the_lengths_that_the_search_finds() {
 }
 
 #[test]
-fn ends_off_by_a_cell_do_not_rescue_the_grid_papers_pairs() {
-    for ([start, goal], low, high, printed) in [
-        (SIMPLE, 229.165, 229.18, Interval::new(13.395, 13.41)),
-        (COMPLEX, 309.135, 309.15, Interval::new(16.395, 16.41)),
-    ] {
-        let query = TurnQuery {
-            size: SIZE,
-            starts: neighbourhood(start, SIZE),
-            goals: neighbourhood(goal, SIZE),
-            convention: Convention::Exterior,
-            turn_deg: Interval::new(low, high),
-            length: printed,
-        };
-        assert_eq!(shortest_polyline(&query), None);
+fn an_end_off_by_a_cell_does_not_rescue_the_grid_papers_pairs() {
+    for ([start, goal], low, high, length) in
+        [(SIMPLE, 229.165, 229.18, [13.395, 13.41]), (COMPLEX, 309.135, 309.15, [16.395, 16.41])]
+    {
+        let (near_start, near_goal) = (neighbourhood(start, SIZE), neighbourhood(goal, SIZE));
+        for (starts, goals) in [(near_start, vec![goal]), (vec![start], near_goal)] {
+            let (convention, turn_deg) = (Convention::Exterior, Interval::new(low, high));
+            let pair = Interval::new(length[0], length[1]);
+            let mut query = TurnQuery { size: SIZE, starts, goals, convention, turn_deg, length: pair };
+            assert_eq!(shortest_polyline(&query), None);
+            // The turn alone is within reach of the complex pair: only both together are not.
+            query.length = Interval::new(0.0, length[1]);
+            assert_eq!(shortest_polyline(&query).is_some(), start == COMPLEX[0]);
+        }
     }
 }
 
@@ -92,14 +92,14 @@ fn enumerate(
 #[test]
 fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
     let (mut found, mut missing) = (0, 0);
-    for (start, goal, longest) in [([0, 0], [3, 2], 6.4), ([1, 1], [2, 2], 5.4), ([0, 3], [3, 3], 6.3)] {
+    for (start, goal, longest) in [([0, 0], [3, 2], 6.9), ([1, 1], [2, 2], 6.1), ([0, 3], [3, 3], 6.7)] {
         for convention in [Convention::Exterior, Convention::Interior] {
             let mut all = Vec::new();
             enumerate(4, &mut vec![start], goal, longest, convention, &mut all);
-            assert!(all.len() > 500, "only {} polylines", all.len());
-            for i in 0..200 {
+            assert!(all.len() > 300, "only {} polylines", all.len());
+            for i in 0..130 {
                 let low = f64::from(i) * 2.7 + 0.013;
-                let turn_deg = Interval::new(low, if i % 10 == 0 { f64::INFINITY } else { low + 0.9 });
+                let turn_deg = Interval::new(low, if i % 10 == 0 { f64::INFINITY } else { low + 3.1 });
                 let least = if i % 3 == 0 { longest - 0.61 } else { 0.0 };
                 let length = Interval::new(least, longest);
                 let fits = |p: &&[f64; 2]| length.contains(p[0]) && turn_deg.contains(p[1]);
@@ -113,7 +113,7 @@ fn no_enumerated_polyline_is_shorter_and_one_is_as_short() {
             }
         }
     }
-    assert!(found > 200 && missing > 200, "one-sided sample: {found} and {missing}");
+    assert!(found > 150 && missing > 100, "one-sided sample: {found} and {missing}");
 }
 
 #[test]

@@ -85,8 +85,8 @@ fn exact_intervals_cover_at_their_level_and_wilson_nearly() {
         least_exact = least_exact.min(covered(clopper_pearson));
         least_wilson = least_wilson.min(covered(wilson));
     }
-    assert!(least_exact >= 0.95 && least_exact < 0.97, "{least_exact}");
-    assert!(least_wilson > 0.83 && least_wilson < 0.95, "{least_wilson}");
+    assert!((0.95..0.97).contains(&least_exact), "{least_exact}");
+    assert!((0.83..0.95).contains(&least_wilson), "{least_wilson}");
 }
 
 #[test]

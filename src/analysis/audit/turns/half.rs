@@ -1,0 +1,149 @@
+//! The ways from the starts of a query that use up at most half of its turn.
+
+use std::{
+    cmp::Reverse,
+    collections::{BTreeMap, BinaryHeap, btree_map::Entry},
+};
+
+use super::{super::Cell, SLACK, TurnQuery, fits, net::Net, reserve::Reserve};
+
+/// A way to a cell. `parent` leads back to the start; there is none for the first segment.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Label {
+    cell: usize,
+    direction: usize,
+    pub(super) length: f64,
+    pub(super) turn_deg: f64,
+    parent: Option<usize>,
+    from: usize,
+}
+
+/// All ways worth keeping, by cell and direction of arrival.
+pub(super) struct Half {
+    net: Net,
+    labels: Vec<Label>,
+    kept: Vec<Vec<Label>>,
+    arrival: Option<Label>,
+}
+
+struct Search<'a> {
+    net: &'a Net,
+    reserve: Reserve,
+    query: &'a TurnQuery,
+    /// An open-ended turn has no half: then ways are followed to the goal.
+    most_deg: f64,
+    labels: Vec<Label>,
+    /// Least estimate first (as the bits of a non-negative float), then the older label.
+    queue: BinaryHeap<Reverse<(u64, usize)>>,
+}
+
+impl Half {
+    /// The ways from `query`'s starts, up to the first that answers it alone.
+    pub(super) fn new(query: &TurnQuery) -> Self {
+        let net = Net::new(query);
+        let mut search = Search {
+            net: &net,
+            reserve: Reserve::new(&net, query.turn_deg.low - SLACK),
+            query,
+            most_deg: (query.turn_deg.high / 2.0) + SLACK,
+            labels: Vec::new(),
+            queue: BinaryHeap::new(),
+        };
+        let mut settled: Vec<BTreeMap<(i64, i64), Label>> =
+            vec![BTreeMap::new(); net.len() * net.directions()];
+        for &start in net.starts() {
+            search.extend(start, None);
+        }
+        let mut arrival = None;
+        while let Some(Reverse((_, id))) = search.queue.pop() {
+            let label = search.labels[id];
+            let known = &mut settled[label.cell * net.directions() + label.direction];
+            let Entry::Vacant(place) = known.entry(search.key(&label)) else { continue };
+            place.insert(label);
+            if search.is_answer(&label) {
+                arrival = Some(label);
+                break;
+            }
+            search.extend(label.cell, Some(id));
+        }
+        let labels = search.labels;
+        let kept = settled.into_iter().map(|known| known.into_values().collect());
+        Self { kept: kept.collect(), net, labels, arrival }
+    }
+
+    /// The shortest way that answers the query without a second half.
+    pub(super) fn arrival(&self) -> Option<&Label> {
+        self.arrival.as_ref()
+    }
+
+    pub(super) fn net(&self) -> &Net {
+        &self.net
+    }
+
+    /// Cells with directions of arrival.
+    pub(super) fn states(&self) -> impl Iterator<Item = (usize, usize)> {
+        (0..self.net.len())
+            .flat_map(|cell| (0..self.net.directions()).map(move |direction| (cell, direction)))
+    }
+
+    /// The ways to `cell` that arrive in `direction`, by rising turn.
+    pub(super) fn labels(&self, cell: usize, direction: usize) -> &[Label] {
+        &self.kept[cell * self.net.directions() + direction]
+    }
+
+    /// The corners from the start to the label's cell.
+    pub(super) fn chain(&self, label: &Label) -> Vec<Cell> {
+        let mut cells = vec![self.net.cell(label.cell)];
+        let mut next = Some(label);
+        while let Some(label) = next {
+            cells.push(self.net.cell(label.from));
+            next = label.parent.map(|id| &self.labels[id]);
+        }
+        cells.reverse();
+        cells
+    }
+}
+
+impl Search<'_> {
+    /// What two labels at one cell and direction must share for one of them to be superfluous.
+    fn key(&self, label: &Label) -> (i64, i64) {
+        let told_apart = |quantity: f64| (quantity * 1e7).round() as i64;
+        let length = if self.query.length.low > 0.0 { told_apart(label.length) } else { 0 };
+        (told_apart(label.turn_deg), length)
+    }
+
+    fn is_answer(&self, label: &Label) -> bool {
+        self.net.is_goal(label.cell)
+            && label.turn_deg >= self.query.turn_deg.low - SLACK
+            && fits(self.query, label.length)
+    }
+
+    /// Queues every segment that leaves `cell` with a bend, or every one if there is no label to bend from.
+    fn extend(&mut self, cell: usize, parent: Option<usize>) {
+        let (length, turn_deg, arrival) = parent.map_or((0.0, 0.0, None), |id| {
+            let label = &self.labels[id];
+            (label.length, label.turn_deg, Some(label.direction))
+        });
+        let longest = self.net.longest();
+        let high_deg = self.query.turn_deg.high + SLACK;
+        for segment in self.net.segments(cell) {
+            if length + segment.least_total > longest {
+                break;
+            }
+            if arrival == Some(segment.direction) {
+                continue;
+            }
+            let bend_deg = arrival.map_or(0.0, |arrival| self.net.bend_deg(arrival, segment.direction));
+            let (length, turn_deg) = (length + segment.length, turn_deg + bend_deg);
+            let (to, direction) = (segment.to, segment.direction);
+            if turn_deg > self.most_deg || turn_deg + self.net.least_turn_deg(to, direction) > high_deg {
+                continue;
+            }
+            let least_total = length + self.reserve.least_length(to, direction, turn_deg);
+            if least_total <= longest {
+                self.queue.push(Reverse((least_total.to_bits(), self.labels.len())));
+                self.labels.push(Label { cell: to, direction, length, turn_deg, parent, from: cell });
+            }
+        }
+    }
+}
