@@ -222,7 +222,7 @@ fn joint_curves_and_a_log_plot() {
         let line = Line::through(points.filter(|point| point[1] < 900.0).collect(), series_stroke(index));
         work.add(line.labelled(name).marked(series_marker(index)));
     }
-    work.add(Note::beside([2e4, 0.1], "slope 1, as theory has it"));
+    work.add(Note::beside([2e3, 0.05], "slope 1, as theory has it"));
     sheet.add(work);
     hold("joints", &sheet);
 }

@@ -11,8 +11,6 @@ use ttf_parser::{Face, GlyphId, OutlineBuilder};
 pub const UNITS_PER_EM: f64 = 2048.0;
 /// Height of a capital letter, in ems.
 pub const CAP_EM: f64 = 0.729;
-/// Depth of a letter such as g below the baseline, in ems.
-pub const DEPTH_EM: f64 = 0.236;
 /// Distance from baseline to baseline, in ems.
 pub const LINE_EM: f64 = 1.25;
 
@@ -71,6 +69,14 @@ pub(super) fn line(text: &str, weight: Weight) -> (Vec<Placed>, i32) {
 /// Width of one line of text at one point of size, kerning included.
 pub fn width_em(text: &str, weight: Weight) -> f64 {
     f64::from(line(text, weight).1) / UNITS_PER_EM
+}
+
+/// How far the ink of `text` reaches above and below its baseline, in ems.
+pub(super) fn reach_em(text: &str, weight: Weight) -> (f64, f64) {
+    let face = face(weight);
+    let boxes = text.chars().filter_map(|found| face.glyph_bounding_box(face.glyph_index(found)?));
+    let (top, bottom) = boxes.fold((0, 0), |(top, bottom), ink| (ink.y_max.max(top), ink.y_min.min(bottom)));
+    (f64::from(top) / UNITS_PER_EM, -f64::from(bottom) / UNITS_PER_EM)
 }
 
 struct PathWriter(String);
