@@ -1,4 +1,4 @@
-//! The embedded font: widths and outlines of DejaVu Sans.
+//! The embedded font: widths and outlines of `DejaVu Sans`.
 //!
 //! Text is measured and outlined here, with the font's own kerning, so that it looks the same on a
 //! machine without fonts. Lengths come in ems; outlines in font units, [`UNITS_PER_EM`] to the em, y down.
@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::sync::OnceLock;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// Font units in one em of DejaVu Sans.
+/// Font units in one em of `DejaVu Sans`.
 pub const UNITS_PER_EM: f64 = 2048.0;
 /// Height of a capital letter, in ems.
 pub const CAP_EM: f64 = 0.729;
@@ -106,7 +106,7 @@ pub(super) fn outline(glyph: u16, weight: Weight) -> String {
     path.0
 }
 
-/// `text` broken at spaces into lines no wider than `width_em`; a longer word keeps a line of its own.
+/// `text` broken at spaces into lines of at most `most_em`; a longer word keeps a line of its own.
 pub fn wrapped(text: &str, weight: Weight, most_em: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

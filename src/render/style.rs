@@ -78,7 +78,7 @@ impl Rgb {
 /// Position `share` in `[0, 1]` of a sequential scale from light to dark blue, monotone in grey.
 ///
 /// # Source
-/// Stops of ColorBrewer's 9-class "YlGnBu" (Brewer, 2003), which is safe for colour blindness.
+/// Stops of the 9-class `YlGnBu` scheme of `ColorBrewer` (Brewer, 2003), which is safe for colour blindness.
 pub fn sequential(share: f64) -> Rgb {
     const STOPS: [Rgb; 6] = [
         Rgb([255, 255, 217]),

@@ -111,10 +111,6 @@ impl Sheet {
     }
 
     /// Places one row of panels at height `y`; also the height that it takes.
-    #[expect(
-        clippy::type_complexity,
-        reason = "a view, its margin and the row's height belong to this call alone"
-    )]
     fn row(&self, row: usize, panels: &[Panel], y: f64) -> Result<(Vec<(View, Margin)>, f64), RenderError> {
         let (cell, gap) = self.cell_pt();
         let side = self.sides(cell);

@@ -118,3 +118,19 @@ fn a_line_behind_a_solid_comes_first_and_a_line_before_it_last() {
     assert_eq!((color(&items[0]), color(&items[items.len() - 1])), (Some(ORANGE), Some(GREEN)));
     assert!(items.len() > 5);
 }
+
+#[test]
+fn edges_where_a_box_stands_on_a_floor_are_drawn_after_both() {
+    let mut scene = Scene::default();
+    let floor = vec![[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.0], [-3.0, 3.0, 0.0]];
+    scene.sheet(floor, Paint::solid(GREEN));
+    scene.cuboid([-1.0, -1.0, 0.0], [1.0; 3], Paint::solid(BLUE));
+    let camera = Camera::parallel(30.0, 20.0);
+    let scene = marked(scene, camera);
+    let items = scene.items(&Lens::fitting(&scene.scene, camera, ROOM));
+    let of_box =
+        |item: &&Item| item.points.iter().all(|point| point[0].abs() <= 1.0 && point[1].abs() <= 1.0);
+    let last_face = items.iter().rposition(|item| matches!(item.look, Look::Face(..))).unwrap();
+    let edges = items[last_face..].iter().filter(of_box).filter(|item| matches!(item.look, Look::Line(_)));
+    assert_eq!(edges.count(), 9, "a box shows nine edges: {items:?}");
+}
