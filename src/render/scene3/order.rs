@@ -103,7 +103,7 @@ fn gap(region: &[Item], slack: f64) -> Option<Plane> {
     best.map(|(_, plane)| plane)
 }
 
-/// The plane, out of those of up to [`TRIES`] faces, that cuts fewest items and parts others evenly.
+/// The plane, out of those of up to [`TRIES`] faces, that cuts few items and parts the others evenly.
 fn least_cutting(region: &[Item], slack: f64) -> Option<Plane> {
     let planes: Vec<Plane> = region
         .iter()
@@ -118,8 +118,7 @@ fn least_cutting(region: &[Item], slack: f64) -> Option<Plane> {
             above += i64::from(low >= -slack && high > slack);
             below += i64::from(high <= slack && low < -slack);
         }
-        let useless = cut == 0 && (above == 0 || below == 0);
-        (useless, 6 * cut + (above - below).abs())
+        8 * cut + (above - below).abs()
     };
     let best =
         planes.into_iter().step_by(stride).map(|plane| (cost(&plane), plane)).min_by_key(|(cost, _)| *cost);
