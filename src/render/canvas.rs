@@ -7,7 +7,7 @@ use super::RenderError;
 mod room;
 
 use super::font::{self, CAP_EM, UNITS_PER_EM, Weight};
-use super::style::{Fill, INK, Marker, Rgb, Stroke, TextSize, WHITE, Width};
+use super::style::{Fill, HAIR_PT, INK, Marker, Rgb, Stroke, TextSize, WHITE, Width};
 use super::vector::{self, Figure, Provenance};
 use room::{Quad, overlap, turned};
 use std::collections::BTreeSet;
@@ -373,7 +373,10 @@ fn surface(fill: Option<Fill>) -> String {
 }
 
 fn ink(stroke: &Stroke) -> String {
-    let mut text = format!(" stroke=\"{}\" stroke-width=\"{}\"", stroke.color.hex(), short(stroke.width_pt));
+    let mut text = format!(" stroke=\"{}\"", stroke.color.hex());
+    if stroke.width_pt != HAIR_PT {
+        write!(text, " stroke-width=\"{}\"", short(stroke.width_pt)).expect("a string takes everything");
+    }
     if stroke.opacity < 1.0 {
         write!(text, " stroke-opacity=\"{}\"", short(stroke.opacity)).expect("a string takes everything");
     }

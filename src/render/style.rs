@@ -166,6 +166,9 @@ pub fn series_stroke(index: usize) -> Stroke {
     Stroke { dash: DASHES[index % DASHES.len()], ..Stroke::solid(series_color(index), 1.1) }
 }
 
+/// Width of the line that closes seams between faces; the page's default, so that it costs no bytes.
+pub const HAIR_PT: f64 = 0.25;
+
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {

@@ -5,6 +5,7 @@
 
 use super::RenderError;
 use super::font::Weight;
+use super::style::HAIR_PT;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg;
 use std::collections::BTreeMap;
@@ -73,7 +74,7 @@ pub(super) fn document(width_mm: f64, height_pt: f64, defs: &str, body: &str, fr
          <metadata><replan xmlns=\"urn:replan\" command=\"{command}\" spec-hash=\"{hash}\"/></metadata>\n\
          <defs>\n{defs}</defs>\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-         <g stroke-linejoin=\"round\">\n{body}</g>\n</svg>\n"
+         <g stroke-linejoin=\"round\" stroke-width=\"{HAIR_PT}\">\n{body}</g>\n</svg>\n"
     )
 }
 
