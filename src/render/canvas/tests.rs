@@ -116,6 +116,16 @@ fn boxes_overlap_only_if_no_side_parts_them() {
 }
 
 #[test]
+fn a_side_of_either_box_may_part_the_two() {
+    // The corner (40, 0) of the level bar lies 2.5 pt off the tilted one; their upright hulls overlap.
+    let bar = Rect { x: 0.0, y: 0.0, w: 40.0, h: 6.0 };
+    let (level, tilted) = (turned(bar, [0.0; 2], 0.0), turned(bar, [40.0, -12.0], 45.0));
+    assert!(!overlap(&level, &tilted) && !overlap(&tilted, &level));
+    let closer = turned(bar, [38.0, -6.0], 45.0);
+    assert!(overlap(&level, &closer) && overlap(&closer, &level));
+}
+
+#[test]
 fn an_undrawable_character_is_refused_by_name() {
     let mut canvas = Canvas::new(Width::Single, 50.0);
     canvas.text([10.0, 20.0], "路径", &Type::of(TextSize::TICK));
