@@ -4,9 +4,12 @@
 //! remembered, so that [`Canvas::finish`] can say which labels run into each other or off the page.
 
 use super::RenderError;
-use super::font::{self, CAP_EM, DEPTH_EM, UNITS_PER_EM, Weight};
-use super::style::{Fill, INK, Marker, Rgb, Stroke, TextSize, WHITE, Width};
+mod room;
+
+use super::font::{self, CAP_EM, UNITS_PER_EM, Weight};
+use super::style::{Fill, HAIR_PT, INK, Marker, Rgb, Stroke, TextSize, WHITE, Width};
 use super::vector::{self, Figure, Provenance};
+use room::{Quad, overlap, turned};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
@@ -32,11 +35,6 @@ impl Rect {
     /// Lower edge.
     pub fn bottom(self) -> f64 {
         self.y + self.h
-    }
-
-    /// Whether the two share more than an edge.
-    pub fn overlaps(self, other: Self) -> bool {
-        self.x < other.right() && other.x < self.right() && self.y < other.bottom() && other.y < self.bottom()
     }
 
     /// Whether `point` lies inside or on the edge.
@@ -125,7 +123,7 @@ pub struct Canvas {
     body: String,
     clips: Vec<Rect>,
     glyphs: BTreeSet<(Weight, u16)>,
-    texts: Vec<(String, Rect)>,
+    texts: Vec<(String, Quad)>,
     missing: Option<(char, String)>,
 }
 
@@ -169,7 +167,8 @@ impl Canvas {
     pub fn outlines(&mut self, outlines: &[&[[f64; 2]]], fill: Option<Fill>, stroke: Option<&Stroke>) {
         let path: String = outlines.iter().map(|points| path_data(points) + "Z").collect();
         let (paint, rim) = (surface(fill), stroke.map(ink).unwrap_or_default());
-        self.push(format_args!("<path{paint}{rim} fill-rule=\"evenodd\" d=\"{path}\"/>\n"));
+        let rule = if outlines.len() > 1 { " fill-rule=\"evenodd\"" } else { "" };
+        self.push(format_args!("<path{paint}{rim}{rule} d=\"{path}\"/>\n"));
     }
 
     /// Fills closed outlines as one shape with unsmoothed edges, for rasters whose cells must not part.
@@ -248,7 +247,8 @@ impl Canvas {
             Stand::Centre => CAP_EM * size / 2.0,
             Stand::Base => 0.0,
         };
-        let bounds = Rect { x: -back, y: drop - CAP_EM * size, w: width, h: (CAP_EM + DEPTH_EM) * size };
+        let (top, depth) = font::reach_em(text, set.weight);
+        let bounds = Rect { x: -back, y: drop - top * size, w: width, h: (top + depth) * size };
         self.texts.push((text.to_owned(), turned(bounds, at, set.turn_deg)));
         let turn =
             if set.turn_deg == 0.0 { String::new() } else { format!(" rotate({})", short(set.turn_deg)) };
@@ -301,13 +301,12 @@ impl Canvas {
     fn flaws(&self) -> Vec<String> {
         let page = self.page();
         let mut flaws = Vec::new();
-        for (index, (text, bounds)) in self.texts.iter().enumerate() {
-            let corners = [[bounds.x, bounds.y], [bounds.right(), bounds.bottom()]];
-            if !corners.into_iter().all(|corner| page.contains(corner)) {
+        for (index, (text, quad)) in self.texts.iter().enumerate() {
+            if !quad.iter().all(|&corner| page.contains(corner)) {
                 flaws.push(format!("`{text}` leaves the page"));
             }
             for (other, taken) in &self.texts[..index] {
-                if bounds.overlaps(*taken) {
+                if overlap(quad, taken) {
                     flaws.push(format!("`{text}` overlaps `{other}`"));
                 }
             }
@@ -374,7 +373,10 @@ fn surface(fill: Option<Fill>) -> String {
 }
 
 fn ink(stroke: &Stroke) -> String {
-    let mut text = format!(" stroke=\"{}\" stroke-width=\"{}\"", stroke.color.hex(), short(stroke.width_pt));
+    let mut text = format!(" stroke=\"{}\"", stroke.color.hex());
+    if stroke.width_pt != HAIR_PT {
+        write!(text, " stroke-width=\"{}\"", short(stroke.width_pt)).expect("a string takes everything");
+    }
     if stroke.opacity < 1.0 {
         write!(text, " stroke-opacity=\"{}\"", short(stroke.opacity)).expect("a string takes everything");
     }
@@ -384,26 +386,6 @@ fn ink(stroke: &Stroke) -> String {
         write!(text, " stroke-dasharray=\"{}\"", lengths.join(" ")).expect("a string takes everything");
     }
     text
-}
-
-/// The upright box around `bounds` turned by `turn_deg` about the origin and moved to `at`.
-fn turned(bounds: Rect, at: [f64; 2], turn_deg: f64) -> Rect {
-    let (sine, cosine) = libm::sincos(turn_deg.to_radians());
-    let corners = [
-        (bounds.x, bounds.y),
-        (bounds.right(), bounds.y),
-        (bounds.right(), bounds.bottom()),
-        (bounds.x, bounds.bottom()),
-    ];
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for (x, y) in corners {
-        let point = [at[0] + x * cosine - y * sine, at[1] + x * sine + y * cosine];
-        for axis in 0..2 {
-            low[axis] = low[axis].min(point[axis]);
-            high[axis] = high[axis].max(point[axis]);
-        }
-    }
-    Rect { x: low[0], y: low[1], w: high[0] - low[0], h: high[1] - low[1] }
 }
 
 #[cfg(test)]

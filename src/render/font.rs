@@ -1,4 +1,4 @@
-//! The embedded font: widths and outlines of DejaVu Sans.
+//! The embedded font: widths and outlines of `DejaVu Sans`.
 //!
 //! Text is measured and outlined here, with the font's own kerning, so that it looks the same on a
 //! machine without fonts. Lengths come in ems; outlines in font units, [`UNITS_PER_EM`] to the em, y down.
@@ -7,12 +7,10 @@ use std::fmt::Write as _;
 use std::sync::OnceLock;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// Font units in one em of DejaVu Sans.
+/// Font units in one em of `DejaVu Sans`.
 pub const UNITS_PER_EM: f64 = 2048.0;
 /// Height of a capital letter, in ems.
 pub const CAP_EM: f64 = 0.729;
-/// Depth of a letter such as g below the baseline, in ems.
-pub const DEPTH_EM: f64 = 0.236;
 /// Distance from baseline to baseline, in ems.
 pub const LINE_EM: f64 = 1.25;
 
@@ -73,6 +71,14 @@ pub fn width_em(text: &str, weight: Weight) -> f64 {
     f64::from(line(text, weight).1) / UNITS_PER_EM
 }
 
+/// How far the ink of `text` reaches above and below its baseline, in ems.
+pub(super) fn reach_em(text: &str, weight: Weight) -> (f64, f64) {
+    let face = face(weight);
+    let boxes = text.chars().filter_map(|found| face.glyph_bounding_box(face.glyph_index(found)?));
+    let (top, bottom) = boxes.fold((0, 0), |(top, bottom), ink| (ink.y_max.max(top), ink.y_min.min(bottom)));
+    (f64::from(top) / UNITS_PER_EM, -f64::from(bottom) / UNITS_PER_EM)
+}
+
 struct PathWriter(String);
 
 impl OutlineBuilder for PathWriter {
@@ -100,7 +106,7 @@ pub(super) fn outline(glyph: u16, weight: Weight) -> String {
     path.0
 }
 
-/// `text` broken at spaces into lines no wider than `width_em`; a longer word keeps a line of its own.
+/// `text` broken at spaces into lines of at most `most_em`; a longer word keeps a line of its own.
 pub fn wrapped(text: &str, weight: Weight, most_em: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -2,7 +2,7 @@
 //!
 //! A right-handed world with z up. Faces are shaded flat under a light that stands with the camera, and
 //! outlined in a darker tone where two faces meet sharply or the solid ends. What lies behind is drawn
-//! first: [`order`] cuts faces where that is the only way to get it right. Lengths are the caller's; the
+//! first: faces are cut where that is the only way to get it right. Lengths are the caller's; the
 //! scale bar names their unit.
 
 mod mark;

@@ -78,7 +78,7 @@ impl Rgb {
 /// Position `share` in `[0, 1]` of a sequential scale from light to dark blue, monotone in grey.
 ///
 /// # Source
-/// Stops of ColorBrewer's 9-class "YlGnBu" (Brewer, 2003), which is safe for colour blindness.
+/// Stops of the 9-class `YlGnBu` scheme of `ColorBrewer` (Brewer, 2003), which is safe for colour blindness.
 pub fn sequential(share: f64) -> Rgb {
     const STOPS: [Rgb; 6] = [
         Rgb([255, 255, 217]),
@@ -165,6 +165,9 @@ pub fn series_marker(index: usize) -> Marker {
 pub fn series_stroke(index: usize) -> Stroke {
     Stroke { dash: DASHES[index % DASHES.len()], ..Stroke::solid(series_color(index), 1.1) }
 }
+
+/// Width of the line that closes seams between faces; the page's default, so that it costs no bytes.
+pub const HAIR_PT: f64 = 0.25;
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,6 +5,7 @@
 
 use super::RenderError;
 use super::font::Weight;
+use super::style::HAIR_PT;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg;
 use std::collections::BTreeMap;
@@ -73,7 +74,7 @@ pub(super) fn document(width_mm: f64, height_pt: f64, defs: &str, body: &str, fr
          <metadata><replan xmlns=\"urn:replan\" command=\"{command}\" spec-hash=\"{hash}\"/></metadata>\n\
          <defs>\n{defs}</defs>\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-         <g stroke-linejoin=\"round\">\n{body}</g>\n</svg>\n"
+         <g stroke-linejoin=\"round\" stroke-width=\"{HAIR_PT}\">\n{body}</g>\n</svg>\n"
     )
 }
 
@@ -111,7 +112,7 @@ fn encoded(
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_filter(png::Filter::NoFilter);
         encoder.set_palette(palette.concat());
-        colors.iter().map(|color| index[color]).collect()
+        runs(colors).flat_map(|run| std::iter::repeat_n(index[&run[0]], run.len())).collect()
     } else {
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_filter(png::Filter::Adaptive);
@@ -123,6 +124,11 @@ fn encoded(
     Ok(bytes)
 }
 
+/// Runs of equal colours; a figure is mostly paper, so maps are asked once a run and not once a pixel.
+fn runs(colors: &[[u8; 3]]) -> impl Iterator<Item = &[[u8; 3]]> {
+    colors.chunk_by(|a, b| a == b)
+}
+
 type Palette = (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>);
 
 /// At most 256 colours, and for each colour that occurs the one that stands for it.
@@ -130,16 +136,16 @@ type Palette = (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>);
 /// The commonest colours are kept as they are; the rest go to the first kept one near enough. The
 /// tolerance grows until 256 suffice.
 fn palette(colors: &[[u8; 3]]) -> Option<Palette> {
-    let mut counts: BTreeMap<[u8; 3], u32> = BTreeMap::new();
-    for color in colors {
-        *counts.entry(*color).or_default() += 1;
+    let mut counts: BTreeMap<[u8; 3], usize> = BTreeMap::new();
+    for run in runs(colors) {
+        *counts.entry(run[0]).or_default() += run.len();
     }
-    let mut common: Vec<([u8; 3], u32)> = counts.into_iter().collect();
+    let mut common: Vec<([u8; 3], usize)> = counts.into_iter().collect();
     common.sort_by_key(|&(color, count)| (std::cmp::Reverse(count), color));
     (0..=PALETTE_TOLERANCE).step_by(2).find_map(|tolerance| palette_within(&common, tolerance))
 }
 
-fn palette_within(common: &[([u8; 3], u32)], tolerance: u8) -> Option<Palette> {
+fn palette_within(common: &[([u8; 3], usize)], tolerance: u8) -> Option<Palette> {
     let (mut kept, mut index): Palette = (Vec::new(), BTreeMap::new());
     let near = |a: &[u8; 3], b: &[u8; 3]| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= tolerance);
     for (color, _) in common {

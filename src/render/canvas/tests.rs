@@ -98,10 +98,31 @@ fn overlapping_and_escaping_labels_are_named() {
 #[test]
 fn a_turned_text_takes_the_room_of_its_turned_box() {
     let upright = turned(Rect { x: 0.0, y: -7.0, w: 30.0, h: 10.0 }, [50.0, 60.0], -90.0);
-    let expected = [43.0, 30.0, 10.0, 30.0];
-    for (found, expected) in [upright.x, upright.y, upright.w, upright.h].into_iter().zip(expected) {
+    let expected = [[43.0, 60.0], [43.0, 30.0], [53.0, 30.0], [53.0, 60.0]];
+    for (found, expected) in upright.as_flattened().iter().zip(expected.as_flattened()) {
         assert!((found - expected).abs() < 1e-9, "{upright:?}");
     }
+}
+
+#[test]
+fn boxes_overlap_only_if_no_side_parts_them() {
+    let bar = Rect { x: 0.0, y: 0.0, w: 40.0, h: 6.0 };
+    let tilted = |x: f64| turned(bar, [x, 0.0], 45.0);
+    let cases = [(tilted(5.0), true), (tilted(9.0), false), (turned(bar, [39.0, 5.0], 0.0), true)];
+    for (other, expected) in cases {
+        let base = if expected && other[0][0] > 30.0 { turned(bar, [0.0; 2], 0.0) } else { tilted(0.0) };
+        assert_eq!((overlap(&base, &other), overlap(&other, &base)), (expected, expected), "{other:?}");
+    }
+}
+
+#[test]
+fn a_side_of_either_box_may_part_the_two() {
+    // The corner (40, 0) of the level bar lies 2.5 pt off the tilted one; their upright hulls overlap.
+    let bar = Rect { x: 0.0, y: 0.0, w: 40.0, h: 6.0 };
+    let (level, tilted) = (turned(bar, [0.0; 2], 0.0), turned(bar, [40.0, -12.0], 45.0));
+    assert!(!overlap(&level, &tilted) && !overlap(&tilted, &level));
+    let closer = turned(bar, [38.0, -6.0], 45.0);
+    assert!(overlap(&level, &closer) && overlap(&closer, &level));
 }
 
 #[test]

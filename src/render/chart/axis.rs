@@ -120,7 +120,7 @@ impl Axis {
             }
             Scale::Log => self.log_ticks(),
             Scale::Linear => {
-                let most = (length_pt / if sideways { 26.0 } else { 15.0 }).clamp(2.0, 9.0) as usize;
+                let most = (length_pt / if sideways { 18.0 } else { 15.0 }).clamp(2.0, 9.0) as usize;
                 let fits = |ticks: &Vec<Tick>| !sideways || self.fits(ticks, length_pt);
                 (2..=most)
                     .rev()
@@ -136,6 +136,7 @@ impl Axis {
         let set = Type::of(TextSize::TICK);
         let mut spans: Vec<(f64, f64)> = ticks
             .iter()
+            .filter(|tick| !tick.label.is_empty())
             .map(|tick| (self.share(tick.at) * length_pt, set.width_pt(&tick.label) / 2.0 + 3.0))
             .collect();
         spans.sort_by(|a, b| a.0.total_cmp(&b.0));

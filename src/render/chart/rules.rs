@@ -131,7 +131,7 @@ mod tests {
             let fits = |middles: &[f64]| {
                 let ends =
                     middles[0] - widths[0] / 2.0 >= -1e-9 && middles[4] + widths[4] / 2.0 <= 100.0 + 1e-9;
-                let gap = |i: usize| middles[i + 1] - middles[i] - (widths[i] + widths[i + 1]) / 2.0;
+                let gap = |i: usize| middles[i + 1] - middles[i] - widths[i].midpoint(widths[i + 1]);
                 ends && (0..4).all(|i| gap(i) >= -1e-9)
             };
             assert!(fits(&got), "case {case}: {wanted:?} {widths:?} -> {got:?}");

@@ -111,10 +111,6 @@ impl Sheet {
     }
 
     /// Places one row of panels at height `y`; also the height that it takes.
-    #[expect(
-        clippy::type_complexity,
-        reason = "a view, its margin and the row's height belong to this call alone"
-    )]
     fn row(&self, row: usize, panels: &[Panel], y: f64) -> Result<(Vec<(View, Margin)>, f64), RenderError> {
         let (cell, gap) = self.cell_pt();
         let side = self.sides(cell);
@@ -130,7 +126,7 @@ impl Sheet {
             }
             let view = View { frame, x: panel.x.clone(), y: panel.y.clone() };
             let heading = self.heading_lines(row * self.columns + column, cell).len();
-            head = head.max(if heading > 0 { heading as f64 * line_pt(TextSize::LABEL) + 3.0 } else { 4.0 });
+            head = head.max(if heading > 0 { heading as f64 * line_pt(TextSize::LABEL) + 4.0 } else { 4.0 });
             over = panel.marks.iter().map(|mark| mark.headroom_pt(&view)).fold(over, f64::max);
             tallest = tallest.max(frame.h);
             foot = foot.max(panel.foot(&view));
@@ -226,7 +222,8 @@ impl Panel {
             return line_pt(TextSize::TICK);
         }
         let widest = ticks.iter().map(|tick| TICK.width_pt(&tick.label)).fold(0.0, f64::max);
-        widest * libm::sin(-TILT_DEG.to_radians()) + line_pt(TextSize::TICK)
+        let (sine, cosine) = libm::sincos(-TILT_DEG.to_radians());
+        widest * sine + TextSize::TICK.pt() * cosine
     }
 
     fn draw(&self, canvas: &mut Canvas, view: &View) {

@@ -4,7 +4,7 @@ use super::order::{Item, Look, back_to_front};
 use super::{Camera, Scene, Vec3, along, dot, sub};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
 use crate::render::chart::{Key, Mark, View};
-use crate::render::style::{BLUE, Fill, GREEN, INK, Stroke, TextSize, VERMILLION};
+use crate::render::style::{BLUE, Fill, GREEN, HAIR_PT, INK, Rgb, Stroke, TextSize, VERMILLION};
 
 /// A bar that shows how long a length looks.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,8 +98,7 @@ impl SceneMark {
     fn triad(&self, canvas: &mut Canvas, foot: Rect) {
         let [right, up, back] = self.camera.axes();
         let centre = [foot.x + 15.0, foot.bottom() - 12.0];
-        let mut arms: Vec<(usize, &str, crate::render::style::Rgb)> =
-            vec![(0, "x", VERMILLION), (1, "y", GREEN), (2, "z", BLUE)];
+        let mut arms = [(0, "x", VERMILLION), (1, "y", GREEN), (2, "z", BLUE)];
         arms.sort_by(|a, b| back[a.0].total_cmp(&back[b.0]));
         for (axis, name, color) in arms {
             let (dx, dy) = (right[axis], -up[axis]);
@@ -129,15 +128,28 @@ impl SceneMark {
     }
 }
 
-fn draw_item(canvas: &mut Canvas, lens: &Lens, item: &Item) {
+fn draw_face(canvas: &mut Canvas, lens: &Lens, item: &Item, color: Rgb, opacity: f64) {
     let points: Vec<[f64; 2]> = item.points.iter().map(|&point| lens.at(point)).collect();
-    match item.look {
-        Look::Line(stroke) => canvas.polyline(&points, &stroke),
-        Look::Face(_, color, opacity) => {
-            // A hair of the face's own colour closes the seam to its neighbour.
-            let hair = Stroke::solid(color, 0.25);
-            let seam = (opacity >= 1.0).then_some(&hair);
-            canvas.polygon(&points, Some(Fill::sheer(color, opacity)), seam);
+    // A hair of the face's own colour closes the seam to its neighbour.
+    let hair = Stroke::solid(color, HAIR_PT);
+    let seam = (opacity >= 1.0).then_some(&hair);
+    canvas.polygon(&points, Some(Fill::sheer(color, opacity)), seam);
+}
+
+/// Draws faces one by one and line pieces that follow each other as one line, so that dashes run on.
+fn draw_items(canvas: &mut Canvas, lens: &Lens, items: &[Item]) {
+    let follows = |a: &Item, b: &Item| {
+        let alike = matches!((a.look, b.look), (Look::Line(one), Look::Line(two)) if one == two);
+        alike && a.points.last() == b.points.first()
+    };
+    for run in items.chunk_by(follows) {
+        match run[0].look {
+            Look::Face(_, color, opacity) => draw_face(canvas, lens, &run[0], color, opacity),
+            Look::Line(stroke) => {
+                let rest = run.iter().flat_map(|item| item.points.iter().skip(1));
+                let chain = run[0].points.iter().take(1).chain(rest);
+                canvas.polyline(&chain.map(|&point| lens.at(point)).collect::<Vec<_>>(), &stroke);
+            }
         }
     }
 }
@@ -147,9 +159,7 @@ impl Mark for SceneMark {
         let frame = view.frame;
         let room = Rect { x: frame.x + 6.0, y: frame.y + 3.0, w: frame.w - 12.0, h: frame.h - FOOT_PT - 3.0 };
         let lens = Lens::fitting(&self.scene, self.camera, room);
-        for item in self.items(&lens) {
-            draw_item(canvas, &lens, &item);
-        }
+        draw_items(canvas, &lens, &self.items(&lens));
         let foot = Rect { y: frame.bottom() - FOOT_PT, h: FOOT_PT, ..frame };
         self.triad(canvas, foot);
         self.scale_bar(canvas, &lens, foot);

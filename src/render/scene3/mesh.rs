@@ -6,9 +6,9 @@ use crate::render::style::{BLACK, Rgb, Stroke, WHITE};
 use std::collections::BTreeMap;
 
 /// Facets around a capsule.
-const SIDES: usize = 28;
+const SIDES: usize = 32;
 /// Rings of facets on each of its caps.
-const RINGS: usize = 6;
+const RINGS: usize = 5;
 /// Faces that meet at an angle whose cosine is below this are parted by an outline.
 const SHARP_COS: f64 = 0.8;
 
@@ -150,6 +150,6 @@ fn lit(color: Rgb, outward: Vec3, camera: &Camera) -> Rgb {
     if share > 0.8 {
         color.mixed(WHITE, (share - 0.8) * 1.2)
     } else {
-        color.mixed(BLACK, (0.8 - share) * 0.55)
+        color.mixed(BLACK, (0.8 - share) * 0.48)
     }
 }

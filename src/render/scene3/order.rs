@@ -54,8 +54,14 @@ pub(super) fn back_to_front(items: Vec<Item>, eye: Vec3, parallel: bool, slack: 
             Some(plane) => {
                 let Sides { above, within, below } = divided(region, plane, slack);
                 let height = dot(plane.normal, eye) - if parallel { 0.0 } else { plane.offset };
-                let (near, far) = if height >= 0.0 { (above, below) } else { (below, above) };
-                todo.extend([near, within, far].into_iter().filter(|part| !part.is_empty()));
+                let (mut near, far) = if height >= 0.0 { (above, below) } else { (below, above) };
+                // Lines in the plane are edges of what stands on it, or are drawn on it: not to be covered.
+                let (lines, within): (Vec<Item>, Vec<Item>) =
+                    within.into_iter().partition(|item| matches!(item.look, Look::Line(_)));
+                near.extend(lines);
+                // Faces in one plane cannot hide each other.
+                let within = within.into_iter().map(|face| Item { solid: usize::MAX, ..face }).collect();
+                todo.extend([near, within, far].into_iter().filter(|part: &Vec<Item>| !part.is_empty()));
             }
         }
     }
@@ -97,7 +103,7 @@ fn gap(region: &[Item], slack: f64) -> Option<Plane> {
     best.map(|(_, plane)| plane)
 }
 
-/// The plane, out of those of up to [`TRIES`] faces, that cuts fewest items and parts others evenly.
+/// The plane, out of those of up to [`TRIES`] faces, that cuts few items and parts the others evenly.
 fn least_cutting(region: &[Item], slack: f64) -> Option<Plane> {
     let planes: Vec<Plane> = region
         .iter()
@@ -112,8 +118,7 @@ fn least_cutting(region: &[Item], slack: f64) -> Option<Plane> {
             above += i64::from(low >= -slack && high > slack);
             below += i64::from(high <= slack && low < -slack);
         }
-        let useless = cut == 0 && (above == 0 || below == 0);
-        (useless, 6 * cut + (above - below).abs())
+        8 * cut + (above - below).abs()
     };
     let best =
         planes.into_iter().step_by(stride).map(|plane| (cost(&plane), plane)).min_by_key(|(cost, _)| *cost);
@@ -144,8 +149,7 @@ fn divided(region: Vec<Item>, plane: Plane, slack: f64) -> Sides {
                 sides.above.push(Item { points: kept(&item.points, plane, 1.0), ..item.clone() });
                 sides.below.push(Item { points: kept(&item.points, plane, -1.0), ..item });
             }
-            // What lies in the plane is drawn as one convex thing.
-            (false, false) => sides.within.push(Item { solid: usize::MAX, ..item }),
+            (false, false) => sides.within.push(item),
         }
     }
     sides

@@ -118,3 +118,32 @@ fn a_line_behind_a_solid_comes_first_and_a_line_before_it_last() {
     assert_eq!((color(&items[0]), color(&items[items.len() - 1])), (Some(ORANGE), Some(GREEN)));
     assert!(items.len() > 5);
 }
+
+#[test]
+fn no_face_that_an_edge_bounds_is_drawn_over_it_not_even_the_floor() {
+    let mut scene = Scene::default();
+    let floor = vec![[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.0], [-3.0, 3.0, 0.0]];
+    scene.sheet(floor, Paint::solid(GREEN));
+    scene.cuboid([-1.0, -1.0, 0.0], [1.0; 3], Paint::solid(BLUE));
+    let camera = Camera::parallel(30.0, 20.0);
+    let scene = marked(scene, camera);
+    let items = scene.items(&Lens::fitting(&scene.scene, camera, ROOM));
+    let is_face = |item: &Item| matches!(item.look, Look::Face(..));
+    let touches = |face: &Item, point: Vec3| {
+        (0..3).all(|axis| {
+            let values = || face.points.iter().map(|corner| corner[axis]);
+            let (low, high) = (values().fold(f64::MAX, f64::min), values().fold(f64::MIN, f64::max));
+            (low - 1e-9..=high + 1e-9).contains(&point[axis])
+        })
+    };
+    let mut drawn = 0.0;
+    for (index, line) in items.iter().enumerate().filter(|(_, item)| !is_face(item)) {
+        let (span, middle) =
+            (sub(line.points[1], line.points[0]), along(line.points[0], line.points[1], 1.0));
+        let later = items[index..].iter().filter(|item| is_face(item));
+        assert!(!later.into_iter().any(|face| touches(face, middle.map(|v| v / 2.0))), "{line:?} is covered");
+        drawn += dot(span, span).sqrt();
+    }
+    // Six long and three short edges of the box and four of the floor.
+    assert!((drawn - (6.0 * 2.0 + 3.0 + 4.0 * 6.0)).abs() < 1e-9, "{drawn}");
+}
