@@ -4,3 +4,5 @@
 //! lower floors, and `tests/it/floors.rs` holds that.
 
 pub mod seed;
+
+pub mod geometry;
