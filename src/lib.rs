@@ -6,3 +6,5 @@
 pub mod seed;
 
 pub mod geometry;
+
+pub mod kinematics;
