@@ -35,9 +35,9 @@ pub enum KinematicsError {
     Joint {
         /// The joint, from 1.
         joint: usize,
-        /// Which of its quantities, with its unit.
+        /// Which of its quantities, called as in robot files.
         key: &'static str,
-        /// Its value.
+        /// Its value, in the unit of the key.
         found: f64,
         /// What would be accepted.
         accepted: String,
@@ -79,4 +79,15 @@ pub enum KinematicsError {
         /// The capsule's name.
         capsule: String,
     },
+}
+
+impl KinematicsError {
+    /// A refusal of a joint, counted from 0, for a quantity in metres or radians, told in the units of robot
+    /// files.
+    pub(super) fn joint(index: usize, key: &'static str, found_si: f64, accepted: &str) -> Self {
+        let found = if key.ends_with("_mm") { found_si * 1e3 } else { found_si.to_degrees() };
+        // What was written in degrees or millimetres is shown without the rounding of the way back.
+        let found = (found * 1e9).round() / 1e9;
+        Self::Joint { joint: index + 1, key, found, accepted: accepted.to_owned() }
+    }
 }

@@ -60,23 +60,23 @@ impl Joint {
         self.allows(allowed).then_some(allowed)
     }
 
-    /// The first quantity that cannot be, with what could.
+    /// The first quantity that cannot be, called as in robot files, with what could.
     fn fault(&self) -> Option<(&'static str, f64, &'static str)> {
         let numbers = [
-            ("alpha_rad", self.alpha_rad),
-            ("a_m", self.a_m),
-            ("d_m", self.d_m),
-            ("offset_rad", self.offset_rad),
-            ("lower_rad", self.lower_rad),
-            ("upper_rad", self.upper_rad),
-            ("speed_rad_s", self.speed_rad_s),
+            ("alpha_deg", self.alpha_rad),
+            ("a_mm", self.a_m),
+            ("d_mm", self.d_m),
+            ("offset_deg", self.offset_rad),
+            ("lower_deg", self.lower_rad),
+            ("upper_deg", self.upper_rad),
+            ("speed_deg_s", self.speed_rad_s),
         ];
         let unreal = numbers.into_iter().find(|(_, value)| !value.is_finite());
         let unreal = unreal.map(|(key, value)| (key, value, "a finite number"));
         let crossed = self.upper_rad <= self.lower_rad;
-        let crossed = crossed.then_some(("upper_rad", self.upper_rad, "more than lower_rad"));
+        let crossed = crossed.then_some(("upper_deg", self.upper_rad, "more than lower_deg"));
         let stuck = self.speed_rad_s <= 0.0;
-        let stuck = stuck.then_some(("speed_rad_s", self.speed_rad_s, "more than 0"));
+        let stuck = stuck.then_some(("speed_deg_s", self.speed_rad_s, "more than 0"));
         unreal.or(crossed).or(stuck)
     }
 }
@@ -106,8 +106,7 @@ impl Chain {
     pub fn new(joints: [Joint; AXES], base: Frame, tool: Frame) -> Result<Self, KinematicsError> {
         for (index, joint) in joints.iter().enumerate() {
             if let Some((key, found, accepted)) = joint.fault() {
-                let accepted = accepted.to_owned();
-                return Err(KinematicsError::Joint { joint: index + 1, key, found, accepted });
+                return Err(KinematicsError::joint(index, key, found, accepted));
             }
         }
         let twists = joints.map(|joint| twist(joint.alpha_rad));

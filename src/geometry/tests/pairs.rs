@@ -4,8 +4,9 @@ use super::{reference, sample};
 use crate::{
     geometry::{
         Capsule, Convex, Edge, Nearest, OrientedBox, Segment, Vec3, distance_capsule_capsule,
-        distance_segment_box, distance_segment_convex, distance_segment_segment, intersects_capsule_box,
-        intersects_capsule_capsule, intersects_segment_convex, nearest_segment_box, nearest_segment_convex,
+        distance_point_box, distance_point_segment, distance_segment_box, distance_segment_convex,
+        distance_segment_segment, intersects_capsule_box, intersects_capsule_capsule,
+        intersects_segment_convex, nearest_point_segment, nearest_segment_box, nearest_segment_convex,
         nearest_segment_segment,
     },
     seed,
@@ -57,6 +58,9 @@ fn segments_are_as_far_apart_as_a_ternary_search_finds_them() {
         assert_attained(&fast, seed, index);
         assert_eq!(fast.distance, distance_segment_segment(&p, &q), "seed {seed} pair {index}");
         sampled.count(slow, &p, &[q.b - q.a]);
+        let end = reference::segment_segment(&q, &Segment::new(p.a, p.a));
+        assert!((distance_point_segment(&p.a, &q) - end).abs() < EXACT, "seed {seed} pair {index}");
+        assert_attained(&nearest_point_segment(&p.a, &q), seed, index);
         let (c, d) = (Capsule::new(p.a, p.b, 0.2).unwrap(), Capsule::new(q.a, q.b, 0.1).unwrap());
         let gap = (slow - 0.3).max(0.0);
         assert!((distance_capsule_capsule(&c, &d) - gap).abs() < EXACT, "seed {seed} pair {index}");
@@ -80,6 +84,7 @@ fn segments_and_boxes_are_as_far_apart_as_a_quadratic_program_finds_them() {
         assert!((fast.distance - slow).abs() < EXACT, "seed {seed} pair {index}: {fast:?}, not {slow}");
         assert_attained(&fast, seed, index);
         assert!((fast.distance - distance_segment_box(&p, &shape)).abs() < 1e-15);
+        assert_eq!(distance_point_box(&p.a, &shape), distance_segment_box(&Segment::new(p.a, p.a), &shape));
         assert_box_holds(&shape, &fast.on_b, seed, index);
         sampled.count(slow, &p, &[0, 1, 2].map(|axis| shape.frame().axis(axis)));
         assert_threshold(slow, |radius| {

@@ -129,23 +129,23 @@ impl Shape {
         for (i, joint) in chain.joints().iter().enumerate() {
             let refuse = |key, found, accepted: &str| {
                 let accepted = format!("{accepted}, for the solver `{}`", self.name);
-                Err(KinematicsError::Joint { joint: i + 1, key, found, accepted })
+                Err(KinematicsError::joint(i, key, found, &accepted))
             };
             let (twist, expected) = (chain.twists()[i], self.twists[i]);
             if expected.is_none() && twist.1 != 0.0 {
-                return refuse("alpha_rad", joint.alpha_rad, "π/2 or -π/2");
+                return refuse("alpha_deg", joint.alpha_rad, "90 or -90");
             }
             if let Some((s, c)) = expected.filter(|expected| *expected != twist) {
-                return refuse("alpha_rad", joint.alpha_rad, &libm::atan2(s, c).to_string());
+                return refuse("alpha_deg", joint.alpha_rad, &libm::atan2(s, c).to_degrees().to_string());
             }
             if self.a_zero[i] && joint.a_m != 0.0 {
-                return refuse("a_m", joint.a_m, "0");
+                return refuse("a_mm", joint.a_m, "0");
             }
             if !self.a_zero[i] && i == 1 && joint.a_m <= 0.0 {
-                return refuse("a_m", joint.a_m, "more than 0");
+                return refuse("a_mm", joint.a_m, "more than 0");
             }
             if self.d_zero[i] && joint.d_m != 0.0 {
-                return refuse("d_m", joint.d_m, "0");
+                return refuse("d_mm", joint.d_m, "0");
             }
         }
         Ok(())

@@ -152,6 +152,16 @@ fn full_stretch_is_reached_and_a_millimetre_beyond_is_not() {
     assert!(off_m < 1e-9 && turned < 1e-9, "{found:?}: off {off_m} m, {turned}");
     target.origin.z += 1e-3;
     assert!(arm.inverse_nearest(&target, &[0.0; AXES]).is_none());
+    let mut stream = seed::stream(724);
+    for index in 0..2_000 {
+        let mut q = draw(&mut stream, arm.chain());
+        q[2] = 0.0;
+        let target = arm.chain().forward(&q);
+        let found = arm.inverse_on(&target, arm.branch_of(&q), &q);
+        let found = found.unwrap_or_else(|| panic!("seed 724 case {index}: {q:?} is refused"));
+        let (off_m, turned) = miss(&arm.chain().forward(&found), &target);
+        assert!(off_m < 1e-11 && turned < 1e-11, "seed 724 case {index}: off {off_m} m, {turned}");
+    }
     let near_axis = Frame::at(Vec3::new(0.1, 0.0, 1.0));
     assert!(arm.inverse(&near_axis, &[0.0; AXES]).iter().next().is_none(), "inside the shoulder offset");
 }
@@ -236,14 +246,17 @@ fn a_chain_of_another_family_is_refused_with_the_joint_and_the_number() {
         solver(solver_name, &chain).unwrap_err().to_string()
     };
     let cases = [
-        (refusal("aubo_i10", |_| (), "spherical_wrist"), "joint 2: alpha_rad is 3.14"),
-        (refusal("motoman_up6", |_| (), "offset_wrist"), "joint 1: alpha_rad is -1.57"),
-        (refusal("motoman_up6", |j| j[4].d_m = 0.01, "spherical_wrist"), "joint 5: d_m is 0.01; accepted: 0"),
-        (refusal("motoman_up6", |j| j[3].a_m = 0.02, "spherical_wrist"), "joint 4: a_m is 0.02; accepted: 0"),
-        (refusal("motoman_up6", |j| j[1].a_m = 0.0, "spherical_wrist"), "joint 2: a_m is 0; accepted: more"),
         (
-            refusal("motoman_up6", |j| j[3].alpha_rad = 1.5, "spherical_wrist"),
-            "joint 4: alpha_rad is 1.5; acc",
+            refusal("aubo_i10", |_| (), "spherical_wrist"),
+            "joint 2: alpha_deg is 180; accepted: 0, for the solver",
+        ),
+        (refusal("motoman_up6", |_| (), "offset_wrist"), "joint 1: alpha_deg is -90; accepted: 90, for"),
+        (refusal("motoman_up6", |j| j[4].d_m = 0.01, "spherical_wrist"), "joint 5: d_mm is 10; accepted: 0"),
+        (refusal("motoman_up6", |j| j[3].a_m = 0.02, "spherical_wrist"), "joint 4: a_mm is 20; accepted: 0"),
+        (refusal("motoman_up6", |j| j[1].a_m = 0.0, "spherical_wrist"), "joint 2: a_mm is 0; accepted: more"),
+        (
+            refusal("motoman_up6", |j| j[3].alpha_rad = 1.4, "spherical_wrist"),
+            "joint 4: alpha_deg is 80.2140",
         ),
         (
             refusal("motoman_up6", |_| (), "newton"),

@@ -21,20 +21,24 @@ fn refusal(find: &str, put: &str) -> String {
 #[test]
 fn a_file_that_cannot_be_is_refused_with_its_place_and_what_is_accepted() {
     let cases = [
-        ("a_mm = 150\n", "a_mm = nan\n", "up6.toml:18:1: joint 1: a_m is NaN; accepted: a finite number"),
+        ("a_mm = 150\n", "a_mm = nan\n", "up6.toml:18:1: joint 1: a_mm is NaN; accepted: a finite number"),
         ("a_mm = 150\n", "a_m = 0.15\n", "up6.toml:20:1: unknown field `a_m`, expected one of"),
         ("a_mm = 150\n", "", "missing field `a_mm`"),
         ("a_mm = 150\n", "a_mm = \"150\"\n", "up6.toml:20:8: invalid type: string"),
         ("a_mm = 150\n", "a_mm 150\n", "up6.toml:20:"),
-        ("lower_deg = -170", "lower_deg = 170", "joint 1: upper_rad is 2.96"),
-        ("speed_deg_s = 140", "speed_deg_s = 0", "joint 1: speed_rad_s is 0; accepted: more than 0"),
+        ("lower_deg = -170", "lower_deg = 170", "joint 1: upper_deg is 170; accepted: more than lower_deg"),
+        ("speed_deg_s = 140", "speed_deg_s = 0", "joint 1: speed_deg_s is 0; accepted: more than 0"),
         ("speed_deg_s = 140", "", "neither of speed_deg_s and speed_rad_s is given; accepted: exactly one"),
         ("speed_deg_s = 140", "speed_deg_s = 1\nspeed_rad_s = 1", "both of speed_deg_s and speed_rad_s"),
-        ("alpha_deg = -90", "alpha_deg = -80", "up6.toml:18:1: joint 1: alpha_rad is -1.396"),
+        (
+            "alpha_deg = -90",
+            "alpha_deg = -80",
+            "up6.toml:18:1: joint 1: alpha_deg is -80; accepted: 90 or -90, for the solver `spherical_wrist`",
+        ),
         (
             "d_mm = 0\noffset_deg = 0\nlower_deg = -135",
             "d_mm = 9\noffset_deg = 0\nlower_deg = -135",
-            "joint 5: d_m is 0.009",
+            "joint 5: d_mm is 9; accepted: 0",
         ),
         ("\"spherical_wrist\"", "\"pieper\"", "up6.toml:6:10: solver `pieper` does not exist"),
         ("length_mm = 150", "length_mm = -1", "tool.length_mm is -1; accepted: 0 (no tool) or more"),
