@@ -65,6 +65,8 @@ struct CapsuleEntry {
     from_mm: Option<[f64; 3]>,
     to_mm: Option<[f64; 3]>,
     tool_share: Option<[f64; 2]>,
+    #[serde(default)]
+    self_only: bool,
     radius_mm: f64,
 }
 
@@ -216,7 +218,7 @@ fn body(source: &Source, entry: &BodyEntry, tool_length_m: f64) -> Result<Body, 
 }
 
 fn part(source: &Source, entry: &Spanned<CapsuleEntry>, tool_length_m: f64) -> Result<Part, KinematicsError> {
-    let CapsuleEntry { name, link, from_mm, to_mm, tool_share, radius_mm } = entry.get_ref();
+    let CapsuleEntry { name, link, from_mm, to_mm, tool_share, self_only, radius_mm } = entry.get_ref();
     let (radius_m, at) = (radius_mm * 1e-3, source.at(entry.span()));
     match (link, from_mm, to_mm, tool_share) {
         (Some(link), Some(from_mm), Some(to_mm), None) => {
@@ -226,9 +228,9 @@ fn part(source: &Source, entry: &Spanned<CapsuleEntry>, tool_length_m: f64) -> R
             }
             let (from, to) = (Vec3::from(*from_mm) * 1e-3, Vec3::from(*to_mm) * 1e-3);
             let capsule = Capsule::new(from, to, radius_m).map_err(|error| at(error.into()))?;
-            Ok(Part { name: name.clone(), link: *link, tool_share: None, capsule })
+            Ok(Part { name: name.clone(), link: *link, tool_share: None, self_only: *self_only, capsule })
         }
-        (None, None, None, Some([from, to])) => {
+        (None, None, None, Some([from, to])) if !self_only => {
             if !(0.0 <= *from && from < to && *to <= 1.0) {
                 let found = format!("capsule `{name}` spans tool_share [{from}, {to}]");
                 let message = format!("{found}; accepted: two rising numbers from 0 to 1");
@@ -238,7 +240,8 @@ fn part(source: &Source, entry: &Spanned<CapsuleEntry>, tool_length_m: f64) -> R
         }
         _ => {
             let message = format!(
-                "capsule `{name}` does not say where it is; accepted: link, from_mm and to_mm, or tool_share"
+                "capsule `{name}` does not say where it is; accepted: link, from_mm and to_mm \
+                 (and self_only), or tool_share"
             );
             Err(source.fault(&entry.span(), message))
         }

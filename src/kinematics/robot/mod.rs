@@ -9,7 +9,7 @@ mod file;
 mod tests;
 
 use super::{Arm, KinematicsError, serial::AXES};
-use crate::geometry::{Capsule, Frame, Vec3};
+use crate::geometry::{Capsule, Frame, Segment, Vec3};
 use std::{fs, path::Path};
 
 /// A robot, checked.
@@ -36,6 +36,7 @@ pub struct Part {
     link: usize,
     /// The stretch of the tool it spans, if it belongs to the tool.
     tool_share: Option<[f64; 2]>,
+    self_only: bool,
     capsule: Capsule,
 }
 
@@ -154,7 +155,13 @@ impl Part {
         }
         let at = |share: f64| Vec3::z() * (share * tool_length_m);
         let capsule = Capsule::new(at(from), at(to), radius_m)?;
-        Ok(Self { name: name.to_owned(), link: AXES, tool_share: Some([from, to]), capsule })
+        Ok(Self {
+            name: name.to_owned(),
+            link: AXES,
+            tool_share: Some([from, to]),
+            self_only: false,
+            capsule,
+        })
     }
 
     /// The part's name.
@@ -167,6 +174,11 @@ impl Part {
         self.link
     }
 
+    /// Whether only the robot's other parts can hit it: the scene stands clear of it, or holds it.
+    pub fn is_self_only(&self) -> bool {
+        self.self_only
+    }
+
     /// Where it is in the frame of its link.
     pub fn capsule(&self) -> &Capsule {
         &self.capsule
@@ -177,6 +189,6 @@ impl Part {
     pub fn placed(&self, frames: &[Frame; AXES + 1]) -> Capsule {
         let (frame, Capsule { segment, radius }) = (&frames[self.link], self.capsule);
         let [a, b] = [frame.point(&segment.a), frame.point(&segment.b)];
-        Capsule { segment: crate::geometry::Segment::new(a, b), radius }
+        Capsule { segment: Segment::new(a, b), radius }
     }
 }

@@ -18,46 +18,52 @@ fn refusal(find: &str, put: &str) -> String {
     Robot::parse(&text, Path::new("up6.toml")).unwrap_err().to_string()
 }
 
+/// What is written in the file, what is put there instead, and what the refusal says.
+const REFUSALS: &[(&str, &str, &str)] = &[
+    ("a_mm = 150\n", "a_mm = nan\n", "up6.toml:18:1: joint 1: a_mm is NaN; accepted: a finite number"),
+    ("a_mm = 150\n", "a_m = 0.15\n", "up6.toml:20:1: unknown field `a_m`, expected one of"),
+    ("a_mm = 150\n", "", "missing field `a_mm`"),
+    ("a_mm = 150\n", "a_mm = \"150\"\n", "up6.toml:20:8: invalid type: string"),
+    ("a_mm = 150\n", "a_mm 150\n", "up6.toml:20:"),
+    ("lower_deg = -170", "lower_deg = 170", "joint 1: upper_deg is 170; accepted: more than lower_deg"),
+    ("speed_deg_s = 140", "speed_deg_s = 0", "joint 1: speed_deg_s is 0; accepted: more than 0"),
+    ("speed_deg_s = 140", "", "neither of speed_deg_s and speed_rad_s is given; accepted: exactly one"),
+    ("speed_deg_s = 140", "speed_deg_s = 1\nspeed_rad_s = 1", "both of speed_deg_s and speed_rad_s"),
+    (
+        "alpha_deg = -90",
+        "alpha_deg = -80",
+        "up6.toml:18:1: joint 1: alpha_deg is -80; accepted: 90 or -90, for the solver `spherical_wrist`",
+    ),
+    (
+        "d_mm = 0\noffset_deg = 0\nlower_deg = -135",
+        "d_mm = 9\noffset_deg = 0\nlower_deg = -135",
+        "joint 5: d_mm is 9; accepted: 0",
+    ),
+    ("\"spherical_wrist\"", "\"pieper\"", "up6.toml:6:10: solver `pieper` does not exist"),
+    ("length_mm = 150", "length_mm = -1", "tool.length_mm is -1; accepted: 0 (no tool) or more"),
+    ("length_mm = 150", "length_mm = inf", "tool.length_mm is inf; accepted: a finite number"),
+    ("length_mm = 150", "length_mm = 0", "capsule `tool_body` spans a share of the tool"),
+    ("position_mm = [0, 0, 0]", "position_mm = [0, nan, 0]", "base.position_mm is [0.0, NaN, 0.0]"),
+    ("radius_mm = 150", "radius_mm = -150", "the capsule's radius is -0.15; it must be greater than 0"),
+    ("link = 0", "link = 7", "capsule `base` is on link 7; accepted: 0 (base) to 6"),
+    (
+        "link = 0\n",
+        "",
+        "capsule `base` does not say where it is; accepted: link, from_mm and to_mm (and self_only), or",
+    ),
+    ("[0.0, 0.55]", "[0.6, 0.55]", "spans tool_share [0.6, 0.55]; accepted: two rising numbers"),
+    (
+        "[\"elbow\", \"base\"]",
+        "[\"elbow\", \"bas\"]",
+        "self_pairs names capsule `bas`; accepted: base, turret",
+    ),
+    ("[\"elbow\", \"base\"]", "[\"elbow\", \"forearm\"]", "accepted: capsules on two different links"),
+    ("name = \"turret\"", "name = \"base\"", "capsule `base` is given twice"),
+];
+
 #[test]
 fn a_file_that_cannot_be_is_refused_with_its_place_and_what_is_accepted() {
-    let cases = [
-        ("a_mm = 150\n", "a_mm = nan\n", "up6.toml:18:1: joint 1: a_mm is NaN; accepted: a finite number"),
-        ("a_mm = 150\n", "a_m = 0.15\n", "up6.toml:20:1: unknown field `a_m`, expected one of"),
-        ("a_mm = 150\n", "", "missing field `a_mm`"),
-        ("a_mm = 150\n", "a_mm = \"150\"\n", "up6.toml:20:8: invalid type: string"),
-        ("a_mm = 150\n", "a_mm 150\n", "up6.toml:20:"),
-        ("lower_deg = -170", "lower_deg = 170", "joint 1: upper_deg is 170; accepted: more than lower_deg"),
-        ("speed_deg_s = 140", "speed_deg_s = 0", "joint 1: speed_deg_s is 0; accepted: more than 0"),
-        ("speed_deg_s = 140", "", "neither of speed_deg_s and speed_rad_s is given; accepted: exactly one"),
-        ("speed_deg_s = 140", "speed_deg_s = 1\nspeed_rad_s = 1", "both of speed_deg_s and speed_rad_s"),
-        (
-            "alpha_deg = -90",
-            "alpha_deg = -80",
-            "up6.toml:18:1: joint 1: alpha_deg is -80; accepted: 90 or -90, for the solver `spherical_wrist`",
-        ),
-        (
-            "d_mm = 0\noffset_deg = 0\nlower_deg = -135",
-            "d_mm = 9\noffset_deg = 0\nlower_deg = -135",
-            "joint 5: d_mm is 9; accepted: 0",
-        ),
-        ("\"spherical_wrist\"", "\"pieper\"", "up6.toml:6:10: solver `pieper` does not exist"),
-        ("length_mm = 150", "length_mm = -1", "tool.length_mm is -1; accepted: 0 (no tool) or more"),
-        ("length_mm = 150", "length_mm = inf", "tool.length_mm is inf; accepted: a finite number"),
-        ("length_mm = 150", "length_mm = 0", "capsule `tool_body` spans a share of the tool"),
-        ("position_mm = [0, 0, 0]", "position_mm = [0, nan, 0]", "base.position_mm is [0.0, NaN, 0.0]"),
-        ("radius_mm = 150", "radius_mm = -150", "the capsule's radius is -0.15; it must be greater than 0"),
-        ("link = 0", "link = 7", "capsule `base` is on link 7; accepted: 0 (base) to 6"),
-        ("link = 0\n", "", "capsule `base` does not say where it is; accepted: link, from_mm and to_mm, or"),
-        ("[0.0, 0.55]", "[0.6, 0.55]", "spans tool_share [0.6, 0.55]; accepted: two rising numbers"),
-        (
-            "[\"elbow\", \"base\"]",
-            "[\"elbow\", \"bas\"]",
-            "self_pairs names capsule `bas`; accepted: base, turret",
-        ),
-        ("[\"elbow\", \"base\"]", "[\"elbow\", \"forearm\"]", "accepted: capsules on two different links"),
-        ("name = \"turret\"", "name = \"base\"", "capsule `base` is given twice"),
-    ];
-    for (find, put, expected) in cases {
+    for (find, put, expected) in REFUSALS {
         let found = refusal(find, put);
         assert!(found.starts_with("up6.toml:") && found.contains(expected), "`{found}` has no `{expected}`");
     }
@@ -148,9 +154,13 @@ fn a_longer_tool_takes_its_capsules_along_and_moves_nothing_else() {
     assert!(found.iter().zip(&q).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
     let [before, after] = [&up6, &longer].map(|robot| robot.bodies()[0].parts().to_vec());
     assert_eq!(before[..6], after[..6]);
+    let placed = after[7].placed(&longer.arm().chain().frames(&q));
+    assert!((placed.segment.b - reach(&longer)).norm() < 1e-12, "the finger ends at {placed:?}");
     let finger = after[7].capsule();
     assert!((finger.segment.a.z - 0.1375).abs() < 1e-15 && (finger.segment.b.z - 0.25).abs() < 1e-15);
     assert!(distance_capsule_capsule(after[6].capsule(), finger) == 0.0);
+    let self_only = before.iter().filter(|part| part.is_self_only()).map(Part::name);
+    assert_eq!(self_only.collect::<Vec<_>>(), ["base", "turret"]);
     let none = up6.with_tool_length(0.0).unwrap_err().to_string();
     assert!(none.starts_with("capsule `tool_body` spans a share of the tool"), "{none}");
     assert!(up6.with_tool_length(f64::NAN).is_err());
