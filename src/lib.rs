@@ -6,7 +6,10 @@
 pub mod seed;
 pub mod settings;
 
+pub mod geometry;
+
 pub mod grid;
+pub mod kinematics;
 
 pub mod space;
 

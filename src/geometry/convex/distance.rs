@@ -1,0 +1,97 @@
+//! The distance between a segment and a convex polyhedron.
+//!
+//! The segment is first clipped by the planes; if something is left, they overlap. Otherwise a nearest pair
+//! is a point of an edge and a point of the segment, or the foot of an end of the segment in a face. Only
+//! faces with an end in front of them, and their edges, can hold one. An end whose foot lies in a face and
+//! which is not above the other end is nearest at once: its height bounds every distance from below.
+
+use super::{Convex, Face};
+use crate::geometry::{Nearest, Segment, Vec3, nearest_segment_segment};
+
+/// The share at which the segment enters the solid; `None` if it passes by.
+///
+/// Also collects, one bit a face, which faces have an end of the segment in front of them.
+#[inline]
+fn entry(segment: &Segment, convex: &Convex) -> (Option<f64>, u128) {
+    let (mut enter, mut leave, mut visible) = (0.0_f64, 1.0_f64, 0_u128);
+    for (index, face) in convex.faces.iter().enumerate() {
+        let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
+        if a <= 0.0 && b <= 0.0 {
+            continue;
+        }
+        visible |= 1 << index;
+        if a > 0.0 && b > 0.0 {
+            leave = f64::NEG_INFINITY;
+        } else if a > 0.0 {
+            enter = enter.max(a / (a - b));
+        } else {
+            leave = leave.min(a / (a - b));
+        }
+    }
+    ((enter <= leave).then_some(enter), visible)
+}
+
+/// Whether the foot of `point` in the face's plane lies within the face.
+#[inline]
+fn is_over(point: &Vec3, face: &Face, vertices: &[Vec3]) -> bool {
+    let last = face.corners[face.corners.len() - 1];
+    let mut from = vertices[last];
+    face.corners.iter().all(|&corner| {
+        let to = vertices[corner];
+        let inside = (to - from).cross(&(point - from)).dot(&face.plane.normal) >= 0.0;
+        from = to;
+        inside
+    })
+}
+
+/// The nearest points of a segment, which may be a point, and a convex polyhedron.
+pub fn nearest_segment_convex(segment: &Segment, convex: &Convex) -> Nearest {
+    let (inside, visible) = entry(segment, convex);
+    if let Some(share) = inside {
+        let common = segment.at(share);
+        return Nearest { distance: 0.0, on_a: common, on_b: common };
+    }
+    let mut best = Nearest { distance: f64::INFINITY, on_a: segment.a, on_b: segment.a };
+    for (index, face) in convex.faces.iter().enumerate() {
+        if visible >> index & 1 == 0 {
+            continue;
+        }
+        let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
+        for (height, other, end) in [(a, b, segment.a), (b, a, segment.b)] {
+            if height >= 0.0 && height < best.distance && is_over(&end, face, &convex.vertices) {
+                best = Nearest { distance: height, on_a: end, on_b: end - face.plane.normal * height };
+                if height <= other {
+                    return best;
+                }
+            }
+        }
+    }
+    for edge in &convex.edges {
+        if visible & (1 << edge.faces[0] | 1 << edge.faces[1]) != 0 {
+            let [from, to] = edge.ends.map(|end| convex.vertices[end]);
+            let found = nearest_segment_segment(segment, &Segment::new(from, to));
+            if found.distance < best.distance {
+                best = found;
+            }
+        }
+    }
+    best
+}
+
+/// The distance between a segment and a convex polyhedron.
+pub fn distance_segment_convex(segment: &Segment, convex: &Convex) -> f64 {
+    nearest_segment_convex(segment, convex).distance
+}
+
+/// The distance from a point to a convex polyhedron.
+pub fn distance_point_convex(point: &Vec3, convex: &Convex) -> f64 {
+    distance_segment_convex(&Segment::new(*point, *point), convex)
+}
+
+/// Whether a segment comes within `radius` of a convex polyhedron: contact of a capsule, or contact of the
+/// segment with the polyhedron's true offset. Touching is contact.
+pub fn intersects_segment_convex(segment: &Segment, convex: &Convex, radius: f64) -> bool {
+    // A plane with both ends further away than the radius settles most queries.
+    let beyond = |face: &Face| face.plane.height(&segment.a).min(face.plane.height(&segment.b)) > radius;
+    !convex.faces.iter().any(beyond) && distance_segment_convex(segment, convex) <= radius
+}

@@ -1,0 +1,93 @@
+//! Convex polyhedra: planes, faces, edges and vertices, checked when built.
+//!
+//! A polyhedron grown by a radius ("true offset") is not another polyhedron: it has round edges. Every use
+//! of one is a comparison of the exact distance with the radius, and [`intersects_segment_convex`] makes it.
+
+mod distance;
+mod hull;
+mod planes;
+mod primitives;
+
+pub use distance::{
+    distance_point_convex, distance_segment_convex, intersects_segment_convex, nearest_segment_convex,
+};
+pub use primitives::Axis;
+
+use super::{Aabb, Vec3};
+
+/// The most vertices, planes or faces a polyhedron may have.
+///
+/// Construction tries all triples, and one bit a face must fit a `u128`: 64 vertices have at most 124 faces.
+const MOST: usize = 64;
+
+/// A bounding plane: the solid is where `normal · x <= offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// The unit vector out of the solid.
+    pub normal: Vec3,
+    /// How far the plane is from the origin along the normal.
+    pub offset: f64,
+}
+
+impl Plane {
+    /// How far `point` is in front of the plane; negative behind.
+    #[inline]
+    pub fn height(&self, point: &Vec3) -> f64 {
+        self.normal.dot(point) - self.offset
+    }
+}
+
+/// A flat side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Face {
+    /// The plane it lies in.
+    pub plane: Plane,
+    /// Its vertices by index, counter-clockwise seen from outside.
+    pub corners: Vec<usize>,
+}
+
+/// Where two faces meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge {
+    /// The vertices it joins, by index, the smaller first.
+    pub ends: [usize; 2],
+    /// The faces it parts, by index.
+    pub faces: [usize; 2],
+}
+
+/// A bounded convex solid with a volume.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Convex {
+    vertices: Vec<Vec3>,
+    faces: Vec<Face>,
+    edges: Vec<Edge>,
+    aabb: Aabb,
+}
+
+impl Convex {
+    /// The corners, in the order in which they were given or found.
+    pub fn vertices(&self) -> &[Vec3] {
+        &self.vertices
+    }
+
+    /// The flat sides; coplanar triangles are one face.
+    pub fn faces(&self) -> &[Face] {
+        &self.faces
+    }
+
+    /// The edges between faces, ordered by their vertices.
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// The smallest axis-aligned box about the solid.
+    pub fn aabb(&self) -> &Aabb {
+        &self.aabb
+    }
+
+    /// Whether `point` is in the solid, its surface included.
+    #[inline]
+    pub fn contains(&self, point: &Vec3) -> bool {
+        self.faces.iter().all(|face| face.plane.height(point) <= 0.0)
+    }
+}

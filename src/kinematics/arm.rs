@@ -1,0 +1,101 @@
+//! A chain with its inverse: poses of the tool in the world, joints within limits.
+
+use super::{
+    KinematicsError,
+    ik::{self, Branch, Solutions, Solver},
+    serial::{Chain, Joints},
+};
+use crate::geometry::Frame;
+use std::sync::Arc;
+
+/// An arm that knows the way to a pose of its tool.
+#[derive(Debug, Clone)]
+pub struct Arm {
+    chain: Chain,
+    solver: Arc<dyn Solver>,
+    base_inverse: Frame,
+    tool_inverse: Frame,
+}
+
+impl Arm {
+    /// The arm with this chain and the solver of this name.
+    ///
+    /// # Errors
+    /// Those of [`ik::solver`].
+    pub fn new(chain: Chain, solver: &str) -> Result<Self, KinematicsError> {
+        let solver = ik::solver(solver, &chain)?;
+        Ok(Self::assemble(chain, solver))
+    }
+
+    fn assemble(chain: Chain, solver: Arc<dyn Solver>) -> Self {
+        let (base_inverse, tool_inverse) = (chain.base().inverse(), chain.tool().inverse());
+        Self { chain, solver, base_inverse, tool_inverse }
+    }
+
+    /// The same arm with another tool.
+    #[must_use]
+    pub fn with_tool(&self, tool: Frame) -> Self {
+        Self::assemble(self.chain.with_tool(tool), Arc::clone(&self.solver))
+    }
+
+    /// The chain: forward kinematics, Jacobian, limits and speeds.
+    pub fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
+    /// The branch that a configuration is on.
+    #[inline]
+    pub fn branch_of(&self, q: &Joints) -> Branch {
+        self.solver.branch_of(q)
+    }
+
+    /// Every configuration within limits that puts the tool at `target`, at most one a branch: of those that
+    /// differ by whole turns, each joint takes the one nearest to its reference, the lower one if two are.
+    ///
+    /// Where `target` leaves a joint free (see the solver), it keeps its reference.
+    pub fn inverse(&self, target: &Frame, reference: &Joints) -> Solutions {
+        let all = self.solver.solve_all(&self.flange(target), reference);
+        let mut allowed = Solutions::none();
+        for (branch, q) in all.iter() {
+            if let Some(q) = self.allowed_copy(q, reference) {
+                allowed.insert(branch, q);
+            }
+        }
+        allowed
+    }
+
+    /// Of [`inverse`](Self::inverse), the configuration with the least sum of squared joint changes from
+    /// `reference`; the first branch in the order of [`Branch::ALL`] if several have it.
+    pub fn inverse_nearest(&self, target: &Frame, reference: &Joints) -> Option<(Branch, Joints)> {
+        let mut best: Option<(f64, Branch, Joints)> = None;
+        for (branch, q) in self.inverse(target, reference).iter() {
+            let change: f64 = q.iter().zip(reference).map(|(a, b)| (a - b) * (a - b)).sum();
+            if best.is_none_or(|(least, ..)| change < least) {
+                best = Some((change, branch, *q));
+            }
+        }
+        best.map(|(_, branch, q)| (branch, q))
+    }
+
+    /// Of [`inverse`](Self::inverse), the configuration on one branch, at a fraction of the cost: what
+    /// following a line from a known configuration needs.
+    #[inline]
+    pub fn inverse_on(&self, target: &Frame, branch: Branch, reference: &Joints) -> Option<Joints> {
+        let q = self.solver.solve(&self.flange(target), branch, reference)?;
+        self.allowed_copy(&q, reference)
+    }
+
+    #[inline]
+    fn flange(&self, target: &Frame) -> Frame {
+        self.base_inverse * *target * self.tool_inverse
+    }
+
+    #[inline]
+    fn allowed_copy(&self, q: &Joints, reference: &Joints) -> Option<Joints> {
+        let mut copy = *q;
+        for (i, joint) in self.chain.joints().iter().enumerate() {
+            copy[i] = joint.nearest_allowed_copy(q[i], reference[i])?;
+        }
+        Some(copy)
+    }
+}

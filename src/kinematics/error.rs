@@ -1,0 +1,93 @@
+//! What can be wrong with an arm, a target or a robot file.
+
+use crate::geometry::GeometryError;
+use std::{io, path::PathBuf};
+use thiserror::Error;
+
+/// Why there is no arm, or no answer from one.
+#[derive(Debug, Error)]
+pub enum KinematicsError {
+    /// A link length of the planar arm is not a finite number above 0.
+    #[error("link {link} is {found} long; a link must be longer than 0")]
+    Link {
+        /// 1 or 2.
+        link: usize,
+        /// Its length.
+        found: f64,
+    },
+    /// The planar arm cannot put its tip there.
+    #[error(
+        "target ({}, {}) is {distance} from the base; the arm reaches from {inner} to {outer}",
+        target[0], target[1]
+    )]
+    OutOfReach {
+        /// The target.
+        target: [f64; 2],
+        /// Its distance from the base.
+        distance: f64,
+        /// The least distance reached.
+        inner: f64,
+        /// The greatest distance reached.
+        outer: f64,
+    },
+    /// A joint's number makes no chain.
+    #[error("joint {joint}: {key} is {found}; accepted: {accepted}")]
+    Joint {
+        /// The joint, from 1.
+        joint: usize,
+        /// Which of its quantities, called as in robot files.
+        key: &'static str,
+        /// Its value, in the unit of the key.
+        found: f64,
+        /// What would be accepted.
+        accepted: String,
+    },
+    /// No solver has this name.
+    #[error("solver `{found}` does not exist; the solvers are {known}")]
+    UnknownSolver {
+        /// The name asked for.
+        found: String,
+        /// All names.
+        known: String,
+    },
+    /// A robot file cannot be read.
+    #[error("{}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A robot file says something that cannot be.
+    #[error("{}:{line}:{column}: {message}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column in characters, from 1.
+        column: usize,
+        /// What was found and what would be accepted.
+        message: String,
+    },
+    /// A tool or capsule cannot have this size.
+    #[error(transparent)]
+    Shape(#[from] GeometryError),
+    /// A capsule spans a share of a tool that has no length.
+    #[error("capsule `{capsule}` spans a share of the tool, whose length is 0; it must be greater than 0")]
+    NoTool {
+        /// The capsule's name.
+        capsule: String,
+    },
+}
+
+impl KinematicsError {
+    /// A refusal of a joint, counted from 0, for a quantity in metres or radians, told in the units of robot
+    /// files.
+    pub(super) fn joint(index: usize, key: &'static str, found_si: f64, accepted: &str) -> Self {
+        let found = if key.ends_with("_mm") { found_si * 1e3 } else { found_si.to_degrees() };
+        // What was written in degrees or millimetres is shown without the rounding of the way back.
+        let found = (found * 1e9).round() / 1e9;
+        Self::Joint { joint: index + 1, key, found, accepted: accepted.to_owned() }
+    }
+}

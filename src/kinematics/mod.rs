@@ -1,0 +1,20 @@
+//! Joint angles and poses: the planar two-link arm, serial six-axis arms, and robot files.
+//!
+//! Everything here is pure: an arm holds its geometry and no pose, so one arm serves all trials at once.
+//! Angles are radians, lengths metres unless a module says otherwise. What is in the way of a robot, and
+//! how it gets from one pose to another, is left to the floors above.
+
+pub mod angle;
+mod arm;
+mod error;
+pub mod ik;
+pub mod planar_2r;
+pub mod robot;
+pub mod serial;
+#[cfg(test)]
+mod tests;
+
+pub use arm::Arm;
+pub use error::KinematicsError;
+pub use robot::Robot;
+pub use serial::{AXES, Chain, Joint, Joints};

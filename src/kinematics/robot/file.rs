@@ -1,0 +1,271 @@
+//! The robot file as written, and the way from it to a checked [`Robot`].
+
+use super::{Body, Part, Robot, tool_frame};
+use crate::{
+    geometry::{Capsule, Frame, Vec3},
+    kinematics::{
+        Arm, KinematicsError,
+        serial::{AXES, Chain, Joint},
+    },
+};
+use serde::Deserialize;
+use std::{ops::Range, path::Path};
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RobotFile {
+    name: String,
+    solver: Spanned<String>,
+    base: BaseEntry,
+    tool: ToolEntry,
+    joint: Spanned<Vec<Spanned<JointEntry>>>,
+    body: Spanned<Vec<BodyEntry>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BaseEntry {
+    position_mm: Spanned<[f64; 3]>,
+    yaw_deg: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ToolEntry {
+    length_mm: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct JointEntry {
+    alpha_deg: f64,
+    a_mm: f64,
+    d_mm: f64,
+    offset_deg: f64,
+    lower_deg: f64,
+    upper_deg: f64,
+    speed_deg_s: Option<f64>,
+    speed_rad_s: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BodyEntry {
+    name: Spanned<String>,
+    capsule: Vec<Spanned<CapsuleEntry>>,
+    self_pairs: Vec<Spanned<[String; 2]>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CapsuleEntry {
+    name: String,
+    link: Option<usize>,
+    from_mm: Option<[f64; 3]>,
+    to_mm: Option<[f64; 3]>,
+    tool_share: Option<[f64; 2]>,
+    #[serde(default)]
+    self_only: bool,
+    radius_mm: f64,
+}
+
+/// The text being read, to turn a place in it into a line and a column.
+struct Source<'a> {
+    text: &'a str,
+    path: &'a Path,
+}
+
+impl Source<'_> {
+    fn fault(&self, span: &Range<usize>, message: impl Into<String>) -> KinematicsError {
+        let before = self.text.get(..span.start).unwrap_or(self.text);
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        KinematicsError::File {
+            path: self.path.to_owned(),
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+            message: message.into(),
+        }
+    }
+
+    /// A function that says where an error of a lower floor comes from.
+    fn at(&self, span: Range<usize>) -> impl Fn(KinematicsError) -> KinematicsError {
+        move |error| self.fault(&span, error.to_string())
+    }
+
+    fn finite(&self, key: &str, value: &Spanned<f64>) -> Result<f64, KinematicsError> {
+        let found = *value.get_ref();
+        if found.is_finite() {
+            return Ok(found);
+        }
+        Err(self.fault(&value.span(), format!("{key} is {found}; accepted: a finite number")))
+    }
+}
+
+pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
+    let source = Source { text, path };
+    let file: RobotFile =
+        toml::from_str(text).map_err(|error| source.fault(&error.span().unwrap_or(0..0), error.message()))?;
+    let base = base(&source, &file.base)?;
+    let tool_length_m = 1e-3 * source.finite("tool.length_mm", &file.tool.length_mm)?;
+    if tool_length_m < 0.0 {
+        let found = file.tool.length_mm.get_ref();
+        let message = format!("tool.length_mm is {found}; accepted: 0 (no tool) or more");
+        return Err(source.fault(&file.tool.length_mm.span(), message));
+    }
+    let chain = chain(&source, &file.joint, base, tool_frame(tool_length_m))?;
+    let arm = Arm::new(chain, file.solver.get_ref()).map_err(|error| {
+        let span = match &error {
+            KinematicsError::Joint { joint, .. } => file.joint.get_ref()[joint - 1].span(),
+            _ => file.solver.span(),
+        };
+        source.fault(&span, error.to_string())
+    })?;
+    let bodies = bodies(&source, &file.body, tool_length_m)?;
+    Ok(Robot { name: file.name, arm, tool_length_m, bodies })
+}
+
+fn base(source: &Source, entry: &BaseEntry) -> Result<Frame, KinematicsError> {
+    let yaw_rad = source.finite("base.yaw_deg", &entry.yaw_deg)?.to_radians();
+    let position_m = Vec3::from(*entry.position_mm.get_ref()) * 1e-3;
+    if !position_m.iter().all(|v| v.is_finite()) {
+        let message =
+            format!("base.position_mm is {:?}; accepted: finite numbers", entry.position_mm.get_ref());
+        return Err(source.fault(&entry.position_mm.span(), message));
+    }
+    Ok(Frame::at(position_m) * Frame::turned(&Vec3::z(), yaw_rad))
+}
+
+fn chain(
+    source: &Source,
+    entries: &Spanned<Vec<Spanned<JointEntry>>>,
+    base: Frame,
+    tool: Frame,
+) -> Result<Chain, KinematicsError> {
+    let joints: Vec<Joint> =
+        entries.get_ref().iter().map(|entry| joint(source, entry)).collect::<Result<_, _>>()?;
+    let count = joints.len();
+    let joints: [Joint; AXES] = joints.try_into().map_err(|_| {
+        let span = entries.get_ref().last().map_or(entries.span(), Spanned::span);
+        source.fault(&span, format!("{count} joints were given; accepted: {AXES}"))
+    })?;
+    Chain::new(joints, base, tool).map_err(|error| {
+        let at = match &error {
+            KinematicsError::Joint { joint, .. } => entries.get_ref()[joint - 1].span(),
+            _ => entries.span(),
+        };
+        source.fault(&at, error.to_string())
+    })
+}
+
+fn joint(source: &Source, entry: &Spanned<JointEntry>) -> Result<Joint, KinematicsError> {
+    let joint = entry.get_ref();
+    let speed_rad_s = match (joint.speed_deg_s, joint.speed_rad_s) {
+        (Some(speed_deg_s), None) => speed_deg_s.to_radians(),
+        (None, Some(speed_rad_s)) => speed_rad_s,
+        (given, _) => {
+            let found = if given.is_some() { "both" } else { "neither" };
+            let message = format!("{found} of speed_deg_s and speed_rad_s is given; accepted: exactly one");
+            return Err(source.fault(&entry.span(), message));
+        }
+    };
+    Ok(Joint {
+        alpha_rad: joint.alpha_deg.to_radians(),
+        a_m: joint.a_mm * 1e-3,
+        d_m: joint.d_mm * 1e-3,
+        offset_rad: joint.offset_deg.to_radians(),
+        lower_rad: joint.lower_deg.to_radians(),
+        upper_rad: joint.upper_deg.to_radians(),
+        speed_rad_s,
+    })
+}
+
+fn bodies(
+    source: &Source,
+    entries: &Spanned<Vec<BodyEntry>>,
+    tool_length_m: f64,
+) -> Result<Vec<Body>, KinematicsError> {
+    let mut bodies: Vec<Body> = Vec::new();
+    for entry in entries.get_ref() {
+        let name = entry.name.get_ref();
+        if bodies.iter().any(|body| body.name == *name) {
+            let message = format!("body `{name}` is given twice; accepted: a name of its own");
+            return Err(source.fault(&entry.name.span(), message));
+        }
+        bodies.push(body(source, entry, tool_length_m)?);
+    }
+    if bodies.is_empty() {
+        return Err(source.fault(&entries.span(), "no body is given; accepted: at least one"));
+    }
+    Ok(bodies)
+}
+
+fn body(source: &Source, entry: &BodyEntry, tool_length_m: f64) -> Result<Body, KinematicsError> {
+    let mut parts: Vec<Part> = Vec::new();
+    for capsule in &entry.capsule {
+        let name = &capsule.get_ref().name;
+        if parts.iter().any(|part| part.name == *name) {
+            let message = format!("capsule `{name}` is given twice; accepted: a name of its own");
+            return Err(source.fault(&capsule.span(), message));
+        }
+        parts.push(part(source, capsule, tool_length_m)?);
+    }
+    if parts.is_empty() {
+        return Err(source.fault(&entry.name.span(), "the body has no capsule; accepted: at least one"));
+    }
+    let self_pairs = entry.self_pairs.iter().map(|pair| self_pair(source, &parts, pair));
+    Ok(Body { name: entry.name.get_ref().clone(), self_pairs: self_pairs.collect::<Result<_, _>>()?, parts })
+}
+
+fn part(source: &Source, entry: &Spanned<CapsuleEntry>, tool_length_m: f64) -> Result<Part, KinematicsError> {
+    let CapsuleEntry { name, link, from_mm, to_mm, tool_share, self_only, radius_mm } = entry.get_ref();
+    let (radius_m, at) = (radius_mm * 1e-3, source.at(entry.span()));
+    match (link, from_mm, to_mm, tool_share) {
+        (Some(link), Some(from_mm), Some(to_mm), None) => {
+            if *link > AXES {
+                let message = format!("capsule `{name}` is on link {link}; accepted: 0 (base) to {AXES}");
+                return Err(source.fault(&entry.span(), message));
+            }
+            let (from, to) = (Vec3::from(*from_mm) * 1e-3, Vec3::from(*to_mm) * 1e-3);
+            let capsule = Capsule::new(from, to, radius_m).map_err(|error| at(error.into()))?;
+            Ok(Part { name: name.clone(), link: *link, tool_share: None, self_only: *self_only, capsule })
+        }
+        (None, None, None, Some([from, to])) if !self_only => {
+            if !(0.0 <= *from && from < to && *to <= 1.0) {
+                let found = format!("capsule `{name}` spans tool_share [{from}, {to}]");
+                let message = format!("{found}; accepted: two rising numbers from 0 to 1");
+                return Err(source.fault(&entry.span(), message));
+            }
+            Part::of_tool(name, [*from, *to], radius_m, tool_length_m).map_err(at)
+        }
+        _ => {
+            let message = format!(
+                "capsule `{name}` does not say where it is; accepted: link, from_mm and to_mm \
+                 (and self_only), or tool_share"
+            );
+            Err(source.fault(&entry.span(), message))
+        }
+    }
+}
+
+fn self_pair(
+    source: &Source,
+    parts: &[Part],
+    pair: &Spanned<[String; 2]>,
+) -> Result<[usize; 2], KinematicsError> {
+    let index = |name: &String| {
+        parts.iter().position(|part| part.name == *name).ok_or_else(|| {
+            let known = parts.iter().map(|part| part.name.as_str()).collect::<Vec<_>>().join(", ");
+            let message = format!("self_pairs names capsule `{name}`; accepted: {known}");
+            source.fault(&pair.span(), message)
+        })
+    };
+    let [first, second] = pair.get_ref();
+    let found = [index(first)?, index(second)?];
+    if found[0] == found[1] || parts[found[0]].link == parts[found[1]].link {
+        let message =
+            format!("self_pairs joins `{first}` and `{second}`; accepted: capsules on two different links");
+        return Err(source.fault(&pair.span(), message));
+    }
+    Ok(found)
+}

@@ -1,0 +1,194 @@
+//! Robots from files: an arm, its tool, and the capsules that stand for its body.
+//!
+//! A robot file gives millimetres and degrees, as makers' sheets do (speeds also in radians a second); in
+//! memory everything is metres and radians. A file may hold several bodies, so that a study can ask what
+//! the choice of one is worth.
+
+mod file;
+#[cfg(test)]
+mod tests;
+
+use super::{Arm, KinematicsError, serial::AXES};
+use crate::geometry::{Capsule, Frame, Segment, Vec3};
+use std::{fs, path::Path};
+
+/// A robot, checked.
+#[derive(Debug, Clone)]
+pub struct Robot {
+    name: String,
+    arm: Arm,
+    tool_length_m: f64,
+    bodies: Vec<Body>,
+}
+
+/// Capsules that stand for an arm and its tool.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    name: String,
+    parts: Vec<Part>,
+    self_pairs: Vec<[usize; 2]>,
+}
+
+/// One capsule of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    name: String,
+    link: usize,
+    /// The stretch of the tool it spans, if it belongs to the tool.
+    tool_share: Option<[f64; 2]>,
+    self_only: bool,
+    capsule: Capsule,
+}
+
+impl Robot {
+    /// The robot in the file at `path`.
+    ///
+    /// # Errors
+    /// [`KinematicsError::Read`] if there is no such file, else those of [`parse`](Self::parse).
+    pub fn load(path: &Path) -> Result<Self, KinematicsError> {
+        let text = fs::read_to_string(path)
+            .map_err(|source| KinematicsError::Read { path: path.to_owned(), source })?;
+        Self::parse(&text, path)
+    }
+
+    /// The robot that `text` describes; `path` is where it came from, for messages.
+    ///
+    /// # Errors
+    /// [`KinematicsError::File`] with the line, what was found and what is accepted, for anything that is
+    /// not TOML, not known, missing, not a finite number of the right sign, or contradictory, and for rows
+    /// that the solver asked for does not allow.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, KinematicsError> {
+        file::parse(text, path)
+    }
+
+    /// The robot's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The arm, with the tool.
+    pub fn arm(&self) -> &Arm {
+        &self.arm
+    }
+
+    /// How far the tool reaches from the flange, along its z.
+    pub fn tool_length_m(&self) -> f64 {
+        self.tool_length_m
+    }
+
+    /// The bodies, the default one first.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// The body called `name`.
+    pub fn body(&self, name: &str) -> Option<&Body> {
+        self.bodies.iter().find(|body| body.name == name)
+    }
+
+    /// The same robot with a tool of another length, which its tool's capsules follow.
+    ///
+    /// # Errors
+    /// [`KinematicsError::Shape`] if the length is not finite or negative, [`KinematicsError::NoTool`] if it
+    /// is 0 and a capsule spans a share of it.
+    pub fn with_tool_length(&self, tool_length_m: f64) -> Result<Self, KinematicsError> {
+        let bodies = self.bodies.iter().map(|body| body.with_tool_length(tool_length_m));
+        Ok(Self {
+            bodies: bodies.collect::<Result<_, _>>()?,
+            arm: self.arm.with_tool(tool_frame(tool_length_m)),
+            tool_length_m,
+            name: self.name.clone(),
+        })
+    }
+}
+
+/// The end of a tool of this length.
+fn tool_frame(tool_length_m: f64) -> Frame {
+    Frame::at(Vec3::z() * tool_length_m)
+}
+
+impl Body {
+    /// The body's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The capsules, in the order of the file.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Which parts, by index, may hit each other and must be checked; all other pairs are neighbours, or
+    /// are kept apart by the joint limits.
+    pub fn self_pairs(&self) -> &[[usize; 2]] {
+        &self.self_pairs
+    }
+
+    /// Writes the capsules where `frames` (of [`Chain::frames`](super::Chain::frames)) put them into
+    /// `placed`, in the order of [`parts`](Self::parts); what was in it is dropped.
+    #[inline]
+    pub fn place(&self, frames: &[Frame; AXES + 1], placed: &mut Vec<Capsule>) {
+        placed.clear();
+        placed.extend(self.parts.iter().map(|part| part.placed(frames)));
+    }
+
+    fn with_tool_length(&self, tool_length_m: f64) -> Result<Self, KinematicsError> {
+        let part = |part: &Part| match part.tool_share {
+            Some(share) => Part::of_tool(&part.name, share, part.capsule.radius, tool_length_m),
+            None => Ok(part.clone()),
+        };
+        let parts = self.parts.iter().map(part).collect::<Result<_, _>>()?;
+        Ok(Self { parts, ..self.clone() })
+    }
+}
+
+impl Part {
+    /// A capsule along the tool, from and to a share of its length.
+    fn of_tool(
+        name: &str,
+        [from, to]: [f64; 2],
+        radius_m: f64,
+        tool_length_m: f64,
+    ) -> Result<Self, KinematicsError> {
+        if tool_length_m <= 0.0 {
+            return Err(KinematicsError::NoTool { capsule: name.to_owned() });
+        }
+        let at = |share: f64| Vec3::z() * (share * tool_length_m);
+        let capsule = Capsule::new(at(from), at(to), radius_m)?;
+        Ok(Self {
+            name: name.to_owned(),
+            link: AXES,
+            tool_share: Some([from, to]),
+            self_only: false,
+            capsule,
+        })
+    }
+
+    /// The part's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The link it is fixed to; 0 is the base, which never moves.
+    pub fn link(&self) -> usize {
+        self.link
+    }
+
+    /// Whether only the robot's other parts can hit it: the scene stands clear of it, or holds it.
+    pub fn is_self_only(&self) -> bool {
+        self.self_only
+    }
+
+    /// Where it is in the frame of its link.
+    pub fn capsule(&self) -> &Capsule {
+        &self.capsule
+    }
+
+    /// Where it is in the world.
+    #[inline]
+    pub fn placed(&self, frames: &[Frame; AXES + 1]) -> Capsule {
+        let (frame, Capsule { segment, radius }) = (&frames[self.link], self.capsule);
+        let [a, b] = [frame.point(&segment.a), frame.point(&segment.b)];
+        Capsule { segment: Segment::new(a, b), radius }
+    }
+}
