@@ -167,7 +167,7 @@ fn compare(group: &mut BenchmarkGroup<'_, WallTime>, world: &World) {
 fn grid_astar(criterion: &mut Criterion) {
     let small = independent_cells(&mut seed::stream(1), [30, 30], 0.2, &[]);
     let random = independent_cells(&mut seed::stream(2), [512, 512], 0.3, &[]);
-    let boxes = rectangles(&mut seed::stream(3), [512, 512], 250, [8, 60], &[]);
+    let boxes = rectangles(&mut seed::stream(3), [512, 512], 250, [4, 40], &[]);
     let mut worlds = vec![
         ("30x30", small.unwrap(), 200),
         ("512_random", random.unwrap(), 8),
