@@ -17,7 +17,7 @@ use replan::grid::{
     rectangles,
 };
 use replan::search::{
-    Buckets, Cost, GridGraph, Octile, OctileAstar, Rules, ScaledOctile, Search, Terms, Update,
+    Buckets, Cost, GridGraph, Octile, OctileAstar, Offer, Rules, ScaledOctile, Search, Terms, Update,
 };
 use replan::seed;
 use std::{cmp::Ordering, hint::black_box, ops::Add, path::Path, time::Duration};
@@ -58,7 +58,7 @@ impl Zero for Total {
     }
 }
 
-/// Each cost in units of 985 and 1393, summed over the queries.
+/// A map and queries on it; each solver returns the sum of their costs, in units of 985 and 1393 or in cells.
 struct World {
     grid: Grid2,
     moves: Moves,
@@ -85,7 +85,7 @@ impl World {
         self.queries.iter().map(solve).map(|report| scaled(report.outcome.route().unwrap().cost)).sum()
     }
 
-    fn general(&self, search: &mut Search<Octile, Buckets<replan::search::Offer>>) -> u64 {
+    fn general(&self, search: &mut Search<Octile, Buckets<Offer>>) -> u64 {
         let mut solve = |&[start, goal]: &[u32; 2]| {
             let (graph, observer, update) = (&mut GridGraph::new(&self.moves), &mut (), Update::default());
             let estimate = &ScaledOctile::new(self.grid.width(), Some(goal));

@@ -179,12 +179,14 @@ struct Query<'a> {
 impl Query<'_> {
     #[inline]
     fn expand(&mut self, node: u32, value: u32, counters: &mut Counters) {
-        let mut mask = self.masks[node as usize];
+        let mask = self.masks[node as usize];
         counters.expansions += 1;
-        while mask != 0 {
-            let bit = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            counters.generated += 1;
+        counters.generated += u64::from(mask.count_ones());
+        // A loop of fixed length unrolls; walking the set bits is slower by a fifth on open maps.
+        for bit in 0..8 {
+            if mask >> bit & 1 == 0 {
+                continue;
+            }
             let (to, reached) = (node.wrapping_add_signed(self.steps[bit]), value + COSTS[bit]);
             let known = self.values[to as usize];
             if reached < known {
