@@ -13,8 +13,9 @@ const NONE: u32 = u32::MAX;
 /// keeps that promise.
 #[derive(Clone, Debug)]
 pub struct Buckets<T> {
+    /// The link pushed last into each bucket, or `NONE`.
     heads: Box<[u32; BUCKETS]>,
-    /// Bit `s % 64` of `words[s / 64]`: bucket `s` holds something; without it `heads[s]` means nothing.
+    /// Bit `s % 64` of `words[s / 64]`: bucket `s` holds something.
     words: [u64; BUCKETS / 64],
     /// Bit `w`: `words[w]` is not 0.
     summary: u64,
@@ -41,9 +42,14 @@ impl<T: Copy> Default for Buckets<T> {
 }
 
 impl<T: Copy> Buckets<T> {
-    /// Forgets everything, in time independent of how much that is.
+    /// Forgets everything.
     pub fn clear(&mut self) {
-        self.words = [0; BUCKETS / 64];
+        for (word, bits) in self.words.iter_mut().enumerate() {
+            while *bits != 0 {
+                self.heads[word * 64 + bits.trailing_zeros() as usize % 64] = NONE;
+                *bits &= *bits - 1;
+            }
+        }
         self.summary = 0;
         self.links.clear();
     }
@@ -64,7 +70,7 @@ impl<T: Copy> Buckets<T> {
         );
         let slot = key as usize % BUCKETS;
         let (word, bit) = (slot / 64, 1 << (slot % 64));
-        let next = if self.words[word] & bit == 0 { NONE } else { self.heads[slot] };
+        let next = self.heads[slot];
         self.words[word] |= bit;
         self.summary |= 1 << word;
         self.heads[slot] = self.links.len() as u32;

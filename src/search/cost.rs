@@ -63,7 +63,12 @@ impl Cost for Octile {
         // a + b√2 against c + d√2 is (a - c) against (d - b)√2; equal signs leave squares to compare.
         let straight = i64::from(self.straight) - i64::from(other.straight);
         let diagonal = i64::from(other.diagonal) - i64::from(self.diagonal);
-        let squares = (i128::from(straight).pow(2)).cmp(&(2 * i128::from(diagonal).pow(2)));
+        // A lattice path stays far below 2^30 moves, where the squares fit 64 bits.
+        let squares = if straight.abs().max(diagonal.abs()) < 1 << 30 {
+            (straight * straight).cmp(&(2 * diagonal * diagonal))
+        } else {
+            i128::from(straight).pow(2).cmp(&(2 * i128::from(diagonal).pow(2)))
+        };
         match (straight >= 0, diagonal >= 0) {
             (true, true) => squares,
             (false, false) => squares.reverse(),
@@ -80,7 +85,8 @@ impl Cost for Octile {
 /// `value` in units of 1e-9, rounded to the nearest: the key by which floating-point estimates are ordered.
 /// Negative values and NaN give 0.
 pub fn quantised(value: f64) -> u64 {
-    (value * 1e9).round() as u64
+    // A cast truncates; `round` would be a call on processors without an instruction for it.
+    (value * 1e9 + 0.5) as u64
 }
 
 #[cfg(test)]

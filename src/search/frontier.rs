@@ -1,15 +1,16 @@
 //! OPEN lists: which of the open nodes is taken next.
 
-use std::cmp::Reverse;
+use super::cost::quantised;
+use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 /// A node with what may order it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offer {
     /// The estimate's key; the smallest is taken first.
     pub f: u64,
-    /// The cost of the way to the node, in units of 1e-9.
-    pub g: u64,
+    /// The cost of the way to the node.
+    pub g: f64,
     /// How many nodes had been opened before this one was first opened.
     pub rank: u32,
     /// How many offers were made before in this search.
@@ -55,16 +56,39 @@ pub struct Heap {
     offers: BinaryHeap<Reverse<Ordered>>,
 }
 
-/// The fields are compared in the order in which they stand here.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// An offer with the rest of its key: among equal f the smaller `depth` comes first, then the smaller `place`, then
+/// the older offer.
+#[derive(Clone, Copy, Debug)]
 struct Ordered {
-    f: u64,
     depth: u64,
     place: u32,
-    stamp: u32,
-    node: u32,
-    rank: u32,
-    g: u64,
+    offer: Offer,
+}
+
+impl Ordered {
+    fn key(&self) -> (u64, u64, u32, u32) {
+        (self.offer.f, self.depth, self.place, self.offer.stamp)
+    }
+}
+
+impl PartialEq for Ordered {
+    fn eq(&self, other: &Self) -> bool {
+        self.key() == other.key()
+    }
+}
+
+impl Eq for Ordered {}
+
+impl PartialOrd for Ordered {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Ordered {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.key().cmp(&other.key())
+    }
 }
 
 impl Heap {
@@ -74,30 +98,26 @@ impl Heap {
     }
 }
 
-fn offer(Reverse(ordered): Reverse<Ordered>) -> Offer {
-    Offer { f: ordered.f, g: ordered.g, rank: ordered.rank, stamp: ordered.stamp, node: ordered.node }
-}
-
 impl Frontier for Heap {
     fn clear(&mut self) {
         self.offers.clear();
     }
 
-    fn push(&mut self, Offer { f, g, rank, stamp, node }: Offer) {
+    fn push(&mut self, offer: Offer) {
         let (depth, place) = match self.ties {
-            Ties::Fifo => (0, rank),
-            Ties::Lifo => (0, !rank),
-            Ties::LargerG => (!g, rank),
+            Ties::Fifo => (0, offer.rank),
+            Ties::Lifo => (0, !offer.rank),
+            Ties::LargerG => (!quantised(offer.g), offer.rank),
         };
-        self.offers.push(Reverse(Ordered { f, depth, place, stamp, node, rank, g }));
+        self.offers.push(Reverse(Ordered { depth, place, offer }));
     }
 
     fn first(&self) -> Option<Offer> {
-        self.offers.peek().copied().map(offer)
+        self.offers.peek().map(|Reverse(ordered)| ordered.offer)
     }
 
     fn pop(&mut self) -> Option<Offer> {
-        self.offers.pop().map(offer)
+        self.offers.pop().map(|Reverse(ordered)| ordered.offer)
     }
 }
 
@@ -108,7 +128,7 @@ mod tests {
     #[test]
     fn equals_leave_in_the_order_of_the_tie_rule() {
         // (f, g) by rank.
-        let offers = [(5, 1), (4, 2), (4, 3), (4, 3), (4, 1), (3, 0)];
+        let offers = [(5, 1.0), (4, 2.0), (4, 3.0), (4, 3.0), (4, 1.0), (3, 0.0)];
         for (ties, ranks) in [
             (Ties::Fifo, [5, 1, 2, 3, 4, 0]),
             (Ties::Lifo, [5, 4, 3, 2, 1, 0]),

@@ -12,8 +12,9 @@
 //! enters OPEN for the first time (roots included), so `opened` counts the distinct nodes of OPEN ∪ CLOSED;
 //! **closed** when it is taken from OPEN. A goal that is taken ends the search instead and is not closed (Hart,
 //! Nilsson & Raphael 1968). An **expansion** generates all successors of a node just closed; `closed` counts
-//! nodes in CLOSED at the end, so it equals `expansions` unless closed nodes reopened. `peak_open` is the most
-//! nodes that were in OPEN at once, between steps.
+//! nodes in CLOSED at the end, so it equals `expansions` unless closed nodes reopened, or the last node closed ended
+//! the search unexpanded ([`BeforeExpansion`], [`Meeting::BothClosed`]). `peak_open` is the most nodes that were in
+//! OPEN at once, between steps.
 //!
 //! # Ties
 //! Keys are integers. Estimates over floating point are rounded to 1e-9 ([`quantised`]) before they are compared,

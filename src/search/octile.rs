@@ -104,11 +104,21 @@ impl OctileAstar {
         let [start, goal] = [start, goal].map(|cell| ((cell / self.width) << self.shift) + cell % self.width);
         let target = [goal & ((1 << self.shift) - 1), goal >> self.shift];
         let mut counters = Counters { opened: 1, peak_open: 1, ..Counters::default() };
-        self.values[start as usize] = self.base;
-        self.offer(start, self.base, target);
+        let mut query = Query {
+            masks: &self.masks,
+            values: &mut self.values,
+            open: &mut self.open,
+            base: self.base,
+            longest: self.longest,
+            shift: self.shift,
+            steps: self.steps,
+            target,
+        };
+        query.values[start as usize] = self.base;
+        query.offer(start, self.base);
         let outcome = loop {
-            let Some((_, (node, value))) = self.open.pop() else { break Outcome::NoPath };
-            if self.values[node as usize] != value {
+            let Some((_, (node, value))) = query.open.pop() else { break Outcome::NoPath };
+            if query.values[node as usize] != value {
                 continue;
             }
             if node == goal {
@@ -117,9 +127,7 @@ impl OctileAstar {
             if counters.expansions >= max_expansions {
                 break Outcome::BudgetSpent;
             }
-            counters.expansions += 1;
-            self.expand(node, value, target, &mut counters);
-            counters.peak_open = counters.peak_open.max(counters.opened - counters.expansions);
+            query.expand(node, value, &mut counters);
         };
         counters.closed = counters.expansions;
         Report { outcome, counters }
@@ -132,31 +140,6 @@ impl OctileAstar {
             self.values.fill(u32::MAX);
             u32::MAX - self.longest - 1
         });
-    }
-
-    #[inline]
-    fn expand(&mut self, node: u32, value: u32, target: [u32; 2], counters: &mut Counters) {
-        let mut mask = self.masks[node as usize];
-        counters.generated += u64::from(mask.count_ones());
-        while mask != 0 {
-            let bit = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            let to = node.wrapping_add_signed(self.steps[bit]);
-            let reached = value + COSTS[bit];
-            let known = &mut self.values[to as usize];
-            if reached < *known {
-                counters.opened += u64::from(*known - self.base > self.longest);
-                *known = reached;
-                self.offer(to, reached, target);
-            }
-        }
-    }
-
-    #[inline]
-    fn offer(&mut self, node: u32, value: u32, target: [u32; 2]) {
-        let [x, y] = [node & ((1 << self.shift) - 1), node >> self.shift];
-        let h = ScaledOctile::distance([x.abs_diff(target[0]), y.abs_diff(target[1])]);
-        self.open.push(u64::from(value - self.base + h), (node, value));
     }
 
     /// Walks back from the goal over cells whose g is less by just the cost of the move.
@@ -178,5 +161,47 @@ impl OctileAstar {
         }
         nodes.reverse();
         Route { nodes, cost }
+    }
+}
+
+/// What one query touches, lent as slices: so the compiler knows that writing to one leaves the others in place.
+struct Query<'a> {
+    masks: &'a [u8],
+    values: &'a mut [u32],
+    open: &'a mut Buckets<(u32, u32)>,
+    base: u32,
+    longest: u32,
+    shift: u32,
+    steps: [i32; 8],
+    target: [u32; 2],
+}
+
+impl Query<'_> {
+    #[inline]
+    fn expand(&mut self, node: u32, value: u32, counters: &mut Counters) {
+        let mask = self.masks[node as usize];
+        counters.expansions += 1;
+        counters.generated += u64::from(mask.count_ones());
+        // A loop of fixed length unrolls; walking the set bits is slower by a fifth on open maps.
+        for (bit, (step, cost)) in self.steps.into_iter().zip(COSTS).enumerate() {
+            if mask >> bit & 1 == 0 {
+                continue;
+            }
+            let (to, reached) = (node.wrapping_add_signed(step), value + cost);
+            let known = self.values[to as usize];
+            if reached < known {
+                counters.opened += u64::from(known - self.base > self.longest);
+                self.values[to as usize] = reached;
+                self.offer(to, reached);
+            }
+        }
+        counters.peak_open = counters.peak_open.max(counters.opened - counters.expansions);
+    }
+
+    #[inline]
+    fn offer(&mut self, node: u32, value: u32) {
+        let [x, y] = [node & ((1 << self.shift) - 1), node >> self.shift];
+        let h = ScaledOctile::distance([x.abs_diff(self.target[0]), y.abs_diff(self.target[1])]);
+        self.open.push(u64::from(value - self.base + h), (node, value));
     }
 }

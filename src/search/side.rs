@@ -1,7 +1,7 @@
 //! One side of a search: its records, its frontier, and the step that every driver repeats.
 
 use super::Counters;
-use super::cost::{Cost, quantised};
+use super::cost::Cost;
 use super::estimate::Estimate;
 use super::frontier::{Frontier, Offer};
 use super::graph::Graph;
@@ -167,7 +167,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         let record = &mut self.records[node as usize];
         (record.g, record.parent, record.stamp) = (g, parent, self.stamp);
         let (rank, stamp) = (record.rank, self.stamp);
-        self.frontier.push(Offer { f: estimate.key(node, g), g: quantised(g.value()), rank, stamp, node });
+        self.frontier.push(Offer { f: estimate.key(node, g), g: g.value(), rank, stamp, node });
     }
 
     fn lists(&self) -> Lists {

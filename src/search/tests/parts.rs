@@ -177,3 +177,16 @@ fn a_search_leaves_nothing_behind_for_the_next() {
         assert_eq!(used, astar(&case.grid, &case.moves, case.ends), "seed {}", case.seed);
     }
 }
+
+#[test]
+fn an_offer_that_was_replaced_no_longer_counts_even_if_it_comes_first() {
+    // f falls with g: when 3 is lowered from g = 5 to 2, its f rises from 105 to 108, past that of 4.
+    let mut graph = Written::new(&[(0, 3, 5.0), (0, 1, 1.0), (0, 4, 1.0), (1, 3, 1.0)]);
+    let h = |node: u32| [0.0, 0.0, 0.0, 10.0, 8.0][node as usize];
+    let estimate = Combined { h, combine: |g, h| 100.0 + h - g };
+    let mut observer = Trace::default();
+    let update = Update::default();
+    let terms = Terms { graph: &mut graph, estimate: &estimate, observer: &mut observer, update };
+    Search::new(Heap::default()).run(terms, 0, |_| false, Rules::default(), &mut ());
+    assert_eq!(observer.closed, [0, 1, 4, 3]);
+}

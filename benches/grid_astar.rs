@@ -1,0 +1,192 @@
+//! 8-connected A* without corner cutting against the crate `pathfinding`, in its best form and as people use it.
+//!
+//! Groups: `30x30` (20 % blocked), `512_random` (30 % blocked), `512_rectangles`, and `map` for a `MovingAI` map
+//! named by `REPLAN_BENCH_MAP`. In each group every entry answers the same queries, drawn among cells that are
+//! joined, and all are held to equal costs before anything is timed:
+//!
+//! - `astar_octile`: [`OctileAstar`], which studies call;
+//! - `general`: the kernel it specialises, over the same buckets;
+//! - `pathfinding_u32`: the crate with `u32` nodes and costs and successors from legal-move masks, unallocated;
+//! - `pathfinding_typical`: the crate with `(x, y)` nodes, `f64` costs and a `Vec` of successors.
+
+use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
+use pathfinding::{num_traits::Zero, prelude::astar};
+use rand::RngExt as _;
+use replan::grid::{
+    Components, CornerRule, DIRECTIONS, Grid2, Moves, components, independent_cells, read_movingai_map,
+    rectangles,
+};
+use replan::search::{
+    Buckets, Cost, GridGraph, Octile, OctileAstar, Offer, Rules, ScaledOctile, Search, Terms, Update,
+};
+use replan::seed;
+use std::{cmp::Ordering, hint::black_box, ops::Add, path::Path, time::Duration};
+
+/// An `f64` in total order, as the crate asks of costs.
+#[derive(Clone, Copy, PartialEq)]
+struct Total(f64);
+
+impl Eq for Total {}
+
+impl PartialOrd for Total {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Total {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl Add for Total {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+}
+
+impl Zero for Total {
+    fn zero() -> Self {
+        Self(0.0)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.0 == 0.0
+    }
+}
+
+/// A map and queries on it; each solver returns the sum of their costs, in units of 985 and 1393 or in cells.
+struct World {
+    grid: Grid2,
+    moves: Moves,
+    queries: Vec<[u32; 2]>,
+}
+
+impl World {
+    fn new(grid: Grid2, query_count: usize) -> Self {
+        let moves = Moves::new(&grid, CornerRule::ForbidAny);
+        let parts: Components = components(&grid, &moves);
+        let mut stream = seed::stream(30);
+        let mut queries = Vec::new();
+        while queries.len() < query_count {
+            let ends = [0, 1].map(|_| stream.random_range(0..grid.cell_count()));
+            if ends[0] != ends[1] && parts.are_joined(ends[0], ends[1]) {
+                queries.push(ends);
+            }
+        }
+        Self { grid, moves, queries }
+    }
+
+    fn octile(&self, search: &mut OctileAstar) -> u64 {
+        let solve = |&[start, goal]: &[u32; 2]| search.solve(start, goal, u64::MAX);
+        self.queries.iter().map(solve).map(|report| scaled(report.outcome.route().unwrap().cost)).sum()
+    }
+
+    fn general(&self, search: &mut Search<Octile, Buckets<Offer>>) -> u64 {
+        let mut solve = |&[start, goal]: &[u32; 2]| {
+            let (graph, observer, update) = (&mut GridGraph::new(&self.moves), &mut (), Update::default());
+            let estimate = &ScaledOctile::new(self.grid.width(), Some(goal));
+            let terms = Terms { graph, estimate, observer, update };
+            let report = search.run(terms, start, |node| node == goal, Rules::default(), &mut ());
+            scaled(report.outcome.route().unwrap().cost)
+        };
+        self.queries.iter().map(&mut solve).sum()
+    }
+
+    fn crate_best(&self) -> u64 {
+        let width = self.grid.width();
+        let successors = |&cell: &u32| {
+            self.moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393 } else { 985 }))
+        };
+        let solve = |&[start, goal]: &[u32; 2]| {
+            let [x, y] = [goal % width, goal / width];
+            let h = |&cell: &u32| {
+                ScaledOctile::distance([(cell % width).abs_diff(x), (cell / width).abs_diff(y)])
+            };
+            let (path, cost) = astar(&start, successors, h, |&cell| cell == goal).unwrap();
+            black_box(path);
+            u64::from(cost)
+        };
+        self.queries.iter().map(solve).sum()
+    }
+
+    fn crate_typical(&self) -> f64 {
+        let grid = &self.grid;
+        let successors = |&(x, y): &(i32, i32)| {
+            let mut found = Vec::new();
+            for [dx, dy] in DIRECTIONS {
+                if !grid.is_free_xy(x + dx, y + dy) {
+                    continue;
+                }
+                if dx == 0 || dy == 0 {
+                    found.push(((x + dx, y + dy), Total(1.0)));
+                } else if grid.is_free_xy(x + dx, y) && grid.is_free_xy(x, y + dy) {
+                    found.push(((x + dx, y + dy), Total(std::f64::consts::SQRT_2)));
+                }
+            }
+            found
+        };
+        let solve = |&[start, goal]: &[u32; 2]| {
+            let [start, goal] = [start, goal].map(|cell| grid.xy(cell)).map(|[x, y]| (x, y));
+            let h = |&(x, y): &(i32, i32)| {
+                let (dx, dy) = (f64::from(x.abs_diff(goal.0)), f64::from(y.abs_diff(goal.1)));
+                Total(dx.max(dy) + (std::f64::consts::SQRT_2 - 1.0) * dx.min(dy))
+            };
+            let (path, cost) = astar(&start, successors, h, |&cell| cell == goal).unwrap();
+            black_box(path);
+            cost.0
+        };
+        self.queries.iter().map(solve).sum()
+    }
+}
+
+fn scaled(cost: Octile) -> u64 {
+    u64::from(cost.straight) * 985 + u64::from(cost.diagonal) * 1393
+}
+
+fn compare(group: &mut BenchmarkGroup<'_, WallTime>, world: &World) {
+    let mut fast = OctileAstar::new(&world.moves).unwrap();
+    let mut general = Search::new(Buckets::default());
+    let truth = world.octile(&mut fast);
+    assert_eq!([world.general(&mut general), world.crate_best()], [truth; 2]);
+    let exact: f64 = world
+        .queries
+        .iter()
+        .map(|&[start, goal]| fast.solve(start, goal, u64::MAX).outcome.route().unwrap().cost.value())
+        .sum();
+    assert!((exact - world.crate_typical()).abs() < 1e-6 * exact);
+    group.bench_function("astar_octile", |bencher| bencher.iter(|| world.octile(&mut fast)));
+    group.bench_function("general", |bencher| bencher.iter(|| world.general(&mut general)));
+    group.bench_function("pathfinding_u32", |bencher| bencher.iter(|| world.crate_best()));
+    group.bench_function("pathfinding_typical", |bencher| bencher.iter(|| world.crate_typical()));
+}
+
+fn grid_astar(criterion: &mut Criterion) {
+    let small = independent_cells(&mut seed::stream(1), [30, 30], 0.2, &[]);
+    let random = independent_cells(&mut seed::stream(2), [512, 512], 0.3, &[]);
+    let boxes = rectangles(&mut seed::stream(3), [512, 512], 250, [4, 40], &[]);
+    let mut worlds = vec![
+        ("30x30", small.unwrap(), 200),
+        ("512_random", random.unwrap(), 8),
+        ("512_rectangles", boxes.unwrap(), 8),
+    ];
+    if let Ok(path) = std::env::var("REPLAN_BENCH_MAP") {
+        let grid = read_movingai_map(Path::new(&path)).unwrap_or_else(|error| panic!("{error}"));
+        worlds.push(("map", grid, 8));
+    }
+    for (name, grid, query_count) in worlds {
+        let mut group = criterion.benchmark_group(name);
+        group
+            .sample_size(10)
+            .warm_up_time(Duration::from_millis(500))
+            .measurement_time(Duration::from_secs(2));
+        compare(&mut group, &World::new(grid, query_count));
+        group.finish();
+    }
+}
+
+criterion_group!(benches, grid_astar);
+criterion_main!(benches);
