@@ -205,6 +205,12 @@ impl Study {
         counted.chain(posed).chain(self.task.columns).chain(timed).copied().collect()
     }
 
+    /// Which trials on the problem group `group` keep their exhibits: those that figures show, and `keep`.
+    pub fn kept(&self, group: &str) -> impl Iterator<Item = &TrialsSpec> {
+        let shown = self.figures.iter().flat_map(|figure| &figure.shows);
+        shown.chain(&self.keeps).filter(move |trials| trials.problems == group)
+    }
+
     /// The study cut down to what `--quick` keeps.
     #[must_use]
     pub fn quick(mut self) -> Self {
