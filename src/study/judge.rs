@@ -69,9 +69,13 @@ fn judge_lattice(
         optimal: untouched && pipeline.planner.is_optimal(),
     };
     let refusal = match plan.ending {
+        Ending::NoPath | Ending::BudgetSpent if !plan.path.is_empty() || plan.cost.is_some() => {
+            Some("a path or a cost is given although none is claimed".to_owned())
+        }
+        Ending::BudgetSpent => refuse_spent(request, plan),
         Ending::Solved => case.refuse_path(&answer, truth.optimal),
         Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(truth.optimal),
-        Ending::NoPath | Ending::BudgetSpent => None,
+        Ending::NoPath => None,
     };
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
@@ -97,3 +101,14 @@ fn measured(path: &[Vec<f64>]) -> Counts {
         ("bends", Value::Count(inner as u64)),
     ])
 }
+
+/// Why a claim that the budget is spent is wrong; `None` if it is right or the planner does not count expansions.
+fn refuse_spent(request: &Request<'_>, plan: &Plan) -> Option<String> {
+    let expansions = plan.counts.get("expansions")?.as_f64();
+    (expansions < request.expansions as f64).then(|| {
+        format!("the budget is said to be spent after {expansions} of {} expansions", request.expansions)
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -3,7 +3,9 @@
 mod cli_input;
 mod cli_run;
 mod cli_stop;
+mod conformance;
 mod floors;
 mod paper;
 mod registries;
 mod source;
+mod worlds;
