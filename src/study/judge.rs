@@ -68,15 +68,11 @@ fn judge_lattice(
         in_graph: untouched,
         optimal: untouched && pipeline.planner.is_optimal(),
     };
-    let refusal = match plan.ending {
-        Ending::NoPath | Ending::BudgetSpent if !plan.path.is_empty() || plan.cost.is_some() => {
-            Some("a path or a cost is given although none is claimed".to_owned())
-        }
-        Ending::BudgetSpent => refuse_spent(request, plan),
+    let refusal = refuse_ending(request, plan).or_else(|| match plan.ending {
         Ending::Solved => case.refuse_path(&answer, truth.optimal),
         Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(truth.optimal),
-        Ending::NoPath => None,
-    };
+        Ending::NoPath | Ending::BudgetSpent => None,
+    });
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
     }
@@ -102,10 +98,13 @@ fn measured(path: &[Vec<f64>]) -> Counts {
     ])
 }
 
-/// Why a claim that the budget is spent is wrong; `None` if it is right or the planner does not count expansions.
-fn refuse_spent(request: &Request<'_>, plan: &Plan) -> Option<String> {
+/// Why `plan` contradicts its own ending; `None` if it does not, or counts no expansions.
+fn refuse_ending(request: &Request<'_>, plan: &Plan) -> Option<String> {
+    if plan.ending != Ending::Solved && (!plan.path.is_empty() || plan.cost.is_some()) {
+        return Some("a path or a cost is given although none is claimed".to_owned());
+    }
     let expansions = plan.counts.get("expansions")?.as_f64();
-    (expansions < request.expansions as f64).then(|| {
+    (plan.ending == Ending::BudgetSpent && expansions < request.expansions as f64).then(|| {
         format!("the budget is said to be spent after {expansions} of {} expansions", request.expansions)
     })
 }

@@ -154,7 +154,7 @@ fn no_planner_is_refused_and_optimal_ones_cost_what_the_verifier_finds() {
         }
     }
     assert!(
-        above > 50,
+        above > 20,
         "only {above} costs above the optimum: the sample cannot tell optimal planners from others"
     );
 }
