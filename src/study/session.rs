@@ -157,7 +157,8 @@ fn journal_path(folder: &Path, study: &str) -> std::path::PathBuf {
     folder.join(format!("{study}.journal"))
 }
 
-fn pool(threads: Option<usize>) -> rayon::ThreadPool {
+/// A pool of `threads` threads; of the machine's number if absent.
+pub(super) fn pool(threads: Option<usize>) -> rayon::ThreadPool {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads.unwrap_or(0))
         .build()
