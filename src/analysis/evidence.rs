@@ -4,7 +4,7 @@ use super::metric::{self, Metric};
 use crate::planner::Exhibit;
 use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
-use crate::study::record::{Row, Status};
+use crate::study::record::{PreparedRow, Row, Status};
 use crate::study::store::{Records, read_records};
 use crate::study::{Point, Study, StudyError};
 use std::collections::BTreeMap;
@@ -47,7 +47,7 @@ impl<'a> Evidence<'a> {
     pub fn read(paper: &'a Paper, point: Point, folder: &Path) -> Result<Self, StudyError> {
         let mut runs = BTreeMap::new();
         for study in &paper.studies {
-            runs.insert(study.name.as_str(), Run::read(study, point.name(), folder)?);
+            runs.insert(study.name.as_str(), Run::read(study, &point, folder)?);
         }
         Ok(Self { paper, point, runs })
     }
@@ -74,7 +74,7 @@ pub fn default_point(paper: &Paper) -> Point {
 }
 
 impl<'a> Run<'a> {
-    fn read(study: &'a Study, reading: &str, folder: &Path) -> Result<Self, StudyError> {
+    fn read(study: &'a Study, point: &Point, folder: &Path) -> Result<Self, StudyError> {
         let manifest = Manifest::read(folder, &study.name)?;
         let spec = crate::study::store::sha256(study.document.text().as_bytes());
         if manifest.spec != spec {
@@ -87,8 +87,9 @@ impl<'a> Run<'a> {
         for time in &records.times {
             readings.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
         }
+        let reading = point.within(&study.readings).name().to_owned();
         let median_ns = readings.into_iter().map(|(trial, times)| (trial, median(times))).collect();
-        Ok(Self { study, manifest, records, reading: reading.to_owned(), median_ns })
+        Ok(Self { study, manifest, records, reading, median_ns })
     }
 
     /// What `metric` is for `row`; `None` if it was not measured.
@@ -119,6 +120,15 @@ impl<'a> Run<'a> {
             .filter(solved)
             .filter_map(|other| Some(Pair { base: bases.get(&key(other))?, other }))
             .collect()
+    }
+
+    /// The prepared object that the trial `row` was run on.
+    pub fn prepared_of(&self, row: &Row) -> Option<&PreparedRow> {
+        self.records.batch.prepared.iter().find(|prepared| {
+            prepared.group == row.group
+                && prepared.replicate == row.replicate
+                && prepared.reading == row.reading
+        })
     }
 
     /// The exhibit called `name` of a trial or prepared object.

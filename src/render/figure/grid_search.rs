@@ -10,7 +10,6 @@ use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, Marker, ORANGE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
-use crate::study::slug;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -82,14 +81,14 @@ impl GridSearch {
                 .exhibit(of, name)
                 .ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
         };
-        let map = slug(&self.problem);
-        let size = stored(&map, "size_cells")?;
+        let map = scene.run.prepared_of(row).map_or("", |prepared| &prepared.prepared);
+        let size = stored(map, "size_cells")?;
         let (width, height) = (size.values[0], size.values[1]);
         let axis = |label: &str, side: f64| Axis::linear(label, 0.0, side);
         let mut panel = Panel::new(title(row), axis("x (cells)", width)?, axis("y (cells)", height)?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
-        panel.add(cells(scene, row, stored(&map, "blocked")?, [width as usize, height as usize]));
+        panel.add(cells(scene, row, stored(map, "blocked")?, [width as usize, height as usize]));
         if let Some(raw) = scene.run.exhibit(&row.trial, "raw_path") {
             let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
             panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
