@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, TryLockError};
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How to run.
 pub struct Options<'a> {
@@ -94,6 +94,11 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         }
         _ => field.time(options.stop, options.progress),
     };
+    if options.stop.load(Ordering::Relaxed) {
+        // Every trial is in the journal; half a timed pass is of no use.
+        let study = study.name.clone();
+        return Err(StudyError::Interrupted { study, kept: units, total: units });
+    }
     let moved = stored.map_or_else(Vec::new, |(before, records)| moved(&manifest, &before, &records, &batch));
     let records = Records { batch, times };
     let columns: Vec<&'static str> = study.columns().into_iter().collect();
