@@ -39,7 +39,35 @@ pub struct Pair<'a> {
     pub other: &'a Row,
 }
 
+/// One problem measured with two contenders.
+pub struct Measured {
+    /// The metric of the one that the other is compared with, and of the other.
+    pub values: (f64, f64),
+    /// The other's trial, as `--trial` takes it.
+    pub trial: String,
+}
+
 impl<'a> Evidence<'a> {
+    /// `metric` of two contenders on every problem of the groups of `study` that both solved and where it was measured
+    /// for both.
+    pub fn measured(
+        &self,
+        study: &str,
+        groups: &[String],
+        metric: &Metric,
+        base: &str,
+        other: &str,
+    ) -> Vec<Measured> {
+        let Some(run) = self.run(study) else { return Vec::new() };
+        let pairs = groups.iter().flat_map(|group| run.pairs(group, base, other));
+        pairs
+            .filter_map(|pair| {
+                let values = (run.value(pair.base, metric)?, run.value(pair.other, metric)?);
+                Some(Measured { values, trial: format!("{study}/{}", pair.other.trial) })
+            })
+            .collect()
+    }
+
     /// Reads the runs of every study of `paper` from `folder`, to be judged under the reading `point`.
     ///
     /// # Errors
