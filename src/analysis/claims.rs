@@ -114,7 +114,7 @@ fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
             by_contender.entry(contender).or_default().insert(claim.id.clone(), is_met);
         }
     }
-    let mut sets: Vec<Together> = outcomes.into_iter().flat_map(|(place, by)| sets_of(&place, by)).collect();
+    let mut sets: Vec<Together> = outcomes.into_iter().flat_map(|(place, by)| sets_of(&place, &by)).collect();
     sets.sort_by_key(|set| std::cmp::Reverse(set.hold.len()));
     let mut known = BTreeSet::new();
     sets.retain(|set| set.hold.len() > 1 && known.insert(set.hold.clone()));
@@ -129,7 +129,7 @@ const LISTED_SETS: usize = 12;
 /// shares a claim with belong to every set.
 fn sets_of(
     (study, problem): &(String, String),
-    by_contender: BTreeMap<String, BTreeMap<String, bool>>,
+    by_contender: &BTreeMap<String, BTreeMap<String, bool>>,
 ) -> Vec<Together> {
     let claims_of = |label: &String| by_contender[label].keys().cloned().collect::<BTreeSet<_>>();
     let rivals = |label: &String| {

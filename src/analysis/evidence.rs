@@ -1,6 +1,7 @@
 //! The records that claims are judged by, ready to be asked.
 
 use super::metric::{self, Metric};
+use super::stats::summary;
 use crate::planner::Exhibit;
 use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
@@ -116,7 +117,10 @@ impl<'a> Run<'a> {
             readings.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
         }
         let reading = point.within(&study.readings).name().to_owned();
-        let median_ns = readings.into_iter().map(|(trial, times)| (trial, median(times))).collect();
+        let median_ns = readings
+            .into_iter()
+            .map(|(trial, times)| (trial, summary::median(&times).expect("a timed trial has a reading")))
+            .collect();
         Ok(Self { study, manifest, records, reading, median_ns })
     }
 
@@ -164,10 +168,4 @@ impl<'a> Run<'a> {
         let kept = &self.records.batch.kept;
         kept.iter().find(|kept| kept.of == of && kept.exhibit.name == name).map(|kept| &kept.exhibit)
     }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    if values.len() % 2 == 1 { values[middle] } else { (values[middle - 1] + values[middle]) / 2.0 }
 }
