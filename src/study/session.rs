@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How to run.
 pub struct Options<'a> {
@@ -87,6 +87,11 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         Some((before, records)) if reused == units && before.spec == manifest.spec => records.times.clone(),
         _ => field.time(options.stop, options.progress)?,
     };
+    if options.stop.load(Ordering::Relaxed) {
+        // Every trial is in the journal; half a timed pass is of no use.
+        let study = study.name.clone();
+        return Err(StudyError::Interrupted { study, kept: units, total: units });
+    }
     let moved = stored.map_or_else(Vec::new, |(before, records)| moved(&manifest, &before, &records, &batch));
     let records = Records { batch, times };
     write(study, options.folder, &mut manifest, &records)?;
@@ -157,7 +162,8 @@ fn journal_path(folder: &Path, study: &str) -> std::path::PathBuf {
     folder.join(format!("{study}.journal"))
 }
 
-fn pool(threads: Option<usize>) -> rayon::ThreadPool {
+/// A pool of `threads` threads; of the machine's number if absent.
+pub(super) fn pool(threads: Option<usize>) -> rayon::ThreadPool {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads.unwrap_or(0))
         .build()
