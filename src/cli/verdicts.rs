@@ -7,7 +7,7 @@ use std::io::IsTerminal as _;
 /// Prints every claim's verdict, and how many there are of each.
 pub fn print(verdicts: &Verdicts) {
     let is_coloured = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    print!("{}", table(verdicts, is_coloured));
+    say!("{}", table(verdicts, is_coloured).trim_end());
 }
 
 /// The table as text.
