@@ -1,9 +1,10 @@
 //! Judges every claim of a paper, and which claims hold together.
 
 use super::check::{self, Check, Context, attained_problems};
-use super::evidence::Evidence;
+use super::evidence::{Evidence, default_point};
 use super::verdict::{Finding, Judged, Together, Verdict, Verdicts};
 use crate::settings::SettingsError;
+use crate::study::Point;
 use crate::study::paper::{Claim, Paper};
 use crate::study::store::sha256;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,7 +22,8 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
             }
         }
     }
-    paper.claims.iter().try_for_each(|claim| checks(paper, claim).map(|_| ()))
+    let point = default_point(paper);
+    paper.claims.iter().try_for_each(|claim| checks(paper, &point, claim).map(|_| ()))
 }
 
 /// The hash of everything that claims say, for manifests.
@@ -50,6 +52,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
 
 fn checks<'a>(
     paper: &'a Paper,
+    point: &'a Point,
     claim: &'a Claim,
 ) -> Result<Vec<(&'static str, Box<dyn Check + 'a>)>, SettingsError> {
     let mut built = Vec::new();
@@ -63,14 +66,14 @@ fn checks<'a>(
             );
             settings.error(message)
         })?;
-        built.push((entry.name, (entry.build)(&Context { claim, settings, paper })?));
+        built.push((entry.name, (entry.build)(&Context { claim, settings, paper, point })?));
     }
     Ok(built)
 }
 
 fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
     let mut findings = Vec::new();
-    for (_, check) in checks(evidence.paper, claim)? {
+    for (_, check) in checks(evidence.paper, &evidence.point, claim)? {
         findings.push(check.judge(evidence));
     }
     if let Some(reason) = &claim.untestable {
@@ -102,7 +105,7 @@ fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
     let mut outcomes: BTreeMap<(String, String), BTreeMap<String, BTreeMap<String, bool>>> = BTreeMap::new();
     for claim in &evidence.paper.claims {
         let Some(settings) = claim.checks.get("attained") else { continue };
-        let context = Context { claim, settings, paper: evidence.paper };
+        let context = Context { claim, settings, paper: evidence.paper, point: &evidence.point };
         for (study, problem, contender, is_met) in attained_problems(&context, evidence)? {
             let by_contender = outcomes.entry((study, problem)).or_default();
             by_contender.entry(contender).or_default().insert(claim.id.clone(), is_met);

@@ -17,7 +17,7 @@ use super::evidence::Evidence;
 use super::metric::Metric;
 use super::verdict::Finding;
 use crate::settings::{Settings, SettingsError};
-use crate::study::Study;
+use crate::study::{Point, Study};
 use crate::study::paper::{self, Claim, Paper};
 
 /// A check with its settings.
@@ -35,6 +35,8 @@ pub struct Context<'a> {
     pub settings: &'a Settings,
     /// The paper.
     pub paper: &'a Paper,
+    /// The reading that the claim is judged under.
+    pub point: &'a Point,
 }
 
 /// A registered check.
@@ -88,7 +90,7 @@ impl<'a> Context<'a> {
     fn printed_of(&self, id: &str) -> Result<(Printed, Digits), SettingsError> {
         let other = self.claim_called(id)?;
         let context = Context { claim: other, ..*self };
-        Ok((context.printed()?, other.digits.into()))
+        Ok((context.printed()?, context.digits()))
     }
 
     fn claim_called(&self, id: &str) -> Result<&'a Claim, SettingsError> {
@@ -99,7 +101,8 @@ impl<'a> Context<'a> {
     }
 
     fn digits(&self) -> Digits {
-        self.claim.digits.into()
+        let digits = self.claim.digits.or_else(|| self.point.digits());
+        digits.unwrap_or(paper::Digits::Unknown).into()
     }
 
     /// The study called `name`, which must have the problem groups and contenders named.
@@ -132,10 +135,9 @@ impl<'a> Context<'a> {
         Ok(study)
     }
 
-    /// The metric that `name` stands for under the default reading; `study` must produce it.
+    /// The metric that `name` stands for under the reading; `study` must produce it.
     fn metric(&self, name: &str, study: &Study) -> Result<&'static Metric, SettingsError> {
-        let point = super::evidence::default_point(self.paper);
-        let metric = super::metric::find(point.metric(name)).ok_or_else(|| {
+        let metric = super::metric::find(self.point.metric(name)).ok_or_else(|| {
             let known: Vec<&str> = super::metric::METRICS.iter().map(|metric| metric.name).collect();
             let message = format!(
                 "there is no metric `{name}`, nor a reading that gives the name a meaning; the metrics are {}",
