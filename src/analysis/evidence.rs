@@ -150,6 +150,21 @@ impl<'a> Run<'a> {
             .collect()
     }
 
+    /// `metric` of `contender` on every problem of `group` that it solved or, with `against`, the reduction in per
+    /// cent from that contender's, where both solved it and the base is not 0.
+    pub fn changes(&self, group: &str, contender: &str, against: Option<&str>, metric: &Metric) -> Vec<f64> {
+        let pairs = self.pairs(group, against.unwrap_or(contender), contender);
+        let change = |pair: &Pair<'_>| {
+            let other = self.value(pair.other, metric)?;
+            if against.is_none() {
+                return Some(other);
+            }
+            let base = self.value(pair.base, metric)?;
+            (base > 0.0).then(|| 100.0 * (base - other) / base)
+        };
+        pairs.iter().filter_map(change).collect()
+    }
+
     /// The exhibit called `name` of a trial or prepared object.
     pub fn exhibit(&self, of: &str, name: &str) -> Option<&Exhibit> {
         let kept = &self.records.batch.kept;

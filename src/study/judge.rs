@@ -45,6 +45,17 @@ pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Tr
     }
 }
 
+/// What is measured of a path on a lattice.
+pub fn path_values(path: &[Vec<f64>]) -> Counts {
+    let inner = bends(path).len().saturating_sub(2);
+    Counts::from([
+        ("path_cost_cells", Value::Real(path_length(path))),
+        ("turn_exterior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Exterior))),
+        ("turn_interior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Interior))),
+        ("bends", Value::Count(inner as u64)),
+    ])
+}
+
 fn case<'a>(lattice: &'a LatticeWorld, start: &'a [f64], goal: &'a [f64]) -> Case<'a> {
     Case { grid: lattice.grid(), corner_rule: lattice.corner_rule(), start, goal }
 }
@@ -74,14 +85,7 @@ fn judge_lattice(
         Ending::NoPath | Ending::BudgetSpent => None,
     };
     if plan.ending == Ending::Solved && refusal.is_none() {
-        values.insert("path_cost_cells", Value::Real(path_length(&plan.path)));
-        for (column, angle) in
-            [("turn_exterior_deg", TurnAngle::Exterior), ("turn_interior_deg", TurnAngle::Interior)]
-        {
-            values.insert(column, Value::Real(turn_sum_deg(&plan.path, angle)));
-        }
-        let inner = bends(&plan.path).len().saturating_sub(2);
-        values.insert("bends", Value::Count(inner as u64));
+        values.extend(path_values(&plan.path));
     }
     let outcome = match (refusal, plan.ending) {
         (Some(refusal), _) => (Status::Rejected, Some(refusal)),
