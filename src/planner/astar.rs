@@ -3,7 +3,8 @@
 use super::lattice::{self, COLUMNS, Posed, TiesSetting, UPDATE};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Combined, GridGraph, Heap, Observer, Octile, Report, Rules, Search, Stop, Terms, Trace, euclidean_to, falling, weighted,
+    Combined, GridGraph, Heap, Observer, Octile, Report, Rules, Search, Stop, Terms, Trace, euclidean_to,
+    falling, weighted,
 };
 use crate::space::WorldKind;
 use serde::Deserialize;

@@ -46,6 +46,11 @@ pub fn outputs(
             })?;
             outputs.push(Output { name: format!("{id}.svg"), bytes: drawn.svg.into_bytes() });
             outputs.push(Output { name: format!("{id}.png"), bytes: drawn.png });
+            let label = format!("{}:{id}", paper.id);
+            if let Some(table) = kind.table(&Scene { evidence, run, verdicts }, &label, &spec.caption)? {
+                let text = table.latex(&tables::made(paper, id))?;
+                outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
+            }
         }
     }
     for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {

@@ -58,7 +58,7 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
     Ok(numbers.latex(&paper.id, &made(paper, "numbers")))
 }
 
-fn made(paper: &Paper, id: &str) -> String {
+pub(super) fn made(paper: &Paper, id: &str) -> String {
     format!("made by `replan render {} --only {id}`", paper.id)
 }
 

@@ -4,8 +4,8 @@ use super::error::StudyError;
 use super::family::{self, Family};
 use super::reading::{self, Point, Reading};
 use super::spec::{
-    BudgetSpec, ContenderSpec, ExploreSpec, FigureSpec, ProblemsSpec, QuickSpec, StageSpec, StudySpec, TimingSpec,
-    TrialsSpec,
+    BudgetSpec, ContenderSpec, ExploreSpec, FigureSpec, ProblemsSpec, QuickSpec, StageSpec, StudySpec,
+    TimingSpec, TrialsSpec,
 };
 use super::{Inputs, task};
 use crate::planner::{self, Build, Planner, Stage};

@@ -152,7 +152,10 @@ pub fn explored(readings: &[Reading], sample: u32, seed: u64) -> Result<Vec<Poin
 fn drawn(readings: &[Reading], stream: &mut Stream) -> Result<Point, String> {
     let pick = |reading: &Reading, stream: &mut Stream| {
         let index = stream.random_range(0..reading.options.len());
-        (reading.id.clone(), reading.options.keys().nth(index).expect("the index is below the length").clone())
+        (
+            reading.id.clone(),
+            reading.options.keys().nth(index).expect("the index is below the length").clone(),
+        )
     };
     let choices = readings.iter().map(|reading| pick(reading, stream)).collect();
     Point::new(readings, &choices)
@@ -170,7 +173,11 @@ mod tests {
             default: "0".to_owned(),
             options: (0..count)
                 .map(|i| {
-                    let problem = if moves { toml::toml! { key = 1 } } else { Table::new() };
+                    let problem = if moves {
+                        toml::toml! { key = 1 }
+                    } else {
+                        Table::new()
+                    };
                     (i.to_string(), OptionSpec { problem, ..OptionSpec::default() })
                 })
                 .collect(),
@@ -189,7 +196,8 @@ mod tests {
             assert_eq!(names(1000, seed).len(), 24, "seed {seed}");
         }
         assert_ne!(names(5, 1), names(5, 2));
-        let point = Point::new(&readings, &[("b", "2"), ("c", "1")].map(|(a, b)| (a.into(), b.into())).into());
+        let point =
+            Point::new(&readings, &[("b", "2"), ("c", "1")].map(|(a, b)| (a.into(), b.into())).into());
         let point = point.unwrap();
         assert_eq!(point.for_trials(&readings).name(), "c=1");
         assert_eq!(point.within(&readings[..2]).name(), "b=2");

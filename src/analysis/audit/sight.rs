@@ -1,16 +1,15 @@
 //! The shortest polyline that can be free on a map whose 8-connected optimum is known.
 //!
 //! Premises: the corners and ends of the path are cell centres; every segment is free in all cells whose interior it
-//! crosses (or in all cells of Bresenham's line); a diagonal move may pass blocked cells, or is forbidden only between
-//! two blocked ones; and no 8-connected path on the map is shorter than C*.
+//! crosses (or in all cells of Bresenham's line); a diagonal move may pass blocked cells; and no 8-connected path on
+//! the map is shorter than C*.
 //!
 //! Argument. Take a free segment over (dx, dy) with dx ≥ dy ≥ 0, the other octants being alike. In each column that
 //! it passes, take the cell that holds its point on the column's centre line (where that point lies between two
 //! cells the segment crosses both, and either will do). The slope is at most 1, so the cells of neighbouring columns
-//! differ by at most one row, and they are joined by dx moves of which dy are diagonal. A diagonal one of them leaves
-//! through a cell that flanks it, which the segment crosses and which is therefore free, or exactly through the
-//! corner. So the map has an 8-connected path as long as the octile distances of all segments together, and these
-//! sum to at least C*. The bound is the shortest polyline for which they do, found best-first over (cell, moves so
+//! differ by at most one row, and they are joined by dx moves of which dy are diagonal; Bresenham's line is such a
+//! chain itself. So the map has an 8-connected path as long as the octile distances of all segments together, and
+//! these sum to at least C*. The bound is the shortest polyline for which they do, found best-first over (cell, moves so
 //! far). Obstacles are left out otherwise, so it holds on every map.
 
 use super::lattice::{Octile, octile_distance};

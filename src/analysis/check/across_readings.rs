@@ -112,7 +112,10 @@ impl<'a> Across<'a> {
     fn values(&self, view: &Evidence<'_>, groups: &[String], metric: &Metric) -> Vec<f64> {
         let Some(run) = view.run(&self.settings.study) else { return Vec::new() };
         let against = self.settings.against.as_deref();
-        groups.iter().flat_map(|group| run.changes(group, &self.settings.contender, against, metric)).collect()
+        groups
+            .iter()
+            .flat_map(|group| run.changes(group, &self.settings.contender, against, metric))
+            .collect()
     }
 }
 

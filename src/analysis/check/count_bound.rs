@@ -65,7 +65,8 @@ impl Check for Bound {
         let bound = astar_count_bound(size, start, goal, optimum.length());
         let least = self.printed.interval(self.digits).low;
         let said = |what: &str, most: usize| {
-            let compared = if least > most as f64 { "so it cannot count them" } else { "so it may count them" };
+            let compared =
+                if least > most as f64 { "so it cannot count them" } else { "so it may count them" };
             format!("at most {most} nodes are {what}, {compared}")
         };
         let exceeded = self.applies.is_some_and(|applies| least > applies(bound) as f64);
@@ -78,7 +79,9 @@ impl Check for Bound {
                 said("ever opened", bound.opened),
             ],
             premises: vec![
-                format!("A* from cell {start:?} to cell {goal:?} with the Euclidean heuristic, stopped at the goal"),
+                format!(
+                    "A* from cell {start:?} to cell {goal:?} with the Euclidean heuristic, stopped at the goal"
+                ),
                 format!("its path costs {straight} + {diagonal}√2 = {:.4}", optimum.length()),
             ],
             ..Finding::default()

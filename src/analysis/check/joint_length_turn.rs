@@ -47,7 +47,8 @@ struct Joint {
 impl Joint {
     fn new(context: &Context<'_>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let window = |id: &str| context.printed_of(id).map(|(printed, digits)| (printed, printed.interval(digits)));
+        let window =
+            |id: &str| context.printed_of(id).map(|(printed, digits)| (printed, printed.interval(digits)));
         let (length, turn) = (window(&settings.length)?, window(&settings.turn)?);
         let metric = context.known_metric(&settings.metric)?.name;
         let convention = if metric == settings.interior {
@@ -121,8 +122,11 @@ impl Check for Joint {
             verdict: is_impossible.then_some(Verdict::Impossible),
             because,
             premises: vec![
-                format!("the path is a polyline from cell {start:?} to cell {goal:?} whose bends are cell centres"),
-                "its cost is its Euclidean length in cells; its turn sum adds one angle at every bend".to_owned(),
+                format!(
+                    "the path is a polyline from cell {start:?} to cell {goal:?} whose bends are cell centres"
+                ),
+                "its cost is its Euclidean length in cells; its turn sum adds one angle at every bend"
+                    .to_owned(),
             ],
             ..Finding::default()
         }

@@ -23,8 +23,8 @@ use super::evidence::Evidence;
 use super::metric::Metric;
 use super::verdict::Finding;
 use crate::settings::{Settings, SettingsError};
-use crate::study::{Point, Study};
 use crate::study::paper::{self, Claim, Paper};
+use crate::study::{Point, Study};
 
 /// A check with its settings.
 pub trait Check {
@@ -86,11 +86,7 @@ pub use row_among_draws::Draws;
 ///
 /// # Errors
 /// There is no such claim or it has no such check.
-pub fn draws(
-    evidence: &Evidence<'_>,
-    asker: &Settings,
-    id: &str,
-) -> Result<Vec<Draws>, SettingsError> {
+pub fn draws(evidence: &Evidence<'_>, asker: &Settings, id: &str) -> Result<Vec<Draws>, SettingsError> {
     row_among_draws::draws(&context(evidence, asker, id, row_among_draws::ENTRY.name)?, evidence)
 }
 
@@ -98,11 +94,7 @@ pub fn draws(
 ///
 /// # Errors
 /// There is no such claim or it has no such check.
-pub fn outcomes(
-    evidence: &Evidence<'_>,
-    asker: &Settings,
-    id: &str,
-) -> Result<Vec<Outcome>, SettingsError> {
+pub fn outcomes(evidence: &Evidence<'_>, asker: &Settings, id: &str) -> Result<Vec<Outcome>, SettingsError> {
     across_readings::outcomes(&context(evidence, asker, id, across_readings::ENTRY.name)?, evidence)
 }
 

@@ -14,7 +14,8 @@ pub static ENTRY: Entry = Entry {
         let settings: Settings = context.settings.read()?;
         let contenders: Vec<&str> = settings.contenders.iter().map(String::as_str).collect();
         let study = context.study(&settings.study, &settings.problems, &contenders)?;
-        let (metric, truth) = (context.metric(&settings.metric, study)?, context.metric(&settings.truth, study)?);
+        let (metric, truth) =
+            (context.metric(&settings.metric, study)?, context.metric(&settings.truth, study)?);
         if settings.within.is_nan() || settings.within < 0.0 {
             let message = format!("within is {}; 0 or more is accepted", settings.within);
             return Err(context.settings.error(message));
@@ -45,7 +46,9 @@ impl Check for Oracle {
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let (mut trials, mut worst, mut off) = (0, 0.0_f64, 0);
         let run = evidence.run(&self.settings.study);
-        for (run, group) in run.iter().flat_map(|run| self.settings.problems.iter().map(move |group| (run, group))) {
+        for (run, group) in
+            run.iter().flat_map(|run| self.settings.problems.iter().map(move |group| (run, group)))
+        {
             for row in self.settings.contenders.iter().flat_map(|contender| run.rows(group, contender)) {
                 trials += 1;
                 let pair = run.value(row, self.metric).zip(run.value(row, self.truth));

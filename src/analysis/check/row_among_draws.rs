@@ -90,7 +90,8 @@ impl RowAmongDraws {
         let mut draws = Draws { label: set.label.clone(), values: Vec::new(), unsolved: 0, acceptance: None };
         let Some(run) = evidence.run(&set.study) else { return draws };
         for group in &set.problems {
-            let values = run.changes(group, &self.settings.contender, self.settings.against.as_deref(), self.metric);
+            let values =
+                run.changes(group, &self.settings.contender, self.settings.against.as_deref(), self.metric);
             draws.unsolved += run.rows(group, &self.settings.contender).len() - values.len();
             draws.values.extend(values);
         }
@@ -118,9 +119,13 @@ fn said(draws: &Draws, printed: f64) -> String {
     let middle = median(&draws.values).map_or(String::new(), |median| format!("median {median:.2}"));
     let range = predictive(&draws.values, LEVEL)
         .map_or(String::new(), |range| format!(", 95 % of draws in {:.2} to {:.2}", range.low, range.high));
-    let unsolved = if draws.unsolved > 0 { format!(" ({} more unsolved)", draws.unsolved) } else { String::new() };
+    let unsolved =
+        if draws.unsolved > 0 { format!(" ({} more unsolved)", draws.unsolved) } else { String::new() };
     let accepted = draws.acceptance.map_or(String::new(), |[accepted, tried]| {
-        format!(", {accepted} accepted of {tried} maps tried ({:.3} %)", 100.0 * accepted as f64 / tried as f64)
+        format!(
+            ", {accepted} accepted of {tried} maps tried ({:.3} %)",
+            100.0 * accepted as f64 / tried as f64
+        )
     });
     format!(
         "{}: {:.1} % of {} maps{unsolved} are at or below it ({:.1} to {:.1} %), {} equal it; {middle}{range}{accepted}",

@@ -55,9 +55,11 @@ impl SightBound {
         let readings = context.paper.readings();
         for (id, options) in &settings.under {
             let known = readings.iter().find(|reading| reading.id == *id);
-            let known = known.map(|reading| reading.options.keys().cloned().collect::<Vec<_>>()).unwrap_or_default();
+            let known =
+                known.map(|reading| reading.options.keys().cloned().collect::<Vec<_>>()).unwrap_or_default();
             if let Some(unknown) = options.iter().find(|option| !known.contains(option)) {
-                let message = format!("`under` asks for {id}={unknown}; the options are {}", known.join(", "));
+                let message =
+                    format!("`under` asks for {id}={unknown}; the options are {}", known.join(", "));
                 return Err(context.settings.error(message));
             }
         }
@@ -81,8 +83,12 @@ impl Check for SightBound {
         let found = match (of, is_beyond) {
             (Of::Length, true) => format!("{} is shorter", self.printed),
             (Of::Length, false) => format!("{} is not shorter", self.printed),
-            (Of::SavingPercent, true) => format!("it saves at most {most:.2} %, less than {} %", self.printed),
-            (Of::SavingPercent, false) => format!("it saves up to {most:.2} %, no less than {} %", self.printed),
+            (Of::SavingPercent, true) => {
+                format!("it saves at most {most:.2} %, less than {} %", self.printed)
+            }
+            (Of::SavingPercent, false) => {
+                format!("it saves up to {most:.2} %, no less than {} %", self.printed)
+            }
         };
         let mut because = vec![
             format!(

@@ -90,7 +90,11 @@ impl Conditioned {
         let build = |of: &Of| {
             let entry = super::find(&of.family).ok_or_else(|| {
                 let known: Vec<&str> = super::REGISTRY.iter().map(|entry| entry.name).collect();
-                settings.error(format!("there is no problem family `{}`; there are {}", of.family, known.join(", ")))
+                settings.error(format!(
+                    "there is no problem family `{}`; there are {}",
+                    of.family,
+                    known.join(", ")
+                ))
             })?;
             let mut table = self.shared.clone();
             table.extend(of.settings.clone());
@@ -106,7 +110,10 @@ impl Conditioned {
     }
 
     fn planner(&self, settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
-        let table = Settings::composed(format!("planner_settings of `{}`", self.planner), self.planner_settings.clone());
+        let table = Settings::composed(
+            format!("planner_settings of `{}`", self.planner),
+            self.planner_settings.clone(),
+        );
         let entry = planner::find(&self.planner).filter(|entry| entry.needs == WorldKind::Lattice);
         match entry.map(|entry| entry.build) {
             Some(Build::Planner(build)) => build(&table),
@@ -157,7 +164,8 @@ impl Family for Rejection {
         for tries in 1..=self.read.tries {
             let family = stream.random_range(0..self.families.len());
             // Half of the range of u64, as all seeds are.
-            let Ok(mut prepared) = self.families[family].prepare(stream.random_range(0..=u64::MAX >> 1)) else {
+            let Ok(mut prepared) = self.families[family].prepare(stream.random_range(0..=u64::MAX >> 1))
+            else {
                 continue;
             };
             if self.accepts(&prepared) {

@@ -135,7 +135,11 @@ mod tests {
         assert_eq!(family.known(0)["printed_optimal_cells"], Value::Real(6.0));
         let world = family.prepare(1).unwrap().world;
         let lattice = world.as_lattice().unwrap();
-        assert_eq!(lattice.corner_rule(), crate::grid::CornerRule::ForbidAny, "no corner is cut unless asked for");
+        assert_eq!(
+            lattice.corner_rule(),
+            crate::grid::CornerRule::ForbidAny,
+            "no corner is cut unless asked for"
+        );
         assert_eq!(build(MAP, SCENARIOS, "every = 2").unwrap().queries().len(), 1);
     }
 
@@ -144,7 +148,12 @@ mod tests {
         for (map, scenarios, extra, message) in [
             (&MAP[5..], SCENARIOS, "", "m.map: line 1: found"),
             (&MAP.replace('@', "?")[..], SCENARIOS, "", "m.map: line 5, column 2: found `?`"),
-            (&MAP.replace("height 3", "height 4")[..], SCENARIOS, "", "found 3 rows of cells; the header promises 4"),
+            (
+                &MAP.replace("height 3", "height 4")[..],
+                SCENARIOS,
+                "",
+                "found 3 rows of cells; the header promises 4",
+            ),
             (MAP, &SCENARIOS.replace("\t4\t3", "\t5\t3")[..], "", "m.scen: line 2: found `5 3`"),
             (MAP, "version 1\n", "", "m.scen holds no query"),
             (MAP, SCENARIOS, "every = 0", "every is 0; 1 or more is accepted"),
@@ -154,8 +163,12 @@ mod tests {
             assert!(error.contains(message), "{error}\nlacks\n{message}");
         }
         let table = toml::from_str("map = 'none.map'\nscenarios = 'none.scen'").unwrap();
-        let error = (ENTRY.build)(&Settings::composed("a test", table), &Inputs { roots: vec!["nowhere".into()] });
+        let error =
+            (ENTRY.build)(&Settings::composed("a test", table), &Inputs { roots: vec!["nowhere".into()] });
         let error = error.err().unwrap().to_string();
-        assert!(error.contains("input file `none.map` does not exist; looked for nowhere/none.map"), "{error}");
+        assert!(
+            error.contains("input file `none.map` does not exist; looked for nowhere/none.map"),
+            "{error}"
+        );
     }
 }

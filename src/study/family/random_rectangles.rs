@@ -20,7 +20,8 @@ pub static ENTRY: Entry = Entry {
         let read: RandomRectangles = settings.read()?;
         let (count, range) = (read.count, read.side_cells);
         check_range(settings, "side_cells", range)?;
-        let draw = move |stream: &mut Stream, size, free: &[u32]| rectangles(stream, size, count, range, free);
+        let draw =
+            move |stream: &mut Stream, size, free: &[u32]| rectangles(stream, size, count, range, free);
         let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
         Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, draw)?))
     },

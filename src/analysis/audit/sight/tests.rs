@@ -6,7 +6,8 @@ use crate::verify::lattice::Case;
 /// Length of the shortest path from `start` to `goal` whose segments are seen by `sight`, by Dijkstra over all pairs.
 fn shortest_free(grid: &Grid2, start: Cell, goal: Cell, sight: Sight) -> f64 {
     let cells: Vec<Cell> = (0..grid.cell_count()).filter(|c| grid.is_free(*c)).map(|c| grid.xy(c)).collect();
-    let mut known: Vec<(f64, bool)> = cells.iter().map(|c| (if *c == start { 0.0 } else { f64::INFINITY }, false)).collect();
+    let mut known: Vec<(f64, bool)> =
+        cells.iter().map(|c| (if *c == start { 0.0 } else { f64::INFINITY }, false)).collect();
     loop {
         let open = (0..cells.len()).filter(|i| !known[*i].1);
         let Some(at) = open.min_by(|a, b| known[*a].0.total_cmp(&known[*b].0)) else { return f64::INFINITY };
@@ -44,14 +45,18 @@ fn no_free_path_on_any_drawn_map_is_shorter_than_its_bound() {
             let Some(cost) = case.optimal_cost() else { continue };
             let moves = moves_of(cost);
             let key = (moves.straight, moves.diagonal);
-            let bound = *bounds.entry(key).or_insert_with(|| shortest_seen(size, [start, goal], moves).length);
+            let bound =
+                *bounds.entry(key).or_insert_with(|| shortest_seen(size, [start, goal], moves).length);
             let truth = shortest_free(&grid, start, goal, sight);
             assert!(truth >= bound - 1e-9, "seed {seed}: {truth} below {bound} at C* = {cost} by {sight:?}");
             detours += usize::from(bound > distance(start, goal) + 1e-9);
             close += usize::from(bound > distance(start, goal) + 1e-9 && truth < bound + 1e-9);
         }
     }
-    assert!(detours > 300 && close > 0, "weak sample: {detours} detours, {close} of them as short as the bound");
+    assert!(
+        detours > 300 && close > 0,
+        "weak sample: {detours} detours, {close} of them as short as the bound"
+    );
 }
 
 #[test]
