@@ -12,7 +12,7 @@ use crate::study::{Point, StudyError};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How many sets are listed, the largest first.
-const LISTED_SETS: usize = 8;
+const LISTED_SETS: usize = 5;
 
 /// Outcomes by study, then problem, then contender, then claim: whether it is met exactly.
 type Met = BTreeMap<String, BTreeMap<String, BTreeMap<String, BTreeMap<String, bool>>>>;
@@ -97,28 +97,30 @@ fn sets_of(
 
 type Outcomes<'a> = BTreeMap<&'a String, bool>;
 
-/// Of all problems that the same claims are asked of, the first on which most of these hold.
+/// Of all problems that claims share, the first on which most of these hold.
 fn best_problems<'a>(
     problems: &'a BTreeMap<String, BTreeMap<String, BTreeMap<String, bool>>>,
     labels: &[&String],
 ) -> Vec<(&'a String, Outcomes<'a>)> {
-    let mut best: BTreeMap<Vec<&String>, (&String, Outcomes<'_>)> = BTreeMap::new();
+    let count = |outcomes: &Outcomes<'_>| outcomes.values().filter(|is_met| **is_met).count();
+    let mut groups: Vec<(BTreeSet<&String>, &String, Outcomes<'_>)> = Vec::new();
     for (problem, by_contender) in problems {
         let of = labels.iter().filter_map(|label| by_contender.get(*label)).flatten();
         let outcomes: Outcomes<'_> = of.map(|(claim, is_met)| (claim, *is_met)).collect();
-        let count = |outcomes: &Outcomes<'_>| outcomes.values().filter(|is_met| **is_met).count();
-        let key: Vec<&String> = outcomes.keys().copied().collect();
-        match best.get(&key) {
-            Some((_, known)) if count(known) >= count(&outcomes) => {}
-            _ => {
-                best.insert(key, (problem, outcomes));
+        let claims: BTreeSet<&String> = outcomes.keys().copied().collect();
+        // A contender that does not solve a problem leaves fewer claims there.
+        match groups.iter_mut().find(|(known, _, _)| !known.is_disjoint(&claims)) {
+            Some((known, best, of_best)) => {
+                known.extend(claims);
+                if count(&outcomes) > count(of_best) {
+                    (*best, *of_best) = (problem, outcomes);
+                }
             }
+            None => groups.push((claims, problem, outcomes)),
         }
     }
-    let mut best: Vec<_> =
-        best.into_values().filter(|(_, outcomes)| outcomes.values().any(|is_met| *is_met)).collect();
-    best.sort_by_key(|(problem, _)| *problem);
-    best
+    groups.retain(|(_, _, outcomes)| count(outcomes) > 0);
+    groups.into_iter().map(|(_, problem, outcomes)| (problem, outcomes)).collect()
 }
 
 /// The sets of more than one claim that lie within no other, the largest first and of equals the first.

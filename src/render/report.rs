@@ -143,11 +143,20 @@ fn reasons(text: &mut String, verdicts: &Verdicts) {
     }
 }
 
+/// Reasons longer than this stand one below another.
+const LONG: usize = 200;
+
 fn reason(text: &mut String, judged: &Judged) {
     line!(text, "**`{}`** ({}): {}\n", judged.claim, judged.at, judged.verdict.name());
     for finding in &judged.findings {
-        let because = finding.because.join("; ");
-        line!(text, "- {}: {because}.{}", finding.check, aside(finding));
+        if let [first, .., last] = &finding.because[..]
+            && first.len() + last.len() > LONG
+        {
+            line!(text, "- {}:{}", finding.check, aside(finding));
+            finding.because.iter().for_each(|reason| line!(text, "  - {reason}"));
+        } else {
+            line!(text, "- {}: {}.{}", finding.check, finding.because.join("; "), aside(finding));
+        }
         for premise in &finding.premises {
             line!(text, "  - premise: {premise}");
         }

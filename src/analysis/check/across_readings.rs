@@ -125,9 +125,10 @@ impl Check for Across<'_> {
         let count = |is: fn(&Outcome) -> bool| outcomes.iter().filter(|outcome| is(outcome)).count();
         let medians = outcomes.iter().map(|outcome| outcome.median);
         let (low, high) = medians.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), m| (a.min(m), b.max(m)));
+        let explored = self.study.explored().map_or(0, |points| points.len());
         let mut because = vec![format!(
-            "of {} readings explored, the printed number lies among the central 95 % of maps under {}, and is met \
-             exactly on some map under {}",
+            "{explored} readings were explored; of the {} under which enough maps were solved to say, the printed number \
+             lies among the central 95 % of maps under {}, and is met exactly on some map under {}",
             outcomes.len(),
             count(|outcome| outcome.is_among),
             count(|outcome| outcome.met > 0)

@@ -123,6 +123,11 @@ impl From<paper::Digits> for Digits {
     }
 }
 
+/// Problem groups in a sentence: their names, or how many there are.
+fn listed(problems: &[String]) -> String {
+    if problems.len() > 3 { format!("{} problem groups", problems.len()) } else { problems.join(", ") }
+}
+
 impl<'a> Context<'a> {
     /// The claim's printed number.
     fn printed(&self) -> Result<Printed, SettingsError> {

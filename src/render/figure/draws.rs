@@ -68,7 +68,7 @@ impl Asked {
         let x = Axis::over(&spec.axis, ends.flatten().chain(printed));
         let mut panel = Panel::new(&spec.title, x, Axis::linear("share of maps", 0.0, 1.0)?);
         for (index, set) in sets.iter().enumerate() {
-            panel.add(Line::ecdf(&set.values, series_stroke(index)).labelled(&set.label));
+            panel.add(Line::through(cumulative(&set.values), series_stroke(index)).labelled(&set.label));
         }
         if let Some(printed) = printed {
             let marks = vec![(printed, format!("printed {printed}"))];
@@ -76,4 +76,10 @@ impl Asked {
         }
         Ok(panel)
     }
+}
+
+/// Quantiles at every half per cent: as good as every step to the eye, and a tenth of the bytes.
+fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
+    let shares = (0..=200).map(|step| f64::from(step) / 200.0);
+    shares.filter_map(|share| Some([quantile_type7(values, share)?, share])).collect()
 }

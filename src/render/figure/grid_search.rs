@@ -64,7 +64,8 @@ impl Kind for GridSearch {
 
 impl GridSearch {
     fn panel(&self, scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
-        let (mut panel, map) = map_panel(scene, &self.problem, title(row))?;
+        let map = map(scene, &self.problem)?;
+        let mut panel = map.panel(title(row))?;
         panel.add(cells(scene, row, &map));
         if let Some(raw) = scene.run.exhibit(&row.trial, "raw_path") {
             let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
@@ -84,22 +85,48 @@ pub(super) struct Map<'a> {
     pub(super) walls: &'a Exhibit,
 }
 
-/// An empty panel over the first draw of `problem`, and its map.
-pub(super) fn map_panel<'a>(
-    scene: &Scene<'a>,
-    problem: &str,
-    title: String,
-) -> Result<(Panel, Map<'a>), RenderError> {
+/// The map of the first draw of `problem`.
+pub(super) fn map<'a>(scene: &Scene<'a>, problem: &str) -> Result<Map<'a>, RenderError> {
     let of = slug(problem);
     let stored = |name: &str| {
         let found = scene.run.exhibit(&of, name);
         found.ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
     };
     let (size, walls) = (stored("size_cells")?, stored("blocked")?);
-    let axis = |label: &str, side: f64| Axis::linear(label, 0.0, side);
-    let (x, y) = (axis("x (cells)", size.values[0])?, axis("y (cells)", size.values[1])?);
-    let panel = Panel::new(title, x, y).trimmed(Trim::Frame).with_equal_scales();
-    Ok((panel, Map { size: [size.values[0] as usize, size.values[1] as usize], walls }))
+    Ok(Map { size: [size.values[0] as usize, size.values[1] as usize], walls })
+}
+
+impl Map<'_> {
+    /// An empty panel over the whole map.
+    pub(super) fn panel(&self, title: String) -> Result<Panel, RenderError> {
+        let [width, height] = self.size.map(|side| side as f64);
+        self.window(title, [[0.0, width], [0.0, height]])
+    }
+
+    /// An empty panel over a square part of the map that holds `points` and some room around them.
+    pub(super) fn panel_about(&self, title: String, points: &[[f64; 2]]) -> Result<Panel, RenderError> {
+        let of = |axis: usize, pick: fn(f64, f64) -> f64, start: f64| {
+            points.iter().map(|point| point[axis]).fold(start, pick)
+        };
+        let ends =
+            [0, 1].map(|axis| [of(axis, f64::min, f64::INFINITY), of(axis, f64::max, f64::NEG_INFINITY)]);
+        let least_side = self.size[0].min(self.size[1]) as f64;
+        let side =
+            ends.iter().map(|[low, high]| (high - low).ceil() + 3.0).fold(0.0, f64::max).min(least_side);
+        let window = [0, 1].map(|axis| {
+            let [low, high] = ends[axis];
+            let from =
+                (f64::midpoint(low, high) - side / 2.0).round().clamp(0.0, self.size[axis] as f64 - side);
+            [from, from + side]
+        });
+        self.window(title, window)
+    }
+
+    fn window(&self, title: String, [x, y]: [[f64; 2]; 2]) -> Result<Panel, RenderError> {
+        let axis = |label: &str, [low, high]: [f64; 2]| Axis::linear(label, low, high);
+        let (x, y) = (axis("x (cells)", x)?, axis("y (cells)", y)?);
+        Ok(Panel::new(title, x, y).trimmed(Trim::Frame).with_equal_scales())
+    }
 }
 
 /// Markers on the first and the last of `points`.

@@ -5,6 +5,7 @@ use crate::analysis::effect::reduction_percent;
 use crate::analysis::metric;
 use crate::analysis::stats::bootstrap::Estimate;
 use crate::render::RenderError;
+use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -77,10 +78,8 @@ impl Reductions {
         let is_first = index.is_multiple_of(self.columns);
         let names = self.contenders.iter().map(|name| if is_first { name.as_str() } else { "" });
         let mut panel = Panel::new(&spec.title, x, Axis::names("", names).reversed());
-        panel.add(Rules {
-            marks: vec![(0.0, String::new())],
-            stroke: Stroke::solid(INK.mixed(BLUE, 0.0), 0.5),
-        });
+        let zero = vec![[0.0, -0.5], [0.0, self.contenders.len() as f64 - 0.5]];
+        panel.add(Line::through(zero, Stroke::solid(INK, 0.6)));
         for (row, estimate) in estimates.iter().enumerate() {
             let Some(estimate) = estimate else { continue };
             let values = [estimate.interval.low, estimate.value, estimate.interval.high];

@@ -1,6 +1,6 @@
 //! How a search on a grid map went on: the cells opened so far, one panel a moment.
 
-use super::grid_search::{add_ends, blocked, centres, goal_side, listed, map_panel, painted, start_side};
+use super::grid_search::{add_ends, blocked, centres, goal_side, listed, map, painted, start_side};
 use super::{Entry, Kind, Scene, check_labels};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
@@ -58,7 +58,9 @@ impl SearchFlow {
         let shown = sides.each_ref().map(|side| (side.len() as f64 * share).ceil() as usize);
         let all: usize = sides.iter().map(Vec::len).sum();
         let title = format!("{} of {all} nodes opened", shown.iter().sum::<usize>());
-        let (mut panel, map) = map_panel(scene, &self.problem, title)?;
+        let map = map(scene, &self.problem)?;
+        let around: Vec<[f64; 2]> = sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
+        let mut panel = map.panel_about(title, &around)?;
         let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());
         let mut keys = vec![cell_key("blocked", blocked()), cell_key("opened from the start", start_side())];
         if !sides[1].is_empty() {

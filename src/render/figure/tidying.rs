@@ -1,6 +1,6 @@
 //! How a path on a grid map was tidied: bends before and after, and the lines of sight that were refused.
 
-use super::grid_search::{add_ends, blocked, centres, map_panel, painted};
+use super::grid_search::{add_ends, blocked, centres, map, painted};
 use super::{Entry, Kind, Scene, check_labels};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
@@ -55,7 +55,8 @@ impl Tidying {
         let bent: Vec<[f64; 2]> = bends(&raw_points).into_iter().map(|i| centres(raw)[i]).collect();
         let path = centres(path);
         let title = format!("{problem}: {} bends before, {} after", bent.len() - 2, path.len() - 2);
-        let (mut panel, map) = map_panel(scene, problem, title)?;
+        let map = map(scene, problem)?;
+        let mut panel = map.panel_about(title, &centres(raw))?;
         panel.add(painted(&map, &[], vec![cell_key("blocked", blocked())]));
         let lines = refused.values.chunks(refused.width).flat_map(|ends| {
             let [from, to] = [[ends[0] + 0.5, ends[1] + 0.5], [ends[2] + 0.5, ends[3] + 0.5]];

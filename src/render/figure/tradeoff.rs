@@ -6,7 +6,7 @@ use crate::analysis::metric::{self, Metric};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{Stroke, Width, series_color, series_marker};
+use crate::render::style::{SERIES, Stroke, Width, series_color, series_marker};
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -72,7 +72,8 @@ impl Tradeoff {
                 [a.value, b.interval.high],
             ];
             panel.add(Line::through(cross, stroke));
-            let (marker, color) = (series_marker(index), series_color(index));
+            // One marker on for each round of the colours, so that no two are alike.
+            let (marker, color) = (series_marker(index + index / SERIES.len()), series_color(index));
             let points = vec![[a.value, b.value]];
             panel.add(Points { points, marker, radius_pt: 3.0, color, label: contender.clone() });
         }

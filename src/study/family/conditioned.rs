@@ -8,7 +8,7 @@ use super::{Entry, Family, Query};
 use crate::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
 use crate::seed;
 use crate::settings::{Settings, SettingsError};
-use crate::space::WorldKind;
+use crate::space::{World, WorldKind};
 use crate::study::judge::{LATTICE_COLUMNS, path_values};
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::{Inputs, StudyError, column};
@@ -131,10 +131,10 @@ struct Rejection {
 }
 
 impl Rejection {
-    fn accepts(&self, prepared: &Prepared) -> bool {
+    fn accepts(&self, world: &World) -> bool {
         let [query] = &self.queries[..] else { unreachable!("one query was asked for") };
         let request = Request {
-            world: &prepared.world,
+            world,
             start: &query.start,
             goal: &query.goal,
             expansions: self.read.expansions,
@@ -164,11 +164,9 @@ impl Family for Rejection {
         for tries in 1..=self.read.tries {
             let family = stream.random_range(0..self.families.len());
             // Half of the range of u64, as all seeds are.
-            let Ok(mut prepared) = self.families[family].prepare(stream.random_range(0..=u64::MAX >> 1))
-            else {
-                continue;
-            };
-            if self.accepts(&prepared) {
+            let seed = stream.random_range(0..=u64::MAX >> 1);
+            if self.families[family].draw(seed).is_ok_and(|world| self.accepts(&world)) {
+                let mut prepared = self.families[family].prepare(seed)?;
                 prepared.values.insert("tries", Value::Count(tries));
                 return Ok(prepared);
             }

@@ -14,7 +14,7 @@ use super::prepared::Prepared;
 use super::{Inputs, StudyError};
 use crate::planner::{Counts, Invalid};
 use crate::settings::Settings;
-use crate::space::WorldKind;
+use crate::space::{World, WorldKind};
 use std::path::PathBuf;
 
 /// One question asked of a prepared object.
@@ -38,6 +38,14 @@ pub trait Family: Send + Sync {
     /// # Errors
     /// [`Invalid`] if this draw cannot be posed; its trials are then rows with that status.
     fn prepare(&self, seed: u64) -> Result<Prepared, Invalid>;
+
+    /// The world of [`prepare`](Self::prepare) alone, for those who draw many and keep few.
+    ///
+    /// # Errors
+    /// As [`prepare`](Self::prepare).
+    fn draw(&self, seed: u64) -> Result<World, Invalid> {
+        self.prepare(seed).map(|prepared| prepared.world)
+    }
 
     /// The queries asked of every draw.
     fn queries(&self) -> &[Query];

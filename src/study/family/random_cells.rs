@@ -5,7 +5,7 @@ use crate::grid::{Grid2, GridError, independent_cells};
 use crate::planner::Invalid;
 use crate::seed::{self, Stream};
 use crate::settings::{Settings, SettingsError};
-use crate::space::WorldKind;
+use crate::space::{LatticeWorld, World, WorldKind};
 use crate::study::StudyError;
 use crate::study::judge::LATTICE_COLUMNS;
 use crate::study::prepared::{Prepared, lattice};
@@ -75,6 +75,11 @@ where
         let [from, to] = [start, goal].map(|cell| cell.map(f64::from).to_vec());
         Ok(Self { frame, keep_free, queries: [Query { name: String::new(), start: from, goal: to }], draw })
     }
+
+    fn map(&self, seed: u64) -> Grid2 {
+        (self.draw)(&mut seed::stream(seed), self.frame.0, &self.keep_free)
+            .expect("the size was checked when the settings were read")
+    }
 }
 
 /// Refuses a range of whole numbers of cells that is empty or starts at 0.
@@ -99,10 +104,13 @@ where
     }
 
     fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
-        let (size, start, goal, corners) = self.frame;
-        let grid = (self.draw)(&mut seed::stream(seed), size, &self.keep_free)
-            .expect("the size was checked when the settings were read");
-        lattice::prepare(grid, corners, start, goal)
+        let (_, start, goal, corners) = self.frame;
+        lattice::prepare(self.map(seed), corners, start, goal)
+    }
+
+    fn draw(&self, seed: u64) -> Result<World, Invalid> {
+        // Start and goal are freed, so that no draw is invalid.
+        Ok(World::Lattice(LatticeWorld::new(self.map(seed), self.frame.3.into())))
     }
 
     fn queries(&self) -> &[Query] {
