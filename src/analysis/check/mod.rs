@@ -78,6 +78,9 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     REGISTRY.iter().copied().find(|entry| entry.name == name)
 }
 
+#[cfg(test)]
+mod tests;
+
 pub use across_readings::Outcome;
 pub use attained::problems as attained_problems;
 pub use row_among_draws::Draws;
