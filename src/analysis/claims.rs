@@ -26,9 +26,14 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     paper.claims.iter().try_for_each(|claim| checks(paper, &point, claim).map(|_| ()))
 }
 
-/// The hash of everything that claims say, for manifests.
+/// The hash of what claims say and how they are judged, for manifests: wording and ledger do not count.
 pub fn claims_hash(paper: &Paper) -> String {
-    sha256(paper.document.text().as_bytes())
+    let judged = paper.claims.iter().map(|claim| {
+        let checks: Vec<String> =
+            claim.checks.iter().map(|(name, settings)| format!("{name}: {}", settings.table())).collect();
+        format!("{} {:?} {:?} {:?} {checks:?}\n", claim.id, claim.printed, claim.digits, claim.untestable)
+    });
+    sha256(judged.collect::<String>().as_bytes())
 }
 
 /// Judges every claim under the evidence's reading.
@@ -44,6 +49,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         paper: paper.id.clone(),
         command: evidence.runs().next().map_or_else(String::new, |run| run.manifest.command.clone()),
         quick: evidence.runs().any(|run| run.manifest.quick),
+        reading: evidence.point.choices().clone(),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
         claims: claims.collect::<Result<_, _>>()?,
         together: together(evidence)?,

@@ -1,10 +1,11 @@
 //! The records that claims are judged by, ready to be asked.
 
 use super::metric::{self, Metric};
+use super::stats::summary;
 use crate::planner::Exhibit;
 use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
-use crate::study::record::{Row, Status};
+use crate::study::record::{PreparedRow, Row, Status};
 use crate::study::store::{Records, read_records};
 use crate::study::{Point, Study, StudyError};
 use std::collections::BTreeMap;
@@ -49,7 +50,35 @@ pub struct Pair<'a> {
     pub other: &'a Row,
 }
 
+/// One problem measured with two contenders.
+pub struct Measured {
+    /// The metric of the one that the other is compared with, and of the other.
+    pub values: (f64, f64),
+    /// The other's trial, as `--trial` takes it.
+    pub trial: String,
+}
+
 impl<'a> Evidence<'a> {
+    /// `metric` of two contenders on every problem of the groups of `study` that both solved and where it was measured
+    /// for both.
+    pub fn measured(
+        &self,
+        study: &str,
+        groups: &[String],
+        metric: &Metric,
+        base: &str,
+        other: &str,
+    ) -> Vec<Measured> {
+        let Some(run) = self.run(study) else { return Vec::new() };
+        let pairs = groups.iter().flat_map(|group| run.pairs(group, base, other));
+        pairs
+            .filter_map(|pair| {
+                let values = (run.value(pair.base, metric)?, run.value(pair.other, metric)?);
+                Some(Measured { values, trial: format!("{study}/{}", pair.other.trial) })
+            })
+            .collect()
+    }
+
     /// Reads the runs of every study of `paper` from `folder`, to be judged under the reading `point`.
     ///
     /// # Errors
@@ -165,6 +194,15 @@ impl<'a> Run<'a> {
         pairs.iter().filter_map(change).collect()
     }
 
+    /// The prepared object that the trial `row` was run on.
+    pub fn prepared_of(&self, row: &Row) -> Option<&PreparedRow> {
+        self.records.batch.prepared.iter().find(|prepared| {
+            prepared.group == row.group
+                && prepared.replicate == row.replicate
+                && prepared.reading == row.reading
+        })
+    }
+
     /// The exhibit called `name` of a trial or prepared object.
     pub fn exhibit(&self, of: &str, name: &str) -> Option<&Exhibit> {
         let kept = &self.records.batch.kept;
@@ -183,13 +221,10 @@ impl Index {
         for time in &records.times {
             readings.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
         }
-        index.median_ns = readings.into_iter().map(|(trial, times)| (trial, median(times))).collect();
+        let medians = readings
+            .into_iter()
+            .map(|(trial, times)| (trial, summary::median(&times).expect("a timed trial has a reading")));
+        index.median_ns = medians.collect();
         index
     }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    if values.len() % 2 == 1 { values[middle] } else { (values[middle - 1] + values[middle]) / 2.0 }
 }

@@ -45,17 +45,6 @@ pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Tr
     }
 }
 
-/// What is measured of a path on a lattice.
-pub fn path_values(path: &[Vec<f64>]) -> Counts {
-    let inner = bends(path).len().saturating_sub(2);
-    Counts::from([
-        ("path_cost_cells", Value::Real(path_length(path))),
-        ("turn_exterior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Exterior))),
-        ("turn_interior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Interior))),
-        ("bends", Value::Count(inner as u64)),
-    ])
-}
-
 fn case<'a>(lattice: &'a LatticeWorld, start: &'a [f64], goal: &'a [f64]) -> Case<'a> {
     Case { grid: lattice.grid(), corner_rule: lattice.corner_rule(), start, goal }
 }
@@ -85,7 +74,7 @@ fn judge_lattice(
         Ending::NoPath | Ending::BudgetSpent => None,
     };
     if plan.ending == Ending::Solved && refusal.is_none() {
-        values.extend(path_values(&plan.path));
+        values.extend(measured(&plan.path));
     }
     let outcome = match (refusal, plan.ending) {
         (Some(refusal), _) => (Status::Rejected, Some(refusal)),
@@ -96,4 +85,15 @@ fn judge_lattice(
         }
     };
     Judged { outcome, values }
+}
+
+/// What is measured of an accepted path on a lattice.
+pub fn measured(path: &[Vec<f64>]) -> Counts {
+    let inner = bends(path).len().saturating_sub(2);
+    Counts::from([
+        ("path_cost_cells", Value::Real(path_length(path))),
+        ("turn_exterior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Exterior))),
+        ("turn_interior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Interior))),
+        ("bends", Value::Count(inner as u64)),
+    ])
 }

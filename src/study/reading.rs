@@ -68,6 +68,15 @@ impl Point {
         Ok(point)
     }
 
+    /// The same choices for those readings alone: the point of a study that has no others.
+    #[must_use]
+    pub fn within(&self, readings: &[Reading]) -> Self {
+        let is_had = |id: &String| readings.iter().any(|reading| reading.id == *id);
+        let choices = self.choices.iter().filter(|(id, _)| is_had(id));
+        Self::new(readings, &choices.map(|(id, option)| (id.clone(), option.clone())).collect())
+            .expect("readings of one name have the same options in every study of a paper")
+    }
+
     /// Its name in records.
     pub fn name(&self) -> &str {
         &self.name
@@ -78,20 +87,11 @@ impl Point {
         &self.choices
     }
 
-    /// The point of `readings` that takes the same options; readings that only this point has are left out.
-    ///
-    /// # Panics
-    /// If a reading of the same name has no option of that name: within a paper, names mean the same.
-    pub fn within(&self, readings: &[Reading]) -> Self {
-        let mut shared = self.choices.clone();
-        shared.retain(|id, _| readings.iter().any(|reading| reading.id == *id));
-        Self::new(readings, &shared).expect("readings of one name have the same options in every study")
-    }
-
     /// The point of `readings` under which the same trials run: readings that touch no trial are at their defaults.
     ///
     /// # Panics
     /// As [`within`](Self::within).
+    #[must_use]
     pub fn for_trials(&self, readings: &[Reading]) -> Self {
         let mut moving = self.within(readings).choices;
         moving.retain(|id, _| readings.iter().any(|reading| reading.id == *id && reading.touches_trials()));

@@ -10,7 +10,6 @@ use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, Marker, ORANGE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
-use crate::study::slug;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -56,27 +55,25 @@ impl Kind for GridSearch {
             let row = rows.first().ok_or_else(|| RenderError::NotStored {
                 what: format!("a trial of `{contender}` on `{}`", self.problem),
             })?;
-            sheet.add(self.panel(scene, row)?);
+            sheet.add(panel(scene, row)?);
         }
         Ok(sheet)
     }
 }
 
-impl GridSearch {
-    fn panel(&self, scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
-        let map = map(scene, &self.problem)?;
-        let mut panel = map.panel(title(row))?;
-        panel.add(cells(scene, row, &map));
-        if let Some(raw) = scene.run.exhibit(&row.trial, "raw_path") {
-            let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
-            panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
-        }
-        if let Some(path) = scene.run.exhibit(&row.trial, "path") {
-            panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
-            add_ends(&mut panel, &centres(path));
-        }
-        Ok(panel)
+fn panel(scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
+    let map = map(scene, row)?;
+    let mut panel = map.panel(title(row))?;
+    panel.add(cells(scene, row, &map));
+    if let Some(raw) = scene.run.exhibit(&row.trial, "raw_path") {
+        let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
+        panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
     }
+    if let Some(path) = scene.run.exhibit(&row.trial, "path") {
+        panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
+        add_ends(&mut panel, &centres(path));
+    }
+    Ok(panel)
 }
 
 /// A map as it is stored: its size and its blocked cells.
@@ -85,11 +82,11 @@ pub(super) struct Map<'a> {
     pub(super) walls: &'a Exhibit,
 }
 
-/// The map of the first draw of `problem`.
-pub(super) fn map<'a>(scene: &Scene<'a>, problem: &str) -> Result<Map<'a>, RenderError> {
-    let of = slug(problem);
+/// The map that the trial `row` was run on.
+pub(super) fn map<'a>(scene: &Scene<'a>, row: &Row) -> Result<Map<'a>, RenderError> {
+    let of = scene.run.prepared_of(row).map_or("", |prepared| &prepared.prepared);
     let stored = |name: &str| {
-        let found = scene.run.exhibit(&of, name);
+        let found = scene.run.exhibit(of, name);
         found.ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
     };
     let (size, walls) = (stored("size_cells")?, stored("blocked")?);

@@ -58,7 +58,7 @@ impl SearchFlow {
         let shown = sides.each_ref().map(|side| (side.len() as f64 * share).ceil() as usize);
         let all: usize = sides.iter().map(Vec::len).sum();
         let title = format!("{} of {all} nodes opened", shown.iter().sum::<usize>());
-        let map = map(scene, &self.problem)?;
+        let map = map(scene, row)?;
         let around: Vec<[f64; 2]> = sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
         let mut panel = map.panel_about(title, &around)?;
         let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());

@@ -45,17 +45,20 @@ impl Kind for Tidying {
 impl Tidying {
     fn panel(&self, scene: &Scene<'_>, problem: &str) -> Result<Panel, RenderError> {
         let rows = scene.run.rows(problem, &self.contender);
-        let trial = rows.first().map(|row| row.trial.clone()).unwrap_or_default();
+        let row = rows.first().ok_or_else(|| RenderError::NotStored {
+            what: format!("a trial of `{}` on `{problem}`", self.contender),
+        })?;
         let stored = |name: &str| {
-            let missing = || RenderError::NotStored { what: format!("the exhibit `{name}` of `{trial}`") };
-            scene.run.exhibit(&trial, name).ok_or_else(missing)
+            let missing =
+                || RenderError::NotStored { what: format!("the exhibit `{name}` of `{}`", row.trial) };
+            scene.run.exhibit(&row.trial, name).ok_or_else(missing)
         };
         let (raw, path, refused) = (stored("raw_path")?, stored("path")?, stored("refused_sight")?);
         let raw_points: Vec<&[f64]> = raw.values.chunks(raw.width).collect();
         let bent: Vec<[f64; 2]> = bends(&raw_points).into_iter().map(|i| centres(raw)[i]).collect();
         let path = centres(path);
         let title = format!("{problem}: {} bends before, {} after", bent.len() - 2, path.len() - 2);
-        let map = map(scene, problem)?;
+        let map = map(scene, row)?;
         let mut panel = map.panel_about(title, &centres(raw))?;
         panel.add(painted(&map, &[], vec![cell_key("blocked", blocked())]));
         let lines = refused.values.chunks(refused.width).flat_map(|ends| {

@@ -9,7 +9,7 @@ use crate::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
 use crate::seed;
 use crate::settings::{Settings, SettingsError};
 use crate::space::{World, WorldKind};
-use crate::study::judge::{LATTICE_COLUMNS, path_values};
+use crate::study::judge::{LATTICE_COLUMNS, measured};
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::{Inputs, StudyError, column};
 use rand::RngExt as _;
@@ -145,7 +145,7 @@ impl Rejection {
         if plan.ending != Ending::Solved {
             return false;
         }
-        let mut values = path_values(&plan.path);
+        let mut values = measured(&plan.path);
         values.extend(plan.counts);
         let is_inside = |(name, [low, high]): (&String, &[f64; 2])| {
             values.get(name.as_str()).is_some_and(|value| (*low..=*high).contains(&value.as_f64()))
