@@ -25,7 +25,7 @@ const WRONG: &[Wrong] = &[
         "planner = \"astar\"",
         "planner = \"a-star\"",
         "mini/draws.toml:24:11: contender `A*` asks for planner `a-star`, which does not exist; the planners are \
-         astar, bidirectional",
+         astar, ",
     ),
     wrong(
         "draws",
@@ -44,7 +44,7 @@ const WRONG: &[Wrong] = &[
         "draws",
         "weight = 1,",
         "weight = -1,",
-        "weight is -1; 0 (Dijkstra), 1 (A*) or any larger number is acc",
+        "weight is -1; 0 (Dijkstra), 1 (A*), any larger number, or",
     ),
     wrong(
         "draws",
@@ -56,7 +56,7 @@ const WRONG: &[Wrong] = &[
         "draws",
         "\"random_cells\"",
         "\"random_cell\"",
-        "mini/draws.toml:18:10: there is no problem family `random_cell`; the known ones are grid_map, random_cells",
+        "mini/draws.toml:18:10: there is no problem family `random_cell`; the known ones are conditioned, grid_map",
     ),
     wrong("draws", "seed = 7", "seed = 7\ntask = \"plna\"", "there is no task `plna`; the known ones are"),
     wrong(
@@ -112,7 +112,7 @@ const WRONG: &[Wrong] = &[
         "room",
         "\"grid_search\"",
         "\"grid_saerch\"",
-        "mini/room.toml:24:8: figure `fig1` is of kind `grid_saerch`, which does not exist; the kinds are grid_search",
+        "mini/room.toml:24:8: figure `fig1` is of kind `grid_saerch`, which does not exist; the kinds are draws, grid_search",
     ),
     wrong(
         "room",
@@ -131,7 +131,7 @@ const WRONG: &[Wrong] = &[
         "paper",
         "claim.check.attained",
         "claim.check.obtained",
-        "claim `cost` asks for the check `obtained`, which does not exist; the checks are attained, compare,",
+        "claim `cost` asks for the check `obtained`, which does not exist; the checks are across_readings, attained, compare,",
     ),
     wrong(
         "paper",

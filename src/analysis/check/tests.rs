@@ -1,6 +1,5 @@
 use crate::analysis::claims::judge;
 use crate::analysis::evidence::{Evidence, default_point};
-use crate::analysis::metric;
 use crate::analysis::verdict::{Finding, Verdict};
 use crate::study::paper::Paper;
 use crate::study::session::{Options, run};
@@ -203,17 +202,15 @@ fn proofs_hold_under_the_readings_they_are_proofs_under_and_no_other() {
     });
 }
 
-#[test]
-fn an_oracle_refuses_what_is_too_short_as_what_is_too_long() {
-    assert!(metric::find("printed_optimal_cells").is_some());
-    let claims = "
+const PRINTED: &str = "
 [[claim]]
 id = 'o'
 at = 'x'
 says = 's'
 check.oracle = { study = 's', problems = ['m'], contenders = ['fast'], metric = 'path_cost_cells', truth = 'printed_optimal_cells', within = 1e-4 }
 ";
-    let study = "
+
+const QUERY: &str = "
 paper = 'p'
 question = 'q'
 seed = 1
@@ -229,6 +226,9 @@ settings = { map = 'm.map', scenarios = 'm.scen' }
 label = 'fast'
 planner = 'astar_octile'
 ";
+
+#[test]
+fn an_oracle_refuses_what_is_too_short_as_what_is_too_long() {
     // From (0, 0) to (2, 0) around a wall two cells high, no corner cut: six straight moves.
     for (printed, verdict) in [
         ("6.00000000", Verdict::Reproduced),
@@ -242,7 +242,7 @@ planner = 'astar_octile'
         std::fs::write(home.join("m.map"), "type octile\nheight 3\nwidth 3\nmap\n.@.\n.@.\n...\n").unwrap();
         let line = format!("version 1.0\n0\tm.map\t3\t3\t0\t0\t2\t0\t{printed}\n");
         std::fs::write(home.join("m.scen"), line).unwrap();
-        with_run(folder.path(), claims, study, |_, evidence| {
+        with_run(folder.path(), PRINTED, QUERY, |_, evidence| {
             let found = finding(evidence, "o", "oracle");
             assert_eq!(found.verdict, Some(verdict), "{printed}: {:?}", found.because);
             assert_eq!(found.trial.is_some(), verdict == Verdict::NotReproduced);
