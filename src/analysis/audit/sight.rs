@@ -52,10 +52,16 @@ const STRIDE: f64 = 0.25;
 type State = (Cell, Option<(u32, u32)>);
 
 /// Floats in the order of their values.
-#[derive(PartialEq, PartialOrd)]
+#[derive(PartialEq)]
 struct Length(f64);
 
 impl Eq for Length {}
+
+impl PartialOrd for Length {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
 
 impl Ord for Length {
     fn cmp(&self, other: &Self) -> Ordering {

@@ -97,7 +97,7 @@ impl Map<'_> {
     /// An empty panel over the whole map.
     pub(super) fn panel(&self, title: String) -> Result<Panel, RenderError> {
         let [width, height] = self.size.map(|side| side as f64);
-        self.window(title, [[0.0, width], [0.0, height]])
+        window(title, [[0.0, width], [0.0, height]])
     }
 
     /// An empty panel over a square part of the map that holds `points` and some room around them.
@@ -110,20 +110,20 @@ impl Map<'_> {
         let least_side = self.size[0].min(self.size[1]) as f64;
         let side =
             ends.iter().map(|[low, high]| (high - low).ceil() + 3.0).fold(0.0, f64::max).min(least_side);
-        let window = [0, 1].map(|axis| {
+        let part = [0, 1].map(|axis| {
             let [low, high] = ends[axis];
             let from =
                 (f64::midpoint(low, high) - side / 2.0).round().clamp(0.0, self.size[axis] as f64 - side);
             [from, from + side]
         });
-        self.window(title, window)
+        window(title, part)
     }
+}
 
-    fn window(&self, title: String, [x, y]: [[f64; 2]; 2]) -> Result<Panel, RenderError> {
-        let axis = |label: &str, [low, high]: [f64; 2]| Axis::linear(label, low, high);
-        let (x, y) = (axis("x (cells)", x)?, axis("y (cells)", y)?);
-        Ok(Panel::new(title, x, y).trimmed(Trim::Frame).with_equal_scales())
-    }
+fn window(title: String, [x, y]: [[f64; 2]; 2]) -> Result<Panel, RenderError> {
+    let axis = |label: &str, [low, high]: [f64; 2]| Axis::linear(label, low, high);
+    let (x, y) = (axis("x (cells)", x)?, axis("y (cells)", y)?);
+    Ok(Panel::new(title, x, y).trimmed(Trim::Frame).with_equal_scales())
 }
 
 /// Markers on the first and the last of `points`.

@@ -45,39 +45,37 @@ impl Kind for SearchFlow {
         })?;
         let mut sheet = Sheet::new(Width::Double, self.shares.len(), PLOT_PT);
         for share in &self.shares {
-            sheet.add(self.panel(scene, row, *share)?);
+            sheet.add(panel(scene, row, *share)?);
         }
         Ok(sheet)
     }
 }
 
-impl SearchFlow {
-    fn panel(&self, scene: &Scene<'_>, row: &Row, share: f64) -> Result<Panel, RenderError> {
-        let exhibit = |name: &str| scene.run.exhibit(&row.trial, name);
-        let sides = ["opened_start_side", "opened_goal_side"].map(|name| listed(exhibit(name)));
-        let shown = sides.each_ref().map(|side| (side.len() as f64 * share).ceil() as usize);
-        let all: usize = sides.iter().map(Vec::len).sum();
-        let title = format!("{} of {all} nodes opened", shown.iter().sum::<usize>());
-        let map = map(scene, row)?;
-        let around: Vec<[f64; 2]> = sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
-        let mut panel = map.panel_about(title, &around)?;
-        let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());
-        let mut keys = vec![cell_key("blocked", blocked()), cell_key("opened from the start", start_side())];
-        if !sides[1].is_empty() {
-            keys.push(cell_key("opened from the goal", goal_side()));
-        }
-        panel.add(painted(&map, &[(goal, goal_side()), (start, start_side())], keys));
-        let path = exhibit("raw_path").or_else(|| exhibit("path"));
-        let path = path.map(centres).unwrap_or_default();
-        if share >= 1.0 {
-            panel.add(Line::through(path.clone(), Stroke::solid(BLUE, 1.4)).labelled("path found"));
-            let met: Vec<[f64; 2]> = exhibit("meeting").map(centres).unwrap_or_default();
-            if !met.is_empty() {
-                let (marker, label) = (Marker::Square, "where the sides met".to_owned());
-                panel.add(Points { points: met, marker, radius_pt: 3.0, color: PURPLE, label });
-            }
-        }
-        add_ends(&mut panel, &path);
-        Ok(panel)
+fn panel(scene: &Scene<'_>, row: &Row, share: f64) -> Result<Panel, RenderError> {
+    let exhibit = |name: &str| scene.run.exhibit(&row.trial, name);
+    let sides = ["opened_start_side", "opened_goal_side"].map(|name| listed(exhibit(name)));
+    let shown = sides.each_ref().map(|side| (side.len() as f64 * share).ceil() as usize);
+    let all: usize = sides.iter().map(Vec::len).sum();
+    let title = format!("{} of {all} nodes opened", shown.iter().sum::<usize>());
+    let map = map(scene, row)?;
+    let around: Vec<[f64; 2]> = sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
+    let mut panel = map.panel_about(title, &around)?;
+    let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());
+    let mut keys = vec![cell_key("blocked", blocked()), cell_key("opened from the start", start_side())];
+    if !sides[1].is_empty() {
+        keys.push(cell_key("opened from the goal", goal_side()));
     }
+    panel.add(painted(&map, &[(goal, goal_side()), (start, start_side())], keys));
+    let path = exhibit("raw_path").or_else(|| exhibit("path"));
+    let path = path.map(centres).unwrap_or_default();
+    if share >= 1.0 {
+        panel.add(Line::through(path.clone(), Stroke::solid(BLUE, 1.4)).labelled("path found"));
+        let met: Vec<[f64; 2]> = exhibit("meeting").map(centres).unwrap_or_default();
+        if !met.is_empty() {
+            let (marker, label) = (Marker::Square, "where the sides met".to_owned());
+            panel.add(Points { points: met, marker, radius_pt: 3.0, color: PURPLE, label });
+        }
+    }
+    add_ends(&mut panel, &path);
+    Ok(panel)
 }
