@@ -51,6 +51,7 @@ pub static METRICS: &[Metric] = &[
         column: clock::COLUMN,
         scale: 1e-3,
     },
+    metric("printed_optimal_cells", "Printed optimal cost", "cells", Better::Neither),
     metric("turn_exterior_deg", "Turn sum, exterior angles", "°", Better::Lower),
     metric("turn_interior_deg", "Turn sum, interior angles", "°", Better::Lower),
 ];

@@ -6,8 +6,10 @@
 pub mod audit;
 pub mod check;
 pub mod claims;
+pub mod effect;
 pub mod evidence;
 pub mod interval;
 pub mod metric;
 pub mod stats;
+pub mod together;
 pub mod verdict;

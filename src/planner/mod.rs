@@ -5,6 +5,7 @@
 //! here knows studies or records; nothing outside an entry's file knows its settings.
 
 mod astar;
+mod astar_octile;
 mod bidirectional;
 mod delete_inflections;
 mod entry;
@@ -13,7 +14,8 @@ mod lattice;
 pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
 
 /// Every planner and stage, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&astar::ENTRY, &bidirectional::ENTRY, &delete_inflections::ENTRY];
+pub static REGISTRY: &[&Entry] =
+    &[&astar::ENTRY, &astar_octile::ENTRY, &bidirectional::ENTRY, &delete_inflections::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

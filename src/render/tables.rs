@@ -58,7 +58,7 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
     Ok(numbers.latex(&paper.id, &made(paper, "numbers", verdicts)))
 }
 
-fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
+pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
     let made = format!("made by `replan render {} --only {id}`", paper.id);
     if verdicts.quick { format!("{made}. {}", super::output::QUICK) } else { made }
 }

@@ -43,6 +43,8 @@ pub static COLUMNS: &[Column] = &[
     count("free_cells", "cells that are not blocked"),
     count("components", "connected components of the free cells"),
     real("octile_distance_cells", "8-connected distance from start to goal without obstacles"),
+    real("printed_optimal_cells", "least cost as the benchmark prints it"),
+    count("tries", "draws that it took until one was accepted"),
 ];
 
 /// The column called `name`.

@@ -88,7 +88,7 @@ fn judge_lattice(
 }
 
 /// What is measured of an accepted path on a lattice.
-fn measured(path: &[Vec<f64>]) -> Counts {
+pub fn measured(path: &[Vec<f64>]) -> Counts {
     let inner = bends(path).len().saturating_sub(2);
     Counts::from([
         ("path_cost_cells", Value::Real(path_length(path))),

@@ -1,7 +1,7 @@
 //! Every contender plans on every problem; the verifier judges what comes back.
 
 use super::{Entry, Task};
-use crate::planner::{Exhibit, Invalid, Plan, Request, Value};
+use crate::planner::{Counts, Exhibit, Invalid, Plan, Request, Value};
 use crate::seed;
 use crate::study::checked::{Pipeline, Study};
 use crate::study::family::Query;
@@ -40,11 +40,12 @@ impl Task for PlanTask {
         {
             batch.keep(&unit.name, prepared.exhibits.clone());
         }
-        for query in unit.family.queries() {
+        for (index, query) in unit.family.queries().iter().enumerate() {
+            let known = unit.family.known(index);
             let truth = prepared.as_ref().ok().map(|p| judge::truth(&p.world, query));
             for racer in unit.racers {
                 for repeat in 0..racer.contender.repeats {
-                    let trial = Trial { study, unit, query, racer, repeat };
+                    let trial = Trial { study, unit, query, racer, repeat, known: &known };
                     match (&prepared, &truth) {
                         (Ok(prepared), Some(truth)) => trial.run(prepared, truth, &mut batch),
                         (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
@@ -69,6 +70,7 @@ struct Trial<'a> {
     query: &'a Query,
     racer: &'a Racer<'a>,
     repeat: u32,
+    known: &'a Counts,
 }
 
 impl Trial<'_> {
@@ -90,7 +92,7 @@ impl Trial<'_> {
             Ok(Ok(mut plan)) => {
                 let judged = judge::judge(&request, &plan, &self.racer.pipeline, truth);
                 (row.status, row.reason) = judged.outcome;
-                row.values = named(plan.counts.iter().chain(&judged.values));
+                row.values.extend(named(plan.counts.iter().chain(&judged.values)));
                 if trace {
                     batch.keep(&row.trial, std::mem::take(&mut plan.exhibits));
                     batch.keep(&row.trial, path_exhibit(&plan));
@@ -125,7 +127,7 @@ impl Trial<'_> {
             seed,
             status: Status::Crashed,
             reason: None,
-            values: Values::new(),
+            values: named(self.known),
         }
     }
 }
