@@ -40,9 +40,18 @@ pub static METRICS: &[Metric] = &[
     metric("closed", "Closed nodes", "", Better::Lower),
     metric("expansions", "Expansions", "", Better::Lower),
     metric("generated", "Generated successors", "", Better::Lower),
+    metric("hops", "Hops", "", Better::Lower),
+    metric("is_unsafe", "Paths that hit an obstacle", "", Better::Lower),
+    metric("joint1_travel_deg", "Travel of joint 1", "°", Better::Lower),
+    metric("joint2_travel_deg", "Travel of joint 2", "°", Better::Lower),
+    metric("largest_joint_step_deg", "Largest turn of a joint in one hop", "°", Better::Lower),
+    metric("largest_turn_deg", "Largest turn", "°", Better::Lower),
+    metric("list_operations", "Linear-scan operations", "", Better::Lower),
     metric("opened", "Opened nodes", "", Better::Lower),
     metric("optimal_cost_cells", "Optimal cost", "cells", Better::Neither),
+    metric("optimal_length_cm", "Optimal length", "cm", Better::Neither),
     metric("path_cost_cells", "Path cost", "cells", Better::Lower),
+    metric("path_length_cm", "Path length", "cm", Better::Lower),
     Metric {
         name: "plan_time_us",
         label: "Planning time",
@@ -51,8 +60,10 @@ pub static METRICS: &[Metric] = &[
         column: clock::COLUMN,
         scale: 1e-3,
     },
+    metric("sharp_edges", "Sharp edges", "", Better::Lower),
     metric("turn_exterior_deg", "Turn sum, exterior angles", "°", Better::Lower),
     metric("turn_interior_deg", "Turn sum, interior angles", "°", Better::Lower),
+    metric("unsafe_hops", "Hops that hit an obstacle", "", Better::Lower),
 ];
 
 /// The metric called `name`.
