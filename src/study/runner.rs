@@ -85,15 +85,16 @@ impl Unit<'_> {
         name + &reading_suffix(self.point)
     }
 
-    /// Whether exhibits of this unit (of `contender`, if given) are kept.
-    pub fn is_kept(&self, study: &Study, contender: Option<&str>) -> bool {
+    /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
+    pub fn is_kept(&self, study: &Study, contender: Option<&str>, repeat: u32) -> bool {
         let shown = study.figures.iter().flat_map(|figure| &figure.shows);
         shown.chain(&study.keeps).any(|trials| {
             let named = match (contender, &trials.contender) {
                 (Some(contender), Some(wanted)) => contender == wanted,
                 _ => true,
             };
-            named && trials.problems == self.group.label && self.replicate < trials.replicates
+            let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
+            named && is_early && trials.problems == self.group.label && self.replicate < trials.replicates
         })
     }
 }

@@ -162,6 +162,8 @@ pub struct TrialsSpec {
     pub contender: Option<String>,
     /// Replicates below this number.
     pub replicates: u32,
+    /// Seeds of a contender below this number; all of them if absent.
+    pub repeats: Option<u32>,
 }
 
 /// What `--quick` cuts down to.
