@@ -1,7 +1,7 @@
 //! A* over the tip positions of a planar arm that looks at a random part of a neighbourhood.
 
 use super::lattice::TiesSetting;
-use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting};
+use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting, RegionShape};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::grid::Offsets;
 use crate::search::Graph;
@@ -19,7 +19,8 @@ pub static ENTRY: Entry = Entry {
     columns: COLUMNS,
     build: Build::Planner(|settings| {
         let read: ChaosAstar = settings.read()?;
-        let offsets = read.region.offsets(settings)?;
+        let region = RegionSetting { shape: read.region_shape, radius_cells: read.region_radius_cells };
+        let offsets = region.offsets(settings)?;
         let most = offsets.steps().len();
         if !(1..=most).contains(&read.neighbours) {
             let message =
@@ -33,8 +34,10 @@ pub static ENTRY: Entry = Entry {
 #[derive(Deserialize, Clone, Copy)]
 #[serde(deny_unknown_fields)]
 struct ChaosAstar {
-    /// The points that are drawn from.
-    region: RegionSetting,
+    /// The shape of the region that is drawn from.
+    region_shape: RegionShape,
+    /// Its radius, to the middle of a side.
+    region_radius_cells: u8,
     /// How many are drawn.
     neighbours: usize,
     /// How often they are drawn.

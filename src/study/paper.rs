@@ -142,7 +142,11 @@ pub struct TableRow {
     /// Its head.
     pub label: String,
     /// The claim in each column.
+    #[serde(default)]
     pub claims: Vec<Spanned<String>>,
+    /// What stands in each column where the table holds no claims.
+    #[serde(default)]
+    pub cells: Vec<String>,
 }
 
 /// A checked paper with its studies.
@@ -258,18 +262,37 @@ impl Paper {
             self.known("claim", &row.claims, &claims)?;
         }
         self.check_tables()?;
+        self.check_readings()?;
         self.check_numbering()
+    }
+
+    /// A reading's name means the same in every study of the paper.
+    fn check_readings(&self) -> Result<(), SettingsError> {
+        for (study, reading) in self.studies.iter().flat_map(|s| s.readings.iter().map(move |r| (s, r))) {
+            let all = self.readings();
+            let first = all.iter().find(|known| known.id == reading.id).expect("every reading is listed");
+            if first.default != reading.default || !first.options.keys().eq(reading.options.keys()) {
+                let message = format!(
+                    "reading `{}` has other options or another default in another study of the paper; one name must \
+                     mean the same everywhere",
+                    reading.id
+                );
+                return Err(study.document.error(0..0, message));
+            }
+        }
+        Ok(())
     }
 
     fn check_tables(&self) -> Result<(), SettingsError> {
         for table in &self.tables {
             for row in &table.rows {
-                if row.claims.len() != table.columns.len() {
+                let (claims, cells) = (row.claims.len(), row.cells.len());
+                if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
                     let message = format!(
-                        "row `{}` of table `{}` names {} claims; the table has {} columns",
+                        "row `{}` of table `{}` has {claims} claims and {cells} cells; either are accepted, one for each of \
+                         the {} columns",
                         row.label,
                         table.id,
-                        row.claims.len(),
                         table.columns.len()
                     );
                     let span = row.claims.first().map_or(0..0, Spanned::span);

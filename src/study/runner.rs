@@ -8,6 +8,7 @@ use super::checked::{Contender, Group, Pipeline, Study, SweepPoint, slug};
 use super::family::{Family, Query};
 use super::reading::Point;
 use super::record::{Batch, Timing};
+use super::spec::TimingSpec;
 use super::store::Journal;
 use super::task::Task;
 use super::{Inputs, StudyError, clock};
@@ -87,14 +88,13 @@ impl Unit<'_> {
 
     /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
     pub fn is_kept(&self, study: &Study, contender: Option<&str>, repeat: u32) -> bool {
-        let shown = study.figures.iter().flat_map(|figure| &figure.shows);
-        shown.chain(&study.keeps).any(|trials| {
+        study.kept(&self.group.label).any(|trials| {
             let named = match (contender, &trials.contender) {
                 (Some(contender), Some(wanted)) => contender == wanted,
                 _ => true,
             };
             let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
-            named && is_early && trials.problems == self.group.label && self.replicate < trials.replicates
+            named && is_early && self.replicate < trials.replicates
         })
     }
 }
@@ -228,10 +228,14 @@ impl<'a> Field<'a> {
     /// The timed pass: one thread, warmed up, with only the pipeline's call between two readings of the clock.
     ///
     /// It times the first draws of every group under the first point, every contender and sweep.
-    pub fn time(&self, stop: &AtomicBool, progress: &dyn Progress) -> Vec<Timing> {
-        let Some(timing) = self.study.timing else { return Vec::new() };
-        let sample: Vec<Unit<'_>> = self
-            .units()
+    ///
+    /// # Errors
+    /// [`StudyError::Interrupted`] if `stop` was set: half a sample would favour the first groups.
+    pub fn time(&self, stop: &AtomicBool, progress: &dyn Progress) -> Result<Vec<Timing>, StudyError> {
+        let Some(timing) = self.study.timing else { return Ok(Vec::new()) };
+        let units = self.units();
+        let total = units.len();
+        let sample: Vec<Unit<'_>> = units
             .into_iter()
             .filter(|unit| *unit.point == self.points[0] && unit.replicate < timing.problems)
             .collect();
@@ -239,34 +243,39 @@ impl<'a> Field<'a> {
         let mut readings = Vec::new();
         for unit in &sample {
             if stop.load(Ordering::Relaxed) {
-                break;
+                progress.end();
+                return Err(StudyError::Interrupted { study: self.study.name.clone(), kept: total, total });
             }
-            self.time_unit(unit, timing.repeats, &mut readings);
+            self.time_unit(unit, timing, &mut readings);
             progress.step();
         }
         progress.end();
-        readings
+        Ok(readings)
     }
 
-    fn time_unit(&self, unit: &Unit<'_>, repeats: u32, readings: &mut Vec<Timing>) {
+    fn time_unit(&self, unit: &Unit<'_>, timing: TimingSpec, readings: &mut Vec<Timing>) {
         let Ok(prepared) = unit.family.prepare(unit.seed) else { return };
         for query in unit.family.queries() {
-            for racer in unit.racers {
+            let runs = unit.racers.iter().flat_map(|racer| {
+                let seeds = racer.contender.repeats.min(timing.seeds.unwrap_or(1));
+                (0..seeds).map(move |seed| (racer, seed))
+            });
+            for (racer, seed) in runs {
                 let request = Request {
                     world: &prepared.world,
                     start: &query.start,
                     goal: &query.goal,
                     expansions: self.study.budget.expansions,
-                    seed: racer.seed(self.study, &unit.problem(query), 0),
+                    seed: racer.seed(self.study, &unit.problem(query), seed),
                     trace: false,
                 };
                 if racer.pipeline.plan(&request).is_err() {
                     continue;
                 }
-                for repeat in 0..repeats {
+                for repeat in 0..timing.repeats {
                     let (plan_wall_ns, _) = clock::timed(|| racer.pipeline.plan(&request));
                     readings.push(Timing {
-                        trial: unit.trial(query, racer, 0),
+                        trial: unit.trial(query, racer, seed),
                         group: unit.group.label.clone(),
                         contender: racer.contender.label.clone(),
                         replicate: unit.replicate,

@@ -150,6 +150,8 @@ pub struct TimingSpec {
     pub problems: u32,
     /// How many timed runs of each.
     pub repeats: u32,
+    /// How many of a contender's seeds are timed; the first one if absent.
+    pub seeds: Option<u32>,
 }
 
 /// Which trials.

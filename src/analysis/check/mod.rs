@@ -3,14 +3,18 @@
 //! A check either proves something from the printed numbers alone, and can then only refuse, or compares them
 //! with stored records. What a check compares with is written in the claim, before the first run.
 
+mod as_printed;
 mod attained;
+mod clock_ticks;
 mod compare;
 mod largest_saving;
 mod lattice_length;
+mod lowest_median;
 mod ordering;
 mod percentage;
 mod point_distance;
 mod straight_line;
+mod text_contradiction;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
@@ -49,14 +53,18 @@ pub struct Entry {
 
 /// Every check, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
+    &as_printed::ENTRY,
     &attained::ENTRY,
+    &clock_ticks::ENTRY,
     &compare::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
+    &lowest_median::ENTRY,
     &ordering::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
     &straight_line::ENTRY,
+    &text_contradiction::ENTRY,
 ];
 
 /// The entry called `name`.
