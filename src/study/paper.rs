@@ -2,6 +2,9 @@
 //!
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
+pub mod results;
+
+use self::results::ResultsSpec;
 use super::{Inputs, Reading, Study, StudyError};
 use crate::settings::{Document, Settings, SettingsError};
 use serde::Deserialize;
@@ -23,6 +26,8 @@ struct PaperSpec {
     claims: Vec<ClaimSpec>,
     #[serde(default, rename = "table")]
     tables: Vec<TableSpec>,
+    #[serde(default)]
+    results: Vec<ResultsSpec>,
 }
 
 /// Where the paper was published, as far as its text says.
@@ -166,6 +171,8 @@ pub struct Paper {
     pub claims: Vec<Claim>,
     /// Its tables.
     pub tables: Vec<TableSpec>,
+    /// Tables of our own results.
+    pub results: Vec<ResultsSpec>,
     /// Its studies, in the order of their names.
     pub studies: Vec<Study>,
     /// The file it was read from.
@@ -200,6 +207,7 @@ impl Paper {
             ledger: spec.ledger,
             claims: spec.claims.iter().map(|c| claim(&document, c)).collect::<Result<_, _>>()?,
             tables: spec.tables,
+            results: spec.results,
             studies,
             document,
         };
@@ -225,6 +233,12 @@ impl Paper {
         readings
     }
 
+    /// The names of all its tables, the paper's own and those of our results.
+    pub fn table_ids(&self) -> impl Iterator<Item = &str> {
+        let own = self.tables.iter().map(|table| table.id.as_str());
+        own.chain(self.results.iter().map(|table| table.id.get_ref().as_str()))
+    }
+
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.id == id)
@@ -243,7 +257,7 @@ impl Paper {
         let drawn =
             self.studies.iter().flat_map(|study| study.figures.iter().map(|f| f.id.get_ref().as_str()));
         let figures: BTreeSet<&str> =
-            drawn.chain(self.tables.iter().map(|table| table.id.as_str())).collect();
+            drawn.chain(self.table_ids()).collect();
         for row in &self.ledger {
             self.known("claim", &row.claims, &claims)?;
             self.known("figure or table", &row.figures, &figures)?;
@@ -262,6 +276,7 @@ impl Paper {
             self.known("claim", &row.claims, &claims)?;
         }
         self.check_tables()?;
+        self.check_results()?;
         self.check_readings()?;
         self.check_numbering()
     }

@@ -2,7 +2,14 @@
 //!
 //! A kind turns stored records and exhibits into a [`Sheet`]; it runs no trial and draws no statistics of its own.
 
+mod arm_plane;
+mod arm_postures;
+mod ask;
+mod endpoint_pairs;
 mod grid_search;
+mod length_against_work;
+mod neighbourhoods;
+mod tip_path_joints;
 
 use super::RenderError;
 use super::chart::Sheet;
@@ -44,7 +51,15 @@ pub struct Entry {
 }
 
 /// Every kind, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&grid_search::ENTRY];
+pub static REGISTRY: &[&Entry] = &[
+    &arm_plane::ENTRY,
+    &arm_postures::ENTRY,
+    &endpoint_pairs::ENTRY,
+    &grid_search::ENTRY,
+    &length_against_work::ENTRY,
+    &neighbourhoods::ENTRY,
+    &tip_path_joints::ENTRY,
+];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
