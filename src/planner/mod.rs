@@ -7,15 +7,24 @@
 mod astar;
 mod astar_octile;
 mod bidirectional;
+mod chaos_astar;
 mod delete_inflections;
 mod entry;
 mod lattice;
+mod lattice_astar;
+mod tips;
 
 pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
 
 /// Every planner and stage, in the order of their names.
-pub static REGISTRY: &[&Entry] =
-    &[&astar::ENTRY, &astar_octile::ENTRY, &bidirectional::ENTRY, &delete_inflections::ENTRY];
+pub static REGISTRY: &[&Entry] = &[
+    &astar::ENTRY,
+    &astar_octile::ENTRY,
+    &bidirectional::ENTRY,
+    &chaos_astar::ENTRY,
+    &delete_inflections::ENTRY,
+    &lattice_astar::ENTRY,
+];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

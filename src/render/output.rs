@@ -3,6 +3,7 @@
 use super::RenderError;
 use super::figure::{self, Scene};
 use super::report;
+use super::results;
 use super::tables;
 use super::vector::{Figure, Provenance};
 use crate::analysis::evidence::Evidence;
@@ -43,6 +44,11 @@ pub fn outputs(
     for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
         let text = tables::table(paper, table, verdicts)?;
         outputs.push(Output { name: format!("{}.tex", table.id), bytes: text.into_bytes() });
+    }
+    let quick = evidence.runs().any(|run| run.manifest.quick);
+    for table in paper.results.iter().filter(|table| is_wanted(table.id.get_ref())) {
+        let text = results::latex(evidence, table, quick)?;
+        outputs.push(Output { name: format!("{}.tex", table.id.get_ref()), bytes: text.into_bytes() });
     }
     if is_wanted("numbers") {
         let text = tables::numbers(paper, verdicts)?;

@@ -48,6 +48,7 @@ pub fn chapter(evidence: &Evidence<'_>, verdicts: &Verdicts, plots: &Path) -> St
     claims(&mut text, verdicts);
     together(&mut text, verdicts);
     reasons(&mut text, verdicts);
+    results(&mut text, evidence);
     figures(&mut text, paper, plots);
     readings(&mut text, paper);
     studies(&mut text, evidence);
@@ -170,6 +171,15 @@ fn aside(finding: &Finding) -> String {
     verdict + &trial
 }
 
+fn results(text: &mut String, evidence: &Evidence<'_>) {
+    for table in &evidence.paper.results {
+        match super::results::markdown(evidence, table) {
+            Ok(table) => line!(text, "{table}"),
+            Err(error) => line!(text, "{}: {error}.\n", table.id.get_ref()),
+        }
+    }
+}
+
 fn figures(text: &mut String, paper: &Paper, plots: &Path) {
     line!(text, "### Figures and tables\n");
     for study in &paper.studies {
@@ -179,8 +189,7 @@ fn figures(text: &mut String, paper: &Paper, plots: &Path) {
             line!(text, "*{id}: {}*\n", figure.caption);
         }
     }
-    let tables: Vec<String> =
-        paper.tables.iter().map(|table| format!("`{}/{}.tex`", plots.display(), table.id)).collect();
+    let tables: Vec<String> = paper.table_ids().map(|id| format!("`{}/{id}.tex`", plots.display())).collect();
     line!(
         text,
         "Tables in LaTeX: {}; every number as a macro: `{}/numbers.tex`.",

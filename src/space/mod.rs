@@ -2,13 +2,17 @@
 //!
 //! A [`World`] is what a planner plans in. It is built once by a prepared object and shared by all contenders.
 
+mod arm;
 mod lattice;
 
+pub use arm::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, Zone};
 pub use lattice::LatticeWorld;
 
 /// The kinds of world there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WorldKind {
+    /// A planar arm whose tip moves over a lattice, among obstacles.
+    Arm,
     /// A lattice of square cells, some of them blocked.
     Lattice,
 }
@@ -17,6 +21,7 @@ impl WorldKind {
     /// Its name in messages and listings.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Arm => "arm",
             Self::Lattice => "lattice",
         }
     }
@@ -25,6 +30,8 @@ impl WorldKind {
 /// Something to plan in.
 #[derive(Debug)]
 pub enum World {
+    /// A planar arm whose tip moves over a lattice, among obstacles.
+    Arm(ArmWorld),
     /// A lattice of square cells.
     Lattice(LatticeWorld),
 }
@@ -33,6 +40,7 @@ impl World {
     /// Which kind it is.
     pub fn kind(&self) -> WorldKind {
         match self {
+            Self::Arm(_) => WorldKind::Arm,
             Self::Lattice(_) => WorldKind::Lattice,
         }
     }
@@ -41,6 +49,15 @@ impl World {
     pub fn as_lattice(&self) -> Option<&LatticeWorld> {
         match self {
             Self::Lattice(lattice) => Some(lattice),
+            Self::Arm(_) => None,
+        }
+    }
+
+    /// The arm's workspace, if it is one.
+    pub fn as_arm(&self) -> Option<&ArmWorld> {
+        match self {
+            Self::Arm(arm) => Some(arm),
+            Self::Lattice(_) => None,
         }
     }
 }

@@ -3,6 +3,10 @@
 //! The verifier shares no code with planners; this module only takes worlds apart for it and turns its answer
 //! into the trial's status and measured values.
 
+mod arm;
+
+pub use arm::ARM_COLUMNS;
+
 use super::checked::Pipeline;
 use super::family::Query;
 use super::record::Status;
@@ -34,6 +38,8 @@ pub struct Judged {
 /// The truth about `query` in `world`.
 pub fn truth(world: &World, query: &Query) -> Truth {
     match world {
+        // Its optimum depends on the planner's neighbourhood and is found when a plan is judged.
+        World::Arm(_) => Truth { optimal: None },
         World::Lattice(lattice) => Truth { optimal: case(lattice, &query.start, &query.goal).optimal_cost() },
     }
 }
@@ -41,6 +47,7 @@ pub fn truth(world: &World, query: &Query) -> Truth {
 /// Judges `plan`, which `pipeline` returned for `request`.
 pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Judged {
     match request.world {
+        World::Arm(world) => arm::judge(world, request, plan, pipeline),
         World::Lattice(lattice) => judge_lattice(lattice, request, plan, pipeline, truth),
     }
 }
@@ -76,15 +83,19 @@ fn judge_lattice(
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
     }
-    let outcome = match (refusal, plan.ending) {
+    Judged { outcome: outcome(request, plan, refusal), values }
+}
+
+/// The status of a trial that ended as `plan` did and was refused for `refusal`, if it was, and the reason.
+fn outcome(request: &Request<'_>, plan: &Plan, refusal: Option<String>) -> (Status, Option<String>) {
+    match (refusal, plan.ending) {
         (Some(refusal), _) => (Status::Rejected, Some(refusal)),
         (None, Ending::Solved) => (Status::Solved, None),
         (None, Ending::NoPath) => (Status::NoPath, Some("the planner found no path".to_owned())),
         (None, Ending::BudgetSpent) => {
             (Status::BudgetSpent, Some(format!("budget of {} expansions spent", request.expansions)))
         }
-    };
-    Judged { outcome, values }
+    }
 }
 
 /// What is measured of an accepted path on a lattice.

@@ -163,6 +163,8 @@ pub struct TimingSpec {
     pub problems: u32,
     /// How many timed runs of each.
     pub repeats: u32,
+    /// How many of a contender's seeds are timed; the first one if absent.
+    pub seeds: Option<u32>,
 }
 
 /// Which trials.
@@ -175,6 +177,8 @@ pub struct TrialsSpec {
     pub contender: Option<String>,
     /// Replicates below this number.
     pub replicates: u32,
+    /// Seeds of a contender below this number; all of them if absent.
+    pub repeats: Option<u32>,
 }
 
 /// What `--quick` cuts down to.

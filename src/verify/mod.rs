@@ -2,4 +2,5 @@
 //!
 //! It recomputes costs, checks every step of a path, and refuses what is too good as surely as what collides.
 
+pub mod arm;
 pub mod lattice;

@@ -4,12 +4,15 @@
 //! with stored records. What a check compares with is written in the claim, before the first run.
 
 mod across_readings;
+mod as_printed;
 mod attained;
+mod clock_ticks;
 mod compare;
 mod count_bound;
 mod joint_length_turn;
 mod largest_saving;
 mod lattice_length;
+mod lowest_median;
 mod oracle;
 mod ordering;
 mod percentage;
@@ -17,6 +20,7 @@ mod point_distance;
 mod row_among_draws;
 mod sight_bound;
 mod straight_line;
+mod text_contradiction;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
@@ -58,12 +62,15 @@ pub struct Entry {
 /// Every check, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &across_readings::ENTRY,
+    &as_printed::ENTRY,
     &attained::ENTRY,
+    &clock_ticks::ENTRY,
     &compare::ENTRY,
     &count_bound::ENTRY,
     &joint_length_turn::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
+    &lowest_median::ENTRY,
     &oracle::ENTRY,
     &ordering::ENTRY,
     &percentage::ENTRY,
@@ -71,6 +78,7 @@ pub static REGISTRY: &[&Entry] = &[
     &row_among_draws::ENTRY,
     &sight_bound::ENTRY,
     &straight_line::ENTRY,
+    &text_contradiction::ENTRY,
 ];
 
 /// The entry called `name`.

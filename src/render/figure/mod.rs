@@ -2,12 +2,19 @@
 //!
 //! A kind turns stored records and exhibits into a [`Sheet`]; it runs no trial and draws no statistics of its own.
 
+mod arm_plane;
+mod arm_postures;
+mod ask;
 mod draws;
+mod endpoint_pairs;
 mod grid_search;
+mod length_against_work;
+mod neighbourhoods;
 mod reductions;
 mod search_flow;
 mod specification_curve;
 mod tidying;
+mod tip_path_joints;
 mod tradeoff;
 
 use super::RenderError;
@@ -60,12 +67,18 @@ pub struct Entry {
 
 /// Every kind, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
+    &arm_plane::ENTRY,
+    &arm_postures::ENTRY,
     &draws::ENTRY,
+    &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,
+    &length_against_work::ENTRY,
+    &neighbourhoods::ENTRY,
     &reductions::ENTRY,
     &search_flow::ENTRY,
     &specification_curve::ENTRY,
     &tidying::ENTRY,
+    &tip_path_joints::ENTRY,
     &tradeoff::ENTRY,
 ];
 

@@ -3,6 +3,7 @@
 //! A family poses problems: it draws what is to be prepared from a seed, and names the queries that are asked of
 //! it. Its settings come from the study, with the reading's options laid on top.
 
+mod arm_workspace;
 mod conditioned;
 mod grid_map;
 mod movingai;
@@ -81,6 +82,7 @@ pub struct Entry {
 
 /// Every family, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
+    &arm_workspace::ENTRY,
     &conditioned::ENTRY,
     &grid_map::ENTRY,
     &movingai::ENTRY,

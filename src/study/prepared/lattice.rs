@@ -46,7 +46,7 @@ pub fn prepare(
     goal: [u32; 2],
 ) -> Result<Prepared, Invalid> {
     let mut prepared = prepare_map(grid, corners);
-    let World::Lattice(world) = &prepared.world;
+    let world = prepared.world.as_lattice().expect("it was just made of a lattice");
     for (what, cell) in [("start", start), ("goal", goal)] {
         world.free_cell(what, &cell.map(f64::from)).map_err(Invalid)?;
     }
