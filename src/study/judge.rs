@@ -85,14 +85,7 @@ fn judge_lattice(
         Ending::NoPath | Ending::BudgetSpent => None,
     };
     if plan.ending == Ending::Solved && refusal.is_none() {
-        values.insert("path_cost_cells", Value::Real(path_length(&plan.path)));
-        for (column, angle) in
-            [("turn_exterior_deg", TurnAngle::Exterior), ("turn_interior_deg", TurnAngle::Interior)]
-        {
-            values.insert(column, Value::Real(turn_sum_deg(&plan.path, angle)));
-        }
-        let inner = bends(&plan.path).len().saturating_sub(2);
-        values.insert("bends", Value::Count(inner as u64));
+        values.extend(measured(&plan.path));
     }
     let outcome = match (refusal, plan.ending) {
         (Some(refusal), _) => (Status::Rejected, Some(refusal)),
@@ -103,4 +96,15 @@ fn judge_lattice(
         }
     };
     Judged { outcome, values, exhibits: Vec::new() }
+}
+
+/// What is measured of an accepted path on a lattice.
+fn measured(path: &[Vec<f64>]) -> Counts {
+    let inner = bends(path).len().saturating_sub(2);
+    Counts::from([
+        ("path_cost_cells", Value::Real(path_length(path))),
+        ("turn_exterior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Exterior))),
+        ("turn_interior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Interior))),
+        ("bends", Value::Count(inner as u64)),
+    ])
 }
