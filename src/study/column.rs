@@ -46,7 +46,10 @@ pub static COLUMNS: &[Column] = &[
     real("path_length_mm", "way of the tool's tip or the particle along the returned path"),
     count("local_paths", "local paths that the returned path is made of"),
     real("joint_travel_deg", "sum over all joints of how far each turns along the path, there and back"),
-    real("joint_peak_deg_s2", "greatest acceleration of a joint if each local path takes the tool at 0.5 m/s, 1 m/s²"),
+    real(
+        "joint_peak_deg_s2",
+        "greatest acceleration of a joint if each local path takes the tool at 0.5 m/s, 1 m/s²",
+    ),
     count("connected", "1 if the roadmap's edges join start and goal, else 0"),
     count("shots", "local paths to the goal that were tried before an expansion"),
     count("joins", "local paths that were tried to straighten the path"),

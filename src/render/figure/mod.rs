@@ -2,7 +2,18 @@
 //!
 //! A kind turns stored records and exhibits into a [`Sheet`]; it runs no trial and draws no statistics of its own.
 
+mod ask;
+mod cell_paths;
+mod cell_poses;
 mod grid_search;
+mod identification;
+mod joint_curves;
+mod paired_boxes;
+mod plane_search;
+mod rejections;
+mod row_draws;
+mod share_bars;
+mod success_bands;
 
 use super::RenderError;
 use super::chart::Sheet;
@@ -44,7 +55,19 @@ pub struct Entry {
 }
 
 /// Every kind, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&grid_search::ENTRY];
+pub static REGISTRY: &[&Entry] = &[
+    &cell_paths::ENTRY,
+    &cell_poses::ENTRY,
+    &grid_search::ENTRY,
+    &identification::ENTRY,
+    &joint_curves::ENTRY,
+    &paired_boxes::ENTRY,
+    &plane_search::ENTRY,
+    &rejections::ENTRY,
+    &row_draws::ENTRY,
+    &share_bars::ENTRY,
+    &success_bands::ENTRY,
+];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

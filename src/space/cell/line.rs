@@ -375,8 +375,9 @@ impl Doubt<'_> {
         };
         let mut placed = Vec::with_capacity(a.2.len());
         cell.place(&q, &mut placed);
-        let reach =
-            |part: usize| 2.0 * HALF_WAY * axis_way_m(&a.2[part], &placed[part]).max(axis_way_m(&placed[part], &b.2[part]));
+        let reach = |part: usize| {
+            2.0 * HALF_WAY * axis_way_m(&a.2[part], &placed[part]).max(axis_way_m(&placed[part], &b.2[part]))
+        };
         match cell.standing(&placed, reach) {
             Standing::Contact => Err(Rejection::Contact),
             Standing::Near if halvings > 1 => {
@@ -428,9 +429,12 @@ mod tests {
     #[test]
     fn the_way_ends_where_it_should_and_turns_evenly_even_by_half_a_turn() {
         let axes = [Vec3::x(), Vec3::new(1.0, 2.0, -2.0) / 3.0, Vec3::new(0.0, 0.6, -0.8)];
-        for (axis, angle) in axes.iter().flat_map(|axis| [0.0, 1e-8, 0.3, 2.9, std::f64::consts::PI].map(|a| (axis, a))) {
+        for (axis, angle) in
+            axes.iter().flat_map(|axis| [0.0, 1e-8, 0.3, 2.9, std::f64::consts::PI].map(|a| (axis, a)))
+        {
             let from = Frame::at(Vec3::new(1.0, 2.0, 3.0)) * Frame::turned(&Vec3::y(), 0.7);
-            let to = Frame { rotation: Frame::turned(axis, angle).rotation * from.rotation, origin: Vec3::z() };
+            let to =
+                Frame { rotation: Frame::turned(axis, angle).rotation * from.rotation, origin: Vec3::z() };
             let way = Way::between(&from, &to);
             assert!((way.turn_rad - angle).abs() < 1e-6, "{axis:?} {angle}: {}", way.turn_rad);
             for (share, end) in [(0.0, &from), (1.0, &to)] {

@@ -31,7 +31,11 @@ impl Local {
         let width = self.width();
         let wrong = || format!("it has {} numbers; a configuration has {width}", config.len());
         if config.len() != width || config.iter().any(|x| !x.is_finite()) {
-            return Some(if config.len() == width { "it has a number that is not finite".to_owned() } else { wrong() });
+            return Some(if config.len() == width {
+                "it has a number that is not finite".to_owned()
+            } else {
+                wrong()
+            });
         }
         match self {
             Self::Arm(lines) => lines.cell().refusal(&joints(config).expect("the length was checked")),
@@ -69,7 +73,11 @@ impl Local {
         match (self, from, to) {
             (Self::Arm(lines), Node::Arm(from), Node::Arm(to)) => lines.join(from, to, scratch),
             (Self::Plane(map), Node::Plane(from), Node::Plane(to)) => {
-                if map.sees(*from, *to) { Ok(()) } else { Err(Rejection::Contact) }
+                if map.sees(*from, *to) {
+                    Ok(())
+                } else {
+                    Err(Rejection::Contact)
+                }
             }
             _ => unreachable!("a roadmap's nodes are of its own kind"),
         }

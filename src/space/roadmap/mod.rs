@@ -151,9 +151,10 @@ impl Roadmap {
     /// A sentence if there are not as many.
     pub fn prefix(&self, count: u32) -> Result<u32, String> {
         match self.counted {
-            Counted::Accepted if count as usize > self.samples.len() => {
-                Err(format!("{count} samples are asked for; the roadmap was built with {}", self.samples.len()))
-            }
+            Counted::Accepted if count as usize > self.samples.len() => Err(format!(
+                "{count} samples are asked for; the roadmap was built with {}",
+                self.samples.len()
+            )),
             Counted::Accepted => Ok(count),
             Counted::Drawn => Ok(self.samples.partition_point(|sample| sample.drawn_after < count) as u32),
         }

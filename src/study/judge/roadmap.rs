@@ -81,7 +81,12 @@ fn measure_plane(case: &plane::Case, request: &Request<'_>, plan: &Plan) -> Meas
     Ok((counts(length_mm, plan), straight_mm))
 }
 
-fn measure_arm(case: &cell::Case, request: &Request<'_>, plan: &Plan, exhibits: &mut Vec<Exhibit>) -> Measured {
+fn measure_arm(
+    case: &cell::Case,
+    request: &Request<'_>,
+    plan: &Plan,
+    exhibits: &mut Vec<Exhibit>,
+) -> Measured {
     let angles = |config: &[f64]| joints(config).ok_or("a configuration without six angles");
     let path: Vec<Joints> = plan.path.iter().map(|config| angles(config)).collect::<Result<_, _>>()?;
     let (start, goal) = (angles(request.start)?, angles(request.goal)?);
@@ -167,9 +172,7 @@ fn shape(solid: &Solid) -> cell::Shape {
         Solid::Capsule(c) => cell::Shape::Round(point(&c.segment.a), point(&c.segment.b), c.radius),
         Solid::Box(b) => cell::Shape::Box(matrix(b.frame()), point(b.half())),
         Solid::Convex(c) => cell::Shape::Hull(c.vertices().iter().map(point).collect()),
-        Solid::HalfSpace(h) => {
-            cell::Shape::Behind(point(h.normal()), -h.height(&Vec3::zeros()))
-        }
+        Solid::HalfSpace(h) => cell::Shape::Behind(point(h.normal()), -h.height(&Vec3::zeros())),
     }
 }
 

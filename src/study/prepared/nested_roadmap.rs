@@ -70,7 +70,9 @@ fn plane_exhibits(roadmap: &Roadmap) -> Vec<Exhibit> {
     let mut edges = Vec::new();
     for node in 0..roadmap.samples().len() as u32 {
         let links = roadmap.links(node);
-        edges.extend(links.iter().filter(|(to, _)| *to < node).flat_map(|(to, _)| [f64::from(*to), f64::from(node)]));
+        edges.extend(
+            links.iter().filter(|(to, _)| *to < node).flat_map(|(to, _)| [f64::from(*to), f64::from(node)]),
+        );
     }
     vec![
         Exhibit { name: "samples".to_owned(), width: 2, values: places },

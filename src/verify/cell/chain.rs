@@ -83,7 +83,8 @@ impl Chain {
         for _ in 0..STEPS {
             let frames = self.frames(&q);
             let (rotation, place) = apart(&frames[7]);
-            let turned = (0..3).map(|i| rotation.column(i).cross(&wanted.0.column(i))).sum::<Vector3<f64>>() * 0.5;
+            let turned =
+                (0..3).map(|i| rotation.column(i).cross(&wanted.0.column(i))).sum::<Vector3<f64>>() * 0.5;
             let moved = wanted.1 - place;
             if moved.norm() < CLOSE && turned.norm() < CLOSE {
                 return Some(q);
