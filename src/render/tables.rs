@@ -18,6 +18,11 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
     head.extend(table.columns.iter().map(Cell::from));
     latex.head(head);
     for row in &table.rows {
+        if row.claims.is_empty() {
+            let cells = [row.label.as_str(), ""].into_iter().chain(row.cells.iter().map(String::as_str));
+            latex.row(cells.map(Cell::from).collect());
+            continue;
+        }
         let judged: Vec<Option<&Judged>> =
             row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
         let line = |first: &str, second: &str, text: &dyn Fn(&Judged) -> String| {

@@ -142,7 +142,11 @@ pub struct TableRow {
     /// Its head.
     pub label: String,
     /// The claim in each column.
+    #[serde(default)]
     pub claims: Vec<Spanned<String>>,
+    /// What stands in each column where the table holds no claims.
+    #[serde(default)]
+    pub cells: Vec<String>,
 }
 
 /// A checked paper with its studies.
@@ -282,12 +286,13 @@ impl Paper {
     fn check_tables(&self) -> Result<(), SettingsError> {
         for table in &self.tables {
             for row in &table.rows {
-                if row.claims.len() != table.columns.len() {
+                let (claims, cells) = (row.claims.len(), row.cells.len());
+                if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
                     let message = format!(
-                        "row `{}` of table `{}` names {} claims; the table has {} columns",
+                        "row `{}` of table `{}` has {claims} claims and {cells} cells; either are accepted, one for each of \
+                         the {} columns",
                         row.label,
                         table.id,
-                        row.claims.len(),
                         table.columns.len()
                     );
                     let span = row.claims.first().map_or(0..0, Spanned::span);

@@ -67,3 +67,26 @@ pub(super) fn trial<'s>(
         what: format!("a trial of `{contender}` on draw {replicate} of `{problems}`"),
     })
 }
+
+/// The first draw on which every contender has a trial with the exhibit `name` for the query called `of_query`.
+///
+/// # Errors
+/// [`RenderError::NotStored`] if there is none.
+pub(super) fn shared_draw(
+    scene: &Scene<'_>,
+    problems: &str,
+    of_query: &str,
+    contenders: &[String],
+    name: &str,
+) -> Result<u32, RenderError> {
+    let has_it = |replicate: u32, contender: &String| {
+        trial(scene, problems, replicate, Some(of_query), contender)
+            .is_ok_and(|row| scene.run.exhibit(&row.trial, name).is_some())
+    };
+    let group = scene.run.study.groups.iter().find(|group| group.label == problems);
+    let mut draws = 0..group.map_or(0, |group| group.replicates);
+    let found = draws.find(|draw| contenders.iter().all(|contender| has_it(*draw, contender)));
+    found.ok_or_else(|| RenderError::NotStored {
+        what: format!("the exhibit `{name}` of {} for query {of_query} on one draw", contenders.join(" and ")),
+    })
+}

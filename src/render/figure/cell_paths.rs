@@ -30,7 +30,9 @@ struct CellPaths {
 
 impl Kind for CellPaths {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let draw = format!("{}/0", slug(&self.problems));
+        let replicate =
+            ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
+        let draw = format!("{}/{replicate}", slug(&self.problems));
         let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 230.0);
         for (title, camera) in VIEWS {
             let mut solids = furnished(scene, &draw)?;
@@ -39,7 +41,7 @@ impl Kind for CellPaths {
             add_capsules(&mut solids, body, pale);
             let mut keys = Vec::new();
             for (index, contender) in self.contenders.iter().enumerate() {
-                let row = ask::trial(scene, &self.problems, 0, Some(&self.query), contender)?;
+                let row = ask::trial(scene, &self.problems, replicate, Some(&self.query), contender)?;
                 let stops = ask::exhibit(scene, &row.trial, "trajectory")?;
                 let points: Vec<[f64; 3]> =
                     stops.values.chunks(stops.width).map(|stop| [stop[7], stop[8], stop[9]]).collect();
