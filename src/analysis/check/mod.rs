@@ -10,6 +10,7 @@ mod fails_where;
 mod finds_whenever;
 mod largest_saving;
 mod lattice_length;
+mod lower_by_draw;
 mod ordering;
 mod percentage;
 mod point_distance;
@@ -63,6 +64,7 @@ pub static REGISTRY: &[&Entry] = &[
     &finds_whenever::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
+    &lower_by_draw::ENTRY,
     &ordering::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,

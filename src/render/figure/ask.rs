@@ -87,6 +87,9 @@ pub(super) fn shared_draw(
     let mut draws = 0..group.map_or(0, |group| group.replicates);
     let found = draws.find(|draw| contenders.iter().all(|contender| has_it(*draw, contender)));
     found.ok_or_else(|| RenderError::NotStored {
-        what: format!("the exhibit `{name}` of {} for query {of_query} on one draw", contenders.join(" and ")),
+        what: format!(
+            "the exhibit `{name}` of {} for query {of_query} on one draw",
+            contenders.join(" and ")
+        ),
     })
 }

@@ -30,8 +30,7 @@ struct CellPaths {
 
 impl Kind for CellPaths {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let replicate =
-            ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
+        let replicate = ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
         let draw = format!("{}/{replicate}", slug(&self.problems));
         let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 230.0);
         for (title, camera) in VIEWS {

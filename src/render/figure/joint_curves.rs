@@ -28,8 +28,7 @@ struct JointCurves {
 
 impl Kind for JointCurves {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let draw =
-            ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
+        let draw = ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
         let mut found = Vec::new();
         for contender in &self.contenders {
             let row = ask::trial(scene, &self.problems, draw, Some(&self.query), contender)?;
