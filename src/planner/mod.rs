@@ -9,9 +9,13 @@ mod astar_octile;
 mod bidirectional;
 mod chaos_astar;
 mod delete_inflections;
+mod direct;
 mod entry;
 mod lattice;
 mod lattice_astar;
+mod roadmap;
+mod roadmap_astar;
+mod straighten;
 mod tips;
 
 pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
@@ -23,7 +27,10 @@ pub static REGISTRY: &[&Entry] = &[
     &bidirectional::ENTRY,
     &chaos_astar::ENTRY,
     &delete_inflections::ENTRY,
+    &direct::ENTRY,
     &lattice_astar::ENTRY,
+    &roadmap_astar::ENTRY,
+    &straighten::ENTRY,
 ];
 
 /// The entry called `name`.

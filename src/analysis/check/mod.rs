@@ -4,22 +4,30 @@
 //! with stored records. What a check compares with is written in the claim, before the first run.
 
 mod across_readings;
+mod all_in_draw;
 mod as_printed;
 mod attained;
 mod clock_ticks;
 mod compare;
 mod count_bound;
+mod fails_where;
+mod finds_whenever;
 mod joint_length_turn;
 mod largest_saving;
 mod lattice_length;
+mod lower_by_draw;
 mod lowest_median;
 mod oracle;
 mod ordering;
 mod percentage;
 mod point_distance;
 mod row_among_draws;
+mod saving_per_draw;
+mod share_above;
 mod sight_bound;
 mod straight_line;
+mod table_cell;
+mod table_row;
 mod text_contradiction;
 
 use super::audit::printed::{Digits, Printed};
@@ -62,22 +70,30 @@ pub struct Entry {
 /// Every check, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &across_readings::ENTRY,
+    &all_in_draw::ENTRY,
     &as_printed::ENTRY,
     &attained::ENTRY,
     &clock_ticks::ENTRY,
     &compare::ENTRY,
     &count_bound::ENTRY,
+    &fails_where::ENTRY,
+    &finds_whenever::ENTRY,
     &joint_length_turn::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
+    &lower_by_draw::ENTRY,
     &lowest_median::ENTRY,
     &oracle::ENTRY,
     &ordering::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
     &row_among_draws::ENTRY,
+    &saving_per_draw::ENTRY,
+    &share_above::ENTRY,
     &sight_bound::ENTRY,
     &straight_line::ENTRY,
+    &table_cell::ENTRY,
+    &table_row::ENTRY,
     &text_contradiction::ENTRY,
 ];
 

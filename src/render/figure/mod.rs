@@ -5,14 +5,24 @@
 mod arm_plane;
 mod arm_postures;
 mod ask;
+mod cell_paths;
+mod cell_poses;
 mod draws;
 mod endpoint_pairs;
 mod grid_search;
+mod identification;
+mod joint_curves;
 mod length_against_work;
 mod neighbourhoods;
+mod paired_boxes;
+mod plane_search;
 mod reductions;
+mod rejections;
+mod row_draws;
 mod search_flow;
+mod share_bars;
 mod specification_curve;
+mod success_bands;
 mod tidying;
 mod tip_path_joints;
 mod tradeoff;
@@ -69,14 +79,24 @@ pub struct Entry {
 pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
     &arm_postures::ENTRY,
+    &cell_paths::ENTRY,
+    &cell_poses::ENTRY,
     &draws::ENTRY,
     &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,
+    &identification::ENTRY,
+    &joint_curves::ENTRY,
     &length_against_work::ENTRY,
     &neighbourhoods::ENTRY,
+    &paired_boxes::ENTRY,
+    &plane_search::ENTRY,
     &reductions::ENTRY,
+    &rejections::ENTRY,
+    &row_draws::ENTRY,
     &search_flow::ENTRY,
+    &share_bars::ENTRY,
     &specification_curve::ENTRY,
+    &success_bands::ENTRY,
     &tidying::ENTRY,
     &tip_path_joints::ENTRY,
     &tradeoff::ENTRY,

@@ -4,9 +4,11 @@
 //! it. Its settings come from the study, with the reading's options laid on top.
 
 mod arm_workspace;
+mod cell_queries;
 mod conditioned;
 mod grid_map;
 mod movingai;
+mod plane_queries;
 mod random_bars;
 mod random_cells;
 mod random_rectangles;
@@ -83,9 +85,11 @@ pub struct Entry {
 /// Every family, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &arm_workspace::ENTRY,
+    &cell_queries::ENTRY,
     &conditioned::ENTRY,
     &grid_map::ENTRY,
     &movingai::ENTRY,
+    &plane_queries::ENTRY,
     &random_bars::ENTRY,
     &random_cells::ENTRY,
     &random_rectangles::ENTRY,

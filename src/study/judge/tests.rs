@@ -100,12 +100,12 @@ fn every_mutation_that_makes_a_plan_wrong_is_refused() {
         let plan = pipeline.planner.plan(&request).unwrap();
         let (status, reason) = judge(&request, &plan, &pipeline, &truth).outcome;
         assert!([Status::Solved, Status::NoPath].contains(&status), "seed {seed}: {status}, {reason:?}");
-        assert!(is_right(&request, &plan, truth.optimal), "seed {seed}: {plan:?}");
+        assert!(is_right(&request, &plan, truth.optimal()), "seed {seed}: {plan:?}");
         solved += u32::from(status == Status::Solved);
         let mut stream = stream(derive(seed, &["mutation"]));
         for (way, count) in refused.iter_mut().enumerate() {
             let wrong = mutate(&plan, way, &mut stream);
-            if is_right(&request, &wrong, truth.optimal) {
+            if is_right(&request, &wrong, truth.optimal()) {
                 continue;
             }
             let judged = judge(&request, &wrong, &pipeline, &truth);
@@ -125,7 +125,7 @@ fn a_path_claimed_where_there_is_none_is_refused() {
     for seed in 0..300 {
         let (world, query) = posed(seed);
         let (request, truth) = (request(&world, &query), truth(&world, &query));
-        if truth.optimal.is_some() {
+        if truth.optimal().is_some() {
             continue;
         }
         let mut plan = pipeline.planner.plan(&request).unwrap();
@@ -146,7 +146,7 @@ fn a_detour_is_refused_of_an_optimal_planner_and_accepted_of_another() {
         let (world, query) = posed(seed);
         let (request, truth) = (request(&world, &query), truth(&world, &query));
         let plan = greedy.planner.plan(&request).unwrap();
-        let Some((cost, least)) = plan.cost.zip(truth.optimal) else { continue };
+        let Some((cost, least)) = plan.cost.zip(truth.optimal()) else { continue };
         if cost < least + 1e-9 {
             continue;
         }
