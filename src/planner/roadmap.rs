@@ -26,13 +26,13 @@ pub(super) fn roadmap(world: &World) -> &Roadmap {
     world.as_roadmap().expect("a checked study gives a planner the kind of world it needs")
 }
 
-/// A plan through `nodes`, whose length its planner claims.
+/// A plan through `nodes`; its planner claims a length where local paths are straight.
 pub(super) fn solved(map: &Roadmap, nodes: &[u32], counts: Counts) -> Plan {
     let length_mm: f64 = nodes.windows(2).map(|pair| map.gap_mm(pair[0], pair[1])).sum();
     Plan {
         ending: Ending::Solved,
         path: nodes.iter().map(|node| map.config(*node)).collect(),
-        cost: Some(length_mm),
+        cost: map.local().is_straight().then_some(length_mm),
         counts,
         exhibits: Vec::new(),
     }

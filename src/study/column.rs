@@ -88,6 +88,7 @@ pub static COLUMNS: &[Column] = &[
     count("draws", "configurations drawn for a roadmap, refused ones included"),
     count("pairs", "pairs of samples within the radius"),
     count("edges", "pairs of samples that are joined"),
+    count("checked_states", "configurations checked for contact while pairs were tried"),
     count("rejected_branch", "pairs on different branches of the inverse kinematics"),
     count("rejected_turn", "pairs whose orientations differ by more than is allowed"),
     count("rejected_unreachable", "pairs whose line leaves the wrist's reach"),

@@ -43,6 +43,9 @@ pub(super) const VIEWS: [(&str, Camera); 2] = [
     ("from above left", Camera::parallel(35.0, 48.0)),
 ];
 
+/// How many parts at the head of a body hardly move from pose to pose.
+const FIXED_PARTS: usize = 2;
+
 /// The paint of obstacles.
 fn obstacle() -> Rgb {
     YELLOW.mixed(GREY, 0.35).mixed(WHITE, 0.35)
@@ -103,7 +106,10 @@ impl Kind for CellPoses {
                 let color = series_color(index).mixed(WHITE, 0.25);
                 let color = if color == BLACK { GREY } else { color };
                 let body = ask::exhibit(scene, &draw, &format!("body {pose}"))?;
-                add_capsules(&mut solids, body, Paint { outlined: false, ..Paint::solid(color) });
+                // Base and turret stand where they stand at every pose: one of each is drawn.
+                let fixed = if index == 0 { 0 } else { FIXED_PARTS * body.width };
+                let parts = Exhibit { values: body.values[fixed..].to_vec(), ..body.clone() };
+                add_capsules(&mut solids, &parts, Paint { outlined: false, ..Paint::solid(color) });
                 if let Some(tip) = body.values.chunks(body.width).next_back() {
                     solids.tag([tip[3], tip[4], tip[5]], name);
                 }

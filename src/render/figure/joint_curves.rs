@@ -43,7 +43,7 @@ impl Kind for JointCurves {
         for (row, exhibit) in &found {
             let number = |column: &str| row.value(column).unwrap_or(f64::NAN);
             let title = format!(
-                "{}: {} local paths, joint travel {:.0}°, peak {:.0} °/s²",
+                "{}: {} local paths, travel {:.0}°, peak {:.0} °/s²",
                 row.contender,
                 number("local_paths"),
                 number("joint_travel_deg"),

@@ -23,11 +23,11 @@ const DRAWN: usize = 60;
 impl Kind for Draws {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, self.0.rows.len(), 170.0);
-        for (index, row) in self.0.rows.iter().enumerate() {
+        for row in &self.0.rows {
             let curves = self.0.curves(scene, &row.contender);
             let mut panel = self.0.panel(&row.contender)?;
             let xs = || self.0.points.iter().map(|(x, _)| *x);
-            let thin = Stroke::solid(series_color(index).mixed(WHITE, 0.6), 0.35);
+            let thin = Stroke::solid(series_color(0).mixed(WHITE, 0.6), 0.35);
             for (draw, curve) in curves.iter().take(DRAWN).enumerate() {
                 // Equal rows are moved apart by up to a point and a half, so that they can be told.
                 let shift = ((draw as f64 * 0.618_033_988_749_895).fract() - 0.5) * 3.0;

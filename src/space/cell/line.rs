@@ -146,6 +146,14 @@ pub struct Scratch {
     states: Vec<Joints>,
     placed: Vec<Capsule>,
     ways: Vec<f64>,
+    checked: u64,
+}
+
+impl Scratch {
+    /// How many configurations were checked for contact.
+    pub fn checked(&self) -> u64 {
+        self.checked
+    }
 }
 
 /// The local path planner of a cell.
@@ -271,6 +279,9 @@ impl Lines {
                 Missed::Unreachable => Rejection::Unreachable,
                 Missed::Limits => Rejection::Limits,
             })?;
+            if self.leaves_branch(&q, &last, from.branch, &way.at(share)) {
+                return Err(Rejection::Branch);
+            }
             let change = largest_change(&q, &last);
             if change > rules.jump_rad {
                 // Only a joint that ran into a limit goes back by a turn.
@@ -288,6 +299,19 @@ impl Lines {
             last = q;
         }
         Ok(())
+    }
+
+    /// Whether another branch offers a smaller change than `q`, of `branch`, does from `last`.
+    ///
+    /// The other turn of the wrist has the opposite fifth angle, so it cannot be nearer than the two angles' sum; only
+    /// where `q` is further away than that are all branches asked.
+    #[inline]
+    fn leaves_branch(&self, q: &Joints, last: &Joints, branch: Branch, target: &Frame) -> bool {
+        let arm = self.cell.robot().arm();
+        let change: f64 = q.iter().zip(last).map(|(a, b)| (a - b) * (a - b)).sum();
+        let flip = q[4] + last[4] + 2.0 * arm.chain().joints()[4].offset_rad;
+        change >= flip * flip
+            && arm.inverse_nearest(target, last).is_none_or(|(nearest, _)| nearest != branch)
     }
 
     fn arrives(&self, end: &Joints, wanted: &Joints) -> Result<(), Rejection> {
@@ -314,7 +338,7 @@ impl Lines {
     fn clear(&self, way: Option<&Way>, branch: Branch, scratch: &mut Scratch) -> Result<(), Rejection> {
         let chain = self.cell.robot().arm().chain();
         let parts = self.cell.body().parts();
-        let Scratch { states, placed, ways } = scratch;
+        let Scratch { states, placed, ways, checked } = scratch;
         placed.clear();
         for q in states.iter() {
             let frames = chain.frames(q);
@@ -333,6 +357,7 @@ impl Lines {
         let mut near = Vec::new();
         for state in middle_outwards(states.len()) {
             let reach = |part| HALF_WAY * way_m(state, part);
+            *checked += 1;
             match self.cell.standing(at(state), reach) {
                 Standing::Contact => return Err(Rejection::Contact),
                 Standing::Near => near.push(state),

@@ -55,7 +55,13 @@ fn draw(stream: &mut seed::Stream) -> Joints {
 
 #[test]
 fn the_six_poses_are_as_clear_as_another_program_found_them() {
-    let cell = fu_cell();
+    // The other program measured against the boxes alone, with neither the floor nor the robot itself.
+    let text = std::fs::read_to_string(file("scenes/fu2018_cell.toml"))
+        .unwrap()
+        .replace("[floor]\nheight_mm = 0\n", "");
+    let boxes = Scene::parse(&crate::settings::Document::new(FilePath::new("boxes.toml"), text)).unwrap();
+    assert_eq!(boxes.obstacles().len(), 11);
+    let cell = Cell::new(robot(), boxes, false);
     for (name, degrees, clearance_mm) in [
         ("H", H, 393.0),
         ("P1", P1, 20.0),
@@ -67,20 +73,20 @@ fn the_six_poses_are_as_clear_as_another_program_found_them() {
         let q = pose(degrees);
         let got_mm = cell.clearance_m(&q) * 1e3;
         assert!((got_mm - clearance_mm).abs() < 1.0, "{name}: {got_mm} mm");
-        assert_eq!(cell.refusal(&q), None, "{name}");
-        assert!(cell.is_free(&q));
+        assert_eq!(fu_cell().refusal(&q), None, "{name}");
+        assert!(fu_cell().is_free(&q));
     }
 }
 
 #[test]
-fn eight_of_the_ten_lines_are_free_and_all_are_without_obstacles() {
+fn seven_of_the_ten_lines_are_free_and_all_are_without_obstacles() {
     let empty = Cell::new(robot(), Scene::empty(), true);
     let (full, empty) = (Lines::new(fu_cell(), rules()), Lines::new(empty, rules()));
     let mut scratch = Scratch::default();
     for (index, [from, to]) in GROUPS.iter().enumerate() {
         let group = index + 1;
         let [a, b] = [from, to].map(|degrees| full.pose(&pose(*degrees)));
-        let expected = if group == 1 || group == 3 { Err(Rejection::Contact) } else { Ok(()) };
+        let expected = if [1, 3, 8].contains(&group) { Err(Rejection::Contact) } else { Ok(()) };
         assert_eq!(full.join(&a, &b, &mut scratch), expected, "group {group}");
         assert_eq!(empty.join(&a, &b, &mut scratch), Ok(()), "group {group}, empty");
     }
@@ -183,7 +189,7 @@ fn an_accepted_line_is_free_at_a_sixteenth_of_its_steps_and_every_reason_occurs(
     let lines = Lines::new(fu_cell(), LineRules { turn_rad: 2.8, ..rules() });
     let arm = lines.cell().robot().arm();
     let mut stream = seed::stream(seed::derive(33, &["lines"]));
-    let (mut scratch, mut reasons, mut free) = (Scratch::default(), BTreeMap::new(), 0);
+    let (mut scratch, mut reasons, mut free, mut grazed) = (Scratch::default(), BTreeMap::new(), 0, 0);
     for index in 0..40_000 {
         let a = draw(&mut stream);
         // Half of the ends are near, so that lines are short enough to be joined.
@@ -201,15 +207,22 @@ fn an_accepted_line_is_free_at_a_sixteenth_of_its_steps_and_every_reason_occurs(
                     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*r))
                 };
                 let (from, to) = (quaternion(&a.tool.rotation), quaternion(&b.tool.rotation));
-                let mut q = a.q;
+                let (mut q, mut longest, way_m) = (a.q, 0, (b.tool.origin - a.tool.origin).norm());
                 for step in 1..=400 {
                     let share = f64::from(step) / 400.0;
                     let rotation = *from.slerp(&to, share).to_rotation_matrix().matrix();
                     let origin = a.tool.origin + (b.tool.origin - a.tool.origin) * share;
                     let target = crate::geometry::Frame { rotation, origin };
                     q = arm.inverse_on(&target, a.branch, &q).unwrap();
-                    let refusal = lines.cell().refusal(&q);
-                    assert_eq!(refusal, None, "seed 33 number {index} at {share}");
+                    let touches = !lines.cell().is_free(&q);
+                    grazed += u32::from(touches);
+                    longest = if touches { longest + 1 } else { 0 };
+                    // What slips through is thinner than the way in an eighth of a step.
+                    let steps = (way_m / 0.02).max(from.angle_to(&to) / rules().step_rad).ceil().max(1.0);
+                    assert!(
+                        f64::from(longest) <= 400.0 / (8.0 * steps) + 1.0,
+                        "seed 33 number {index} at {share}"
+                    );
                 }
             }
         }
@@ -219,6 +232,7 @@ fn an_accepted_line_is_free_at_a_sixteenth_of_its_steps_and_every_reason_occurs(
         wanted.iter().all(|reason| reasons.get(reason).is_some_and(|n| *n > 20)) && free > 1000,
         "{free} free, {reasons:?}"
     );
+    assert!(grazed < 20, "{grazed} of {} fine checks graze", 400 * free);
 }
 
 #[test]
@@ -255,9 +269,9 @@ fn a_joint_line_is_free_where_the_arm_is_and_not_where_it_is_not() {
     let lines = Lines::new(fu_cell(), LineRules { path: Path::Joints, ..rules() });
     let mut stream = seed::stream(seed::derive(35, &["joint lines"]));
     let (mut scratch, mut counts) = (Scratch::default(), [0, 0]);
-    for index in 0..3000 {
+    for index in 0..6000 {
         let a = draw(&mut stream);
-        let b: Joints = std::array::from_fn(|i| a[i] + stream.random_range(-0.6..0.6));
+        let b: Joints = std::array::from_fn(|i| a[i] + stream.random_range(-0.9..0.9));
         if !lines.cell().is_free(&a) || !lines.cell().is_free(&b) {
             continue;
         }

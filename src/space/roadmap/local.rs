@@ -2,7 +2,7 @@
 
 use super::plane::PlaneMap;
 use crate::kinematics::{AXES, Joints};
-use crate::space::cell::{Lines, Pose, Rejection, Scratch};
+use crate::space::cell::{Lines, Path, Pose, Rejection, Scratch};
 
 /// The robot of a roadmap and the local paths it can take.
 #[derive(Debug)]
@@ -59,6 +59,14 @@ impl Local {
                 (lines.cell().robot().arm().chain().forward(&q).origin * 1e3).into()
             }
             Self::Plane(_) => [config[0], config[1], 0.0],
+        }
+    }
+
+    /// Whether the place goes straight on local paths, so that the distance of their ends is their length.
+    pub fn is_straight(&self) -> bool {
+        match self {
+            Self::Arm(lines) => lines.rules().path == Path::Tool,
+            Self::Plane(_) => true,
         }
     }
 

@@ -34,6 +34,7 @@ fn built(samples: &[Sample], radius_mm: f64, counted: Counted) -> Roadmap {
 fn the_first_samples_and_a_smaller_radius_give_the_roadmap_that_is_built_from_them() {
     let all = samples(1, 80);
     let whole = built(&all, 40.0, Counted::Accepted);
+    assert!(whole.tally().edges > 100 && whole.tally().rejected[Rejection::Contact as usize] > 100);
     for (count, radius_mm) in [(80, 40.0), (50, 40.0), (80, 25.0), (33, 15.0)] {
         let part = built(&all[..count], radius_mm, Counted::Accepted);
         let mut edges = 0;
@@ -45,7 +46,7 @@ fn the_first_samples_and_a_smaller_radius_give_the_roadmap_that_is_built_from_th
             edges += kept.len() as u64;
         }
         assert_eq!(edges, 2 * part.tally().edges);
-        assert!(part.tally().edges > 0 && part.tally().rejected[Rejection::Contact as usize] > 0);
+        assert!(part.tally().edges > 0);
         assert_eq!(*whole.components(count as u32, radius_mm), *part.components(count as u32, radius_mm));
     }
 }

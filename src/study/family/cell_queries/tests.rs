@@ -114,10 +114,10 @@ fn regions_hold_what_they_say() {
 
 #[test]
 fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
-    let posed = Posed::new(&settings("samples = 700"), &inputs(None)).unwrap();
+    let posed = Posed::new(&settings("samples = 900\nregion = 'front'"), &inputs(None)).unwrap();
     let prepared = posed.prepare(7).unwrap();
     let (original, improved) =
-        (planner("samples = 700"), planner("samples = 700\ngoal_shot = 'before_expansion'"));
+        (planner("samples = 900"), planner("samples = 900\ngoal_shot = 'before_expansion'"));
     let (mut solved, mut refused) = ([0, 0], 0);
     for query in posed.queries() {
         let judge::Truth::Roadmap(case) = judge::truth(&prepared.world, query) else { panic!("a roadmap") };
