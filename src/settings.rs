@@ -181,7 +181,7 @@ impl Settings {
                 // Through text, so that every type is deserialized from one kind of value only: half the code.
                 let text = toml::to_string(&self.table).expect("a table that was read can be written");
                 Document::new(Path::new(""), text)
-                    .read()
+                    .deserialize()
                     .map_err(|e| SettingsError::Composed { origin: origin.clone(), message: e.message() })
             }
             Origin::Written { document, span } => {
@@ -285,6 +285,17 @@ mod tests {
         assert_eq!(settings.overlaid(&same, "reading weight"), settings);
         let error = settings.overlaid(&other, "reading weight").read::<Inner>().unwrap_err().to_string();
         assert!(error.starts_with("a.toml:4 with reading weight: "), "{error}");
+    }
+
+    #[test]
+    fn settings_put_together_may_be_empty_and_read_as_they_were_put_together() {
+        #[derive(Debug, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Nothing {}
+        let Nothing {} = Settings::composed("a task without settings", Table::new()).read().unwrap();
+        let text = "share = 0.1\nsize = [3, 4]\nname = \"a\\\"b\"\n[inner]\nleast = 5e-324\n";
+        let table: Table = toml::from_str(text).unwrap();
+        assert_eq!(Settings::composed("a sweep", table.clone()).read::<Table>().unwrap(), table);
     }
 
     #[test]
