@@ -79,7 +79,7 @@ impl ArmWorkspace {
                 world.free_cell(what, point).map_err(refuse)?;
             }
         }
-        Ok(Posed { rules, obstacles, queries, start_cm: self.start_cm })
+        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
     }
 
     fn obstacles(&self) -> Result<Vec<Obstacle>, String> {
@@ -103,7 +103,7 @@ struct Posed {
     rules: ArmRules,
     obstacles: Vec<Obstacle>,
     queries: Vec<Query>,
-    start_cm: Option<[f64; 2]>,
+    goal_cm: Option<[f64; 2]>,
 }
 
 impl Family for Posed {
@@ -113,7 +113,7 @@ impl Family for Posed {
 
     fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
         let world = ArmWorld::new(self.rules, self.obstacles.clone());
-        Ok(workspace_map::prepare(world, self.start_cm))
+        Ok(workspace_map::prepare(world, self.goal_cm))
     }
 
     fn queries(&self) -> &[Query] {
