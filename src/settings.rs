@@ -120,7 +120,7 @@ impl Document {
             line: before.matches('\n').count() + 1,
             column: self.text[line_start..start].chars().count() + 1,
             message: message.into(),
-            excerpt: self.text[line_start..].lines().next().unwrap_or_default().trim_end().to_owned(),
+            excerpt: printable(self.text[line_start..].lines().next().unwrap_or_default().trim_end()),
         }
     }
 
@@ -128,6 +128,11 @@ impl Document {
         let span = error.span().or(fallback).unwrap_or(0..0);
         self.error(span, error.message().trim().replace('\n', "; "))
     }
+}
+
+/// `line` with control characters replaced, so that a binary file taken for TOML cannot steer a terminal.
+fn printable(line: &str) -> String {
+    line.chars().map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
 /// A table of settings and where it was written.

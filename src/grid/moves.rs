@@ -52,7 +52,10 @@ impl Moves {
         let moves = Self { width, masks };
         for cell in 0..moves.cell_count() {
             let has_reverse = |to: u32| moves.from_cell(to).any(|(back, _)| back == cell);
-            assert!(moves.from_cell(cell).all(|(to, _)| has_reverse(to)), "a move from {cell} has no reverse");
+            assert!(
+                moves.from_cell(cell).all(|(to, _)| has_reverse(to)),
+                "a move from {cell} has no reverse"
+            );
         }
         moves
     }

@@ -23,8 +23,10 @@ pub static ENTRY: Entry = Entry {
         let offsets = region.offsets(settings)?;
         let most = offsets.steps().len();
         if !(1..=most).contains(&read.neighbours) {
-            let message =
-                format!("neighbours is {}; 1 to {most}, all points of the region, is accepted", read.neighbours);
+            let message = format!(
+                "neighbours is {}; 1 to {most}, all points of the region, is accepted",
+                read.neighbours
+            );
             return Err(settings.error(message));
         }
         Ok(Box::new(Ready { read, offsets }))

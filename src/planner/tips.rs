@@ -96,8 +96,7 @@ impl<'a> Posed<'a> {
     ) -> (Report<f64>, ListScans) {
         let lattice = self.world.rules().lattice;
         let goal = lattice.point(self.goal);
-        let estimate =
-            Combined { h: move |cell: u32| (lattice.point(cell) - goal).norm(), combine: sum };
+        let estimate = Combined { h: move |cell: u32| (lattice.point(cell) - goal).norm(), combine: sum };
         let mut scans = ListScans::default();
         let terms = Terms { graph, estimate: &estimate, observer: &mut scans, update };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };

@@ -123,16 +123,17 @@ fn together(text: &mut String, verdicts: &Verdicts) {
     line!(text, "\n### What holds together\n");
     line!(
         text,
-        "Claims met exactly on one problem by the same contenders, the largest sets first; reading: {}.\n",
-        verdicts.claims.first().map_or("default", |judged| judged.reading.as_str())
+        "Claims met exactly under one reading by one choice of contenders, each environment on the map of ours that serves \
+         it best; sets within no other, the largest first.\n"
     );
-    line!(text, "| study | problem | contenders | hold | fail |");
+    line!(text, "| reading | study and maps | contenders | hold | fail |");
     line!(text, "|---|---|---|---|---|");
     for set in &verdicts.together {
         let listed =
             |claims: &[String]| claims.iter().map(|c| format!("`{c}`")).collect::<Vec<_>>().join(", ");
         let (hold, fail) = (listed(&set.hold), listed(&set.fail));
-        line!(text, "| {} | {} | {} | {hold} | {fail} |", set.study, set.problem, set.under);
+        let readings = set.reading.replace(',', ", ");
+        line!(text, "| {readings} | {}: {} | {} | {hold} | {fail} |", set.study, set.problem, set.under);
     }
 }
 
@@ -143,11 +144,20 @@ fn reasons(text: &mut String, verdicts: &Verdicts) {
     }
 }
 
+/// Reasons longer than this stand one below another.
+const LONG: usize = 200;
+
 fn reason(text: &mut String, judged: &Judged) {
     line!(text, "**`{}`** ({}): {}\n", judged.claim, judged.at, judged.verdict.name());
     for finding in &judged.findings {
-        let because = finding.because.join("; ");
-        line!(text, "- {}: {because}.{}", finding.check, aside(finding));
+        if let [first, .., last] = &finding.because[..]
+            && first.len() + last.len() > LONG
+        {
+            line!(text, "- {}:{}", finding.check, aside(finding));
+            finding.because.iter().for_each(|reason| line!(text, "  - {reason}"));
+        } else {
+            line!(text, "- {}: {}.{}", finding.check, finding.because.join("; "), aside(finding));
+        }
         for premise in &finding.premises {
             line!(text, "  - premise: {premise}");
         }
@@ -179,8 +189,7 @@ fn figures(text: &mut String, paper: &Paper, plots: &Path) {
             line!(text, "*{id}: {}*\n", figure.caption);
         }
     }
-    let tables: Vec<String> =
-        paper.table_ids().map(|id| format!("`{}/{id}.tex`", plots.display())).collect();
+    let tables: Vec<String> = paper.table_ids().map(|id| format!("`{}/{id}.tex`", plots.display())).collect();
     line!(
         text,
         "Tables in LaTeX: {}; every number as a macro: `{}/numbers.tex`.",

@@ -17,7 +17,8 @@ use std::fmt::Write as _;
 /// The first that does not, with those that do.
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     for table in &paper.results {
-        let columns = paper.study(table.study.get_ref()).map(crate::study::Study::columns).unwrap_or_default();
+        let columns =
+            paper.study(table.study.get_ref()).map(crate::study::Study::columns).unwrap_or_default();
         for cell in &table.cells {
             let name = cell.metric.get_ref();
             if !metric::find(name).is_some_and(|metric| columns.contains(metric.column)) {
@@ -50,7 +51,8 @@ fn grid(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, RenderErro
             .ok_or_else(|| RenderError::NotStored { what: format!("the metric `{}`", cell.metric.get_ref()) })
     };
     let metrics = table.cells.iter().map(metric).collect::<Result<Vec<&Metric>, _>>()?;
-    let titles = table.cells.iter().zip(&metrics).map(|(cell, m)| cell.label.clone().unwrap_or_else(|| m.title()));
+    let titles =
+        table.cells.iter().zip(&metrics).map(|(cell, m)| cell.label.clone().unwrap_or_else(|| m.title()));
     let head = std::iter::once(String::new()).chain(titles).collect();
     let row = |problems: &str, label: &String| {
         let rows = run.rows(problems, label);
@@ -81,9 +83,11 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
     let found = match cell.show {
         Show::Median => quantile(0.5).map(number),
         Show::Quartiles if values.len() < 2 => quantile(0.5).map(number),
-        Show::Quartiles => [0.5, 0.25, 0.75].map(quantile).into_iter().collect::<Option<Vec<f64>>>().map(|q| {
-            format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))
-        }),
+        Show::Quartiles => [0.5, 0.25, 0.75]
+            .map(quantile)
+            .into_iter()
+            .collect::<Option<Vec<f64>>>()
+            .map(|q| format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))),
         Show::Percent => summary::mean(&finite).map(|share| number(100.0 * share)),
         Show::Solved => (!rows.is_empty()).then(|| {
             let count = rows.iter().filter(|row| solved(row)).count();

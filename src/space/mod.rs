@@ -3,10 +3,13 @@
 //! A [`World`] is what a planner plans in. It is built once by a prepared object and shared by all contenders.
 
 mod arm;
+pub mod cell;
 mod lattice;
+pub mod roadmap;
 
 pub use arm::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, Zone};
 pub use lattice::LatticeWorld;
+use roadmap::Roadmap;
 
 /// The kinds of world there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -15,6 +18,8 @@ pub enum WorldKind {
     Arm,
     /// A lattice of square cells, some of them blocked.
     Lattice,
+    /// Samples of a robot's configurations, joined by local paths.
+    Roadmap,
 }
 
 impl WorldKind {
@@ -23,6 +28,7 @@ impl WorldKind {
         match self {
             Self::Arm => "arm",
             Self::Lattice => "lattice",
+            Self::Roadmap => "roadmap",
         }
     }
 }
@@ -34,6 +40,8 @@ pub enum World {
     Arm(ArmWorld),
     /// A lattice of square cells.
     Lattice(LatticeWorld),
+    /// Samples of a robot's configurations, joined by local paths.
+    Roadmap(Box<Roadmap>),
 }
 
 impl World {
@@ -42,6 +50,7 @@ impl World {
         match self {
             Self::Arm(_) => WorldKind::Arm,
             Self::Lattice(_) => WorldKind::Lattice,
+            Self::Roadmap(_) => WorldKind::Roadmap,
         }
     }
 
@@ -49,7 +58,7 @@ impl World {
     pub fn as_lattice(&self) -> Option<&LatticeWorld> {
         match self {
             Self::Lattice(lattice) => Some(lattice),
-            Self::Arm(_) => None,
+            Self::Arm(_) | Self::Roadmap(_) => None,
         }
     }
 
@@ -57,7 +66,15 @@ impl World {
     pub fn as_arm(&self) -> Option<&ArmWorld> {
         match self {
             Self::Arm(arm) => Some(arm),
-            Self::Lattice(_) => None,
+            Self::Lattice(_) | Self::Roadmap(_) => None,
+        }
+    }
+
+    /// The roadmap, if it is one.
+    pub fn as_roadmap(&self) -> Option<&Roadmap> {
+        match self {
+            Self::Roadmap(roadmap) => Some(roadmap),
+            Self::Arm(_) | Self::Lattice(_) => None,
         }
     }
 }

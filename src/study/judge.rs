@@ -4,13 +4,14 @@
 //! into the trial's status and measured values.
 
 mod arm;
+pub mod roadmap;
 
 pub use arm::ARM_COLUMNS;
 
 use super::checked::Pipeline;
 use super::family::Query;
 use super::record::Status;
-use crate::planner::{Counts, Ending, Plan, Request, Value};
+use crate::planner::{Counts, Ending, Exhibit, Plan, Request, Value};
 use crate::shorten::{TurnAngle, bends, path_length, turn_sum_deg};
 use crate::space::{LatticeWorld, World};
 use crate::verify::lattice::{Answer, Case};
@@ -20,10 +21,25 @@ pub const LATTICE_COLUMNS: &[&str] =
     &["path_cost_cells", "turn_exterior_deg", "turn_interior_deg", "bends", "optimal_cost_cells"];
 
 /// What the verifier found out about a query before any planner ran.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Truth {
-    /// The least cost in the world's graph; `None` if the goal cannot be reached.
-    pub optimal: Option<f64>,
+#[derive(Debug)]
+pub enum Truth {
+    /// On a lattice: the least cost in the world's graph; `None` if the goal cannot be reached.
+    Lattice(Option<f64>),
+    /// On a roadmap: its robot and surroundings.
+    Roadmap(roadmap::Case),
+    /// For a planar arm nothing is known beforehand.
+    Arm,
+}
+
+#[cfg(test)]
+impl Truth {
+    /// The least cost in a lattice's graph.
+    pub fn optimal(&self) -> Option<f64> {
+        match self {
+            Self::Lattice(optimal) => *optimal,
+            Self::Roadmap(_) | Self::Arm => panic!("a lattice is tested"),
+        }
+    }
 }
 
 /// The verifier's answer about one plan.
@@ -33,22 +49,29 @@ pub struct Judged {
     pub outcome: (Status, Option<String>),
     /// What was measured.
     pub values: Counts,
+    /// What figures need of what was measured, if the request asked for it.
+    pub exhibits: Vec<Exhibit>,
 }
 
 /// The truth about `query` in `world`.
 pub fn truth(world: &World, query: &Query) -> Truth {
     match world {
         // Its optimum depends on the planner's neighbourhood and is found when a plan is judged.
-        World::Arm(_) => Truth { optimal: None },
-        World::Lattice(lattice) => Truth { optimal: case(lattice, &query.start, &query.goal).optimal_cost() },
+        World::Arm(_) => Truth::Arm,
+        World::Lattice(lattice) => Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost()),
+        World::Roadmap(roadmap) => Truth::Roadmap(roadmap::Case::new(roadmap)),
     }
 }
 
 /// Judges `plan`, which `pipeline` returned for `request`.
 pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Judged {
-    match request.world {
-        World::Arm(world) => arm::judge(world, request, plan, pipeline),
-        World::Lattice(lattice) => judge_lattice(lattice, request, plan, pipeline, truth),
+    match (request.world, truth) {
+        (World::Arm(world), _) => arm::judge(world, request, plan, pipeline),
+        (World::Lattice(lattice), Truth::Lattice(optimal)) => {
+            judge_lattice(lattice, request, plan, pipeline, *optimal)
+        }
+        (_, Truth::Roadmap(case)) => case.judge(request, plan),
+        _ => unreachable!("the truth is about the request's world"),
     }
 }
 
@@ -61,11 +84,11 @@ fn judge_lattice(
     request: &Request<'_>,
     plan: &Plan,
     pipeline: &Pipeline,
-    truth: &Truth,
+    optimal: Option<f64>,
 ) -> Judged {
     let case = case(lattice, request.start, request.goal);
     let mut values = Counts::new();
-    if let Some(optimal) = truth.optimal {
+    if let Some(optimal) = optimal {
         values.insert("optimal_cost_cells", Value::Real(optimal));
     }
     let untouched = pipeline.stages.is_empty();
@@ -75,15 +98,15 @@ fn judge_lattice(
         in_graph: untouched,
         optimal: untouched && pipeline.planner.is_optimal(),
     };
-    let refusal = match plan.ending {
-        Ending::Solved => case.refuse_path(&answer, truth.optimal),
-        Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(truth.optimal),
+    let refusal = refuse_ending(request, plan).or_else(|| match plan.ending {
+        Ending::Solved => case.refuse_path(&answer, optimal),
+        Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(optimal),
         Ending::NoPath | Ending::BudgetSpent => None,
-    };
+    });
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
     }
-    Judged { outcome: outcome(request, plan, refusal), values }
+    Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
 }
 
 /// The status of a trial that ended as `plan` did and was refused for `refusal`, if it was, and the reason.
@@ -99,7 +122,7 @@ fn outcome(request: &Request<'_>, plan: &Plan, refusal: Option<String>) -> (Stat
 }
 
 /// What is measured of an accepted path on a lattice.
-fn measured(path: &[Vec<f64>]) -> Counts {
+pub fn measured(path: &[Vec<f64>]) -> Counts {
     let inner = bends(path).len().saturating_sub(2);
     Counts::from([
         ("path_cost_cells", Value::Real(path_length(path))),
@@ -108,3 +131,17 @@ fn measured(path: &[Vec<f64>]) -> Counts {
         ("bends", Value::Count(inner as u64)),
     ])
 }
+
+/// Why `plan` contradicts its own ending; `None` if it does not, or counts no expansions.
+fn refuse_ending(request: &Request<'_>, plan: &Plan) -> Option<String> {
+    if plan.ending != Ending::Solved && (!plan.path.is_empty() || plan.cost.is_some()) {
+        return Some("a path or a cost is given although none is claimed".to_owned());
+    }
+    let expansions = plan.counts.get("expansions")?.as_f64();
+    (plan.ending == Ending::BudgetSpent && expansions < request.expansions as f64).then(|| {
+        format!("the budget is said to be spent after {expansions} of {} expansions", request.expansions)
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -117,8 +117,8 @@ pub struct Claim {
     pub printed: Option<String>,
     /// The number's unit; absent if the paper gives none.
     pub unit: Option<String>,
-    /// How the number's digits end.
-    pub digits: Digits,
+    /// How the number's digits end, where the claim says so; otherwise the reading decides.
+    pub digits: Option<Digits>,
     /// What the paper leaves out, if that makes it untestable.
     pub untestable: Option<String>,
     /// How it is judged: checks by name.
@@ -256,8 +256,7 @@ impl Paper {
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
         let drawn =
             self.studies.iter().flat_map(|study| study.figures.iter().map(|f| f.id.get_ref().as_str()));
-        let figures: BTreeSet<&str> =
-            drawn.chain(self.table_ids()).collect();
+        let figures: BTreeSet<&str> = drawn.chain(self.table_ids()).collect();
         for row in &self.ledger {
             self.known("claim", &row.claims, &claims)?;
             self.known("figure or table", &row.figures, &figures)?;
@@ -388,7 +387,7 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         says: spec.says.clone(),
         printed: spec.printed.as_ref().map(|printed| printed.get_ref().clone()),
         unit: spec.unit.clone(),
-        digits: spec.digits.unwrap_or(Digits::Unknown),
+        digits: spec.digits,
         untestable: spec.untestable.clone(),
         checks: checks.collect(),
     })

@@ -71,9 +71,13 @@ impl Check for AsPrinted<'_> {
         let what = format!("{} of {contender}", self.metric.label.to_lowercase());
         finding.ours = Some(Estimate { value, interval: None, what, n: values.len() });
         let verb = if agrees { "prints as" } else { "does not print as" };
-        finding.because.push(format!("{contender} on {problems} of {study}: {value:.6}, which {verb} {}", self.printed));
+        finding
+            .because
+            .push(format!("{contender} on {problems} of {study}: {value:.6}, which {verb} {}", self.printed));
         if agrees && self.is_fitted {
-            finding.because.push("the study was fitted to this number, so that agreement says little".to_owned());
+            finding
+                .because
+                .push("the study was fitted to this number, so that agreement says little".to_owned());
         }
         finding
     }

@@ -21,7 +21,9 @@ pub static ENTRY: Entry = Entry {
             settings.lower.iter().chain(&settings.higher).map(String::as_str).collect();
         let study = context.study(&settings.study, &settings.problems, &contenders)?;
         if settings.lower.is_empty() || settings.higher.is_empty() || settings.problems.is_empty() {
-            return Err(context.settings.error("`lower`, `higher` and `problems` each need at least one name"));
+            return Err(context
+                .settings
+                .error("`lower`, `higher` and `problems` each need at least one name"));
         }
         if !(0.0..100.0).contains(&settings.by_percent) {
             let message = format!("by_percent is {}; 0 to below 100 is accepted", settings.by_percent);
@@ -120,7 +122,8 @@ impl Check for LowestMedian<'_> {
             if self.study.searched { Verdict::Attainable } else { Verdict::Reproduced }
         } else if all.iter().any(|one| one.ends[1] <= 0.0) {
             Verdict::NotReproduced
-        } else if all.iter().all(|one| one.ends[0] > 0.0) && all.iter().any(|one| one.ends[1] <= *by_percent) {
+        } else if all.iter().all(|one| one.ends[0] > 0.0) && all.iter().any(|one| one.ends[1] <= *by_percent)
+        {
             Verdict::DirectionOnly
         } else {
             Verdict::Undecided

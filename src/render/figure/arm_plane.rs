@@ -7,7 +7,8 @@ use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::{Cells, Line, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{
-    BLACK, BLUE, Fill, GREEN, GREY, INK, Marker, ORANGE, Rgb, SKY, Stroke, WHITE, Width, YELLOW, series_stroke,
+    BLACK, BLUE, Fill, GREEN, GREY, INK, Marker, ORANGE, Rgb, SKY, Stroke, WHITE, Width, YELLOW,
+    series_stroke,
 };
 use crate::study::record::Row;
 use serde::Deserialize;
@@ -64,9 +65,8 @@ impl ArmPlane {
         let map = rows.first().and_then(|row| scene.run.prepared_of(row)).map_or("", |map| &map.prepared);
         let lattice = &ask::exhibit(scene, map, "lattice")?.values;
         let (low, step, size) = ([lattice[0], lattice[1]], lattice[2], [lattice[3], lattice[4]]);
-        let axis = |label: &str, axis: usize| {
-            Axis::linear(label, low[axis] - step, low[axis] + step * size[axis])
-        };
+        let axis =
+            |label: &str, axis: usize| Axis::linear(label, low[axis] - step, low[axis] + step * size[axis]);
         let mut panel = Panel::new(title(&setting.problem, &rows), axis("x (cm)", 0)?, axis("y (cm)", 1)?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
@@ -108,7 +108,7 @@ impl ArmPlane {
 /// `count` of the stations, the ends among them.
 fn spread<'a>(stations: &[&'a [f64]], count: usize) -> Vec<&'a [f64]> {
     match (stations, count) {
-        ([] , _) | (_, 0) => Vec::new(),
+        ([], _) | (_, 0) => Vec::new(),
         (_, 1) => vec![stations[stations.len() / 2]],
         _ => (0..count).map(|k| stations[k * (stations.len() - 1) / (count - 1)]).collect(),
     }
@@ -117,7 +117,8 @@ fn spread<'a>(stations: &[&'a [f64]], count: usize) -> Vec<&'a [f64]> {
 fn title(problem: &str, rows: &[&Row]) -> String {
     match rows {
         [row] => {
-            let length = row.value("path_length_cm").map_or_else(|| "no path".to_owned(), |l| format!("{l:.4} cm"));
+            let length =
+                row.value("path_length_cm").map_or_else(|| "no path".to_owned(), |l| format!("{l:.4} cm"));
             format!("{problem}, {}: {length}", row.contender)
         }
         _ => problem.to_owned(),
@@ -136,7 +137,8 @@ fn zone_color(code: f64) -> Option<Rgb> {
 
 fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> Cells {
     let names = ["free", "out of reach", "inner radius", "in an obstacle", "a link would hit"];
-    let keys = names.iter().enumerate().filter_map(|(code, name)| Some(cell_key(*name, zone_color(code as f64)?)));
+    let keys =
+        names.iter().enumerate().filter_map(|(code, name)| Some(cell_key(*name, zone_color(code as f64)?)));
     Cells {
         corner,
         cell: [step, step],

@@ -91,7 +91,8 @@ fn a_flood_visits_what_can_be_reached_once_at_the_cost_of_a_single_query() {
             let route = astar(&case.grid, &case.moves, [start, goal]).outcome;
             let truth = route.route().map(|route| ScaledOctile::scaled(route.cost));
             beyond += u32::from(truth.is_some_and(|cost| cost > most));
-            let found: Vec<u32> = visits.iter().filter(|(cell, _)| *cell == goal).map(|visit| visit.1).collect();
+            let found: Vec<u32> =
+                visits.iter().filter(|(cell, _)| *cell == goal).map(|visit| visit.1).collect();
             let expected: Vec<u32> = truth.into_iter().filter(|&cost| cost <= most).collect();
             assert_eq!(found, expected, "seed {}, from {start} to {goal}", case.seed);
             reached += expected.len();

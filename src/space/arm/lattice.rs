@@ -28,7 +28,9 @@ impl TipLattice {
         let side = |name: &str, [low, high]: [f64; 2]| {
             let steps = (high - low) / step_cm;
             if !(steps.is_finite() && steps > 0.0) {
-                return Err(format!("{name} runs from {low} to {high}; two rising finite numbers are accepted"));
+                return Err(format!(
+                    "{name} runs from {low} to {high}; two rising finite numbers are accepted"
+                ));
             }
             if (steps - steps.round()).abs() > SLACK * steps.max(1.0) {
                 return Err(format!(

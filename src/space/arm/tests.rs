@@ -148,8 +148,7 @@ fn a_corner_rule_binds_diagonal_hops_of_one_cell_only() {
         let hops: Vec<bool> = hops.collect();
         [0, 1].map(|kind| hops.iter().skip(kind).step_by(2).filter(|allowed| **allowed).count())
     };
-    let [any, both, all] =
-        [CornerRule::ForbidAny, CornerRule::ForbidBoth, CornerRule::Allow].map(allowed);
+    let [any, both, all] = [CornerRule::ForbidAny, CornerRule::ForbidBoth, CornerRule::Allow].map(allowed);
     assert!(any[0] < all[0] && both[0] <= all[0] && any[0] < both[0], "{any:?} {both:?} {all:?}");
     assert_eq!([any[1], both[1]], [all[1]; 2]);
 }
@@ -160,7 +159,8 @@ fn eight_moves_are_the_hops_to_the_nearest_points() {
         let world = case_1(hop);
         let (moves, grid) = (world.eight_moves(), world.grid());
         let plain = Moves::new(grid, CornerRule::Allow);
-        let count = |moves: &Moves| -> u32 { (0..grid.cell_count()).map(|c| moves.mask(c).count_ones()).sum() };
+        let count =
+            |moves: &Moves| -> u32 { (0..grid.cell_count()).map(|c| moves.mask(c).count_ones()).sum() };
         match hop {
             HopRule::EndPoints => assert_eq!(count(&moves), count(&plain)),
             HopRule::Continuous => assert!(count(&moves) < count(&plain)),

@@ -54,9 +54,8 @@ impl FreeShapes {
         for choices in order {
             live = choices.attained(&live);
         }
-        let pairs = live
-            .into_iter()
-            .flat_map(|(start, goals)| goals.into_iter().map(move |goal| [start, goal]));
+        let pairs =
+            live.into_iter().flat_map(|(start, goals)| goals.into_iter().map(move |goal| [start, goal]));
         Ok(Self { pairs: pairs.collect(), candidates })
     }
 }
@@ -123,10 +122,12 @@ impl Choices<'_> {
         let shut = moves(|shapes, cell| shapes.iter().any(|shape| shape[cell]));
         // A diagonal hop keeps the parity of column plus row, a straight one changes it.
         let parity = |cell: u32| (cell % self.size[0] + cell / self.size[0]) % 2;
-        let find = |(open, shut): &mut (OctileAstar, OctileAstar), (start, before): (&u32, &BTreeSet<u32>)| {
+        let find = |(open, shut): &mut (OctileAstar, OctileAstar),
+                    (start, before): (&u32, &BTreeSet<u32>)| {
             let mut goals = BTreeSet::new();
             open.flood(*start, self.target, |cell, _| {
-                if (parity(cell) + parity(*start) + self.straight).is_multiple_of(2) && before.contains(&cell) {
+                if (parity(cell) + parity(*start) + self.straight).is_multiple_of(2) && before.contains(&cell)
+                {
                     goals.insert(cell);
                 }
             });

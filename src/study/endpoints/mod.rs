@@ -121,7 +121,9 @@ pub fn pairs(moves: &[Moves], cases: &[Case]) -> Vec<Pair> {
     let starts = 0..moves.first().map_or(0, Moves::cell_count);
     let found = starts.into_par_iter().map_init(
         || moves.iter().map(search).collect::<Vec<_>>(),
-        |searches, start| goals(searches, cases, start).into_iter().map(|goal| [start, goal]).collect::<Vec<_>>(),
+        |searches, start| {
+            goals(searches, cases, start).into_iter().map(|goal| [start, goal]).collect::<Vec<_>>()
+        },
     );
     found.flatten_iter().collect()
 }
@@ -169,7 +171,8 @@ impl Targets {
     /// The targets around the lengths of two `cases`.
     pub fn new(cases: &[Case; 2], window: f64) -> Self {
         let lengths = cases.each_ref().map(|case| lengths_near(case.length(), window));
-        let scaled = lengths.each_ref().map(|all| all.iter().map(|l| ScaledOctile::scaled(*l)).collect::<Vec<_>>());
+        let scaled =
+            lengths.each_ref().map(|all| all.iter().map(|l| ScaledOctile::scaled(*l)).collect::<Vec<_>>());
         let lowest = scaled.each_ref().map(|all| all.iter().copied().min().unwrap_or_default());
         let places = [0, 1].map(|case| {
             let highest = scaled[case].iter().copied().max().unwrap_or_default();

@@ -7,8 +7,8 @@
 use super::{Case, Pair, search};
 use crate::grid::{Grid2, Moves};
 use crate::search::{
-    Combined, Cost as _, GridGraph, Heap, Octile, OctileAstar, Rules, ScaledOctile, Search, Terms, Ties, Update,
-    euclidean_to, sum,
+    Combined, Cost as _, GridGraph, Heap, Octile, OctileAstar, Rules, ScaledOctile, Search, Terms, Ties,
+    Update, euclidean_to, sum,
 };
 use rayon::prelude::*;
 

@@ -50,7 +50,10 @@ impl ArmWorkspace {
     fn posed(&self, settings: &Settings) -> Result<Posed, SettingsError> {
         let refuse = |message: String| settings.error(message);
         if !(self.inner_radius_cm.is_finite() && self.inner_radius_cm >= 0.0) {
-            return Err(refuse(format!("inner_radius_cm is {}; 0 or more is accepted", self.inner_radius_cm)));
+            return Err(refuse(format!(
+                "inner_radius_cm is {}; 0 or more is accepted",
+                self.inner_radius_cm
+            )));
         }
         let rules = ArmRules {
             arm: Planar2r::new(self.links_cm[0], self.links_cm[1])
@@ -69,7 +72,9 @@ impl ArmWorkspace {
             (None, None) => Vec::new(),
             (start, _) => {
                 let missing = if start.is_some() { "goal_cm" } else { "start_cm" };
-                return Err(refuse(format!("{missing} is missing; start and goal are given together or not at all")));
+                return Err(refuse(format!(
+                    "{missing} is missing; start and goal are given together or not at all"
+                )));
             }
         };
         let obstacles = self.obstacles().map_err(refuse)?;
@@ -144,14 +149,20 @@ mod tests {
         for (changes, parts) in [
             ("start_cm = [35, 18]", ["the start [35.0, 18.0]", "lies in obstacle 1"]),
             ("goal_cm = [8, 36]", ["the goal [8.0, 36.0]", "lies in obstacle 2"]),
-            ("goal_cm = [50, 50]", ["the goal", "is 70.7107 cm from the base; the arm may stand from 20 to 50 cm"]),
+            (
+                "goal_cm = [50, 50]",
+                ["the goal", "is 70.7107 cm from the base; the arm may stand from 20 to 50 cm"],
+            ),
             ("goal_cm = [0.5, 45]", ["the goal", "in steps of 1 cm"]),
             ("links_cm = [30, 0]", ["links_cm", "link 2 is 0 long; a link must be longer than 0"]),
             ("step_cm = 3", ["step_cm is 3", "does not divide x_cm of 100 cm"]),
             ("step_cm = 0", ["step_cm is 0", "a step above 0 is accepted"]),
             ("inner_radius_cm = -1", ["inner_radius_cm is -1", "0 or more is accepted"]),
             ("obstacle_diameter_cm = 0", ["obstacle 1", "must be greater than 0"]),
-            ("obstacle_shapes = ['circle', 'square', 'square']", ["3 shapes for 2 obstacles", "one for all or one"]),
+            (
+                "obstacle_shapes = ['circle', 'square', 'square']",
+                ["3 shapes for 2 obstacles", "one for all or one"],
+            ),
             ("obstacle_shapes = []", ["0 shapes for 2 obstacles", "one for all or one"]),
             ("obstacle_shapes = ['star']", ["star", "triangle"]),
             ("elbows = 'higher'", ["elbows", "elbow"]),

@@ -50,7 +50,7 @@ pub(super) fn judge(world: &ArmWorld, request: &Request<'_>, plan: &Plan, pipeli
         (Ending::NoPath, Some(steps)) if pipeline.planner.is_complete() => case.refuse_no_path(steps),
         (Ending::NoPath | Ending::BudgetSpent, _) => None,
     };
-    Judged { outcome: outcome(request, plan, refusal), values }
+    Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
 }
 
 fn measure(plan: &Plan, audit: &Audit, values: &mut Counts) {

@@ -22,7 +22,9 @@ pub static ENTRY: Entry = Entry {
             return Err(settings.error("at least one case and one variant are needed"));
         }
         if let Some(case) = read.cases.iter().find(|case| case.target() < ScaledOctile::STRAIGHT) {
-            return Err(settings.error(format!("hops is {:?}; a length of at least one hop is needed", case.hops)));
+            return Err(
+                settings.error(format!("hops is {:?}; a length of at least one hop is needed", case.hops))
+            );
         }
         Ok(Box::new(read))
     },
@@ -62,7 +64,10 @@ impl Task for Identify {
                     if keeps {
                         let of = super::variant_name(unit, &variant.label);
                         let values = found.points.concat();
-                        batch.kept.push(Kept { of, exhibit: Exhibit { name: "pairs".to_owned(), width: 4, values } });
+                        batch.kept.push(Kept {
+                            of,
+                            exhibit: Exhibit { name: "pairs".to_owned(), width: 4, values },
+                        });
                     }
                     batch.rows.extend(rows(unit, variant, &found));
                 }
@@ -131,8 +136,11 @@ fn rows(unit: &Unit<'_>, variant: &Variant, found: &Found) -> Vec<Row> {
         let mut row = super::variant_row(unit, &variant.label, &format!("pair-{index}"));
         row.status = Status::Solved;
         row.repeat = index as u32 + 1;
-        row.values =
-            columns.into_iter().zip(pair).map(|(name, value)| (name.to_owned(), Value::Real(*value))).collect();
+        row.values = columns
+            .into_iter()
+            .zip(pair)
+            .map(|(name, value)| (name.to_owned(), Value::Real(*value)))
+            .collect();
         row
     };
     std::iter::once(head).chain(found.points.iter().enumerate().map(pair_row)).collect()

@@ -58,7 +58,8 @@ impl Task for NullRate {
         let mut batch = Batch::default();
         let prepared = unit.family.prepare(unit.seed);
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
-        let Some(base) = prepared.ok().and_then(|prepared| prepared.world.as_arm().map(|arm| *arm.rules())) else {
+        let Some(base) = prepared.ok().and_then(|prepared| prepared.world.as_arm().map(|arm| *arm.rules()))
+        else {
             return batch;
         };
         let targets = Targets::new(&self.cases, self.window_cm / base.lattice.step_cm());

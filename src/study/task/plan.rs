@@ -1,13 +1,13 @@
 //! Every contender plans on every problem; the verifier judges what comes back.
 
 use super::{Entry, Task};
-use crate::planner::{Exhibit, Invalid, Plan, Request};
+use crate::planner::{Counts, Exhibit, Invalid, Plan, Request};
 use crate::seed;
 use crate::study::checked::{Pipeline, Study};
 use crate::study::family::Query;
 use crate::study::judge::{self, Truth};
 use crate::study::prepared::Prepared;
-use crate::study::record::{Batch, Kept, Row, Status, Values};
+use crate::study::record::{Batch, Kept, Row, Status};
 use crate::study::runner::{Racer, Unit};
 use serde::Deserialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -40,11 +40,12 @@ impl Task for PlanTask {
         {
             batch.keep(&unit.name, prepared.exhibits.clone());
         }
-        for query in unit.family.queries() {
+        for (index, query) in unit.family.queries().iter().enumerate() {
+            let known = unit.family.known(index);
             let truth = prepared.as_ref().ok().map(|p| judge::truth(&p.world, query));
             for racer in unit.racers {
                 for repeat in 0..racer.contender.repeats {
-                    let trial = Trial { study, unit, query, racer, repeat };
+                    let trial = Trial { study, unit, query, racer, repeat, known: &known };
                     match (&prepared, &truth) {
                         (Ok(prepared), Some(truth)) => trial.run(prepared, truth, &mut batch),
                         (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
@@ -69,6 +70,7 @@ struct Trial<'a> {
     query: &'a Query,
     racer: &'a Racer<'a>,
     repeat: u32,
+    known: &'a Counts,
 }
 
 impl Trial<'_> {
@@ -90,9 +92,10 @@ impl Trial<'_> {
             Ok(Ok(mut plan)) => {
                 let judged = judge::judge(&request, &plan, &self.racer.pipeline, truth);
                 (row.status, row.reason) = judged.outcome;
-                row.values = super::named(plan.counts.iter().chain(&judged.values));
+                row.values.extend(super::named(plan.counts.iter().chain(&judged.values)));
                 if trace {
                     batch.keep(&row.trial, std::mem::take(&mut plan.exhibits));
+                    batch.keep(&row.trial, judged.exhibits);
                     batch.keep(&row.trial, path_exhibit(&plan));
                 }
             }
@@ -125,7 +128,7 @@ impl Trial<'_> {
             seed,
             status: Status::Crashed,
             reason: None,
-            values: Values::new(),
+            values: super::named(self.known),
         }
     }
 }

@@ -134,7 +134,8 @@ impl Case<'_> {
     /// The distance of either link from the nearest obstacle.
     fn gap(&self, posture: [f64; 2]) -> f64 {
         let [base, elbow, tip] = self.joints(posture);
-        let gaps = self.bodies.iter().flat_map(|body| [[base, elbow], [elbow, tip]].map(|link| body.distance(link)));
+        let gaps =
+            self.bodies.iter().flat_map(|body| [[base, elbow], [elbow, tip]].map(|link| body.distance(link)));
         gaps.fold(f64::INFINITY, f64::min)
     }
 

@@ -32,9 +32,8 @@ impl Case<'_> {
                 }
                 let Some(to) = postures[index(next)] else { continue };
                 let cost = reached + self.length(*step);
-                let is_legal = || {
-                    self.corner_is_free(at, *step) && (!self.hops_are_swept || self.is_clear(from, to))
-                };
+                let is_legal =
+                    || self.corner_is_free(at, *step) && (!self.hops_are_swept || self.is_clear(from, to));
                 if cost < best[index(next)] && is_legal() {
                     best[index(next)] = cost;
                     queue.push(Reverse((cost.to_bits(), next)));
@@ -49,9 +48,8 @@ impl Case<'_> {
         if self.corner_rule == CornerRule::Allow || dx.abs() != 1 || dy.abs() != 1 {
             return true;
         }
-        let inside = |[x, y]: [i32; 2]| {
-            (0..self.size[0] as i32).contains(&x) && (0..self.size[1] as i32).contains(&y)
-        };
+        let inside =
+            |[x, y]: [i32; 2]| (0..self.size[0] as i32).contains(&x) && (0..self.size[1] as i32).contains(&y);
         let flanks = [[x + dx, y], [x, y + dy]].map(|at| inside(at) && self.free_posture(at).is_some());
         match self.corner_rule {
             CornerRule::Allow => true,

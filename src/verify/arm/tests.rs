@@ -53,7 +53,10 @@ fn a_hop_over_an_obstacle_is_refused_where_hops_are_swept_and_counted_where_they
     let audit = case(ends, false).audit(&answer).unwrap();
     assert_eq!((audit.unsafe_hops, audit.length_cm), (1, length));
     let refused = case(ends, true).audit(&answer).unwrap_err();
-    assert!(refused.starts_with("the arm hits an obstacle between [30.0, 20.0] and [36.0, 26.0]"), "{refused}");
+    assert!(
+        refused.starts_with("the arm hits an obstacle between [30.0, 20.0] and [36.0, 26.0]"),
+        "{refused}"
+    );
     let mut empty = case(ends, true);
     empty.bodies.clear();
     assert_eq!(empty.audit(&answer).unwrap().unsafe_hops, 0);
@@ -62,10 +65,8 @@ fn a_hop_over_an_obstacle_is_refused_where_hops_are_swept_and_counted_where_they
 #[test]
 fn the_optimum_of_eight_steps_among_discs_is_the_printed_length() {
     let ends: [&[f64]; 2] = [&[49.0, 3.0], &[0.0, 45.0]];
-    let eight: Vec<[i32; 2]> = (-1..=1)
-        .flat_map(|dx| (-1..=1).map(move |dy| [dx, dy]))
-        .filter(|step| *step != [0, 0])
-        .collect();
+    let eight: Vec<[i32; 2]> =
+        (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [dx, dy])).filter(|step| *step != [0, 0]).collect();
     let found = case(ends, false).optimal_length(&eight).unwrap();
     assert!((found - (29.0 + 31.0 * 2.0_f64.sqrt())).abs() < 1e-9, "{found}");
     assert!(case(ends, true).optimal_length(&eight).unwrap() >= found);
