@@ -62,7 +62,7 @@ impl Check for ClockTicks {
                 finding.because.push(format!("{} s prints {ticks} ticks of {spelled}", self.printed));
             }
             None => {
-                finding.because.push(format!("{} s is no whole number of ticks of {spelled}", self.printed))
+                finding.because.push(format!("{} s is no whole number of ticks of {spelled}", self.printed));
             }
         }
         let both = self.all.iter().filter(|time| self.tick.count(**time, self.digits).is_some()).count();

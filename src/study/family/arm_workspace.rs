@@ -176,7 +176,9 @@ mod tests {
     fn an_end_alone_is_refused_and_none_poses_no_query() {
         let without = |keys: &[&str]| {
             let mut table = PLAIN.parse::<Table>().unwrap();
-            keys.iter().for_each(|key| drop(table.remove(*key)));
+            for key in keys {
+                table.remove(*key);
+            }
             (ENTRY.build)(&Settings::composed("plain", table), &Inputs::default())
         };
         assert!(without(&["goal_cm"]).err().unwrap().to_string().contains("goal_cm is missing"));
