@@ -119,6 +119,8 @@ struct ChaosGraph<'a> {
     numbers: Numbers,
     /// Indices into the region; those drawn stand first.
     order: Vec<usize>,
+    /// Which steps of the region are tried.
+    is_tried: Vec<bool>,
     /// What was drawn first, for figures.
     first: Vec<[i32; 2]>,
 }
@@ -136,17 +138,25 @@ impl ChaosGraph<'_> {
         }
     }
 
-    /// The steps to be tried from a cell `to_goal` away from the goal, in the order of the region.
-    fn steps(&self, to_goal: [i32; 2]) -> Vec<[i32; 2]> {
-        let mut drawn = self.order[..self.read.neighbours].to_vec();
-        let goal = self.region.iter().position(|step| *step == to_goal);
-        if let (Some(goal), GoalInRegion::Included) = (goal, self.read.goal_in_region)
-            && !drawn.contains(&goal)
-        {
-            *drawn.last_mut().expect("at least one neighbour is drawn") = goal;
+    /// Marks the steps to be tried from a cell `to_goal` away from the goal.
+    fn choose(&mut self, to_goal: [i32; 2]) {
+        let drawn = &self.order[..self.read.neighbours];
+        self.is_tried.fill(false);
+        for &index in drawn {
+            self.is_tried[index] = true;
         }
-        drawn.sort_unstable();
-        drawn.into_iter().map(|index| self.region[index]).collect()
+        let reach = i32::from(self.read.region_radius_cells);
+        let is_near = to_goal.iter().all(|d| d.abs() <= reach);
+        if !is_near || self.read.goal_in_region == GoalInRegion::AsDrawn {
+            return;
+        }
+        if let Some(goal) = self.region.iter().position(|step| *step == to_goal)
+            && !self.is_tried[goal]
+        {
+            let last = drawn.last().expect("at least one neighbour is drawn");
+            self.is_tried[*last] = false;
+            self.is_tried[goal] = true;
+        }
     }
 }
 
@@ -163,7 +173,8 @@ impl Graph for ChaosGraph<'_> {
         }
         let (grid, step_cm) = (self.world.grid(), self.world.rules().lattice.step_cm());
         let ([x, y], goal) = (grid.xy(node), grid.xy(self.goal));
-        for [dx, dy] in self.steps([goal[0] - x, goal[1] - y]) {
+        self.choose([goal[0] - x, goal[1] - y]);
+        for (&[dx, dy], _) in self.region.iter().zip(&self.is_tried).filter(|(_, is_tried)| **is_tried) {
             let Some(to) = grid.cell(x + dx, y + dy) else { continue };
             if grid.is_free(to) && self.world.may_hop(node, to) {
                 visit(to, step_cm * f64::from(dx * dx + dy * dy).sqrt());
@@ -182,6 +193,7 @@ impl Planner for Ready {
             goal: posed.goal,
             numbers: Numbers::new(seed::stream(request.seed), self.read.source),
             order: (0..self.offsets.steps().len()).collect(),
+            is_tried: vec![false; self.offsets.steps().len()],
             first: Vec::new(),
         };
         let (ties, update) = (self.read.ties, self.read.open_node.into());

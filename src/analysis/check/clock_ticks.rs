@@ -5,7 +5,7 @@ use super::{Check, Entry};
 use crate::analysis::audit::clock::Tick;
 use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
-use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::analysis::verdict::{Finding, Verdict};
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -59,13 +59,10 @@ impl Check for ClockTicks {
         let spelled = format!("{numerator}/{denominator} s");
         match count {
             Some(ticks) => {
-                let seconds = ticks as f64 * f64::from(numerator) / f64::from(denominator);
-                let what = format!("s, {ticks} ticks of {spelled}");
-                finding.ours = Some(Estimate { value: seconds, interval: None, what, n: 1 });
                 finding.because.push(format!("{} s prints {ticks} ticks of {spelled}", self.printed));
             }
             None => {
-                finding.because.push(format!("{} s is no whole number of ticks of {spelled}", self.printed))
+                finding.because.push(format!("{} s is no whole number of ticks of {spelled}", self.printed));
             }
         }
         let both = self.all.iter().filter(|time| self.tick.count(**time, self.digits).is_some()).count();

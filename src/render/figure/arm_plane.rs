@@ -125,25 +125,24 @@ fn title(problem: &str, rows: &[&Row]) -> String {
     }
 }
 
-fn zone_color(code: f64) -> Option<Rgb> {
+fn zone_color(code: f64) -> Rgb {
     match code as u8 {
-        1 => Some(GREY.mixed(WHITE, 0.55)),
-        2 => Some(YELLOW.mixed(WHITE, 0.35)),
-        3 => Some(BLACK.mixed(WHITE, 0.35)),
-        4 => Some(ORANGE.mixed(WHITE, 0.35)),
-        _ => Some(SKY.mixed(WHITE, 0.65)),
+        1 => GREY.mixed(WHITE, 0.55),
+        2 => YELLOW.mixed(WHITE, 0.35),
+        3 => BLACK.mixed(WHITE, 0.35),
+        4 => ORANGE.mixed(WHITE, 0.35),
+        _ => SKY.mixed(WHITE, 0.65),
     }
 }
 
 fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> Cells {
     let names = ["free", "out of reach", "inner radius", "in an obstacle", "a link would hit"];
-    let keys =
-        names.iter().enumerate().filter_map(|(code, name)| Some(cell_key(*name, zone_color(code as f64)?)));
+    let keys = names.iter().enumerate().map(|(code, name)| cell_key(*name, zone_color(code as f64)));
     Cells {
         corner,
         cell: [step, step],
         columns,
-        colors: zones.values.iter().map(|code| zone_color(*code)).collect(),
+        colors: zones.values.iter().map(|code| Some(zone_color(*code))).collect(),
         lines: None,
         keys: keys.collect(),
     }

@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "arm_postures",
-    about: "both postures of a planar two-link arm at the start of a problem",
+    about: "both postures of a planar two-link arm at the goal of a problem",
     build: |settings, study, _paper| {
         let read: ArmPostures = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problem), &[])?;
@@ -49,17 +49,22 @@ fn panel(name: &str, station: &[f64], all: &[&[f64]]) -> Result<Panel, RenderErr
         [0, 1].map(|axis| coordinates(axis).fold(f64::INFINITY, f64::min) - 6.0),
         [0, 1].map(|axis| coordinates(axis).fold(f64::NEG_INFINITY, f64::max) + 6.0),
     );
-    let title = format!("{name}: θ1 = {:.2}°, θ2 = {:.2}°", station[0], station[1]);
+    let title = format!("{name}: θ1 = {:.2}°, θ2 = {:.2}°", station[0], station[1]).replace('-', "−");
     let (x, y) = (Axis::linear("x (cm)", low[0], high[0])?, Axis::linear("y (cm)", low[1], high[1])?);
     let mut panel = Panel::new(title, x, y).trimmed(Trim::Grid).with_equal_scales();
     let (elbow, tip) = ([station[2], station[3]], [station[4], station[5]]);
     panel.add(Line::through(vec![[0.0, 0.0], elbow], Stroke::solid(BLUE, 2.6)).labelled("link 1"));
     panel.add(Line::through(vec![elbow, tip], Stroke::solid(VERMILLION, 2.6)).labelled("link 2"));
-    for (text, at, color) in [("base", [0.0, 0.0], INK), ("elbow", elbow, INK), ("tip", tip, GREEN)] {
+    // The elbow's name stands on the side to which the arm bends, where no link is.
+    let bends_right = elbow[0] > tip[0].midpoint(0.0);
+    for (text, at, color, to_right) in
+        [("base", [0.0, 0.0], INK, true), ("elbow", elbow, INK, bends_right), ("tip", tip, GREEN, true)]
+    {
         let (marker, label) = (Marker::Circle, String::new());
         panel.add(Points { points: vec![at], marker, radius_pt: 3.0, color, label });
-        let set = Type::of(TextSize::TICK).aligned(Align::Start, Stand::Base);
-        panel.add(Note { at, shift_pt: [5.0, -4.0], text: text.to_owned(), set });
+        let (align, shift) = if to_right { (Align::Start, 6.0) } else { (Align::End, -6.0) };
+        let set = Type::of(TextSize::TICK).aligned(align, Stand::Centre);
+        panel.add(Note { at, shift_pt: [shift, 0.0], text: text.to_owned(), set });
     }
     Ok(panel)
 }

@@ -6,7 +6,7 @@ use crate::analysis::stats::summary::median;
 use crate::render::RenderError;
 use crate::render::chart::marks::Points;
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{WHITE, Width, series_color, series_marker};
+use crate::render::style::{SERIES, WHITE, Width, series_color, series_marker};
 use crate::study::record::{Row, Status};
 use serde::Deserialize;
 
@@ -81,7 +81,8 @@ impl Ready {
         let mut panel = Panel::new(problem, x, Axis::over(self.length.title(), lengths));
         let points = |points, radius_pt, index: usize, pale: f64, label: String| Points {
             points,
-            marker: series_marker(index),
+            // Colours come round after seven; the marker moves on by one more each time.
+            marker: series_marker(index + index / SERIES.len()),
             radius_pt,
             color: series_color(index).mixed(WHITE, pale),
             label,

@@ -186,7 +186,7 @@ fn a_lattice_and_a_query_that_do_not_fit_say_why() {
     assert!(refused(&[0.5, 30.0]).ends_with("x -50 to 50 and y 0 to 50 in steps of 1 cm"));
     assert!(refused(&[0.0]).contains("is not a point of the workspace"));
     let zones = world.zones();
-    let behind = (0..).find(|&cell| zones[cell as usize] == Zone::Link).unwrap();
+    let behind = zones.iter().position(|zone| *zone == Zone::Link).unwrap() as u32;
     let at = world.rules().lattice.point(behind);
     assert!(refused(&[at.x, at.y]).starts_with("with the tip on the goal"));
 }

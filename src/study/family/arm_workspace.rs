@@ -84,7 +84,7 @@ impl ArmWorkspace {
                 world.free_cell(what, point).map_err(refuse)?;
             }
         }
-        Ok(Posed { rules, obstacles, queries, start_cm: self.start_cm })
+        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
     }
 
     fn obstacles(&self) -> Result<Vec<Obstacle>, String> {
@@ -108,7 +108,7 @@ struct Posed {
     rules: ArmRules,
     obstacles: Vec<Obstacle>,
     queries: Vec<Query>,
-    start_cm: Option<[f64; 2]>,
+    goal_cm: Option<[f64; 2]>,
 }
 
 impl Family for Posed {
@@ -118,7 +118,7 @@ impl Family for Posed {
 
     fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
         let world = ArmWorld::new(self.rules, self.obstacles.clone());
-        Ok(workspace_map::prepare(world, self.start_cm))
+        Ok(workspace_map::prepare(world, self.goal_cm))
     }
 
     fn queries(&self) -> &[Query] {
@@ -176,7 +176,9 @@ mod tests {
     fn an_end_alone_is_refused_and_none_poses_no_query() {
         let without = |keys: &[&str]| {
             let mut table = PLAIN.parse::<Table>().unwrap();
-            keys.iter().for_each(|key| drop(table.remove(*key)));
+            for key in keys {
+                table.remove(*key);
+            }
             (ENTRY.build)(&Settings::composed("plain", table), &Inputs::default())
         };
         assert!(without(&["goal_cm"]).err().unwrap().to_string().contains("goal_cm is missing"));

@@ -1,7 +1,7 @@
 use super::*;
 use crate::verify::arm::Body;
 
-fn case<'a>(ends: [&'a [f64]; 2], swept: bool) -> Case<'a> {
+fn case(ends: [&[f64]; 2], swept: bool) -> Case<'_> {
     Case {
         links_cm: [30.0, 20.0],
         higher_elbow: false,
