@@ -40,7 +40,7 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
     if verdicts.quick {
         latex.note(super::output::QUICK);
     }
-    latex.latex(&made(paper, &table.id))
+    latex.latex(&made(paper, &table.id, verdicts))
 }
 
 /// One macro for each printed number, each of ours and each verdict.
@@ -60,11 +60,12 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
         }
         numbers.add(&key("verdict"), judged.verdict.name())?;
     }
-    Ok(numbers.latex(&paper.id, &made(paper, "numbers")))
+    Ok(numbers.latex(&paper.id, &made(paper, "numbers", verdicts)))
 }
 
-fn made(paper: &Paper, id: &str) -> String {
-    format!("made by `replan render {} --only {id}`", paper.id)
+pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
+    let made = format!("made by `replan render {} --only {id}`", paper.id);
+    if verdicts.quick { format!("{made}. {}", super::output::QUICK) } else { made }
 }
 
 fn dash() -> String {
