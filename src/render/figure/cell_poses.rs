@@ -6,7 +6,7 @@ use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Axis, Key, Panel, Sheet, Trim};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
-use crate::render::style::{BLACK, GREY, Rgb, WHITE, Width, YELLOW, series_color};
+use crate::render::style::{GREY, Rgb, WHITE, Width, YELLOW, series_color};
 use crate::study::slug;
 use serde::Deserialize;
 
@@ -35,6 +35,8 @@ struct CellPoses {
     poses: Vec<String>,
     /// What they are called.
     names: Vec<String>,
+    /// How many of them are shown in one picture.
+    at_once: usize,
 }
 
 /// From where cells are seen.
@@ -98,24 +100,27 @@ impl Kind for CellPoses {
         let group = scene.run.study.groups.iter().find(|group| group.label == self.problems);
         let numbered = group.is_some_and(|group| group.is_numbered);
         let draw = if numbered { format!("{}/0", slug(&self.problems)) } else { slug(&self.problems) };
-        let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 230.0);
-        for (title, camera) in VIEWS {
-            let mut solids = furnished(scene, &draw)?;
-            let mut keys = vec![cell_key("obstacles", obstacle())];
-            for (index, (pose, name)) in self.poses.iter().zip(&self.names).enumerate() {
-                let color = series_color(index).mixed(WHITE, 0.25);
-                let color = if color == BLACK { GREY } else { color };
-                let body = ask::exhibit(scene, &draw, &format!("body {pose}"))?;
-                // Base and turret stand where they stand at every pose: one of each is drawn.
-                let fixed = if index == 0 { 0 } else { FIXED_PARTS * body.width };
-                let parts = Exhibit { values: body.values[fixed..].to_vec(), ..body.clone() };
-                add_capsules(&mut solids, &parts, Paint { outlined: false, ..Paint::solid(color) });
-                if let Some(tip) = body.values.chunks(body.width).next_back() {
-                    solids.tag([tip[3], tip[4], tip[5]], name);
+        let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);
+        let named: Vec<(usize, (&String, &String))> =
+            self.poses.iter().zip(&self.names).enumerate().collect();
+        for shown in named.chunks(self.at_once.max(1)) {
+            for (title, camera) in VIEWS {
+                let mut solids = furnished(scene, &draw)?;
+                let mut keys = vec![cell_key("obstacles", obstacle())];
+                for (place, (index, (pose, name))) in shown.iter().enumerate() {
+                    let color = series_color(*index).mixed(WHITE, 0.25);
+                    let body = ask::exhibit(scene, &draw, &format!("body {pose}"))?;
+                    // Base and turret stand where they stand at every pose: one of each is drawn.
+                    let fixed = if place == 0 { 0 } else { FIXED_PARTS * body.width };
+                    let parts = Exhibit { values: body.values[fixed..].to_vec(), ..body.clone() };
+                    add_capsules(&mut solids, &parts, Paint { outlined: false, ..Paint::solid(color) });
+                    if let Some(tip) = body.values.chunks(body.width).next_back() {
+                        solids.tag([tip[3], tip[4], tip[5]], *name);
+                    }
+                    keys.push(cell_key(format!("robot at {name}"), color));
                 }
-                keys.push(cell_key(format!("robot at {name}"), color));
+                sheet.add(panel(title, solids, camera, keys)?);
             }
-            sheet.add(panel(title, solids, camera, keys)?);
         }
         Ok(sheet)
     }

@@ -38,6 +38,9 @@ struct PairedBoxes {
     metric: &'static Metric,
 }
 
+/// With more contenders than this there is no room for single values beside their boxes.
+const MOST_STRIPS: usize = 3;
+
 /// By query: of each contender the values on the draws that all of them solve.
 type ByQuery = Vec<(String, Vec<Vec<f64>>)>;
 
@@ -86,7 +89,11 @@ impl Kind for PairedBoxes {
                     at: place as f64 - 0.4 + step * (index as f64 + 0.5),
                     width: step * 0.62,
                     quantiles: [0.05, 0.25, 0.5, 0.75, 0.95].map(quantile),
-                    values: column.clone(),
+                    values: if self.read.contenders.len() > MOST_STRIPS {
+                        Vec::new()
+                    } else {
+                        column.clone()
+                    },
                     color: series_color(index),
                     label: if place == 0 { self.read.contenders[index].clone() } else { String::new() },
                 });

@@ -303,14 +303,13 @@ impl Lines {
 
     /// Whether another branch offers a smaller change than `q`, of `branch`, does from `last`.
     ///
-    /// The other turn of the wrist has the opposite fifth angle, so it cannot be nearer than the two angles' sum; only
-    /// where `q` is further away than that are all branches asked.
+    /// All branches are asked only where the elbow or the wrist the other way round could be as near.
     #[inline]
     fn leaves_branch(&self, q: &Joints, last: &Joints, branch: Branch, target: &Frame) -> bool {
         let arm = self.cell.robot().arm();
         let change: f64 = q.iter().zip(last).map(|(a, b)| (a - b) * (a - b)).sum();
-        let flip = q[4] + last[4] + 2.0 * arm.chain().joints()[4].offset_rad;
-        change >= flip * flip
+        let flip_rad = arm.nearest_flip_rad(q, last);
+        change >= flip_rad * flip_rad
             && arm.inverse_nearest(target, last).is_none_or(|(nearest, _)| nearest != branch)
     }
 

@@ -54,7 +54,7 @@ fn draw(stream: &mut seed::Stream) -> Joints {
 }
 
 #[test]
-fn the_six_poses_are_as_clear_as_another_program_found_them() {
+fn the_six_poses_are_as_clear_as_another_program_found_them_to_three_millimetres() {
     // The other program measured against the boxes alone, with neither the floor nor the robot itself.
     let text = std::fs::read_to_string(file("scenes/fu2018_cell.toml"))
         .unwrap()
@@ -72,7 +72,7 @@ fn the_six_poses_are_as_clear_as_another_program_found_them() {
     ] {
         let q = pose(degrees);
         let got_mm = cell.clearance_m(&q) * 1e3;
-        assert!((got_mm - clearance_mm).abs() < 1.0, "{name}: {got_mm} mm");
+        assert!((got_mm - clearance_mm).abs() < 3.0, "{name}: {got_mm} mm");
         assert_eq!(fu_cell().refusal(&q), None, "{name}");
         assert!(fu_cell().is_free(&q));
     }
