@@ -2,13 +2,16 @@
 
 mod arm;
 mod cli_input;
+mod cli_places;
 mod cli_run;
 mod cli_stop;
 mod conformance;
 mod floors;
+mod latex;
 mod laws;
 mod paper;
 mod registries;
 mod snapshots;
 mod source;
 mod worlds;
+mod wrong_words;
