@@ -160,7 +160,7 @@ fn places_that_cannot_be_written_are_told_with_exit_code_1() {
     assert_eq!(said.code, Some(1), "{}", said.err);
     assert_eq!(
         said.err,
-        "replan: file/below/data/runs/mini: creating the folder: Not a directory (os error 20)\n"
+        "replan: file/below/paper_repro.md: reading the report: Not a directory (os error 20)\n"
     );
     assert_eq!(fs::read(bench.at("file")).unwrap(), b"in the way");
 }

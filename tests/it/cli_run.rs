@@ -32,7 +32,7 @@ fn render_writes_what_repro_wrote_byte_for_byte_and_check_notices_an_edit() {
     for name in ["plots/mini/fig1.svg", "plots/mini/table1.tex", "plots/mini/numbers.tex", "paper_repro.md"] {
         let path = bench.at(&format!("mini/out/{name}"));
         let whole = fs::read_to_string(&path).unwrap();
-        fs::write(&path, whole.replacen("mini", "minni", 1)).unwrap();
+        fs::write(&path, whole.replacen("made by", "mad by", 1).replacen("Made by", "Mad by", 1)).unwrap();
         let said = bench.run(&["render", "./mini", "--check"]);
         assert_eq!((said.code, said.err), (Some(3), format!("replan: not current: ./mini/out/{name}\n")));
         fs::write(&path, whole).unwrap();

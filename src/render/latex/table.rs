@@ -4,10 +4,10 @@ use super::{RenderError, escaped};
 use std::fmt::Write as _;
 
 /// How many characters fit a line of an article's text in footnotesize.
-const TEXT_CHARACTERS: usize = 84;
+const TEXT_CHARACTERS: usize = 80;
 
 /// The longest lines of cells that are tried, one after another.
-const LINE_WIDTHS: [usize; 7] = [60, 40, 30, 24, 18, 14, 11];
+const LINE_WIDTHS: [usize; 9] = [60, 40, 30, 24, 18, 14, 11, 8, 6];
 
 /// Sets the table in box 0, scaled to the text if it is wider and `graphicx` is there to do so.
 const FITTED: &str = "\\ifdim\\wd0>\\textwidth\\ifdefined\\resizebox\\resizebox{\\textwidth}{!}{\\usebox0}\\else\\usebox0\\fi\\else\\usebox0\\fi\n";

@@ -14,6 +14,7 @@ impl Paper {
                 return Err(self.document.error(spec.id.span(), message));
             }
         }
+        self.check_ids()?;
         let claims: BTreeSet<&str> = self.claims.iter().map(|claim| claim.id.as_str()).collect();
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
         let figures: BTreeSet<&str> = self.figure_ids().chain(self.table_ids()).collect();
@@ -34,7 +35,6 @@ impl Paper {
         for row in self.tables.iter().flat_map(|table| &table.rows) {
             self.known("claim", &row.claims, &claims)?;
         }
-        self.check_ids()?;
         self.check_tables()?;
         self.check_results()?;
         self.check_readings()?;
