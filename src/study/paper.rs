@@ -119,7 +119,7 @@ pub struct Claim {
     pub unit: Option<String>,
     /// How the number's digits end, where the claim says so; otherwise the reading decides.
     pub digits: Option<Digits>,
-    /// What the paper leaves out, if that makes it untestable.
+    /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
     pub untestable: Option<String>,
     /// How it is judged: checks by name.
     pub checks: BTreeMap<String, Settings>,
@@ -375,9 +375,8 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         );
         return Err(document.error(printed.span(), message));
     }
-    if spec.check.is_empty() == spec.untestable.is_none() {
-        let message =
-            format!("claim `{id}` needs checks, or `untestable` with what the paper leaves out, not both");
+    if spec.check.is_empty() && spec.untestable.is_none() {
+        let message = format!("claim `{id}` needs checks, or `untestable` with what the paper leaves out");
         return Err(document.error(spec.id.span(), message));
     }
     let checks = spec.check.iter().map(|(name, table)| (name.clone(), Settings::written(document, table)));
