@@ -59,4 +59,3 @@ fn plan(run: &Run<'_>, contender: &str, metric: &Metric) -> Plan {
     let seed = seed::derive(0, &[&run.study.paper, &run.study.name, contender, metric.name]);
     Plan { resamples: 1000, level: 0.95, seed }
 }
-

@@ -135,7 +135,7 @@ fn choices_of_problems<'a>(problems: &'a Problems, labels: &[&String]) -> Vec<Ve
     let kept = groups.into_iter().map(|(_, of_group)| greatest_problems(of_group));
     kept.filter(|of_group| !of_group.is_empty()).fold(vec![Vec::new()], |choices, of_group| {
         let with = |choice: &Vec<(&'a String, Outcomes)>| {
-            let one = |next: &(&'a String, Outcomes)| [&choice[..], &[next.clone()]].concat();
+            let one = |next: &(&'a String, Outcomes)| [&choice[..], std::slice::from_ref(next)].concat();
             of_group.iter().map(one).collect::<Vec<_>>()
         };
         choices.iter().flat_map(with).collect()
@@ -145,7 +145,11 @@ fn choices_of_problems<'a>(problems: &'a Problems, labels: &[&String]) -> Vec<Ve
 /// The problems on which something holds and no other has all that holds and more; of equals the first.
 fn greatest_problems(of_group: Vec<(&String, Outcomes)>) -> Vec<(&String, Outcomes)> {
     let hold = |outcomes: &Outcomes| {
-        outcomes.iter().filter(|(_, is_met)| **is_met).map(|(claim, _)| claim.clone()).collect::<BTreeSet<_>>()
+        outcomes
+            .iter()
+            .filter(|(_, is_met)| **is_met)
+            .map(|(claim, _)| claim.clone())
+            .collect::<BTreeSet<_>>()
     };
     let mut sets: Vec<BTreeSet<String>> = Vec::new();
     let mut distinct = Vec::new();

@@ -3,8 +3,10 @@
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
 pub mod results;
+mod tables;
 
 use self::results::ResultsSpec;
+pub use self::tables::{OursSpec, TableRow, TableSpec};
 use super::{Inputs, Reading, Study, StudyError};
 use crate::settings::{Document, Settings, SettingsError};
 use serde::Deserialize;
@@ -123,35 +125,6 @@ pub struct Claim {
     pub untestable: Option<String>,
     /// How it is judged: checks by name.
     pub checks: BTreeMap<String, Settings>,
-}
-
-/// One of the paper's tables, to be set beside ours.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TableSpec {
-    /// Its file name.
-    pub id: String,
-    /// What it shows.
-    pub caption: String,
-    /// The heads of its columns.
-    pub columns: Vec<String>,
-    /// Its rows.
-    #[serde(rename = "row")]
-    pub rows: Vec<TableRow>,
-}
-
-/// A row of a table.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TableRow {
-    /// Its head.
-    pub label: String,
-    /// The claim in each column.
-    #[serde(default)]
-    pub claims: Vec<Spanned<String>>,
-    /// What stands in each column where the table holds no claims.
-    #[serde(default)]
-    pub cells: Vec<String>,
 }
 
 /// A checked paper with its studies.

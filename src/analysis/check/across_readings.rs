@@ -140,7 +140,8 @@ impl Check for Across<'_> {
         let medians = outcomes.iter().map(|outcome| outcome.median);
         let (low, high) = medians.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), m| (a.min(m), b.max(m)));
         let points = self.study.explored().expect("a checked study's readings are in order");
-        let refused = points.iter().filter(|point| self.refusals(&evidence.under((*point).clone())) > 0).count();
+        let refused =
+            points.iter().filter(|point| self.refusals(&evidence.under((*point).clone())) > 0).count();
         let mut distinct: Vec<[f64; 3]> =
             outcomes.iter().map(|o| [o.median, o.central.low, o.central.high]).collect();
         distinct.sort_by(|a, b| a.partial_cmp(b).expect("medians are numbers"));

@@ -28,6 +28,9 @@ struct Settings {
     /// The contender that the reduction is from; without it the printed number is the metric itself.
     against: Option<String>,
     sets: Vec<SetSpec>,
+    /// What the draws take for granted besides.
+    #[serde(default)]
+    premises: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -155,6 +158,7 @@ impl Check for RowAmongDraws {
             }
         }
         finding.premises = vec!["the paper's map is like ours: none of its maps is known".to_owned()];
+        finding.premises.extend(self.settings.premises.iter().cloned());
         finding
     }
 }
