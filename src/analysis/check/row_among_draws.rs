@@ -95,7 +95,9 @@ impl RowAmongDraws {
         for group in &set.problems {
             let values =
                 run.changes(group, &self.settings.contender, self.settings.against.as_deref(), self.metric);
-            draws.unsolved += run.rows(group, &self.settings.contender).len() - values.len();
+            let base = self.settings.against.as_ref().unwrap_or(&self.settings.contender);
+            draws.unsolved += run.rows(group, &self.settings.contender).len()
+                - run.pairs(group, base, &self.settings.contender).len();
             draws.values.extend(values);
         }
         for value in &mut draws.values {

@@ -6,7 +6,7 @@ use crate::analysis::metric::{self, Metric};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{SERIES, Stroke, Width, series_color, series_marker};
+use crate::render::style::{GREY, INK, SERIES, Stroke, Width, series_color, series_marker};
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -66,7 +66,8 @@ impl Tradeoff {
         let mut panel = Panel::new(&title, Axis::over(x.title(), across), Axis::over(y.title(), up));
         for (index, (contender, point)) in self.contenders.iter().zip(&points).enumerate() {
             let Some((a, b)) = point else { continue };
-            let stroke = Stroke::solid(series_color(index), 0.9);
+            let color = if index < SERIES.len() { series_color(index) } else { GREY.mixed(INK, 0.3) };
+            let stroke = Stroke::solid(color, 0.9);
             let cross = vec![
                 [a.interval.low, b.value],
                 [a.interval.high, b.value],
@@ -76,7 +77,7 @@ impl Tradeoff {
             ];
             panel.add(Line::through(cross, stroke));
             // One marker on for each round of the colours, so that no two are alike.
-            let (marker, color) = (series_marker(index + index / SERIES.len()), series_color(index));
+            let marker = series_marker(index + index / SERIES.len());
             let points = vec![[a.value, b.value]];
             panel.add(Points { points, marker, radius_pt: 3.0, color, label: contender.clone() });
         }
