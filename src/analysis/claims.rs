@@ -44,6 +44,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     let paper = evidence.paper;
     let claims = paper.claims.iter().map(|claim| judge_claim(evidence, claim));
     let hash = claims_hash(paper);
+    let (together, together_sets) = together(evidence)?;
     let changed = evidence.runs().filter(|run| run.manifest.claims != hash);
     Ok(Verdicts {
         paper: paper.id.clone(),
@@ -52,7 +53,8 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         reading: evidence.point.choices().clone(),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
         claims: claims.collect::<Result<_, _>>()?,
-        together: together(evidence)?,
+        together,
+        together_sets,
     })
 }
 
@@ -87,6 +89,9 @@ fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, Setting
         let check = "none".to_owned();
         findings.push(Finding { check, verdict: Some(Verdict::Untestable), because, ..Finding::default() });
     }
+    let verdict = combine(&findings);
+    let deciding = findings.iter().find(|finding| finding.verdict == Some(verdict));
+    let reading = deciding.and_then(|finding| finding.reading.clone());
     Ok(Judged {
         claim: claim.id.clone(),
         at: claim.at.clone(),
@@ -94,8 +99,8 @@ fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, Setting
         quote: claim.quote.clone(),
         printed: claim.printed.clone(),
         unit: claim.unit.clone(),
-        verdict: combine(&findings),
-        reading: evidence.point.name().to_owned(),
+        verdict,
+        reading: reading.unwrap_or_else(|| evidence.point.name().to_owned()),
         findings,
     })
 }

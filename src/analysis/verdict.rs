@@ -91,6 +91,8 @@ pub struct Finding {
     pub ours: Option<Estimate>,
     /// The trial that shows it, as `--trial` takes it.
     pub trial: Option<String>,
+    /// The reading it was found under, if that is not the one that the claim is judged under.
+    pub reading: Option<String>,
     /// The computation, step by step, and what was found.
     pub because: Vec<String>,
     /// What the computation takes for granted.
@@ -165,6 +167,8 @@ pub struct Verdicts {
     pub reading: BTreeMap<String, String>,
     /// Studies whose claims changed after their run: a margin may have moved after seeing the data.
     pub claims_changed_since: Vec<String>,
+    /// How many sets of claims hold jointly, of which `together` lists the first.
+    pub together_sets: usize,
     /// Every claim.
     #[serde(default, rename = "claim")]
     pub claims: Vec<Judged>,

@@ -52,7 +52,7 @@ pub fn outputs(
         }
     }
     for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
-        let text = tables::table(paper, table, verdicts)?;
+        let text = tables::table(evidence, table, verdicts)?;
         outputs.push(Output { name: format!("{}.tex", table.id), bytes: text.into_bytes() });
     }
     let quick = evidence.runs().any(|run| run.manifest.quick);
@@ -97,7 +97,11 @@ fn figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, R
         Output { name: format!("{id}.svg"), bytes: drawn.svg.into_bytes() },
         Output { name: format!("{id}.png"), bytes: drawn.png },
     ];
-    if let Some(table) = kind.table(scene, &format!("{}:{id}", paper.id), &spec.caption)? {
+    if let Some(table) = kind.table(
+        scene,
+        &format!("{}:{id}", paper.id),
+        spec.table_caption.as_ref().unwrap_or(&spec.caption),
+    )? {
         let text = table.latex(&tables::made(paper, id, scene.verdicts))?;
         outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
     }

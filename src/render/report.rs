@@ -149,8 +149,10 @@ fn together(text: &mut String, verdicts: &Verdicts) {
     line!(text, "\n### What holds together\n");
     line!(
         text,
-        "Claims met exactly under one reading by one choice of contenders, each environment on the map of ours that serves \
-         it best; sets within no other, the largest first.\n"
+        "Claims met exactly under one reading by one choice of contenders, each environment on one map of ours. Every such \
+         choice of maps was looked at; of the {} sets that lie within no other, the {} largest are listed.\n",
+        verdicts.together_sets,
+        verdicts.together.len()
     );
     line!(text, "| reading | study and maps | contenders | hold | fail |");
     line!(text, "|---|---|---|---|---|");

@@ -4,8 +4,10 @@
 
 pub mod results;
 mod rules;
+mod tables;
 
 use self::results::ResultsSpec;
+pub use self::tables::{OursSpec, TableRow, TableSpec};
 use super::{Inputs, Reading, Study, StudyError};
 use crate::settings::{Document, Settings, SettingsError};
 use serde::Deserialize;
@@ -123,39 +125,10 @@ pub struct Claim {
     pub unit: Option<String>,
     /// How the number's digits end, where the claim says so; otherwise the reading decides.
     pub digits: Option<Digits>,
-    /// What the paper leaves out, if that makes it untestable.
+    /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
     pub untestable: Option<String>,
     /// How it is judged: checks by name.
     pub checks: BTreeMap<String, Settings>,
-}
-
-/// One of the paper's tables, to be set beside ours.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TableSpec {
-    /// Its file name.
-    pub id: String,
-    /// What it shows.
-    pub caption: String,
-    /// The heads of its columns.
-    pub columns: Vec<String>,
-    /// Its rows.
-    #[serde(rename = "row")]
-    pub rows: Vec<TableRow>,
-}
-
-/// A row of a table.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TableRow {
-    /// Its head.
-    pub label: String,
-    /// The claim in each column.
-    #[serde(default)]
-    pub claims: Vec<Spanned<String>>,
-    /// What stands in each column where the table holds no claims.
-    #[serde(default)]
-    pub cells: Vec<String>,
 }
 
 /// A checked paper with its studies.
@@ -280,9 +253,8 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         );
         return Err(document.error(printed.span(), message));
     }
-    if spec.check.is_empty() == spec.untestable.is_none() {
-        let message =
-            format!("claim `{id}` needs checks, or `untestable` with what the paper leaves out, not both");
+    if spec.check.is_empty() && spec.untestable.is_none() {
+        let message = format!("claim `{id}` needs checks, or `untestable` with what the paper leaves out");
         return Err(document.error(spec.id.span(), message));
     }
     let checks = spec.check.iter().map(|(name, table)| (name.clone(), Settings::written(document, table)));

@@ -3,6 +3,7 @@
 use super::{Check, Entry};
 use crate::analysis::audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
 use crate::analysis::audit::printed::{Digits, Printed};
+use crate::analysis::audit::with_an_end_moved;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use serde::Deserialize;
@@ -22,12 +23,33 @@ pub static ENTRY: Entry = Entry {
 struct Settings {
     start: [i32; 2],
     goal: [i32; 2],
+    /// Columns and rows, if the ends' neighbours are to be tried as well.
+    size: Option<[i32; 2]>,
 }
 
 struct LatticeLength {
     settings: Settings,
     printed: Printed,
     digits: Digits,
+}
+
+impl LatticeLength {
+    /// Whether a path has the length where one end is moved to a neighbour.
+    fn moved(&self) -> Option<String> {
+        let Settings { start, goal, size } = self.settings;
+        let rescues = |ends: &[[i32; 2]; 2]| {
+            let displacement = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
+            !lengths_printing(self.printed, self.digits, Step::ONE, Some(displacement)).is_empty()
+        };
+        Some(match with_an_end_moved([start, goal], size?).into_iter().find(rescues) {
+            Some([from, to]) => format!(
+                "from {from:?} to {to:?}, one end moved to a neighbour, there is one, so the proof rests on the printed ends"
+            ),
+            None => {
+                "nor is there one with the start or the goal moved to any of its eight neighbours".to_owned()
+            }
+        })
+    }
 }
 
 impl Check for LatticeLength {
@@ -50,6 +72,7 @@ impl Check for LatticeLength {
             let (below, above) = nearest_lengths(self.printed, displacement);
             let near: Vec<String> = [below, above].into_iter().flatten().map(spelled).collect();
             because.push(format!("the nearest lengths there are: {}", near.join(" and ")));
+            because.extend(self.moved());
         }
         Finding {
             check: ENTRY.name.to_owned(),

@@ -12,6 +12,7 @@ mod compare;
 mod count_bound;
 mod fails_where;
 mod finds_whenever;
+mod how_often;
 mod joint_length_turn;
 mod largest_saving;
 mod lattice_length;
@@ -21,14 +22,17 @@ mod oracle;
 mod ordering;
 mod percentage;
 mod point_distance;
+mod refused_by_option;
 mod row_among_draws;
 mod saving_per_draw;
 mod share_above;
+mod share_beyond;
 mod sight_bound;
 mod straight_line;
 mod table_cell;
 mod table_row;
 mod text_contradiction;
+mod turn_needs_length;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
@@ -78,6 +82,7 @@ pub static REGISTRY: &[&Entry] = &[
     &count_bound::ENTRY,
     &fails_where::ENTRY,
     &finds_whenever::ENTRY,
+    &how_often::ENTRY,
     &joint_length_turn::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
@@ -87,14 +92,17 @@ pub static REGISTRY: &[&Entry] = &[
     &ordering::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
+    &refused_by_option::ENTRY,
     &row_among_draws::ENTRY,
     &saving_per_draw::ENTRY,
     &share_above::ENTRY,
+    &share_beyond::ENTRY,
     &sight_bound::ENTRY,
     &straight_line::ENTRY,
     &table_cell::ENTRY,
     &table_row::ENTRY,
     &text_contradiction::ENTRY,
+    &turn_needs_length::ENTRY,
 ];
 
 /// The entry called `name`.
@@ -106,7 +114,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 mod tests;
 
 pub use across_readings::Outcome;
-pub use attained::problems as attained_problems;
+pub use attained::{Outcome as Attainment, problems as attained_problems};
 pub use row_among_draws::Draws;
 
 /// The draws that the claim called `id` is ranked among, as its check `row_among_draws` says.

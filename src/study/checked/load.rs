@@ -236,7 +236,13 @@ fn contender(document: &Arc<Document>, spec: &ContenderSpec) -> Result<Contender
     for StageSpec { stage: name, settings } in &spec.then {
         stages.push(stage(document, label, name, settings.as_ref(), false)?);
     }
-    Ok(Contender { label: label.clone(), repeats, is_numbered: repeats > 1, stages })
+    Ok(Contender {
+        label: label.clone(),
+        repeats,
+        is_numbered: repeats > 1,
+        stages,
+        departs: spec.departs.clone(),
+    })
 }
 
 fn stage(
