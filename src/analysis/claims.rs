@@ -58,7 +58,8 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     })
 }
 
-fn checks<'a>(
+/// The checks of a claim, built.
+pub(super) fn checks<'a>(
     paper: &'a Paper,
     point: &'a Point,
     claim: &'a Claim,
@@ -79,7 +80,11 @@ fn checks<'a>(
     Ok(built)
 }
 
-fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
+/// What is found about one claim under the evidence's reading.
+///
+/// # Errors
+/// Those of [`validate`].
+pub(super) fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
     let mut findings = Vec::new();
     for (_, check) in checks(evidence.paper, &evidence.point, claim)? {
         findings.push(check.judge(evidence));

@@ -5,6 +5,7 @@
 //! of its problems. Every choice of problems is looked at.
 
 use super::check::{Context, attained_problems};
+use super::claims::checks;
 use super::evidence::Evidence;
 use super::verdict::Together;
 use crate::settings::SettingsError;
@@ -38,6 +39,7 @@ pub fn together(evidence: &Evidence<'_>) -> Result<(Vec<Together>, usize), Setti
     for point in points(evidence) {
         let met = met(&evidence.under(point.clone()))?;
         sets.extend(met.iter().flat_map(|(study, met)| sets_of(study, met, point.name())));
+        sets.extend(held(&evidence.under(point))?);
     }
     let mut sets = greatest(sets);
     let count = sets.len();
@@ -73,6 +75,33 @@ fn met(view: &Evidence<'_>) -> Result<BTreeMap<String, Met>, SettingsError> {
         }
     }
     Ok(all)
+}
+
+/// One set per study that explores readings: the claims that hold there under the evidence's reading, each by the
+/// contenders and on the problems that it names.
+fn held(view: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
+    let mut studies: BTreeMap<String, BTreeMap<String, bool>> = BTreeMap::new();
+    for claim in &view.paper.claims {
+        for (_, check) in checks(view.paper, &view.point, claim)? {
+            if let Some((study, holds)) = check.holds(view) {
+                *studies.entry(study).or_default().entry(claim.id.clone()).or_insert(true) &= holds;
+            }
+        }
+    }
+    let set = |(study, claims): (String, BTreeMap<String, bool>)| {
+        let named = |wanted: bool| {
+            claims.iter().filter(|(_, holds)| **holds == wanted).map(|(id, _)| id.clone()).collect()
+        };
+        Together {
+            study,
+            problem: "those that each claim names".to_owned(),
+            reading: view.point.name().to_owned(),
+            under: "those that each claim names".to_owned(),
+            hold: named(true),
+            fail: named(false),
+        }
+    };
+    Ok(studies.into_iter().map(set).collect())
 }
 
 /// The sets of every contender that is an alternative for another; contenders without alternative belong to all.

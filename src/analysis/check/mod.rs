@@ -16,23 +16,29 @@ mod how_often;
 mod joint_length_turn;
 mod largest_saving;
 mod lattice_length;
+mod listed_points;
 mod lower_by_draw;
 mod lowest_median;
+mod octagon_nodes;
 mod oracle;
 mod ordering;
+mod over_claims;
 mod percentage;
 mod point_distance;
+mod printed_ratio;
+mod reach_ring;
 mod refused_by_option;
 mod row_among_draws;
 mod saving_per_draw;
 mod share_above;
 mod share_beyond;
+mod share_of_paths;
 mod sight_bound;
 mod straight_line;
 mod table_cell;
 mod table_row;
-mod text_contradiction;
 mod turn_needs_length;
+mod varies;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
@@ -46,6 +52,32 @@ use crate::study::{Point, Study};
 pub trait Check {
     /// What it finds in the stored runs.
     fn judge(&self, evidence: &Evidence<'_>) -> Finding;
+
+    /// Whether what it asks holds under the evidence's reading in the study that explores readings for it, and that
+    /// study's name; `None` if it explores none or was not run under this one.
+    fn holds(&self, _evidence: &Evidence<'_>) -> Option<(String, bool)> {
+        None
+    }
+}
+
+/// Under how many of the readings that `study` explores what `check` asks holds.
+fn explored_share(check: &dyn Check, study: Option<&Study>, evidence: &Evidence<'_>) -> Option<String> {
+    let study = study?;
+    let points = study.explored().ok()?;
+    let held =
+        points.iter().filter_map(|point| Some((point, check.holds(&evidence.under(point.clone()))?.1)));
+    let (yes, no): (Vec<_>, Vec<_>) = held.partition(|(_, holds)| *holds);
+    let all = yes.len() + no.len();
+    let single = |of: &[(&Point, bool)]| {
+        let names = of.iter().map(|(point, _)| point.name()).filter(|name| !name.contains(','));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let (few, verb) = if yes.len() * 2 > all { (&no, "not under") } else { (&yes, "under") };
+    let named = single(few);
+    let tail =
+        if named.is_empty() { String::new() } else { format!("; of the single options {verb} {named}") };
+    (all > 0)
+        .then(|| format!("it holds under {} of {all} readings explored in {}{tail}", yes.len(), study.name))
 }
 
 /// What a check is built from.
@@ -86,23 +118,29 @@ pub static REGISTRY: &[&Entry] = &[
     &joint_length_turn::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
+    &listed_points::ENTRY,
     &lower_by_draw::ENTRY,
     &lowest_median::ENTRY,
+    &octagon_nodes::ENTRY,
     &oracle::ENTRY,
     &ordering::ENTRY,
+    &over_claims::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
+    &printed_ratio::ENTRY,
+    &reach_ring::ENTRY,
     &refused_by_option::ENTRY,
     &row_among_draws::ENTRY,
     &saving_per_draw::ENTRY,
     &share_above::ENTRY,
     &share_beyond::ENTRY,
+    &share_of_paths::ENTRY,
     &sight_bound::ENTRY,
     &straight_line::ENTRY,
     &table_cell::ENTRY,
     &table_row::ENTRY,
-    &text_contradiction::ENTRY,
     &turn_needs_length::ENTRY,
+    &varies::ENTRY,
 ];
 
 /// The entry called `name`.

@@ -33,6 +33,12 @@ pub(super) fn printed(settings: &Settings, paper: &Paper, id: &str) -> Result<f6
     number.ok_or_else(|| settings.error(format!("there is no claim `{id}` with a printed number")))
 }
 
+/// The place of the contender called `label` in its study, which gives it the same colour in every figure.
+pub(super) fn place(scene: &Scene<'_>, label: &str) -> usize {
+    let contenders = &scene.run.study.contenders;
+    contenders.iter().position(|contender| contender.label == label).unwrap_or(contenders.len())
+}
+
 /// The name of the query that a trial answers: the last part of its problem's name.
 pub(super) fn query(row: &Row) -> &str {
     row.problem.rsplit('/').next().unwrap_or_default()
