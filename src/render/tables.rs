@@ -105,10 +105,10 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
             numbers.add(&key("printed"), printed)?;
         }
         if let Some(ours) = judged.ours() {
-            numbers.add(&key("ours"), &plain(ours.value))?;
+            numbers.add(&key("ours"), &number(ours.value))?;
             if let Some([low, high]) = ours.interval {
-                numbers.add(&key("low"), &plain(low))?;
-                numbers.add(&key("high"), &plain(high))?;
+                numbers.add(&key("low"), &number(low))?;
+                numbers.add(&key("high"), &number(high))?;
             }
             numbers.add(&key("n"), &ours.n.to_string())?;
         }
@@ -126,13 +126,6 @@ fn dash() -> String {
     "–".to_owned()
 }
 
-/// A number with four decimals at most.
-fn plain(value: f64) -> String {
-    let text = format!("{value:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
-    if text == "-0" { "0".to_owned() } else { text }
-}
-
 /// Our number as tables show it: four decimals at most, two with its interval.
 pub fn short(estimate: &Estimate) -> String {
     match estimate.interval {
@@ -140,7 +133,7 @@ pub fn short(estimate: &Estimate) -> String {
             let coarse = |value: f64| format!("{value:.2}");
             format!("{} [{}, {}]", coarse(estimate.value), coarse(low), coarse(high))
         }
-        None => plain(estimate.value),
+        None => number(estimate.value),
     }
 }
 
