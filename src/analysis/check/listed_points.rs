@@ -118,6 +118,8 @@ mod tests {
     fn dashes_are_no_points_and_half_a_point_is_refused() {
         let row = |cells: &[&str]| TableRow {
             label: "r".to_owned(),
+            contender: None,
+            reduced_from: None,
             claims: Vec::new(),
             cells: cells.iter().map(|cell| (*cell).to_owned()).collect(),
         };

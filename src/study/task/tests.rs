@@ -1,3 +1,4 @@
+use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use crate::study::session::{Options, run};
 use crate::study::{Inputs, runner::Unwatched};
@@ -51,8 +52,9 @@ fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
     let paper = Paper::load(&folder.join("p"), &inputs).unwrap();
     let points = paper.studies[0].trial_points().unwrap();
     let out = folder.join(threads.to_string());
+    let lock = Lock::take(&out).unwrap();
     let options = Options {
-        folder: &out,
+        lock: &lock,
         points: &points,
         inputs: &inputs,
         command: String::new(),
