@@ -110,6 +110,12 @@ fn heading(text: &mut String, paper: &Paper, verdicts: &Verdicts) {
     for note in &paper.source.notes {
         line!(text, "\n> {note}");
     }
+    if !paper.source.findings.is_empty() {
+        line!(text);
+    }
+    for finding in &paper.source.findings {
+        line!(text, "- {finding}");
+    }
 }
 
 fn counts(text: &mut String, verdicts: &Verdicts) {

@@ -46,6 +46,9 @@ pub struct Source {
     /// What a reader must know about this reproduction as a whole.
     #[serde(default)]
     pub notes: Vec<String>,
+    /// What was found, in a few sentences; the chapter opens with them.
+    #[serde(default)]
+    pub findings: Vec<String>,
 }
 
 /// How many numbered things the paper has.

@@ -148,12 +148,15 @@ impl Check for Across<'_> {
         distinct.dedup();
         let mut because = vec![
             format!(
-                "{} readings were explored; {refused} are left out because the verifier refused paths under them, and {}                  because too few maps were solved",
+                "{} readings were explored; {refused} are left out because the verifier refused paths under them, and {} \
+                 because too few maps were solved",
                 points.len(),
                 points.len() - refused - outcomes.len()
             ),
             format!(
-                "under the {} others ({} with different draws of this number) the printed number lies among the central                  95 % of random maps under {}, and is met exactly on some random map under {}; on a map that was searched for                  it is met under {}",
+                "under the {} others ({} with different draws of this number) the printed number lies among the central \
+                 95 % of random maps under {}, and is met exactly on some random map under {}; on a map that was searched for \
+                 it is met under {}",
                 outcomes.len(),
                 distinct.len(),
                 count(|outcome| outcome.is_among),

@@ -8,6 +8,8 @@ use crate::study::{Inputs, Point, runner::Unwatched};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+mod counted;
+
 const HEAD: &str = "[source]\ntitle = 'a test'\n[prints]\nfigures = 0\ntables = 0\nequations = 0\n";
 
 const STUDY: &str = "

@@ -1,6 +1,7 @@
 //! How long a path must be to have a printed turn sum, and whether that leaves room under another printed length.
 
 use super::{Check, Context, Entry};
+use crate::analysis::audit::neighbourhood;
 use crate::analysis::audit::printed::Printed;
 use crate::analysis::audit::turns::{Convention, TurnQuery, shortest_polyline};
 use crate::analysis::evidence::Evidence;
@@ -55,11 +56,24 @@ impl TurnNeedsLength {
     }
 
     /// The least length with a turn sum in `turn_deg`.
-    fn least(&self, convention: Convention, turn_deg: Interval) -> Option<f64> {
+    fn least(&self, convention: Convention, turn_deg: Interval, near: [bool; 2]) -> Option<f64> {
         let Settings { size, start, goal, longest, .. } = self.settings;
+        let ends = |cell, near| if near { neighbourhood(cell, size) } else { vec![cell] };
+        let (starts, goals) = (ends(start, near[0]), ends(goal, near[1]));
         let length = Interval::new(0.0, longest);
-        let query = TurnQuery { size, starts: vec![start], goals: vec![goal], convention, turn_deg, length };
+        let query = TurnQuery { size, starts, goals, convention, turn_deg, length };
         shortest_polyline(&query).map(|found| found.length)
+    }
+
+    /// What is left of the proof where one end is moved to a neighbour.
+    fn moved(&self, convention: Convention) -> String {
+        let found = [[true, false], [false, true]].map(|near| self.least(convention, self.turn.1, near));
+        let least = found.into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let rests = if least > self.against.1.high { "does not rest" } else { "rests" };
+        format!(
+            "with the start or the goal moved to one of its eight neighbours such a path is at least {least:.4} cells long, \
+             so the proof {rests} on the printed ends"
+        )
     }
 
     /// Whether the path is longer than the printed length can stand for, and how that was found.
@@ -67,7 +81,7 @@ impl TurnNeedsLength {
         let Self { turn: (turn, window), against: (beside, length), .. } = self;
         let name = if convention == Convention::Exterior { "exterior" } else { "interior" };
         let more = Interval { high: f64::INFINITY, ..*window };
-        let least = [*window, more].map(|window| self.least(convention, window));
+        let least = [*window, more].map(|window| self.least(convention, window, [false, false]));
         let said = |least: Option<f64>| match least {
             Some(least) => {
                 let change = 100.0 * (least / beside.value() - 1.0);
@@ -89,6 +103,13 @@ impl Check for TurnNeedsLength {
         let exterior = self.under(Convention::Exterior, &mut because);
         let interior = self.under(Convention::Interior, &mut because);
         let is_longer = if self.is_exterior { exterior } else { interior };
+        if self.settings.shorter && is_longer {
+            because.push(self.moved(if self.is_exterior {
+                Convention::Exterior
+            } else {
+                Convention::Interior
+            }));
+        }
         let Settings { start, goal, shorter, .. } = self.settings;
         Finding {
             check: ENTRY.name.to_owned(),
