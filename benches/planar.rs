@@ -165,7 +165,7 @@ fn analysis(criterion: &mut Criterion) {
         toml::from_str("label = 'circles'\nshape = 'circle'\ndiameter_cm = 10").expect("it is TOML");
     group.sample_size(10).measurement_time(Duration::from_secs(20));
     group.bench_function("identify", |b| {
-        b.iter(|| pool.install(|| identified(&variant, &base, black_box(&cases))))
+        b.iter(|| pool.install(|| identified(&variant, &base, black_box(&cases))));
     });
     group.finish();
 }

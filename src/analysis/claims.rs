@@ -80,11 +80,18 @@ pub(super) fn checks<'a>(
     Ok(built)
 }
 
-/// What is found about one claim under the evidence's reading.
+/// The verdict on one claim under the evidence's reading, without the reasons.
 ///
 /// # Errors
 /// Those of [`validate`].
-pub(super) fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
+pub(super) fn verdict_on(evidence: &Evidence<'_>, claim: &Claim) -> Result<Verdict, SettingsError> {
+    let checks = checks(evidence.paper, &evidence.point, claim)?;
+    let untestable = claim.untestable.as_ref().map(|_| Verdict::Untestable);
+    let found = checks.iter().filter_map(|(_, check)| check.verdict(evidence)).chain(untestable);
+    Ok(found.max().unwrap_or(Verdict::Undecided))
+}
+
+fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
     let mut findings = Vec::new();
     for (_, check) in checks(evidence.paper, &evidence.point, claim)? {
         findings.push(check.judge(evidence));

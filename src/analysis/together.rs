@@ -9,6 +9,7 @@ use super::claims::checks;
 use super::evidence::Evidence;
 use super::verdict::Together;
 use crate::settings::SettingsError;
+use crate::study::paper::Claim;
 use crate::study::{Point, StudyError};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -81,7 +82,8 @@ fn met(view: &Evidence<'_>) -> Result<BTreeMap<String, Met>, SettingsError> {
 /// contenders and on the problems that it names.
 fn held(view: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
     let mut studies: BTreeMap<String, BTreeMap<String, bool>> = BTreeMap::new();
-    for claim in &view.paper.claims {
+    let explores = |claim: &&Claim| claim.checks.values().any(|of| of.table().contains_key("explored"));
+    for claim in view.paper.claims.iter().filter(explores) {
         for (_, check) in checks(view.paper, &view.point, claim)? {
             if let Some((study, holds)) = check.holds(view) {
                 *studies.entry(study).or_default().entry(claim.id.clone()).or_insert(true) &= holds;

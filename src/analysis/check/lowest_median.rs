@@ -16,6 +16,7 @@ use crate::settings::SettingsError;
 use crate::study::Study;
 use crate::study::record::{Row, Status};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -53,6 +54,13 @@ struct LowestMedian<'a> {
     seed: u64,
 }
 
+/// One contender on one problem.
+struct Side {
+    values: Vec<f64>,
+    median: f64,
+    interval: [f64; 2],
+}
+
 /// One comparison: the median over the other's, its interval from the ends of both.
 struct Compared {
     name: String,
@@ -85,8 +93,8 @@ impl<'a> LowestMedian<'a> {
         let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);
         let mut inclusions = Vec::new();
         for (low, high) in pairs(&settings) {
-            let said = Inclusion::of(study, context.point, low, high)?;
-            inclusions.push(if settings.by_inclusion { said } else { Inclusion::Open });
+            let said = settings.by_inclusion.then(|| Inclusion::of(study, context.point, low, high));
+            inclusions.push(said.transpose()?.unwrap_or(Inclusion::Open));
         }
         Ok(Self { settings, study, explored, metric, inclusions, seed })
     }
@@ -116,11 +124,46 @@ impl<'a> LowestMedian<'a> {
         run.rows(problem, contender).iter().flat_map(|row| run.repeats(row, self.metric)).collect()
     }
 
-    fn compare(&self, run: &Run<'_>, problem: &str, index: usize) -> Option<Compared> {
+    /// Every contender on `problem`, so that each bootstrap is made once.
+    fn sides(&self, run: &Run<'_>, problem: &str) -> BTreeMap<&str, Side> {
+        let all = self.settings.lower.iter().chain(&self.settings.higher);
+        let side = |contender: &String| {
+            let values = self.values(run, problem, contender);
+            let median = median(&values)?;
+            Some(Side { interval: self.interval(&self.units(run, problem, contender)), values, median })
+        };
+        all.filter_map(|contender| Some((contender.as_str(), side(contender)?))).collect()
+    }
+
+    /// Every comparison that both sides were measured for.
+    fn compared(&self, run: &Run<'_>) -> Vec<Compared> {
+        let mut all = Vec::new();
+        for problem in &self.settings.problems {
+            let sides = self.sides(run, problem);
+            let count = 0..self.inclusions.len();
+            all.extend(count.filter_map(|index| self.compare(&sides, problem, index)));
+        }
+        all
+    }
+
+    fn expected(&self) -> usize {
+        self.settings.problems.len() * self.inclusions.len()
+    }
+
+    fn decided(&self, all: &[Compared]) -> Verdict {
+        match verdict(all, self.limit()) {
+            _ if all.len() < self.expected() => Verdict::Undecided,
+            Verdict::Reproduced if self.study.searched => Verdict::Attainable,
+            other => other,
+        }
+    }
+
+    fn compare(&self, sides: &BTreeMap<&str, Side>, problem: &str, index: usize) -> Option<Compared> {
         let (lower, higher) = pairs(&self.settings).nth(index)?;
-        let (low, high) = (self.values(run, problem, lower), self.values(run, problem, higher));
-        let medians = [median(&low)?, median(&high)?];
-        let [from, to] = [lower, higher].map(|contender| self.interval(&self.units(run, problem, contender)));
+        let (one, other) = (sides.get(lower.as_str())?, sides.get(higher.as_str())?);
+        let (low, high) = (&one.values, &other.values);
+        let medians = [one.median, other.median];
+        let [from, to] = [one.interval, other.interval];
         let inclusion = self.inclusions[index];
         Some(Compared {
             name: format!("{lower} against {higher}, {problem}"),
@@ -130,13 +173,13 @@ impl<'a> LowestMedian<'a> {
             ends: [ratio(from[0], to[1]), ratio(from[1], to[0])],
             n: low.len().max(high.len()),
             inclusion,
-            keeps: inclusion.is_kept(&low, &high),
+            keeps: inclusion.is_kept(low, high),
         })
     }
 
     /// Bootstrap interval of the median over seeds; the value itself where there is one.
     fn interval(&self, values: &[f64]) -> [f64; 2] {
-        let plan = Plan { resamples: 1000, level: 0.95, seed: self.seed };
+        let plan = Plan { resamples: 500, level: 0.95, seed: self.seed };
         let of = |picks: &[&f64]| median(&picks.iter().map(|value| **value).collect::<Vec<_>>());
         match bootstrap::percentile(values, of, plan) {
             Some(found) => [found.interval.low, found.interval.high],
@@ -144,10 +187,10 @@ impl<'a> LowestMedian<'a> {
         }
     }
 
-    fn because(&self, all: &[Compared], expected: usize) -> Vec<String> {
+    fn because(&self, all: &[Compared]) -> Vec<String> {
         let label = self.metric.label.to_lowercase();
         let met = all.iter().filter(|one| one.ratio < self.limit()).count();
-        let percent = self.settings.by_percent;
+        let (percent, expected) = (self.settings.by_percent, self.expected());
         let mut because = vec![format!(
             "in {met} of {expected} comparisons the median {label} is less{}",
             if percent > 0.0 { format!(" by more than {percent} %") } else { String::new() }
@@ -227,31 +270,21 @@ fn needed(one: &Compared, limit: f64) -> Option<String> {
 impl Check for LowestMedian<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
-        let Settings { study, problems, .. } = &self.settings;
-        let Some(run) = evidence.run(study) else { return finding };
-        let all: Vec<Compared> = problems
-            .iter()
-            .flat_map(|problem| (0..self.inclusions.len()).map(move |index| (problem, index)))
-            .filter_map(|(problem, index)| self.compare(run, problem, index))
-            .collect();
-        let expected = problems.len() * self.inclusions.len();
-        let verdict = match verdict(&all, self.limit()) {
-            _ if all.len() < expected => Verdict::Undecided,
-            Verdict::Reproduced if self.study.searched => Verdict::Attainable,
-            other => other,
-        };
+        let Some(run) = evidence.run(&self.settings.study) else { return finding };
+        let all = self.compared(run);
+        let verdict = self.decided(&all);
         finding.verdict = Some(verdict);
-        finding.because = self.because(&all, expected);
+        finding.because = self.because(&all);
         if verdict == Verdict::Undecided {
             finding.because.extend(all.iter().filter_map(|one| needed(one, self.limit())));
         }
         finding.because.extend(super::explored_share(self, self.explored, evidence));
         let largest = all.iter().max_by(|a, b| a.ratio.total_cmp(&b.ratio));
         finding.ours = largest.map(|one| Estimate {
-            value: one.ratio,
-            interval: one.ends.iter().all(|end| end.is_finite()).then_some(one.ends),
+            value: 100.0 * one.ratio,
+            interval: one.ends.iter().all(|end| end.is_finite()).then_some(one.ends.map(|end| 100.0 * end)),
             what: format!(
-                "times the median {}, the largest of {} ratios: {}",
+                "% of the other's median {}, the largest of {}: {}",
                 self.metric.label.to_lowercase(),
                 all.len(),
                 one.name
@@ -264,14 +297,20 @@ impl Check for LowestMedian<'_> {
     fn holds(&self, evidence: &Evidence<'_>) -> Option<(String, bool)> {
         let study = self.explored?;
         let run = evidence.run(&study.name)?;
-        let medians = |problem, contender| median(&self.values(run, problem, contender));
         let mut all = true;
         for problem in &self.settings.problems {
-            for (low, high) in pairs(&self.settings) {
-                all &= ratio(medians(problem, low)?, medians(problem, high)?) < self.limit();
-            }
+            let medians = |contenders: &[String]| -> Option<Vec<f64>> {
+                contenders.iter().map(|contender| median(&self.values(run, problem, contender))).collect()
+            };
+            let (low, high) = (medians(&self.settings.lower)?, medians(&self.settings.higher)?);
+            all &= low.iter().all(|low| high.iter().all(|high| ratio(*low, *high) < self.limit()));
         }
         Some((study.name.clone(), all))
+    }
+
+    fn verdict(&self, evidence: &Evidence<'_>) -> Option<Verdict> {
+        let run = evidence.run(&self.settings.study)?;
+        Some(self.decided(&self.compared(run)))
     }
 }
 

@@ -43,7 +43,7 @@ mod varies;
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
 use super::metric::Metric;
-use super::verdict::Finding;
+use super::verdict::{Finding, Verdict};
 use crate::settings::{Settings, SettingsError};
 use crate::study::paper::{self, Claim, Paper};
 use crate::study::{Point, Study};
@@ -57,6 +57,11 @@ pub trait Check {
     /// study's name; `None` if it explores none or was not run under this one.
     fn holds(&self, _evidence: &Evidence<'_>) -> Option<(String, bool)> {
         None
+    }
+
+    /// The verdict of [`judge`](Self::judge) alone, for who does not need the reasons.
+    fn verdict(&self, evidence: &Evidence<'_>) -> Option<Verdict> {
+        self.judge(evidence).verdict
     }
 }
 

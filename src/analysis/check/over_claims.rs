@@ -1,7 +1,7 @@
 //! A sentence that is asked in several ways, each a claim of its own: whether all of them, some or none hold.
 
 use super::{Check, Entry};
-use crate::analysis::claims::judge_claim;
+use crate::analysis::claims::verdict_on;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use crate::study::paper::Claim;
@@ -36,8 +36,7 @@ struct OverClaims<'a> {
 impl Check for OverClaims<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
-        let verdict =
-            |claim: &&Claim| judge_claim(evidence, claim).map_or(Verdict::Undecided, |judged| judged.verdict);
+        let verdict = |claim: &&Claim| verdict_on(evidence, claim).unwrap_or(Verdict::Undecided);
         let verdicts: Vec<Verdict> = self.claims.iter().map(verdict).collect();
         for verdict in Verdict::ALL {
             let with = self.claims.iter().zip(&verdicts).filter(|(_, found)| **found == verdict);
