@@ -83,21 +83,18 @@ impl Check for LatticeLength {
             check: ENTRY.name.to_owned(),
             verdict: (!is_possible).then_some(Verdict::Impossible),
             because,
-            premises: vec![
-                match ends {
-                    Some((start, goal)) => {
-                        format!(
-                            "the path goes from cell {start:?} to cell {goal:?} by moves to one of eight neighbours"
-                        )
-                    }
-                    None => {
-                        "the path goes by moves to one of eight neighbours, from and to any cells".to_owned()
-                    }
-                },
-                "a straight move costs 1 and a diagonal one √2".to_owned(),
-            ],
+            premises: vec![joined(ends), "a straight move costs 1 and a diagonal one √2".to_owned()],
             ..Finding::default()
         }
+    }
+}
+
+fn joined(ends: Option<([i32; 2], [i32; 2])>) -> String {
+    match ends {
+        Some((start, goal)) => {
+            format!("the path goes from cell {start:?} to cell {goal:?} by moves to one of eight neighbours")
+        }
+        None => "the path goes by moves to one of eight neighbours, from and to any cells".to_owned(),
     }
 }
 
