@@ -8,9 +8,12 @@ mod line;
 mod scene;
 #[cfg(test)]
 mod tests;
+mod time_law;
+mod way;
 
-pub use line::{EdgeEnd, LineRules, Lines, Path, Pose, Rejection, Scratch, SpeedRule};
+pub use line::{EdgeEnd, LineRules, Lines, Path, Pose, Rejection, Scratch};
 pub use scene::{Obstacle, Scene};
+pub use time_law::SpeedRule;
 
 use crate::geometry::{
     Aabb, BroadPhase, Capsule, Solid, distance_capsule_capsule, distance_segment_segment,
