@@ -94,6 +94,7 @@ fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, Setting
         printed: claim.printed.clone(),
         unit: claim.unit.clone(),
         verdict: combine(&findings),
+        theorem: claim.theorem.clone(),
         reading: evidence.point.name().to_owned(),
         findings,
     })

@@ -78,17 +78,25 @@ fn heading(text: &mut String, paper: &Paper, verdicts: &Verdicts) {
     for study in &verdicts.claims_changed_since {
         line!(text, "\n**Claims or margins changed after study `{study}` was run.**");
     }
+    for finding in &paper.source.findings {
+        line!(text, "\n{}", super::prose::prose(finding, verdicts));
+    }
     for note in &paper.source.notes {
         line!(text, "\n> {note}");
     }
 }
 
 fn counts(text: &mut String, verdicts: &Verdicts) {
+    let found: Vec<&Judged> = verdicts.claims.iter().filter(|judged| judged.theorem.is_none()).collect();
     let counted = Verdict::ALL.iter().filter_map(|verdict| {
-        let count = verdicts.claims.iter().filter(|judged| judged.verdict == *verdict).count();
+        let count = found.iter().filter(|judged| judged.verdict == *verdict).count();
         (count > 0).then(|| format!("{count} {}", verdict.name()))
     });
-    line!(text, "\n{} claims: {}.", verdicts.claims.len(), counted.collect::<Vec<_>>().join(", "));
+    line!(text, "\n{} claims: {}.", found.len(), counted.collect::<Vec<_>>().join(", "));
+    let asserted = verdicts.claims.len() - found.len();
+    if asserted > 0 {
+        line!(text, "{asserted} more must hold whatever was drawn; they are asserted and count for nothing.");
+    }
 }
 
 fn claims(text: &mut String, verdicts: &Verdicts) {
@@ -111,7 +119,7 @@ fn claims(text: &mut String, verdicts: &Verdicts) {
             "| `{}` | {} | {said} | {ours} | {n} | **{}** |",
             judged.claim,
             judged.at,
-            judged.verdict.name()
+            judged.outcome()
         );
     }
 }
@@ -148,7 +156,10 @@ fn reasons(text: &mut String, verdicts: &Verdicts) {
 const LONG: usize = 200;
 
 fn reason(text: &mut String, judged: &Judged) {
-    line!(text, "**`{}`** ({}): {}\n", judged.claim, judged.at, judged.verdict.name());
+    line!(text, "**`{}`** ({}): {}\n", judged.claim, judged.at, judged.outcome());
+    if let Some(theorem) = &judged.theorem {
+        line!(text, "- it must hold: {theorem}.");
+    }
     for finding in &judged.findings {
         if let [first, .., last] = &finding.because[..]
             && first.len() + last.len() > LONG

@@ -17,6 +17,7 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
     let mut head = vec![Cell::from(""), Cell::from("")];
     head.extend(table.columns.iter().map(Cell::from));
     latex.head(head);
+    let ours = |estimate: &Estimate| rounded(estimate, table.decimals.unwrap_or(2));
     for row in &table.rows {
         if row.claims.is_empty() {
             let cells = [row.label.as_str(), ""].into_iter().chain(row.cells.iter().map(String::as_str));
@@ -31,10 +32,10 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
             cells
         };
         latex.row(line(&row.label, "printed", &|judged| judged.printed.clone().unwrap_or_else(dash)));
-        latex.row(line("", "ours", &|judged| judged.ours().map_or_else(dash, short)));
-        latex.row(line("", "verdict", &|judged| judged.verdict.name().to_owned()));
+        latex.row(line("", "ours", &|judged| judged.ours().map_or_else(dash, ours)));
+        latex.row(line("", "verdict", &|judged| judged.outcome().to_owned()));
     }
-    for note in &paper.source.notes {
+    for note in table.notes.as_ref().unwrap_or(&paper.source.notes) {
         latex.note(note);
     }
     if verdicts.quick {
@@ -58,7 +59,7 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
             numbers.add(&key("ours"), &short(ours))?;
             numbers.add(&key("n"), &ours.n.to_string())?;
         }
-        numbers.add(&key("verdict"), judged.verdict.name())?;
+        numbers.add(&key("verdict"), judged.outcome())?;
     }
     Ok(numbers.latex(&paper.id, &made(paper, "numbers", verdicts)))
 }
@@ -74,16 +75,23 @@ fn dash() -> String {
 
 /// Our number as tables show it: four significant decimals at most, with its interval.
 pub fn short(estimate: &Estimate) -> String {
-    let number = |value: f64| {
-        let text = format!("{value:.4}");
-        let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
-        if text == "-0" { "0".to_owned() } else { text }
-    };
+    rounded(estimate, 2)
+}
+
+/// The same with so many decimals where it has an interval.
+fn rounded(estimate: &Estimate, decimals: usize) -> String {
     match estimate.interval {
         Some([low, high]) => {
-            let coarse = |value: f64| format!("{value:.2}");
+            let coarse = |value: f64| format!("{value:.decimals$}");
             format!("{} [{}, {}]", coarse(estimate.value), coarse(low), coarse(high))
         }
-        None => number(estimate.value),
+        None => plain(estimate.value),
     }
+}
+
+/// A number with four decimals at most.
+pub(super) fn plain(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    if text == "-0" { "0".to_owned() } else { text }
 }

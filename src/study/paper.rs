@@ -2,7 +2,12 @@
 //!
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
+mod findings;
 pub mod results;
+mod tables;
+
+pub use findings::filled;
+pub use tables::{TableRow, TableSpec};
 
 use self::results::ResultsSpec;
 use super::{Inputs, Reading, Study, StudyError};
@@ -28,6 +33,8 @@ struct PaperSpec {
     tables: Vec<TableSpec>,
     #[serde(default)]
     results: Vec<ResultsSpec>,
+    #[serde(default)]
+    series: BTreeMap<String, usize>,
 }
 
 /// Where the paper was published, as far as its text says.
@@ -40,6 +47,9 @@ pub struct Source {
     pub authors: Option<String>,
     /// Journal, year, pages: what the text prints.
     pub published: Option<String>,
+    /// What was found, in prose, with `{claim}` where our number beside that claim is to stand.
+    #[serde(default)]
+    pub findings: Vec<String>,
     /// What a reader must know about this reproduction as a whole.
     #[serde(default)]
     pub notes: Vec<String>,
@@ -88,6 +98,7 @@ struct ClaimSpec {
     unit: Option<String>,
     digits: Option<Digits>,
     untestable: Option<String>,
+    theorem: Option<String>,
     #[serde(default)]
     check: BTreeMap<String, Spanned<Table>>,
 }
@@ -121,37 +132,10 @@ pub struct Claim {
     pub digits: Option<Digits>,
     /// What the paper leaves out, if that makes it untestable.
     pub untestable: Option<String>,
+    /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
+    pub theorem: Option<String>,
     /// How it is judged: checks by name.
     pub checks: BTreeMap<String, Settings>,
-}
-
-/// One of the paper's tables, to be set beside ours.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TableSpec {
-    /// Its file name.
-    pub id: String,
-    /// What it shows.
-    pub caption: String,
-    /// The heads of its columns.
-    pub columns: Vec<String>,
-    /// Its rows.
-    #[serde(rename = "row")]
-    pub rows: Vec<TableRow>,
-}
-
-/// A row of a table.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TableRow {
-    /// Its head.
-    pub label: String,
-    /// The claim in each column.
-    #[serde(default)]
-    pub claims: Vec<Spanned<String>>,
-    /// What stands in each column where the table holds no claims.
-    #[serde(default)]
-    pub cells: Vec<String>,
 }
 
 /// A checked paper with its studies.
@@ -173,6 +157,8 @@ pub struct Paper {
     pub tables: Vec<TableSpec>,
     /// Tables of our own results.
     pub results: Vec<ResultsSpec>,
+    /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
+    pub series: BTreeMap<String, usize>,
     /// Its studies, in the order of their names.
     pub studies: Vec<Study>,
     /// The file it was read from.
@@ -208,6 +194,7 @@ impl Paper {
             claims: spec.claims.iter().map(|c| claim(&document, c)).collect::<Result<_, _>>()?,
             tables: spec.tables,
             results: spec.results,
+            series: spec.series,
             studies,
             document,
         };
@@ -233,10 +220,16 @@ impl Paper {
         readings
     }
 
+    /// The figures of all its studies.
+    fn figures(&self) -> impl Iterator<Item = &super::spec::FigureSpec> {
+        self.studies.iter().flat_map(|study| &study.figures)
+    }
+
     /// The names of all its tables, the paper's own and those of our results.
     pub fn table_ids(&self) -> impl Iterator<Item = &str> {
         let own = self.tables.iter().map(|table| table.id.as_str());
-        own.chain(self.results.iter().map(|table| table.id.get_ref().as_str()))
+        let behind = self.figures().filter_map(|figure| figure.table.as_deref());
+        own.chain(behind).chain(self.results.iter().map(|table| table.id.get_ref().as_str()))
     }
 
     /// The claim called `id`.
@@ -254,8 +247,7 @@ impl Paper {
         }
         let claims: BTreeSet<&str> = self.claims.iter().map(|claim| claim.id.as_str()).collect();
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
-        let drawn =
-            self.studies.iter().flat_map(|study| study.figures.iter().map(|f| f.id.get_ref().as_str()));
+        let drawn = self.figures().map(|figure| figure.id.get_ref().as_str());
         let figures: BTreeSet<&str> = drawn.chain(self.table_ids()).collect();
         for row in &self.ledger {
             self.known("claim", &row.claims, &claims)?;
@@ -274,6 +266,7 @@ impl Paper {
         for row in self.tables.iter().flat_map(|table| &table.rows) {
             self.known("claim", &row.claims, &claims)?;
         }
+        self.check_findings(&claims)?;
         self.check_tables()?;
         self.check_results()?;
         self.check_readings()?;
@@ -292,26 +285,6 @@ impl Paper {
                     reading.id
                 );
                 return Err(study.document.error(0..0, message));
-            }
-        }
-        Ok(())
-    }
-
-    fn check_tables(&self) -> Result<(), SettingsError> {
-        for table in &self.tables {
-            for row in &table.rows {
-                let (claims, cells) = (row.claims.len(), row.cells.len());
-                if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
-                    let message = format!(
-                        "row `{}` of table `{}` has {claims} claims and {cells} cells; either are accepted, one for each of \
-                         the {} columns",
-                        row.label,
-                        table.id,
-                        table.columns.len()
-                    );
-                    let span = row.claims.first().map_or(0..0, Spanned::span);
-                    return Err(self.document.error(span, message));
-                }
             }
         }
         Ok(())
@@ -389,6 +362,7 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         unit: spec.unit.clone(),
         digits: spec.digits,
         untestable: spec.untestable.clone(),
+        theorem: spec.theorem.clone(),
         checks: checks.collect(),
     })
 }

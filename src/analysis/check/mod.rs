@@ -10,6 +10,8 @@ mod attained;
 mod clock_ticks;
 mod compare;
 mod count_bound;
+mod equals_least;
+mod failure_causes;
 mod fails_where;
 mod finds_whenever;
 mod joint_length_turn;
@@ -17,18 +19,21 @@ mod largest_saving;
 mod lattice_length;
 mod lower_by_draw;
 mod lowest_median;
+mod mean_curve_above;
 mod oracle;
 mod ordering;
 mod percentage;
 mod point_distance;
 mod row_among_draws;
 mod saving_per_draw;
+mod savings_within;
 mod share_above;
 mod sight_bound;
 mod straight_line;
 mod table_cell;
 mod table_row;
 mod text_contradiction;
+mod zero_everywhere;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
@@ -76,6 +81,8 @@ pub static REGISTRY: &[&Entry] = &[
     &clock_ticks::ENTRY,
     &compare::ENTRY,
     &count_bound::ENTRY,
+    &equals_least::ENTRY,
+    &failure_causes::ENTRY,
     &fails_where::ENTRY,
     &finds_whenever::ENTRY,
     &joint_length_turn::ENTRY,
@@ -83,18 +90,21 @@ pub static REGISTRY: &[&Entry] = &[
     &lattice_length::ENTRY,
     &lower_by_draw::ENTRY,
     &lowest_median::ENTRY,
+    &mean_curve_above::ENTRY,
     &oracle::ENTRY,
     &ordering::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
     &row_among_draws::ENTRY,
     &saving_per_draw::ENTRY,
+    &savings_within::ENTRY,
     &share_above::ENTRY,
     &sight_bound::ENTRY,
     &straight_line::ENTRY,
     &table_cell::ENTRY,
     &table_row::ENTRY,
     &text_contradiction::ENTRY,
+    &zero_everywhere::ENTRY,
 ];
 
 /// The entry called `name`.

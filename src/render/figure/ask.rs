@@ -33,9 +33,11 @@ pub(super) fn printed(settings: &Settings, paper: &Paper, id: &str) -> Result<f6
     number.ok_or_else(|| settings.error(format!("there is no claim `{id}` with a printed number")))
 }
 
-/// The name of the query that a trial answers: the last part of its problem's name.
-pub(super) fn query(row: &Row) -> &str {
-    row.problem.rsplit('/').next().unwrap_or_default()
+pub(super) use crate::analysis::draws::query;
+
+/// Which series `contender` is drawn as: the paper's own for its label, or the one at its place.
+pub(super) fn series(scene: &Scene<'_>, contender: &str, place: usize) -> usize {
+    scene.evidence.paper.series.get(contender).copied().unwrap_or(place)
 }
 
 /// The exhibit `name` of a trial or a prepared object.
