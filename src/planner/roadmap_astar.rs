@@ -208,3 +208,6 @@ fn places(name: &str, map: &Roadmap, nodes: &[u32]) -> Exhibit {
     let values = nodes.iter().flat_map(|node| map.place_mm(*node)).collect();
     Exhibit { name: name.to_owned(), width: 3, values }
 }
+
+#[cfg(test)]
+mod tests;

@@ -70,12 +70,12 @@ impl CellPaths {
         solids.overlay(points.clone(), Stroke::solid(color, 0.7).dashed(Dash::Dotted));
         solids.polyline(points, Stroke::solid(color, 1.8));
         let number = |column: &str| row.value(column).unwrap_or(f64::NAN);
-        let letter = ["a", "b", "c", "d"].get(index).unwrap_or(&"");
-        let title = format!(
-            "({letter}) {contender}: {:.0} mm, {} local paths; {seen}",
-            number("path_length_mm"),
-            number("local_paths")
-        );
+        let title = if view == 0 {
+            let [length, legs] = ["path_length_mm", "local_paths"].map(number);
+            format!("{contender}: {length:.0} mm, {legs} local paths")
+        } else {
+            format!("the same {seen}")
+        };
         panel(&title, solids, camera, Vec::new())
     }
 }

@@ -4,8 +4,7 @@
 //! inverse kinematics. At each step the configuration of the smallest change is taken; it is sought on the branch in hand, and
 //! on all only where another could be nearer. A path is refused for a change of branch, a pose out of reach or limits, a
 //! jump of a joint, a joint too fast under the tool's time law, an end in another configuration than the one asked
-//! for, or a contact. Limits and jumps are judged at the steps; between two of them a joint may pass a limit by what it
-//! bends there, hundredths of a degree, which a finer verifier sees.
+//! for, or a contact. Jumps are judged at the steps; limits too and, where a joint is near one, at every quarter of a step.
 //!
 //! **What can slip through.** Every checked configuration is checked with each part thickened by 0.51 of the longest
 //! way that an end of its axis goes to the next checked ones. A contact between two that are clear is
@@ -220,6 +219,7 @@ impl Lines {
                     return Err(Rejection::Speed);
                 }
             }
+            self.keeps_limits_between([&last, &q], from.branch, |part| way.at(share - (1.0 - part) / steps))?;
             states.push(q);
             last = q;
         }

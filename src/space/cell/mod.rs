@@ -4,6 +4,7 @@
 //! contact. Parts that the robot's file marks as self-only are not checked against the scene: base and turret
 //! stand on the floor.
 
+mod limits;
 mod line;
 mod scene;
 #[cfg(test)]
