@@ -33,7 +33,12 @@ pub fn posed(run: &Run<'_>, group: &str) -> [usize; 2] {
 
 /// By how many points the share that `contender` solves of a group's queries differs from that of the same queries of
 /// another group, draw by draw; queries that cannot be posed in either are left out of both.
-pub fn differences_percent(run: &Run<'_>, [base, other]: [&str; 2], contender: &str, sweep: &str) -> Vec<f64> {
+pub fn differences_percent(
+    run: &Run<'_>,
+    [base, other]: [&str; 2],
+    contender: &str,
+    sweep: &str,
+) -> Vec<f64> {
     let status = |group: &str| -> BTreeMap<(u32, String), Status> {
         let rows = run.rows(group, contender).into_iter().filter(|row| row.sweep == sweep);
         rows.map(|row| ((row.replicate, query(row).to_owned()), row.status)).collect()

@@ -104,7 +104,10 @@ pub static EXHIBITS: &[(&str, &[&str])] = &[
     ("pose", POSE),
     (
         "trajectory",
-        &["time_s", "q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg", "tip_x_mm", "tip_y_mm", "tip_z_mm"],
+        &[
+            "time_s", "q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg", "tip_x_mm", "tip_y_mm",
+            "tip_z_mm",
+        ],
     ),
 ];
 

@@ -59,7 +59,8 @@ impl Check for EqualsLeast {
         let Settings { study, problems, contender, least, .. } = &self.settings;
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let Some(run) = evidence.run(study) else { return finding };
-        let compared = Compared { group: problems, contenders: [least, contender], query: None, whole: false };
+        let compared =
+            Compared { group: problems, contenders: [least, contender], query: None, whole: false };
         let draws = compared.values(run, self.metric);
         let pairs: Vec<&(f64, f64)> = draws.iter().flatten().collect();
         let attained = pairs.iter().filter(|pair| is_least(pair)).count();

@@ -55,10 +55,7 @@ impl Check for LowerByDraw {
         let (contenders, query) = ([higher.as_str(), lower.as_str()], query.as_deref());
         let compared = Compared { group: problems, contenders, query, whole: false };
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
-        let draws = evidence
-            .run(study)
-            .map(|run| compared.values(run, self.metric))
-            .unwrap_or_default();
+        let draws = evidence.run(study).map(|run| compared.values(run, self.metric)).unwrap_or_default();
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = percentile(&draws, change_percent, plan) else {
             finding.verdict = Some(Verdict::Undecided);

@@ -73,7 +73,8 @@ impl Check for MeanCurveAbove<'_> {
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by(|a, b| found.mean[*a].total_cmp(&found.mean[*b]));
         let [least, most] = [order[0], order[order.len() - 1]];
-        let what = format!("least mean difference in points, at {}, simultaneous 95 % band", points[least].name);
+        let what =
+            format!("least mean difference in points, at {}, simultaneous 95 % band", points[least].name);
         finding.ours = Some(Estimate::new(found.mean[least], found.band[least], what, draws));
         finding.because.push(format!(
             "{contender} less {against} on {problems}: the mean share of solved queries differs by {:.1} points (band {:.1} to {:.1}) \

@@ -55,9 +55,11 @@ impl Check for SavingsWithin<'_> {
         let Settings { study, problems, contender, against, refused_below, .. } = &self.settings;
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let Some(run) = evidence.run(study) else { return finding };
-        let compared = Compared { group: problems, contenders: [against, contender], query: None, whole: true };
+        let compared =
+            Compared { group: problems, contenders: [against, contender], query: None, whole: true };
         let draws = compared.savings_percent(run, self.metric);
-        let within = draws.iter().filter(|draw| draw.iter().all(|saving| self.range.contains(*saving))).count();
+        let within =
+            draws.iter().filter(|draw| draw.iter().all(|saving| self.range.contains(*saving))).count();
         let Some(interval) = clopper_pearson(within, draws.len(), 0.95) else {
             finding.verdict = Some(Verdict::Undecided);
             finding.because.push("no draw has all its queries solved by both".to_owned());

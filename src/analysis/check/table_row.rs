@@ -115,7 +115,8 @@ impl Level {
         let means: Vec<f64> = cells.iter().map(|cell| mean(cell)).collect::<Option<_>>()?;
         let draws = cells.iter().map(Vec::len).min()?;
         let of_draw = |draw: usize| cells.iter().map(move |cell| cell[draw]);
-        let levels: Vec<f64> = (0..draws).filter_map(|draw| mean(&of_draw(draw).collect::<Vec<_>>())).collect();
+        let levels: Vec<f64> =
+            (0..draws).filter_map(|draw| mean(&of_draw(draw).collect::<Vec<_>>())).collect();
         let dominates = |draw: &usize| of_draw(*draw).zip(row).all(|(own, printed)| own >= *printed);
         Some(Self {
             short: [means.iter().zip(row).filter(|(own, printed)| own < printed).count(), row.len()],
@@ -145,9 +146,7 @@ impl Check for TableRow<'_> {
         let points = self.study.sweep_points();
         let wanted = rows.iter().flat_map(|row| points.iter().map(move |point| (&row.contender, point)));
         let cells: Vec<Vec<f64>> = evidence.run(study).map_or_else(Vec::new, |run| {
-            wanted
-                .map(|(contender, point)| solved_percents(run, problems, contender, &point.name))
-                .collect()
+            wanted.map(|(contender, point)| solved_percents(run, problems, contender, &point.name)).collect()
         });
         let row: Vec<f64> = self.printed.iter().map(|printed| printed.value()).collect();
         let (Some(place), Some(level)) = (place(&row, &cells), Level::of(&row, &cells)) else {

@@ -66,7 +66,8 @@ impl Check for ZeroEverywhere {
                     tally.iter_mut().zip(seen).for_each(|(sum, one)| *sum += one);
                 }
                 if value > 0.0 {
-                    finding.trial = finding.trial.or_else(|| Some(format!("{}/{}", run.study.name, row.trial)));
+                    finding.trial =
+                        finding.trial.or_else(|| Some(format!("{}/{}", run.study.name, row.trial)));
                 }
             }
             finding.because.push(format!(

@@ -8,7 +8,7 @@ use rand::RngExt as _;
 use std::collections::{BTreeMap, VecDeque};
 
 const SAMPLES: u32 = 40;
-const RADIUS_MM: f64 = 22.0;
+const RADIUS_MM: f64 = 28.0;
 const ENDS: [[f64; 2]; 2] = [[5.0, 50.0], [95.0, 52.0]];
 
 /// A roadmap between two walls with gaps.
@@ -34,8 +34,7 @@ fn plan(world: &World, settings: &str) -> Plan {
     let Build::Planner(build) = ENTRY.build else { panic!("a planner") };
     let planner = build(&Settings::composed("test", text.parse().unwrap())).unwrap();
     let [start, goal] = ENDS;
-    let request =
-        Request { world, start: &start, goal: &goal, expansions: 10_000, seed: 0, trace: true };
+    let request = Request { world, start: &start, goal: &goal, expansions: 10_000, seed: 0, trace: true };
     planner.plan(&request).unwrap()
 }
 
@@ -68,7 +67,10 @@ fn until_a_shot_succeeds_both_algorithms_search_alike() {
         shorter += u32::from(first.len() < all.len());
         only_shots += u32::from(is_found(&shots) && !is_found(&never));
     }
-    assert!(shorter >= 20 && only_shots >= 5, "one-sided sample: {shorter} shorter, {only_shots} found by shots");
+    assert!(
+        shorter >= 20 && only_shots >= 5,
+        "one-sided sample: {shorter} shorter, {only_shots} found by shots"
+    );
 }
 
 #[test]
@@ -84,7 +86,10 @@ fn a_search_fails_exactly_where_start_and_goal_are_not_connected() {
         without_neighbours += u32::from(ends.contains(&0));
     }
     assert!((20..80).contains(&failed), "one-sided sample: {failed} of 100 fail");
-    assert!(without_neighbours < failed, "{without_neighbours} of {failed} failures have an end without neighbours");
+    assert!(
+        without_neighbours < failed,
+        "{without_neighbours} of {failed} failures have an end without neighbours"
+    );
 }
 
 /// Neighbours of each place, by the bits of its coordinates, start and goal included.
@@ -93,7 +98,8 @@ fn neighbours(world: &World) -> BTreeMap<Vec<u64>, Vec<Vec<f64>>> {
     let nodes: Vec<u32> = (0..SAMPLES).chain(ENDS.map(|end| map.number("end", &end).unwrap())).collect();
     let near = |node: u32| {
         let others = nodes.iter().filter(move |other| **other != node);
-        let linked = others.filter(move |other| map.gap_mm(node, **other) <= RADIUS_MM && map.join(node, **other).is_ok());
+        let linked = others
+            .filter(move |other| map.gap_mm(node, **other) <= RADIUS_MM && map.join(node, **other).is_ok());
         linked.map(|other| map.config(*other)).collect()
     };
     nodes.iter().map(|node| (bits(&map.config(*node)), near(*node))).collect()

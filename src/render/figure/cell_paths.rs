@@ -50,7 +50,13 @@ fn rank(scene: &Scene<'_>, read: &CellPaths, replicate: u32) -> Option<String> {
 }
 
 impl CellPaths {
-    fn panel(&self, scene: &Scene<'_>, replicate: u32, index: usize, view: usize) -> Result<Panel, RenderError> {
+    fn panel(
+        &self,
+        scene: &Scene<'_>,
+        replicate: u32,
+        index: usize,
+        view: usize,
+    ) -> Result<Panel, RenderError> {
         let draw = format!("{}/{replicate}", slug(&self.problems));
         let (contender, (seen, camera)) = (&self.contenders[index], VIEWS[view]);
         let mut solids = furnished(scene, &draw)?;

@@ -141,7 +141,8 @@ impl Kind for CellPoses {
         table.head(heads.map(Cell::from).to_vec());
         let kept = scene.run.records.batch.kept.iter().filter(|kept| kept.of == draw);
         for exhibit in kept.map(|kept| &kept.exhibit) {
-            let Some((group, end)) = exhibit.name.strip_prefix("pose ").and_then(|name| name.split_once('/')) else {
+            let Some((group, end)) = exhibit.name.strip_prefix("pose ").and_then(|name| name.split_once('/'))
+            else {
                 continue;
             };
             let numbers = |from: usize, to: usize, decimals: usize| {

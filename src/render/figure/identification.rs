@@ -135,7 +135,8 @@ impl Identification {
                 })
                 .collect();
             let count = cells.iter().map(Vec::len).min().unwrap_or(0);
-            let draws: Vec<Vec<f64>> = (0..count).map(|d| cells.iter().map(|cell| cell[d]).collect()).collect();
+            let draws: Vec<Vec<f64>> =
+                (0..count).map(|d| cells.iter().map(|cell| cell[d]).collect()).collect();
             let seed = seed::derive(0, &["identification", "row", &run.study.name, &at]);
             let plan = Plan { resamples: 1000, level: 0.95, seed };
             let found = percentile(&draws, |draws| row_distance(draws, &printed), plan);

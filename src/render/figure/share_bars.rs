@@ -68,7 +68,13 @@ impl ShareBars {
     }
 
     /// A panel with the mean over draws of what `of` gives for each group and contender.
-    fn fill(&self, scene: &Scene<'_>, panel: &mut Panel, is_keyed: bool, of: &dyn Fn(&str, &str) -> Vec<f64>) {
+    fn fill(
+        &self,
+        scene: &Scene<'_>,
+        panel: &mut Panel,
+        is_keyed: bool,
+        of: &dyn Fn(&str, &str) -> Vec<f64>,
+    ) {
         let (is_single, count) = (self.is_single(), self.contenders.len());
         let rows = if is_single { count } else { self.read.problems.len() } as f64;
         let step = 0.7 / count as f64;
