@@ -1,12 +1,15 @@
 //! The planar arm: workspace analysis, the enumeration of end points, and A* over tip positions against the crate
 //! `pathfinding`.
 //!
-//! The workspace is that of the study (101 × 51 points, 4 discs). In group `astar/<neighbourhood>` both solve the
-//! study's query, over the same free points and steps with Euclidean costs and heuristic, and are held to equal
-//! costs before anything is timed. `ours` is the planner that studies call; it also counts what plain lists would
-//! compare. The crate gets `u32` nodes, totally ordered `f64` costs and successors from an unallocated iterator.
+//! The workspace is that of the study (101 × 51 points, 4 discs). `workspace/identify` is the enumeration of all pairs of
+//! end points in both cases under one reading on one thread: worlds, hops, and a flood from every point. In group
+//! `astar/<neighbourhood>` both solve the study's query, over the same free points and steps with Euclidean costs and
+//! heuristic, and are held to equal costs before anything is timed; the throughput is in expansions of ours, so that the
+//! time of one expansion is its inverse, and the crate's time for the same query is on the same footing. `ours` is the planner
+//! that studies call; it also counts what plain lists would compare. The crate gets `u32` nodes, totally ordered `f64`
+//! costs and successors from an unallocated iterator.
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pathfinding::{num_traits::Zero, prelude::astar};
 use replan::geometry::planar::Touch;
 use replan::grid::{CornerRule, Offsets};
@@ -15,6 +18,7 @@ use replan::planner::{self, Build, Planner, Request};
 use replan::search::OctileAstar;
 use replan::settings::Settings;
 use replan::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
+use replan::study::endpoints::{self, Case, Variant};
 use replan::study::prepared::workspace_map::ShapeSetting;
 use std::{cmp::Ordering, hint::black_box, ops::Add, time::Duration};
 
@@ -126,12 +130,13 @@ fn against_the_crate(criterion: &mut Criterion) {
         let ours = plan.cost.expect("the goal can be reached");
         let theirs = crate_cost(&arm, &offsets);
         assert!((ours - theirs).abs() < 1e-9, "{name}: {ours}, not {theirs}");
-        println!("astar/{name}: {} expansions a query", plan.counts["expansions"].as_f64());
+        let expansions = plan.counts["expansions"].as_f64() as u64;
         let mut group = criterion.benchmark_group(format!("astar/{name}"));
         group
             .sample_size(20)
             .measurement_time(Duration::from_secs(2))
-            .warm_up_time(Duration::from_millis(500));
+            .warm_up_time(Duration::from_millis(500))
+            .throughput(Throughput::Elements(expansions));
         group.bench_function("ours", |b| b.iter(|| planner.plan(black_box(&request))));
         group.bench_function("pathfinding", |b| b.iter(|| crate_cost(black_box(&arm), black_box(&offsets))));
         group.finish();
@@ -153,7 +158,29 @@ fn analysis(criterion: &mut Criterion) {
             sum
         });
     });
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be had");
+    let base = *workspace(HopRule::EndPoints).rules();
+    let cases = cases();
+    let variant: Variant =
+        toml::from_str("label = 'circles'\nshape = 'circle'\ndiameter_cm = 10").expect("it is TOML");
+    group.sample_size(10).measurement_time(Duration::from_secs(20));
+    group.bench_function("identify", |b| {
+        b.iter(|| pool.install(|| identified(&variant, &base, black_box(&cases))));
+    });
     group.finish();
+}
+
+fn cases() -> [Case; 2] {
+    [
+        Case { obstacles_cm: vec![[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]], hops: [29, 31] },
+        Case { obstacles_cm: vec![[41.0, 10.0], [7.0, 40.0], [-16.0, 33.0]], hops: [17, 38] },
+    ]
+}
+
+fn identified(variant: &Variant, base: &ArmRules, cases: &[Case; 2]) -> usize {
+    let world = |case| variant.world(base, case, ShapeSetting::Circle).expect("a disc has a size");
+    let moves = cases.each_ref().map(|case| world(case).eight_moves());
+    endpoints::pairs(&moves, cases).len()
 }
 
 criterion_group!(benches, analysis, against_the_crate);

@@ -44,6 +44,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     let paper = evidence.paper;
     let claims = paper.claims.iter().map(|claim| judge_claim(evidence, claim));
     let hash = claims_hash(paper);
+    let (together, together_sets) = together(evidence)?;
     let changed = evidence.runs().filter(|run| run.manifest.claims != hash);
     Ok(Verdicts {
         paper: paper.id.clone(),
@@ -52,11 +53,13 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         reading: evidence.point.choices().clone(),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
         claims: claims.collect::<Result<_, _>>()?,
-        together: together(evidence)?,
+        together,
+        together_sets,
     })
 }
 
-fn checks<'a>(
+/// The checks of a claim, built.
+pub(super) fn checks<'a>(
     paper: &'a Paper,
     point: &'a Point,
     claim: &'a Claim,
@@ -77,6 +80,17 @@ fn checks<'a>(
     Ok(built)
 }
 
+/// The verdict on one claim under the evidence's reading, without the reasons.
+///
+/// # Errors
+/// Those of [`validate`].
+pub(super) fn verdict_on(evidence: &Evidence<'_>, claim: &Claim) -> Result<Verdict, SettingsError> {
+    let checks = checks(evidence.paper, &evidence.point, claim)?;
+    let untestable = claim.untestable.as_ref().map(|_| Verdict::Untestable);
+    let found = checks.iter().filter_map(|(_, check)| check.verdict(evidence)).chain(untestable);
+    Ok(found.max().unwrap_or(Verdict::Undecided))
+}
+
 fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
     let mut findings = Vec::new();
     for (_, check) in checks(evidence.paper, &evidence.point, claim)? {
@@ -87,15 +101,19 @@ fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, Setting
         let check = "none".to_owned();
         findings.push(Finding { check, verdict: Some(Verdict::Untestable), because, ..Finding::default() });
     }
+    let verdict = combine(&findings);
+    let deciding = findings.iter().find(|finding| finding.verdict == Some(verdict));
+    let reading = deciding.and_then(|finding| finding.reading.clone());
     Ok(Judged {
         claim: claim.id.clone(),
         at: claim.at.clone(),
         says: claim.says.clone(),
+        quote: claim.quote.clone(),
         printed: claim.printed.clone(),
         unit: claim.unit.clone(),
-        verdict: combine(&findings),
+        verdict,
         theorem: claim.theorem.clone(),
-        reading: evidence.point.name().to_owned(),
+        reading: reading.unwrap_or_else(|| evidence.point.name().to_owned()),
         findings,
     })
 }

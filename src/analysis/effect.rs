@@ -5,11 +5,35 @@ use super::metric::Metric;
 use super::stats::bootstrap::{Estimate, Plan, percentile};
 use super::stats::paired::ratio_of_means;
 use crate::seed;
+use crate::study::record::{Row, Status};
+use std::collections::BTreeMap;
 
-/// The mean of a metric over problems that `contender` solved; none below two.
-pub fn mean(run: &Run<'_>, groups: &[String], contender: &str, metric: &Metric) -> Option<Estimate> {
-    let rows = groups.iter().flat_map(|group| run.rows(group, contender));
-    let values: Vec<f64> = rows.filter_map(|row| run.value(row, metric)).collect();
+/// The trials of each of `contenders`, in the order of draws, on the problems that all of them solved.
+pub fn solved_by_all<'r>(
+    run: &'r Run<'_>,
+    groups: &[String],
+    contenders: &[String],
+) -> BTreeMap<String, Vec<&'r Row>> {
+    let key = |row: &Row| (row.group.clone(), row.problem.clone(), row.sweep.clone(), row.repeat);
+    let solved = |contender: &String| {
+        let rows = groups.iter().flat_map(|group| run.rows(group, contender));
+        rows.filter(|row| row.status == Status::Solved).collect::<Vec<_>>()
+    };
+    let all: Vec<(String, Vec<&Row>)> =
+        contenders.iter().map(|contender| (contender.clone(), solved(contender))).collect();
+    let mut counts: BTreeMap<_, usize> = BTreeMap::new();
+    for row in all.iter().flat_map(|(_, rows)| rows) {
+        *counts.entry(key(row)).or_default() += 1;
+    }
+    let common = |rows: Vec<&'r Row>| {
+        rows.into_iter().filter(|row| counts[&key(row)] == contenders.len()).collect::<Vec<_>>()
+    };
+    all.into_iter().map(|(contender, rows)| (contender, common(rows))).collect()
+}
+
+/// The mean of a metric over `rows` of one contender; none below two.
+pub fn mean(run: &Run<'_>, rows: &[&Row], contender: &str, metric: &Metric) -> Option<Estimate> {
+    let values: Vec<f64> = rows.iter().filter_map(|row| run.value(row, metric)).collect();
     let mean =
         |units: &[&f64]| (!units.is_empty()).then(|| units.iter().copied().sum::<f64>() / units.len() as f64);
     percentile(&values, mean, plan(run, contender, metric))

@@ -38,8 +38,8 @@ pub struct Run<'a> {
 struct Index {
     /// Rows by group, contender and reading, in the order of records.
     rows: BTreeMap<[String; 3], Vec<usize>>,
-    /// The median clock reading of each timed trial.
-    median_ns: BTreeMap<String, f64>,
+    /// The clock readings of each timed trial.
+    readings_ns: BTreeMap<String, Vec<f64>>,
 }
 
 /// Trials of two contenders on one problem.
@@ -152,11 +152,17 @@ impl<'a> Run<'a> {
     /// What `metric` is for `row`; `None` if it was not measured.
     pub fn value(&self, row: &Row, metric: &Metric) -> Option<f64> {
         let raw = if metric.is_clock() {
-            self.index.median_ns.get(&row.trial).copied()
+            self.index.readings_ns.get(&row.trial).and_then(|times| summary::median(times))
         } else {
             row.value(metric.column)
         };
         raw.map(|value| value * metric.scale)
+    }
+
+    /// Every clock reading of `row` in the unit of `metric`; none if it was not timed or `metric` is not of the clock.
+    pub fn repeats(&self, row: &Row, metric: &Metric) -> Vec<f64> {
+        let times = self.index.readings_ns.get(&row.trial).filter(|_| metric.is_clock());
+        times.into_iter().flatten().map(|time| time * metric.scale).collect()
     }
 
     /// The trials of `contender` in the problem group `group` under the reading, in the order of draws.
@@ -217,14 +223,9 @@ impl Index {
             let key = [&row.group, &row.contender, &row.reading].map(String::clone);
             index.rows.entry(key).or_default().push(place);
         }
-        let mut readings: BTreeMap<String, Vec<f64>> = BTreeMap::new();
         for time in &records.times {
-            readings.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
+            index.readings_ns.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
         }
-        let medians = readings
-            .into_iter()
-            .map(|(trial, times)| (trial, summary::median(&times).expect("a timed trial has a reading")));
-        index.median_ns = medians.collect();
         index
     }
 }

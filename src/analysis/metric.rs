@@ -37,6 +37,7 @@ const fn metric(name: &'static str, label: &'static str, unit: &'static str, bet
 /// Every metric, in the order of their names.
 pub static METRICS: &[Metric] = &[
     metric("bends", "Bends", "", Better::Lower),
+    metric("candidates", "Pairs tried one by one", "", Better::Neither),
     metric("closed", "Closed nodes", "", Better::Lower),
     metric("components", "Connected components", "", Better::Neither),
     metric("connected", "Start and goal connected", "", Better::Neither),

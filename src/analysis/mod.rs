@@ -9,6 +9,7 @@ pub mod claims;
 pub mod draws;
 pub mod effect;
 pub mod evidence;
+pub mod inclusion;
 pub mod interval;
 pub mod metric;
 pub mod stats;

@@ -1,34 +1,51 @@
 //! Which claims hold together under one reading.
 //!
 //! A paper's claims speak of several maps, but of one algorithm. So one set is made under one reading and one choice
-//! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes the
-//! problem on which most of it holds.
+//! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes one
+//! of its problems. Every choice of problems is looked at.
 
 use super::check::{Context, attained_problems};
+use super::claims::checks;
 use super::evidence::Evidence;
 use super::verdict::Together;
 use crate::settings::SettingsError;
+use crate::study::paper::Claim;
 use crate::study::{Point, StudyError};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How many sets are listed, the largest first.
 const LISTED_SETS: usize = 5;
 
-/// Outcomes by study, then problem, then contender, then claim: whether it is met exactly.
-type Met = BTreeMap<String, BTreeMap<String, BTreeMap<String, BTreeMap<String, bool>>>>;
+/// Whether each claim is met exactly.
+type Outcomes = BTreeMap<String, bool>;
+
+/// Outcomes of one study: by problem, then contender.
+type Problems = BTreeMap<String, BTreeMap<String, Outcomes>>;
+
+/// What one study shows under one reading.
+#[derive(Default)]
+struct Met {
+    problems: Problems,
+    /// The reading that each contender runs under.
+    readings: BTreeMap<String, String>,
+}
 
 /// The largest sets of claims that are met exactly together, none within another, over every reading that any study
-/// explores.
+/// explores; and how many there are of which these are the first.
 ///
 /// # Errors
 /// A settings error of a check.
-pub fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
+pub fn together(evidence: &Evidence<'_>) -> Result<(Vec<Together>, usize), SettingsError> {
     let mut sets = Vec::new();
     for point in points(evidence) {
         let met = met(&evidence.under(point.clone()))?;
-        sets.extend(met.into_iter().flat_map(|(study, problems)| sets_of(&study, &problems, point.name())));
+        sets.extend(met.iter().flat_map(|(study, met)| sets_of(study, met, point.name())));
+        sets.extend(held(&evidence.under(point))?);
     }
-    Ok(greatest(sets))
+    let mut sets = greatest(sets);
+    let count = sets.len();
+    sets.truncate(LISTED_SETS);
+    Ok((sets, count))
 }
 
 /// The reading in hand, and those that studies explore.
@@ -45,27 +62,54 @@ fn points(evidence: &Evidence<'_>) -> Vec<Point> {
     points
 }
 
-fn met(view: &Evidence<'_>) -> Result<Met, SettingsError> {
-    let mut all = Met::new();
+fn met(view: &Evidence<'_>) -> Result<BTreeMap<String, Met>, SettingsError> {
+    let mut all: BTreeMap<String, Met> = BTreeMap::new();
     for claim in &view.paper.claims {
         let Some(settings) = claim.checks.get("attained") else { continue };
         let context = Context { claim, settings, paper: view.paper, point: &view.point };
-        for (study, problem, contender, is_met) in attained_problems(&context, view)? {
-            let by_contender = all.entry(study).or_default().entry(problem).or_default();
-            by_contender.entry(contender).or_default().insert(claim.id.clone(), is_met);
+        for seen in attained_problems(&context, view)? {
+            let (study, problem) = seen.problem;
+            let met = all.entry(study).or_default();
+            met.readings.insert(seen.contender.clone(), seen.reading);
+            let by_contender = met.problems.entry(problem).or_default();
+            by_contender.entry(seen.contender).or_default().insert(claim.id.clone(), seen.is_met);
         }
     }
     Ok(all)
 }
 
-/// One set per contender that is an alternative for another; contenders without alternative belong to every set.
-fn sets_of(
-    study: &str,
-    problems: &BTreeMap<String, BTreeMap<String, BTreeMap<String, bool>>>,
-    reading: &str,
-) -> Vec<Together> {
+/// One set per study that explores readings: the claims that hold there under the evidence's reading, each by the
+/// contenders and on the problems that it names.
+fn held(view: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
+    let mut studies: BTreeMap<String, BTreeMap<String, bool>> = BTreeMap::new();
+    let explores = |claim: &&Claim| claim.checks.values().any(|of| of.table().contains_key("explored"));
+    for claim in view.paper.claims.iter().filter(explores) {
+        for (_, check) in checks(view.paper, &view.point, claim)? {
+            if let Some((study, holds)) = check.holds(view) {
+                *studies.entry(study).or_default().entry(claim.id.clone()).or_insert(true) &= holds;
+            }
+        }
+    }
+    let set = |(study, claims): (String, BTreeMap<String, bool>)| {
+        let named = |wanted: bool| {
+            claims.iter().filter(|(_, holds)| **holds == wanted).map(|(id, _)| id.clone()).collect()
+        };
+        Together {
+            study,
+            problem: "those that each claim names".to_owned(),
+            reading: view.point.name().to_owned(),
+            under: "those that each claim names".to_owned(),
+            hold: named(true),
+            fail: named(false),
+        }
+    };
+    Ok(studies.into_iter().map(set).collect())
+}
+
+/// The sets of every contender that is an alternative for another; contenders without alternative belong to all.
+fn sets_of(study: &str, met: &Met, reading: &str) -> Vec<Together> {
     let mut claims: BTreeMap<&String, BTreeSet<&String>> = BTreeMap::new();
-    for (contender, outcomes) in problems.values().flatten() {
+    for (contender, outcomes) in met.problems.values().flatten() {
         claims.entry(contender).or_default().extend(outcomes.keys());
     }
     let rivals = |label: &String| {
@@ -74,53 +118,83 @@ fn sets_of(
     let (alternatives, fixed): (Vec<&String>, Vec<&String>) = claims.keys().partition(|label| rivals(label));
     let choices: Vec<Option<&String>> =
         if alternatives.is_empty() { vec![None] } else { alternatives.into_iter().map(Some).collect() };
-    let set = |choice: Option<&String>| {
+    let of_choice = |choice: Option<&String>| {
         let labels: Vec<&String> = fixed.iter().copied().chain(choice).collect();
-        let best = best_problems(problems, &labels);
-        let (mut hold, mut fail) = (Vec::new(), Vec::new());
-        for (claim, is_met) in best.iter().flat_map(|(_, outcomes)| outcomes) {
-            if *is_met { hold.push((*claim).clone()) } else { fail.push((*claim).clone()) }
-        }
-        hold.sort();
-        fail.sort();
-        Together {
-            study: study.to_owned(),
-            problem: best.iter().map(|(problem, _)| *problem).cloned().collect::<Vec<_>>().join(" and "),
-            reading: reading.to_owned(),
-            under: labels.into_iter().cloned().collect::<Vec<_>>().join(" and "),
-            hold,
-            fail,
-        }
+        let departed = labels.iter().filter_map(|label| met.readings.get(*label));
+        let reading = departed.into_iter().find(|own| *own != reading).map_or(reading, String::as_str);
+        let under = labels.iter().map(|label| label.as_str()).collect::<Vec<_>>().join(" and ");
+        let choices = choices_of_problems(&met.problems, &labels).into_iter();
+        choices.map(|chosen| set(study, reading, &under, &chosen)).collect::<Vec<_>>()
     };
-    choices.into_iter().map(set).collect()
+    choices.into_iter().flat_map(of_choice).collect()
 }
 
-type Outcomes<'a> = BTreeMap<&'a String, bool>;
+fn set(study: &str, reading: &str, under: &str, chosen: &[(&String, Outcomes)]) -> Together {
+    let (mut hold, mut fail) = (Vec::new(), Vec::new());
+    for (claim, is_met) in chosen.iter().flat_map(|(_, outcomes)| outcomes) {
+        if *is_met { hold.push(claim.clone()) } else { fail.push(claim.clone()) }
+    }
+    hold.sort();
+    fail.sort();
+    Together {
+        study: study.to_owned(),
+        problem: chosen.iter().map(|(problem, _)| problem.as_str()).collect::<Vec<_>>().join(" and "),
+        reading: reading.to_owned(),
+        under: under.to_owned(),
+        hold,
+        fail,
+    }
+}
 
-/// Of all problems that claims share, the first on which most of these hold.
-fn best_problems<'a>(
-    problems: &'a BTreeMap<String, BTreeMap<String, BTreeMap<String, bool>>>,
-    labels: &[&String],
-) -> Vec<(&'a String, Outcomes<'a>)> {
-    let count = |outcomes: &Outcomes<'_>| outcomes.values().filter(|is_met| **is_met).count();
-    let mut groups: Vec<(BTreeSet<&String>, &String, Outcomes<'_>)> = Vec::new();
+/// Every choice of one problem for each group of claims, but for problems on which no more of the group holds than on
+/// another.
+fn choices_of_problems<'a>(problems: &'a Problems, labels: &[&String]) -> Vec<Vec<(&'a String, Outcomes)>> {
+    let mut groups: Vec<(BTreeSet<String>, Vec<(&String, Outcomes)>)> = Vec::new();
     for (problem, by_contender) in problems {
         let of = labels.iter().filter_map(|label| by_contender.get(*label)).flatten();
-        let outcomes: Outcomes<'_> = of.map(|(claim, is_met)| (claim, *is_met)).collect();
-        let claims: BTreeSet<&String> = outcomes.keys().copied().collect();
+        let outcomes: Outcomes = of.map(|(claim, is_met)| (claim.clone(), *is_met)).collect();
+        let claims: BTreeSet<String> = outcomes.keys().cloned().collect();
         // A contender that does not solve a problem leaves fewer claims there.
-        match groups.iter_mut().find(|(known, _, _)| !known.is_disjoint(&claims)) {
-            Some((known, best, of_best)) => {
+        match groups.iter_mut().find(|(known, _)| !known.is_disjoint(&claims)) {
+            Some((known, of_group)) => {
                 known.extend(claims);
-                if count(&outcomes) > count(of_best) {
-                    (*best, *of_best) = (problem, outcomes);
-                }
+                of_group.push((problem, outcomes));
             }
-            None => groups.push((claims, problem, outcomes)),
+            None => groups.push((claims, vec![(problem, outcomes)])),
         }
     }
-    groups.retain(|(_, _, outcomes)| count(outcomes) > 0);
-    groups.into_iter().map(|(_, problem, outcomes)| (problem, outcomes)).collect()
+    let kept = groups.into_iter().map(|(_, of_group)| greatest_problems(of_group));
+    kept.filter(|of_group| !of_group.is_empty()).fold(vec![Vec::new()], |choices, of_group| {
+        let with = |choice: &Vec<(&'a String, Outcomes)>| {
+            let one = |next: &(&'a String, Outcomes)| [&choice[..], std::slice::from_ref(next)].concat();
+            of_group.iter().map(one).collect::<Vec<_>>()
+        };
+        choices.iter().flat_map(with).collect()
+    })
+}
+
+/// The problems on which something holds and no other has all that holds and more; of equals the first.
+fn greatest_problems(of_group: Vec<(&String, Outcomes)>) -> Vec<(&String, Outcomes)> {
+    let hold = |outcomes: &Outcomes| {
+        outcomes
+            .iter()
+            .filter(|(_, is_met)| **is_met)
+            .map(|(claim, _)| claim.clone())
+            .collect::<BTreeSet<_>>()
+    };
+    let mut sets: Vec<BTreeSet<String>> = Vec::new();
+    let mut distinct = Vec::new();
+    for (problem, outcomes) in of_group {
+        let held = hold(&outcomes);
+        if !held.is_empty() && !sets.contains(&held) {
+            sets.push(held.clone());
+            distinct.push((held, problem, outcomes));
+        }
+    }
+    let is_greatest =
+        |held: &BTreeSet<String>| !sets.iter().any(|other| other != held && held.is_subset(other));
+    distinct.retain(|(held, _, _)| is_greatest(held));
+    distinct.into_iter().map(|(_, problem, outcomes)| (problem, outcomes)).collect()
 }
 
 /// The sets of more than one claim that lie within no other, the largest first and of equals the first.
@@ -133,7 +207,6 @@ fn greatest(mut sets: Vec<Together>) -> Vec<Together> {
             kept.push(set);
         }
     }
-    kept.truncate(LISTED_SETS);
     kept
 }
 
@@ -158,7 +231,9 @@ mod tests {
             ("a2".to_owned(), problem(&[("a", true)], &[("b", false)], &[("b", false)])),
             ("z1".to_owned(), problem(&[("y", false)], &[("z", false)], &[("z", true)])),
         ]);
-        let sets = sets_of("s", &problems, "default");
+        let readings = [("base", "default"), ("one", "default"), ("two", "r=2")];
+        let readings = readings.map(|(label, reading)| (label.to_owned(), reading.to_owned())).into();
+        let sets = sets_of("s", &Met { problems, readings }, "default");
         let seen: Vec<_> =
             sets.iter().map(|s| (s.under.as_str(), s.problem.as_str(), s.hold.join(" "))).collect();
         assert_eq!(
@@ -166,6 +241,20 @@ mod tests {
             [("base and one", "a1", "a b".to_owned()), ("base and two", "a1 and z1", "a z".to_owned())]
         );
         assert_eq!(sets[1].fail, ["b", "y"]);
+        assert_eq!([&sets[0].reading, &sets[1].reading], ["default", "r=2"]);
+    }
+
+    #[test]
+    fn a_map_with_fewer_but_other_claims_makes_a_set_of_its_own() {
+        let problem = |of: &[(&str, bool)]| BTreeMap::from([("base".to_owned(), outcomes(of))]);
+        let problems = BTreeMap::from([
+            ("m1".to_owned(), problem(&[("a", true), ("b", true), ("c", false)])),
+            ("m2".to_owned(), problem(&[("a", false), ("b", false), ("c", true)])),
+            ("m3".to_owned(), problem(&[("a", true), ("b", false), ("c", false)])),
+        ]);
+        let sets = sets_of("s", &Met { problems, readings: BTreeMap::new() }, "default");
+        let seen: Vec<_> = sets.iter().map(|s| (s.problem.as_str(), s.hold.join(" "))).collect();
+        assert_eq!(seen, [("m1", "a b".to_owned()), ("m2", "c".to_owned())]);
     }
 
     #[test]

@@ -91,6 +91,8 @@ pub struct Finding {
     pub ours: Option<Estimate>,
     /// The trial that shows it, as `--trial` takes it.
     pub trial: Option<String>,
+    /// The reading it was found under, if that is not the one that the claim is judged under.
+    pub reading: Option<String>,
     /// The computation, step by step, and what was found.
     pub because: Vec<String>,
     /// What the computation takes for granted.
@@ -108,6 +110,8 @@ pub struct Judged {
     pub at: String,
     /// The sentence, where it is not a number alone.
     pub says: Option<String>,
+    /// The paper's own words, where they are given word for word.
+    pub quote: Option<String>,
     /// The number as printed.
     pub printed: Option<String>,
     /// The number's unit.
@@ -175,6 +179,8 @@ pub struct Verdicts {
     pub reading: BTreeMap<String, String>,
     /// Studies whose claims changed after their run: a margin may have moved after seeing the data.
     pub claims_changed_since: Vec<String>,
+    /// How many sets of claims hold jointly, of which `together` lists the first.
+    pub together_sets: usize,
     /// Every claim.
     #[serde(default, rename = "claim")]
     pub claims: Vec<Judged>,
@@ -195,9 +201,10 @@ impl Verdicts {
     /// [`StudyError::Stored`] if there are none, or a settings error if they cannot be understood.
     pub fn read(folder: &Path) -> Result<Self, StudyError> {
         let path = Self::path(folder);
-        let document = Document::open(&path)
-            .map_err(|e| StudyError::stored(&path, format!("no verdicts ({e}); run `replan judge` first")))?;
-        Ok(document.read()?)
+        if !path.exists() {
+            return Err(StudyError::stored(&path, "no verdicts; run `replan judge` first"));
+        }
+        Ok(Document::open(&path)?.read()?)
     }
 
     /// Writes the verdicts into `folder`.

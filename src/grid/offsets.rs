@@ -26,6 +26,16 @@ impl Offsets {
         Self::within(radius_cells, |dx, dy| (dx.abs() + dy.abs()).pow(2) <= 2 * reach * reach)
     }
 
+    /// The steps in the regular octagon with corners on the axes at `radius_cells`: 4, 12, 28, 48, 72 … of them.
+    pub fn octagon_on_corners(radius_cells: u8) -> Self {
+        let reach = i32::from(radius_cells);
+        // long + (√2 − 1) · short <= reach for the longer and the shorter of |dx| and |dy|, in squares.
+        Self::within(radius_cells, |dx, dy| {
+            let (long, short) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+            2 * short * short <= (reach - long + short).pow(2)
+        })
+    }
+
     fn within(radius_cells: u8, keep: impl Fn(i32, i32) -> bool) -> Self {
         let reach = i32::from(radius_cells);
         let falling = || (-reach..=reach).rev();
@@ -53,6 +63,10 @@ mod tests {
         assert_eq!([1, 2, 3, 4].map(|k| Offsets::square(k).steps().len()), [8, 24, 48, 80]);
         // Lattice points in a circle less its centre: OEIS A000328.
         assert_eq!([1, 2, 3, 4, 5].map(|r| Offsets::octagon(r).steps().len()), [4, 12, 36, 56, 96]);
+        assert_eq!(
+            [1, 2, 3, 4, 5].map(|r| Offsets::octagon_on_corners(r).steps().len()),
+            [4, 12, 28, 48, 72]
+        );
         assert_eq!([1, 2, 3, 4, 5, 6].map(|r| Offsets::disc(r).steps().len()), [4, 12, 28, 48, 80, 112]);
     }
 

@@ -38,7 +38,10 @@ pub(super) struct RegionSetting {
 pub(super) enum RegionShape {
     Square,
     Disc,
+    /// With sides square to the axes.
     Octagon,
+    /// With corners on the axes.
+    OctagonOnCorners,
 }
 
 impl RegionSetting {
@@ -52,6 +55,7 @@ impl RegionSetting {
             RegionShape::Square => Offsets::square(radius),
             RegionShape::Disc => Offsets::disc(radius),
             RegionShape::Octagon => Offsets::octagon(radius),
+            RegionShape::OctagonOnCorners => Offsets::octagon_on_corners(radius),
         })
     }
 }

@@ -54,13 +54,17 @@ fn grid(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, RenderErro
     let titles =
         table.cells.iter().zip(&metrics).map(|(cell, m)| cell.label.clone().unwrap_or_else(|| m.title()));
     let head = std::iter::once(String::new()).chain(titles).collect();
-    let row = |problems: &str, label: &String| {
-        let rows = run.rows(problems, label);
-        let cells = table.cells.iter().zip(&metrics).map(|(cell, metric)| shown(run, &rows, cell, metric));
+    let row = |block: &crate::study::paper::results::BlockSpec, label: &String| {
+        let own = run.rows(block.problems.get_ref(), label);
+        let other = block.beside.as_ref().map(|beside| run.rows(beside.get_ref(), label)).unwrap_or_default();
+        let cells = table.cells.iter().zip(&metrics).map(|(cell, metric)| {
+            let rows = if cell.beside { &other } else { &own };
+            shown(run, rows, cell, metric)
+        });
         std::iter::once(label.clone()).chain(cells).collect::<Vec<String>>()
     };
     let block = |block: &crate::study::paper::results::BlockSpec| {
-        let rows = table.rows.iter().map(|label| row(block.problems.get_ref(), label));
+        let rows = table.rows.iter().map(|label| row(block, label));
         (block.title.clone(), rows.collect())
     };
     Ok(Grid { head, blocks: table.blocks.iter().map(block).collect() })
@@ -93,6 +97,11 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
             let count = rows.iter().filter(|row| solved(row)).count();
             number(100.0 * count as f64 / rows.len() as f64)
         }),
+        Show::Failed => {
+            let failed: Vec<f64> =
+                rows.iter().filter(|row| !solved(row)).filter_map(|row| run.value(row, metric)).collect();
+            summary::median(&failed).map(number)
+        }
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
     };
     found.unwrap_or_else(|| "–".to_owned())

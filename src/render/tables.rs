@@ -2,14 +2,16 @@
 
 use super::RenderError;
 use super::latex::{Cell, Column, Numbers, Table};
-use crate::analysis::verdict::{Estimate, Judged, Verdicts};
-use crate::study::paper::{Paper, TableSpec};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::{Estimate, Judged, Verdict, Verdicts};
+use crate::study::paper::{OursSpec, Paper, TableRow, TableSpec};
 
 /// `table` in LaTeX: for each of its rows the printed numbers, ours with their intervals, and the verdicts.
 ///
 /// # Errors
 /// Those of [`Table::latex`]; none for a checked paper.
-pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<String, RenderError> {
+pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) -> Result<String, RenderError> {
+    let paper = evidence.paper;
     let mut columns = vec![Column::Left, Column::Left];
     columns.extend(table.columns.iter().map(|_| Column::Right));
     let label = format!("{}:{}", paper.id, table.id);
@@ -17,7 +19,7 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
     let mut head = vec![Cell::from(""), Cell::from("")];
     head.extend(table.columns.iter().map(Cell::from));
     latex.head(head);
-    let ours = |estimate: &Estimate| rounded(estimate, table.decimals.unwrap_or(2));
+    let shown = |estimate: &Estimate| rounded(estimate, table.decimals.unwrap_or(2));
     for row in &table.rows {
         if row.claims.is_empty() {
             let cells = [row.label.as_str(), ""].into_iter().chain(row.cells.iter().map(String::as_str));
@@ -32,10 +34,20 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
             cells
         };
         latex.row(line(&row.label, "printed", &|judged| judged.printed.clone().unwrap_or_else(dash)));
-        latex.row(line("", "ours", &|judged| judged.ours().map_or_else(dash, ours)));
+        match &table.ours {
+            Some(ours) => latex.row(own_row(evidence, ours, row)?),
+            None => latex.row(line("", "ours", &|judged| judged.ours().map_or_else(dash, shown))),
+        };
         latex.row(line("", "verdict", &|judged| judged.outcome().to_owned()));
     }
     for note in table.notes.as_ref().unwrap_or(&paper.source.notes) {
+        latex.note(note);
+    }
+    if let Some(ours) = &table.ours {
+        latex.note(&ours.note);
+    }
+    let claims = table.rows.iter().flat_map(|row| &row.claims);
+    for note in claims.filter_map(|claim| verdicts.claim(claim.get_ref())).filter_map(premises) {
         latex.note(note);
     }
     if verdicts.quick {
@@ -44,7 +56,45 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
     latex.latex(&made(paper, &table.id, verdicts))
 }
 
-/// One macro for each printed number, each of ours and each verdict.
+/// The row of trials of one contender on one problem, or what it saves there of another's.
+fn own_row(evidence: &Evidence<'_>, ours: &OursSpec, row: &TableRow) -> Result<Vec<Cell>, RenderError> {
+    let missing = |what: String| RenderError::NotStored { what };
+    let study = ours.study.get_ref();
+    let run = evidence.run(study).ok_or_else(|| missing(format!("a run of `{study}`")))?;
+    let value = |metric: &str, contender: &String| {
+        let row = run.rows(&ours.problems, contender).into_iter().next();
+        let row = row.ok_or_else(|| missing(format!("`{contender}` on `{}` of `{study}`", ours.problems)))?;
+        let metric = evidence.metric(metric).ok_or_else(|| missing(format!("the metric `{metric}`")))?;
+        Ok::<_, RenderError>(run.value(row, metric))
+    };
+    let contender =
+        row.contender.as_ref().ok_or_else(|| missing(format!("a contender for `{}`", row.label)))?;
+    let cell = |metric: &String| {
+        let own = value(metric, contender)?;
+        let text = match &row.reduced_from {
+            None => own.map(number),
+            Some(base) => {
+                let base = value(metric, base)?;
+                own.zip(base).map(|(own, base)| format!("{:.2}", 100.0 * (base - own) / base))
+            }
+        };
+        Ok(Cell::from(text.unwrap_or_else(dash)))
+    };
+    let cells = ours.metrics.iter().map(cell).collect::<Result<Vec<_>, RenderError>>()?;
+    Ok([Cell::from(""), Cell::from("ours")].into_iter().chain(cells).collect())
+}
+
+/// What a proof that a claim is impossible takes for granted.
+fn premises(judged: &Judged) -> Option<String> {
+    if judged.verdict != Verdict::Impossible {
+        return None;
+    }
+    let proof = judged.findings.iter().find(|finding| finding.verdict == Some(judged.verdict))?;
+    let what = judged.printed.as_deref().unwrap_or(&judged.at);
+    Some(format!("{what} is impossible where {}.", proof.premises.join("; ")))
+}
+
+/// One macro for each printed number, each of ours, each end of an interval, each count of draws and each verdict.
 ///
 /// # Errors
 /// [`RenderError::DuplicateMacro`] if two claims' names differ in punctuation only.
@@ -56,12 +106,16 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
             numbers.add(&key("printed"), printed)?;
         }
         if let Some(ours) = judged.ours() {
-            numbers.add(&key("ours"), &short(ours))?;
+            numbers.add(&key("ours"), &number(ours.value))?;
+            if let Some([low, high]) = ours.interval {
+                numbers.add(&key("low"), &number(low))?;
+                numbers.add(&key("high"), &number(high))?;
+            }
             numbers.add(&key("n"), &ours.n.to_string())?;
         }
         numbers.add(&key("verdict"), judged.outcome())?;
     }
-    Ok(numbers.latex(&paper.id, &made(paper, "numbers", verdicts)))
+    numbers.latex(&paper.id, &made(paper, "numbers", verdicts))
 }
 
 pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
@@ -73,7 +127,7 @@ fn dash() -> String {
     "–".to_owned()
 }
 
-/// Our number as tables show it: four significant decimals at most, with its interval.
+/// Our number as tables show it: four decimals at most, two with its interval.
 pub fn short(estimate: &Estimate) -> String {
     rounded(estimate, 2)
 }
@@ -85,13 +139,29 @@ fn rounded(estimate: &Estimate, decimals: usize) -> String {
             let coarse = |value: f64| format!("{value:.decimals$}");
             format!("{} [{}, {}]", coarse(estimate.value), coarse(low), coarse(high))
         }
-        None => plain(estimate.value),
+        None => number(estimate.value),
     }
 }
 
-/// A number with four decimals at most.
-pub(super) fn plain(value: f64) -> String {
+/// A number with four decimals at most; what these would show as zero stands as a power of ten.
+pub(super) fn number(value: f64) -> String {
+    if value != 0.0 && value.abs() < 5e-5 {
+        return format!("{value:.1e}");
+    }
     let text = format!("{value:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
     if text == "-0" { "0".to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_that_is_not_zero_is_not_shown_as_zero() {
+        for (value, text) in [(5e-9, "5.0e-9"), (-0.0, "0"), (0.0, "0"), (14.65, "14.65"), (0.0018, "0.0018")]
+        {
+            assert_eq!(number(value), text);
+        }
+    }
 }

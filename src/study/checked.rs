@@ -98,6 +98,8 @@ pub struct Contender {
     pub is_numbered: bool,
     /// The planner, then the stages that tidy its plan.
     pub stages: Vec<StageUse>,
+    /// Readings, with the option, that its settings take in place of the one in hand.
+    pub departs: BTreeMap<String, String>,
 }
 
 /// An entry of the planner registry with its settings.

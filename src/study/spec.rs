@@ -87,6 +87,9 @@ pub struct ContenderSpec {
     pub then: Vec<StageSpec>,
     /// How many seeds it runs on each problem; more than 1 only where it draws.
     pub repeats: Option<Spanned<u32>>,
+    /// Readings, with the option, that its settings take in place of the one in hand: it is then shown under these.
+    #[serde(default)]
+    pub departs: BTreeMap<String, String>,
 }
 
 /// A stage of a pipeline.
@@ -206,6 +209,8 @@ pub struct FigureSpec {
     pub caption: String,
     /// What the table of its numbers is called, if its kind has one and it does not bear the figure's name.
     pub table: Option<String>,
+    /// What its table shows, if it has one; the figure's caption if absent.
+    pub table_caption: Option<String>,
     /// Trials whose exhibits it needs.
     #[serde(default)]
     pub shows: Vec<TrialsSpec>,

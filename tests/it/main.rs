@@ -3,13 +3,16 @@
 mod arm;
 mod cell_threads;
 mod cli_input;
+mod cli_places;
 mod cli_run;
 mod cli_stop;
 mod conformance;
 mod floors;
+mod latex;
 mod laws;
 mod paper;
 mod registries;
 mod snapshots;
 mod source;
 mod worlds;
+mod wrong_words;

@@ -12,6 +12,7 @@ use crate::analysis::stats::proportion::predictive;
 use crate::analysis::stats::summary::median;
 use crate::analysis::verdict::Finding;
 use crate::settings::SettingsError;
+use crate::study::record::Status;
 use crate::study::{Point, Study};
 use serde::Deserialize;
 
@@ -51,8 +52,10 @@ pub struct Outcome {
     pub maps: usize,
     /// Whether the printed number lies where 95 % of the maps do.
     pub is_among: bool,
-    /// Maps, searched ones included, on which the printed number is met exactly.
+    /// Random maps on which the printed number is met exactly.
     pub met: usize,
+    /// Maps that were searched for on which it is.
+    pub met_searched: usize,
 }
 
 struct Across<'a> {
@@ -94,6 +97,9 @@ impl<'a> Across<'a> {
         let view = evidence.under(point.clone());
         let context = Context { point: &point, ..self.context };
         let metric = context.metric(&self.settings.metric, self.study).ok()?;
+        if self.refusals(&view) > 0 {
+            return None;
+        }
         let draws = self.values(&view, &self.settings.problems, metric);
         let searched = self.values(&view, &self.settings.searched, metric);
         let agrees = |value: &&f64| self.printed.agrees(**value, context.digits());
@@ -104,9 +110,17 @@ impl<'a> Across<'a> {
             central,
             maps: draws.len(),
             is_among: central.meets(printed),
-            met: draws.iter().chain(&searched).filter(agrees).count(),
+            met: draws.iter().filter(agrees).count(),
+            met_searched: searched.iter().filter(agrees).count(),
             point,
         })
+    }
+
+    /// Paths of the contender on the random maps that the verifier refused: what is left would be the lucky ones.
+    fn refusals(&self, view: &Evidence<'_>) -> usize {
+        let Some(run) = view.run(&self.settings.study) else { return 0 };
+        let rows = self.settings.problems.iter().flat_map(|group| run.rows(group, &self.settings.contender));
+        rows.filter(|row| row.status == Status::Rejected).count()
     }
 
     fn values(&self, view: &Evidence<'_>, groups: &[String], metric: &Metric) -> Vec<f64> {
@@ -125,14 +139,31 @@ impl Check for Across<'_> {
         let count = |is: fn(&Outcome) -> bool| outcomes.iter().filter(|outcome| is(outcome)).count();
         let medians = outcomes.iter().map(|outcome| outcome.median);
         let (low, high) = medians.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), m| (a.min(m), b.max(m)));
-        let explored = self.study.explored().map_or(0, |points| points.len());
-        let mut because = vec![format!(
-            "{explored} readings were explored; of the {} under which enough maps were solved to say, the printed number \
-             lies among the central 95 % of maps under {}, and is met exactly on some map under {}",
-            outcomes.len(),
-            count(|outcome| outcome.is_among),
-            count(|outcome| outcome.met > 0)
-        )];
+        let points = self.study.explored().expect("a checked study's readings are in order");
+        let refused =
+            points.iter().filter(|point| self.refusals(&evidence.under((*point).clone())) > 0).count();
+        let mut distinct: Vec<[f64; 3]> =
+            outcomes.iter().map(|o| [o.median, o.central.low, o.central.high]).collect();
+        distinct.sort_by(|a, b| a.partial_cmp(b).expect("medians are numbers"));
+        distinct.dedup();
+        let mut because = vec![
+            format!(
+                "{} readings were explored; {refused} are left out because the verifier refused paths under them, and {} \
+                 because too few maps were solved",
+                points.len(),
+                points.len() - refused - outcomes.len()
+            ),
+            format!(
+                "under the {} others ({} with different draws of this number) the printed number lies among the central \
+                 95 % of random maps under {}, and is met exactly on some random map under {}; on a map that was searched for \
+                 it is met under {}",
+                outcomes.len(),
+                distinct.len(),
+                count(|outcome| outcome.is_among),
+                count(|outcome| outcome.met > 0),
+                count(|outcome| outcome.met_searched > 0)
+            ),
+        ];
         if low <= high {
             because.push(format!("the median over maps goes from {low:.2} to {high:.2}"));
         }

@@ -21,10 +21,22 @@ pub static ENTRY: Entry = Entry {
             std::slice::from_ref(&settings.problems),
             &[settings.contender.as_str()],
         )?;
+        let explored = settings.explored.as_ref().map(|name| {
+            context.study(name, std::slice::from_ref(&settings.problems), &[settings.contender.as_str()])
+        });
+        let explored = explored.transpose()?;
         let metric = context.metric(&settings.metric, study)?;
         let is_fitted = study.fitted_to.contains(&context.claim.id);
         let (printed, digits) = (context.printed()?, context.digits());
-        Ok::<_, SettingsError>(Box::new(AsPrinted { settings, study, metric, printed, digits, is_fitted }))
+        Ok::<_, SettingsError>(Box::new(AsPrinted {
+            settings,
+            study,
+            explored,
+            metric,
+            printed,
+            digits,
+            is_fitted,
+        }))
     },
 };
 
@@ -35,11 +47,14 @@ struct Settings {
     problems: String,
     contender: String,
     metric: String,
+    /// A study of the same problem and contender that explores readings.
+    explored: Option<String>,
 }
 
 struct AsPrinted<'a> {
     settings: Settings,
     study: &'a Study,
+    explored: Option<&'a Study>,
     metric: &'static Metric,
     printed: Printed,
     digits: Digits,
@@ -79,6 +94,15 @@ impl Check for AsPrinted<'_> {
                 .because
                 .push("the study was fitted to this number, so that agreement says little".to_owned());
         }
+        finding.because.extend(super::explored_share(self, self.explored, evidence));
         finding
+    }
+
+    fn holds(&self, evidence: &Evidence<'_>) -> Option<(String, bool)> {
+        let study = self.explored?;
+        let run = evidence.run(&study.name)?;
+        let rows = run.rows(&self.settings.problems, &self.settings.contender);
+        let values: Vec<f64> = rows.iter().filter_map(|row| run.value(row, self.metric)).collect();
+        Some((study.name.clone(), self.printed.agrees(median(&values)?, self.digits)))
     }
 }

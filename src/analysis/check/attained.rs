@@ -6,6 +6,7 @@ use crate::analysis::evidence::{Evidence, Pair, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::settings::SettingsError;
+use crate::study::{Point, Reading, Study};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -37,6 +38,10 @@ struct Settings {
 struct Place {
     study: String,
     problems: Vec<String>,
+    /// Its problems were drawn until the claim held: they serve where the claim is given, and say nothing of how often
+    /// it holds.
+    #[serde(default)]
+    selected: bool,
 }
 
 struct Attained<'a> {
@@ -46,6 +51,7 @@ struct Attained<'a> {
     digits: Digits,
     given: Vec<Attained<'a>>,
     claim: &'a str,
+    context: Context<'a>,
 }
 
 /// A trial that was looked at: its problem, its value, and its name with the study's.
@@ -54,24 +60,35 @@ struct Seen {
     contender: String,
     value: f64,
     trial: String,
+    reading: String,
+    selected: bool,
 }
 
-/// The problems (study and problem) on which the claim of `context` is met, with the contender that meets it.
+/// A contender on a problem, and whether a claim is met there.
+pub struct Outcome {
+    /// The study and the problem in it.
+    pub problem: (String, String),
+    /// The contender that stands for the paper's.
+    pub contender: String,
+    /// The reading that it ran under.
+    pub reading: String,
+    /// Whether the claim is met.
+    pub is_met: bool,
+}
+
+/// Every problem on which the claim of `context` was looked for, and whether it is met there.
 ///
 /// # Errors
 /// A settings error of the check.
-pub fn problems(
-    context: &Context<'_>,
-    evidence: &Evidence<'_>,
-) -> Result<Vec<(String, String, String, bool)>, SettingsError> {
+pub fn problems(context: &Context<'_>, evidence: &Evidence<'_>) -> Result<Vec<Outcome>, SettingsError> {
     let attained = Attained::new(context)?;
-    let seen = attained.seen(evidence).into_iter();
-    Ok(seen
-        .map(|seen| {
-            let is_met = attained.is_met(seen.value);
-            (seen.problem.0, seen.problem.1, seen.contender, is_met)
-        })
-        .collect())
+    let outcome = |seen: Seen| Outcome {
+        is_met: attained.is_met(seen.value),
+        problem: seen.problem,
+        contender: seen.contender,
+        reading: seen.reading,
+    };
+    Ok(attained.seen(evidence).into_iter().map(outcome).collect())
 }
 
 impl<'a> Attained<'a> {
@@ -83,6 +100,9 @@ impl<'a> Attained<'a> {
             // A place need not have every contender, but each must exist in some place.
             let study = context.study(&place.study, &place.problems, &[])?;
             metric = Some(context.metric(&settings.metric, study)?);
+            for departs in study.contenders.iter().map(|contender| &contender.departs) {
+                Point::new(&context.paper.readings(), departs).map_err(|e| study.document.error(0..0, e))?;
+            }
             for label in wanted {
                 let is_known = settings.r#in.iter().any(|place| {
                     context
@@ -106,7 +126,8 @@ impl<'a> Attained<'a> {
             given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
         let printed = context.printed()?;
-        Ok(Self { settings, metric, printed, digits: context.digits(), given, claim: &context.claim.id })
+        let (digits, claim, context) = (context.digits(), context.claim.id.as_str(), *context);
+        Ok(Self { settings, metric, printed, digits, given, claim, context })
     }
 
     fn is_met(&self, value: f64) -> bool {
@@ -116,17 +137,40 @@ impl<'a> Attained<'a> {
     fn seen(&self, evidence: &Evidence<'_>) -> Vec<Seen> {
         let mut seen = Vec::new();
         for place in &self.settings.r#in {
-            let Some(run) = evidence.run(&place.study) else { continue };
+            let Some(run) = evidence.run(&place.study).filter(|run| self.is_asked_of(run.study)) else {
+                continue;
+            };
             for group in &place.problems {
                 for contender in &self.settings.contenders {
-                    seen.extend(self.seen_in(run, group, contender));
+                    let found = self.seen_in(run, group, contender);
+                    seen.extend(found.into_iter().map(|seen| Seen { selected: place.selected, ..seen }));
                 }
             }
         }
         seen
     }
 
+    /// Whether the trials of `study` can run under the reading at all: it has every axis along which that departs.
+    fn is_asked_of(&self, study: &Study) -> bool {
+        let departs = |reading: &Reading| {
+            let taken = self.context.point.choices().get(&reading.id);
+            reading.touches_trials() && taken.is_some_and(|option| *option != reading.default)
+        };
+        let has = |reading: &Reading| study.readings.iter().any(|own| own.id == reading.id);
+        self.context.paper.readings().iter().all(|reading| !departs(reading) || has(reading))
+    }
+
+    /// The reading that the contender called `label` runs under.
+    fn reading_of(&self, study: &Study, label: &str) -> String {
+        let mut choices = self.context.point.choices().clone();
+        let contender = study.contenders.iter().find(|contender| contender.label == label);
+        choices.extend(contender.into_iter().flat_map(|contender| contender.departs.clone()));
+        let point = Point::new(&self.context.paper.readings(), &choices);
+        point.expect("departures were looked up when the check was built").name().to_owned()
+    }
+
     fn seen_in(&self, run: &Run<'_>, group: &str, contender: &str) -> Vec<Seen> {
+        let reading = self.reading_of(run.study, contender);
         let base = self.settings.against.as_deref().unwrap_or(contender);
         let value = |pair: &Pair<'_>| {
             let other = run.value(pair.other, self.metric)?;
@@ -143,6 +187,8 @@ impl<'a> Attained<'a> {
                 contender: contender.to_owned(),
                 value: value(pair)?,
                 trial: format!("{}/{}", run.study.name, pair.other.trial),
+                reading: reading.clone(),
+                selected: false,
             })
         });
         seen.collect()
@@ -164,7 +210,8 @@ impl<'a> Attained<'a> {
 
 impl Check for Attained<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let eligible = self.eligible(evidence);
+        let (selected, eligible): (Vec<Seen>, Vec<Seen>) =
+            self.eligible(evidence).into_iter().partition(|seen| seen.selected);
         let met: Vec<&Seen> = eligible.iter().filter(|seen| self.is_met(seen.value)).collect();
         let given: Vec<&str> = self.given.iter().map(|given| given.claim).collect();
         let condition =
@@ -174,30 +221,47 @@ impl Check for Attained<'_> {
             distance(a).total_cmp(&distance(b))
         });
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
-        let shown = met.first().copied().or(nearest);
-        if let Some(shown) = shown {
+        if let Some(shown) = met.first().copied().or(nearest) {
             finding.trial = Some(shown.trial.clone());
+            finding.reading = Some(shown.reading.clone()).filter(|name| name != evidence.point.name());
             let what = if met.is_empty() { "nearest" } else { "met" };
             finding.ours = Some(Estimate {
                 value: shown.value,
                 interval: None,
-                what: format!("{what}, {} by {}", self.metric.label, shown.contender),
+                what: format!("{what}, {} by {}", self.title(), shown.contender),
                 n: eligible.len(),
             });
         }
         finding.verdict = Some(if met.is_empty() { Verdict::Undecided } else { Verdict::Attainable });
         finding.because.push(match met.first() {
             Some(first) => format!(
-                "met by {} of {} trials{condition}; first by `{}` on {}",
+                "met by {} of {} trials{condition}; first by `{}` on {}, reading {}",
                 met.len(),
                 eligible.len(),
                 first.contender,
-                first.problem.1
+                first.problem.1,
+                first.reading
             ),
             None => {
                 format!("met by none of {} trials{condition}; this proves nothing either way", eligible.len())
             }
         });
+        if !selected.is_empty() {
+            finding.because.push(format!(
+                "{} more trials are on maps that were drawn until it held, and do not count",
+                selected.len()
+            ));
+        }
         finding
+    }
+}
+
+impl Attained<'_> {
+    /// What the value is, with its unit.
+    fn title(&self) -> String {
+        if self.settings.against.is_some() {
+            return format!("reduction of {} (%)", self.metric.label.to_lowercase());
+        }
+        self.metric.title()
     }
 }

@@ -26,7 +26,14 @@ pub static ENTRY: Entry = Entry {
         let with = settings.with.iter().map(|id| Ok(context.printed_of(id)?.0));
         let all = with.chain([Ok(printed)]).collect::<Result<Vec<_>, _>>()?;
         let tick = Tick { numerator, denominator };
-        Ok(Box::new(ClockTicks { tick, left_out: settings.left_out, printed, all, digits: context.digits() }))
+        Ok(Box::new(ClockTicks {
+            tick,
+            chosen: settings.chosen,
+            left_out: settings.left_out,
+            printed,
+            all,
+            digits: context.digits(),
+        }))
     },
 };
 
@@ -35,6 +42,8 @@ pub static ENTRY: Entry = Entry {
 struct Settings {
     /// The tick, as numerator and denominator of a fraction of a second.
     tick_s: [u32; 2],
+    /// How the tick came to be asked about: one read off the times themselves proves nothing.
+    chosen: String,
     /// What the paper leaves out, without which a time is not comparable.
     left_out: String,
     /// Other claims whose times should be ticks of the same clock.
@@ -44,6 +53,7 @@ struct Settings {
 
 struct ClockTicks {
     tick: Tick,
+    chosen: String,
     left_out: String,
     printed: Printed,
     all: Vec<Printed>,
@@ -72,7 +82,7 @@ impl Check for ClockTicks {
             self.tick.chance(&self.all, self.digits)
         ));
         finding.because.push(format!("{}, so that the time itself cannot be met", self.left_out));
-        finding.premises.push(format!("the tick of {spelled} was named before the times were looked at"));
+        finding.premises.push(format!("the tick of {spelled}: {}", self.chosen));
         finding
     }
 }

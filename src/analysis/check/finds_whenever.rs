@@ -14,7 +14,7 @@ pub static ENTRY: Entry = Entry {
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.whenever.as_str()];
-        context.study(&settings.study, std::slice::from_ref(&settings.problems), &contenders)?;
+        context.study(&settings.study, &settings.problems.listed(), &contenders)?;
         Ok(Box::new(settings))
     },
 };
@@ -23,9 +23,26 @@ pub static ENTRY: Entry = Entry {
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
-    problems: String,
+    problems: Problems,
     contender: String,
     whenever: String,
+}
+
+/// One problem group, or several.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Problems {
+    One(String),
+    Several(Vec<String>),
+}
+
+impl Problems {
+    fn listed(&self) -> Vec<String> {
+        match self {
+            Self::One(group) => vec![group.clone()],
+            Self::Several(groups) => groups.clone(),
+        }
+    }
 }
 
 impl Check for Settings {
@@ -33,13 +50,15 @@ impl Check for Settings {
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let Some(run) = evidence.run(&self.study) else { return finding };
         let (mut both_find, mut only_other, mut more, mut refused) = (0, Vec::new(), 0, 0);
-        for [base, own] in both(run, &self.problems, &self.whenever, &self.contender).values().flatten() {
-            refused += usize::from(base.status == Status::Rejected);
-            match (base.status == Status::Solved, own.status == Status::Solved) {
-                (true, true) => both_find += 1,
-                (true, false) => only_other.push(own.trial.clone()),
-                (false, true) => more += 1,
-                (false, false) => {}
+        for group in self.problems.listed() {
+            for [base, own] in both(run, &group, &self.whenever, &self.contender).values().flatten() {
+                refused += usize::from(base.status == Status::Rejected);
+                match (base.status == Status::Solved, own.status == Status::Solved) {
+                    (true, true) => both_find += 1,
+                    (true, false) => only_other.push(own.trial.clone()),
+                    (false, true) => more += 1,
+                    (false, false) => {}
+                }
             }
         }
         finding.verdict = Some(match (only_other.is_empty(), both_find) {

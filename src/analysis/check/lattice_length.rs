@@ -3,6 +3,7 @@
 use super::{Check, Entry};
 use crate::analysis::audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
 use crate::analysis::audit::printed::{Digits, Printed};
+use crate::analysis::audit::with_an_end_moved;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use serde::Deserialize;
@@ -13,6 +14,9 @@ pub static ENTRY: Entry = Entry {
     about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
     build: |context| {
         let settings: Settings = context.settings.read()?;
+        if settings.start.is_some() != settings.goal.is_some() {
+            return Err(context.settings.error("`start` and `goal` are given together or not at all"));
+        }
         Ok(Box::new(LatticeLength { settings, printed: context.printed()?, digits: context.digits() }))
     },
 };
@@ -20,8 +24,11 @@ pub static ENTRY: Entry = Entry {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Settings {
-    start: [i32; 2],
-    goal: [i32; 2],
+    /// The ends, where the paper prints them; without, any 8-connected path counts.
+    start: Option<[i32; 2]>,
+    goal: Option<[i32; 2]>,
+    /// Columns and rows, if the ends' neighbours are to be tried as well.
+    size: Option<[i32; 2]>,
 }
 
 struct LatticeLength {
@@ -30,10 +37,30 @@ struct LatticeLength {
     digits: Digits,
 }
 
+impl LatticeLength {
+    /// Whether a path has the length where one end is moved to a neighbour.
+    fn moved(&self) -> Option<String> {
+        let Settings { start, goal, size } = self.settings;
+        let rescues = |ends: &[[i32; 2]; 2]| {
+            let displacement = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
+            !lengths_printing(self.printed, self.digits, Step::ONE, Some(displacement)).is_empty()
+        };
+        Some(match with_an_end_moved([start?, goal?], size?).into_iter().find(rescues) {
+            Some([from, to]) => format!(
+                "from {from:?} to {to:?}, one end moved to a neighbour, there is one, so the proof rests on the printed ends"
+            ),
+            None => {
+                "nor is there one with the start or the goal moved to any of its eight neighbours".to_owned()
+            }
+        })
+    }
+}
+
 impl Check for LatticeLength {
     fn judge(&self, _evidence: &Evidence<'_>) -> Finding {
-        let displacement = [0, 1].map(|axis| self.settings.goal[axis] - self.settings.start[axis]);
-        let lengths = |digits| lengths_printing(self.printed, digits, Step::ONE, Some(displacement));
+        let ends = self.settings.start.zip(self.settings.goal);
+        let displacement = ends.map(|(start, goal)| [0, 1].map(|axis| goal[axis] - start[axis]));
+        let lengths = |digits| lengths_printing(self.printed, digits, Step::ONE, displacement);
         let (rounded, truncated) = (lengths(Digits::Rounded), lengths(Digits::Truncated));
         let mut because = Vec::new();
         for (how, found) in [("rounded", &rounded), ("truncated", &truncated)] {
@@ -46,20 +73,27 @@ impl Check for LatticeLength {
             Digits::Truncated => !truncated.is_empty(),
             Digits::Unknown => !rounded.is_empty() || !truncated.is_empty(),
         };
-        if !is_possible {
+        if let (false, Some(displacement)) = (is_possible, displacement) {
             let (below, above) = nearest_lengths(self.printed, displacement);
             let near: Vec<String> = [below, above].into_iter().flatten().map(spelled).collect();
             because.push(format!("the nearest lengths there are: {}", near.join(" and ")));
+            because.extend(self.moved());
         }
         Finding {
             check: ENTRY.name.to_owned(),
             verdict: (!is_possible).then_some(Verdict::Impossible),
             because,
             premises: vec![
-                format!(
-                    "the path goes from cell {:?} to cell {:?} by moves to one of eight neighbours",
-                    self.settings.start, self.settings.goal
-                ),
+                match ends {
+                    Some((start, goal)) => {
+                        format!(
+                            "the path goes from cell {start:?} to cell {goal:?} by moves to one of eight neighbours"
+                        )
+                    }
+                    None => {
+                        "the path goes by moves to one of eight neighbours, from and to any cells".to_owned()
+                    }
+                },
                 "a straight move costs 1 and a diagonal one √2".to_owned(),
             ],
             ..Finding::default()

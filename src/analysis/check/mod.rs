@@ -14,31 +14,41 @@ mod equals_least;
 mod fails_where;
 mod failure_causes;
 mod finds_whenever;
+mod how_often;
 mod joint_length_turn;
 mod largest_saving;
 mod lattice_length;
+mod listed_points;
 mod lower_by_draw;
 mod lowest_median;
 mod mean_curve_above;
+mod octagon_nodes;
 mod oracle;
 mod ordering;
+mod over_claims;
 mod percentage;
 mod point_distance;
+mod printed_ratio;
+mod reach_ring;
+mod refused_by_option;
 mod row_among_draws;
 mod saving_per_draw;
 mod savings_within;
 mod share_above;
+mod share_beyond;
+mod share_of_paths;
 mod sight_bound;
 mod straight_line;
 mod table_cell;
 mod table_row;
-mod text_contradiction;
+mod turn_needs_length;
+mod varies;
 mod zero_everywhere;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
 use super::metric::Metric;
-use super::verdict::Finding;
+use super::verdict::{Finding, Verdict};
 use crate::settings::{Settings, SettingsError};
 use crate::study::paper::{self, Claim, Paper};
 use crate::study::{Point, Study};
@@ -47,6 +57,37 @@ use crate::study::{Point, Study};
 pub trait Check {
     /// What it finds in the stored runs.
     fn judge(&self, evidence: &Evidence<'_>) -> Finding;
+
+    /// Whether what it asks holds under the evidence's reading in the study that explores readings for it, and that
+    /// study's name; `None` if it explores none or was not run under this one.
+    fn holds(&self, _evidence: &Evidence<'_>) -> Option<(String, bool)> {
+        None
+    }
+
+    /// The verdict of [`judge`](Self::judge) alone, for who does not need the reasons.
+    fn verdict(&self, evidence: &Evidence<'_>) -> Option<Verdict> {
+        self.judge(evidence).verdict
+    }
+}
+
+/// Under how many of the readings that `study` explores what `check` asks holds.
+fn explored_share(check: &dyn Check, study: Option<&Study>, evidence: &Evidence<'_>) -> Option<String> {
+    let study = study?;
+    let points = study.explored().ok()?;
+    let held =
+        points.iter().filter_map(|point| Some((point, check.holds(&evidence.under(point.clone()))?.1)));
+    let (yes, no): (Vec<_>, Vec<_>) = held.partition(|(_, holds)| *holds);
+    let all = yes.len() + no.len();
+    let single = |of: &[(&Point, bool)]| {
+        let names = of.iter().map(|(point, _)| point.name()).filter(|name| !name.contains(','));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let (few, verb) = if yes.len() * 2 > all { (&no, "not under") } else { (&yes, "under") };
+    let named = single(few);
+    let tail =
+        if named.is_empty() { String::new() } else { format!("; of the single options {verb} {named}") };
+    (all > 0)
+        .then(|| format!("it holds under {} of {all} readings explored in {}{tail}", yes.len(), study.name))
 }
 
 /// What a check is built from.
@@ -85,25 +126,35 @@ pub static REGISTRY: &[&Entry] = &[
     &failure_causes::ENTRY,
     &fails_where::ENTRY,
     &finds_whenever::ENTRY,
+    &how_often::ENTRY,
     &joint_length_turn::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
+    &listed_points::ENTRY,
     &lower_by_draw::ENTRY,
     &lowest_median::ENTRY,
     &mean_curve_above::ENTRY,
+    &octagon_nodes::ENTRY,
     &oracle::ENTRY,
     &ordering::ENTRY,
+    &over_claims::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
+    &printed_ratio::ENTRY,
+    &reach_ring::ENTRY,
+    &refused_by_option::ENTRY,
     &row_among_draws::ENTRY,
     &saving_per_draw::ENTRY,
     &savings_within::ENTRY,
     &share_above::ENTRY,
+    &share_beyond::ENTRY,
+    &share_of_paths::ENTRY,
     &sight_bound::ENTRY,
     &straight_line::ENTRY,
     &table_cell::ENTRY,
     &table_row::ENTRY,
-    &text_contradiction::ENTRY,
+    &turn_needs_length::ENTRY,
+    &varies::ENTRY,
     &zero_everywhere::ENTRY,
 ];
 
@@ -116,7 +167,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 mod tests;
 
 pub use across_readings::Outcome;
-pub use attained::problems as attained_problems;
+pub use attained::{Outcome as Attainment, problems as attained_problems};
 pub use row_among_draws::Draws;
 
 /// The draws that the claim called `id` is ranked among, as its check `row_among_draws` says.

@@ -48,6 +48,10 @@ enum On {
     Every,
 }
 
+/// Why times of one session settle nothing.
+const CLOCK: &str = "the interval is over problems within one session of one clock; sessions differ by more than it says, \
+                     so that this settles nothing";
+
 struct Ordering<'a> {
     settings: Settings,
     study: &'a Study,
@@ -93,7 +97,11 @@ impl Ordering<'_> {
             let needed = units_for_margin(mean.interval.half_width(), pairs.len(), mean.value.abs());
             finding.because.push(format!("about {needed} pairs would settle a mean difference of this size"));
         }
-        let what = format!("mean difference of {}, bootstrap 95 %", self.metric.label.to_lowercase());
+        if self.metric.is_clock() {
+            finding.because.push(CLOCK.to_owned());
+            finding.verdict = Some(Verdict::Undecided);
+        }
+        let what = format!("mean difference of {}, bootstrap 95 %", self.metric.title().to_lowercase());
         finding.ours = Some(Estimate::new(mean.value, mean.interval, what, pairs.len()));
     }
 }

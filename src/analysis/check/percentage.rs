@@ -42,17 +42,13 @@ impl Check for Percentage {
         let cells = format!("({} − {}) / {}", self.before, self.after, self.before);
         let computed = format!("{cells} = {:.3} %", self.reduction.as_printed);
         let possible = self.reduction.possible;
+        let range = format!("the cells' digits allow {:.2} to {:.2} %", possible.low, possible.high);
         let (found, verdict) = if self.reduction.gives(self.printed, self.digits) {
-            (format!("which prints as {}", self.printed), None)
+            (format!("which prints as {}; {range}", self.printed), None)
         } else if self.reduction.allows(self.printed, self.digits) {
-            let range = format!("{:.3} to {:.3} %", possible.low, possible.high);
-            (format!("{} needs digits that the cells do not show; they allow {range}", self.printed), None)
+            (format!("{} needs digits that the cells do not show; {range}", self.printed), None)
         } else {
-            let range = format!("{:.3} to {:.3} %", possible.low, possible.high);
-            (
-                format!("{} is outside of what the cells allow, {range}", self.printed),
-                Some(Verdict::Impossible),
-            )
+            (format!("{} is outside; {range}", self.printed), Some(Verdict::Impossible))
         };
         Finding {
             check: ENTRY.name.to_owned(),

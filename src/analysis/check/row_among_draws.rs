@@ -28,6 +28,9 @@ struct Settings {
     /// The contender that the reduction is from; without it the printed number is the metric itself.
     against: Option<String>,
     sets: Vec<SetSpec>,
+    /// What the draws take for granted besides.
+    #[serde(default)]
+    premises: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -92,7 +95,9 @@ impl RowAmongDraws {
         for group in &set.problems {
             let values =
                 run.changes(group, &self.settings.contender, self.settings.against.as_deref(), self.metric);
-            draws.unsolved += run.rows(group, &self.settings.contender).len() - values.len();
+            let base = self.settings.against.as_ref().unwrap_or(&self.settings.contender);
+            draws.unsolved += run.rows(group, &self.settings.contender).len()
+                - run.pairs(group, base, &self.settings.contender).len();
             draws.values.extend(values);
         }
         for value in &mut draws.values {
@@ -155,6 +160,7 @@ impl Check for RowAmongDraws {
             }
         }
         finding.premises = vec!["the paper's map is like ours: none of its maps is known".to_owned()];
+        finding.premises.extend(self.settings.premises.iter().cloned());
         finding
     }
 }

@@ -13,6 +13,8 @@ pub struct Axis {
     low: f64,
     high: f64,
     scale: Scale,
+    /// Ticks of a linear axis stand no closer than this.
+    least_step: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +58,7 @@ impl Axis {
             low: -0.5,
             high: names.len().max(1) as f64 - 0.5,
             scale: Scale::Names(names),
+            least_step: 0.0,
         }
     }
 
@@ -71,7 +74,14 @@ impl Axis {
         }
         let spread = high - low;
         let margin = if spread > 0.0 { 0.04 * spread } else { low.abs().max(1.0) * 0.1 };
-        Self { label: label.into(), low: low - margin, high: high + margin, scale: Scale::Linear }
+        let (low, high) = (low - margin, high + margin);
+        Self { label: label.into(), low, high, scale: Scale::Linear, least_step: 0.0 }
+    }
+
+    /// The same linear axis with ticks at whole numbers only.
+    #[must_use]
+    pub fn whole(self) -> Self {
+        Self { least_step: 1.0, ..self }
     }
 
     /// The same axis turned around: its values fall from left to right or from bottom to top.
@@ -83,7 +93,7 @@ impl Axis {
     fn checked(label: String, from: f64, to: f64, scale: Scale) -> Result<Self, RenderError> {
         let log = scale == Scale::Log;
         if from.is_finite() && to.is_finite() && from < to && (!log || from > 0.0) {
-            return Ok(Self { label, low: from, high: to, scale });
+            return Ok(Self { label, low: from, high: to, scale, least_step: 0.0 });
         }
         let accepted = if log {
             "it must rise from above 0 to a finite end"
@@ -124,11 +134,12 @@ impl Axis {
             Scale::Linear => {
                 let most = (length_pt / if sideways { 18.0 } else { 15.0 }).clamp(2.0, 9.0) as usize;
                 let fits = |ticks: &Vec<Tick>| !sideways || self.fits(ticks, length_pt);
-                (2..=most)
-                    .rev()
-                    .map(|count| self.even_ticks(count))
-                    .find(fits)
-                    .unwrap_or_else(|| self.even_ticks(2))
+                let found = (2..=most).rev().map(|count| self.even_ticks(count)).find(fits);
+                let found = found.unwrap_or_else(|| self.even_ticks(2));
+                // A single tick says nothing of the scale: closer ones are tried as long as they fit.
+                let closer = (3..=9).map(|count| self.even_ticks(count)).filter(fits);
+                let closer = closer.into_iter().find(|ticks| ticks.len() > 1).filter(|_| found.len() < 2);
+                closer.unwrap_or(found)
             }
         }
     }
@@ -147,7 +158,7 @@ impl Axis {
 
     fn even_ticks(&self, most: usize) -> Vec<Tick> {
         let (low, high) = (self.low.min(self.high), self.low.max(self.high));
-        let (step, decimals) = nice_step((high - low) / most as f64);
+        let (step, decimals) = nice_step(((high - low) / most as f64).max(self.least_step));
         let slack = step * 1e-9;
         let (first, last) = (((low - slack) / step).ceil() as i64, ((high + slack) / step).floor() as i64);
         (first..=last)

@@ -32,6 +32,7 @@ pub struct Sheet {
     title: String,
     note: String,
     panels: Vec<Panel>,
+    level: bool,
 }
 
 /// Room left of and above the plot of one panel: for its axis, its title and what its marks ask for.
@@ -50,7 +51,7 @@ impl Sheet {
     /// A sheet of `columns` columns (at least one) whose plots are at most `plot_pt` points high.
     pub fn new(width: Width, columns: usize, plot_pt: f64) -> Self {
         let (title, note) = (String::new(), String::new());
-        Self { width, columns: columns.max(1), plot_pt, title, note, panels: Vec::new() }
+        Self { width, columns: columns.max(1), plot_pt, title, note, panels: Vec::new(), level: false }
     }
 
     /// The same under a title in bold; it is wrapped to the page.
@@ -63,6 +64,12 @@ impl Sheet {
     #[must_use]
     pub fn noted(self, note: impl Into<String>) -> Self {
         Self { note: note.into(), ..self }
+    }
+
+    /// The same with plots of equal width in all columns, whatever room their labels take.
+    #[must_use]
+    pub fn level(self) -> Self {
+        Self { level: true, ..self }
     }
 
     /// Puts `panel` in the next place, row by row.
@@ -118,15 +125,34 @@ impl Sheet {
         ((self.width.pt() - 2.0 * EDGE_PT - gaps) / self.columns as f64, gap)
     }
 
+    /// Where each column begins and how wide it is.
+    fn column_spans(&self) -> Vec<(f64, f64)> {
+        let (cell, gap) = self.cell_pt();
+        let widths: Vec<f64> = if self.level {
+            let sides: Vec<f64> = self.sides(cell).iter().map(|(left, right)| left + right).collect();
+            let plot = cell - sides.iter().sum::<f64>() / self.columns as f64;
+            sides.iter().map(|side| side + plot).collect()
+        } else {
+            vec![cell; self.columns]
+        };
+        let spans = widths.iter().scan(EDGE_PT, |x, width| {
+            let from = *x;
+            *x += width + gap;
+            Some((from, *width))
+        });
+        spans.collect()
+    }
+
     /// Places one row of panels at height `y`; also the height that it takes.
     fn row(&self, row: usize, panels: &[Panel], y: f64) -> Result<(Vec<(View, Margin)>, f64), RenderError> {
-        let (cell, gap) = self.cell_pt();
-        let side = self.sides(cell);
+        let columns = self.column_spans();
+        let side = self.sides(self.cell_pt().0);
         let mut placed = Vec::new();
         let (mut head, mut over, mut tallest, mut foot) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
         for (column, panel) in panels.iter().enumerate() {
             let (left, right) = if panel.trim == Trim::Bare { (0.0, 0.0) } else { side[column] };
-            let x = EDGE_PT + column as f64 * (cell + gap) + left;
+            let (from, cell) = columns[column];
+            let x = from + left;
             let frame = panel.fitted(Rect { x, y: 0.0, w: cell - left - right, h: self.plot_pt });
             if frame.w < 30.0 || frame.h < 30.0 {
                 let panel = row * self.columns + column;
@@ -167,7 +193,7 @@ impl Sheet {
     }
 
     fn heading(&self, canvas: &mut Canvas, index: usize, view: &View, margin: &Margin) {
-        let (cell, _) = self.cell_pt();
+        let (_, cell) = self.column_spans()[index % self.columns];
         let set = LABEL.aligned(Align::Start, Stand::Below);
         let (x, y) = (view.frame.x - margin.left, view.frame.y - margin.over - margin.head + 2.0);
         let several = self.panels.len() > 1;

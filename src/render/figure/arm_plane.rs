@@ -34,6 +34,11 @@ const PLOT_PT: f64 = 150.0;
 struct ArmPlane {
     /// Whether points are coloured by what they are.
     zones: bool,
+    /// The part of the plane that is shown, x from and to, then y; all of it if absent.
+    window_cm: Option<[f64; 4]>,
+    /// Whether paths are drawn; without, the arm stands at the stations alone.
+    #[serde(default = "yes")]
+    paths: bool,
     /// At how many points of the first path the arm is drawn.
     stations: usize,
     panels: Vec<PanelSetting>,
@@ -46,6 +51,10 @@ struct PanelSetting {
     problem: String,
     /// Whose paths, of the first seed.
     contenders: Vec<String>,
+}
+
+fn yes() -> bool {
+    true
 }
 
 impl Kind for ArmPlane {
@@ -65,9 +74,13 @@ impl ArmPlane {
         let map = rows.first().and_then(|row| scene.run.prepared_of(row)).map_or("", |map| &map.prepared);
         let lattice = &ask::exhibit(scene, map, "lattice")?.values;
         let (low, step, size) = ([lattice[0], lattice[1]], lattice[2], [lattice[3], lattice[4]]);
-        let axis =
-            |label: &str, axis: usize| Axis::linear(label, low[axis] - step, low[axis] + step * size[axis]);
-        let mut panel = Panel::new(title(&setting.problem, &rows), axis("x (cm)", 0)?, axis("y (cm)", 1)?)
+        let ends = |axis: usize| match self.window_cm {
+            Some(window) => [window[2 * axis], window[2 * axis + 1]],
+            None => [low[axis] - step, low[axis] + step * size[axis]],
+        };
+        let axis = |label: &str, axis: usize| Axis::linear(label, ends(axis)[0], ends(axis)[1]);
+        let title = if self.paths { title(&setting.problem, &rows) } else { setting.problem.clone() };
+        let mut panel = Panel::new(title, axis("x (cm)", 0)?, axis("y (cm)", 1)?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
         if self.zones {
@@ -76,7 +89,7 @@ impl ArmPlane {
         }
         for index in 1.. {
             let Some(outline) = scene.run.exhibit(map, &format!("obstacle_{index}")) else { break };
-            panel.add(obstacle(outline));
+            panel.add(obstacle(outline, !self.zones));
         }
         for (index, row) in rows.iter().enumerate() {
             self.add_path(scene, row, index, &mut panel);
@@ -95,13 +108,17 @@ impl ArmPlane {
                 panel.add(Points { points: joints[..2].to_vec(), marker, radius_pt: 1.6, color: INK, label });
             }
         }
+        if !self.paths {
+            return;
+        }
         let path: Vec<[f64; 2]> = stations.iter().map(|station| [station[4], station[5]]).collect();
         let ends = [("start", Marker::Circle, path.first()), ("goal", Marker::Diamond, path.last())];
         for (label, marker, at) in ends {
             let points = at.into_iter().copied().collect();
             panel.add(Points { points, marker, radius_pt: 3.0, color: GREEN, label: label.to_owned() });
         }
-        panel.add(Line::through(path, series_stroke(index)).labelled(row.contender.clone()));
+        let stroke = series_stroke(ask::place(scene, &row.contender));
+        panel.add(Line::through(path, stroke).labelled(row.contender.clone()));
     }
 }
 
@@ -119,7 +136,11 @@ fn title(problem: &str, rows: &[&Row]) -> String {
         [row] => {
             let length =
                 row.value("path_length_cm").map_or_else(|| "no path".to_owned(), |l| format!("{l:.4} cm"));
-            format!("{problem}, {}: {length}", row.contender)
+            let hits = match row.value("unsafe_hops") {
+                Some(hops) if hops > 0.0 => format!(", {hops:.0} of its hops hit"),
+                _ => String::new(),
+            };
+            format!("{problem}, {}: {length}{hits}", row.contender)
         }
         _ => problem.to_owned(),
     }
@@ -148,10 +169,11 @@ fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> C
     }
 }
 
-fn obstacle(outline: &Exhibit) -> Shape {
+/// An obstacle; its outline alone where zones show what lies in it.
+fn obstacle(outline: &Exhibit, is_filled: bool) -> Shape {
     Shape {
         corners: outline.values.chunks(2).map(|point| [point[0], point[1]]).collect(),
-        fill: Some(Fill::sheer(BLUE.mixed(BLACK, 0.3), 0.45)),
+        fill: is_filled.then(|| Fill::sheer(BLUE.mixed(BLACK, 0.3), 0.45)),
         stroke: Some(Stroke::solid(INK, 0.7)),
         label: "obstacle".to_owned(),
     }

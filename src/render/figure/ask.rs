@@ -40,6 +40,12 @@ pub(super) fn series(scene: &Scene<'_>, contender: &str, place: usize) -> usize 
     scene.evidence.paper.series.get(contender).copied().unwrap_or(place)
 }
 
+/// The place of the contender called `label` in its study, which gives it the same colour in every figure.
+pub(super) fn place(scene: &Scene<'_>, label: &str) -> usize {
+    let contenders = &scene.run.study.contenders;
+    contenders.iter().position(|contender| contender.label == label).unwrap_or(contenders.len())
+}
+
 /// The exhibit `name` of a trial or a prepared object.
 ///
 /// # Errors

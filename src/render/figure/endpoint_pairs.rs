@@ -73,11 +73,13 @@ fn panel(title: &str, first: usize, series: &[(&String, Pairs)]) -> Result<Panel
             panel.add(Line::through(pair.to_vec(), pale));
         }
     }
-    for (index, (label, pairs)) in (first..).zip(series) {
+    for (place, (label, pairs)) in series.iter().enumerate() {
+        let index = first + place;
         panel.add(Points {
             points: pairs.iter().flatten().copied().collect(),
             marker: series_marker(index),
-            radius_pt: 2.6,
+            // Series may share points: the first ones are larger and show behind the last.
+            radius_pt: 2.0 + 0.9 * (series.len() - 1 - place) as f64,
             color: series_color(index),
             label: format!("{label} ({})", pairs.len()),
         });

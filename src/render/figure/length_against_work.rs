@@ -6,7 +6,7 @@ use crate::analysis::stats::summary::median;
 use crate::render::RenderError;
 use crate::render::chart::marks::Points;
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{SERIES, WHITE, Width, series_color, series_marker};
+use crate::render::style::{BLACK, SERIES, WHITE, Width, series_color, series_marker};
 use crate::study::record::{Row, Status};
 use serde::Deserialize;
 
@@ -78,23 +78,31 @@ impl Ready {
         let low = works.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
         let high = works.iter().copied().fold(low, f64::max);
         let x = Axis::log(self.work.title(), low / 1.3, high * 1.3)?;
-        let mut panel = Panel::new(problem, x, Axis::over(self.length.title(), lengths));
-        let points = |points, radius_pt, index: usize, pale: f64, label: String| Points {
-            points,
-            // Colours come round after seven; the marker moves on by one more each time.
-            marker: series_marker(index + index / SERIES.len()),
-            radius_pt,
-            color: series_color(index).mixed(WHITE, pale),
-            label,
-        };
-        for (index, (_, all)) in series.iter().enumerate().filter(|(_, (_, all))| all.len() > 1) {
-            panel.add(points(all.clone(), 0.9, index, 0.45, String::new()));
+        let mut panel = Panel::new(title(problem, &series), x, Axis::over(self.length.title(), lengths));
+        for (label, all) in series.iter().filter(|(_, all)| all.len() > 1) {
+            panel.add(points(all.clone(), 0.9, ask::place(scene, label), 0.45, String::new()));
         }
-        for (index, (label, all)) in series.iter().enumerate() {
+        for (label, all) in &series {
             let middle = [0, 1].map(|axis| median(&all.iter().map(|point| point[axis]).collect::<Vec<_>>()));
             let at = middle[0].zip(middle[1]).map(|(x, y)| [x, y]);
-            panel.add(points(at.into_iter().collect(), 3.6, index, 0.0, (*label).clone()));
+            panel.add(points(at.into_iter().collect(), 3.6, ask::place(scene, label), 0.0, (*label).clone()));
         }
         Ok(panel)
     }
+}
+
+/// The problem with who fails on it: failures are at infinity and show nowhere else.
+fn title(problem: &str, series: &[(&String, Vec<[f64; 2]>)]) -> String {
+    let failed = |all: &[[f64; 2]]| all.iter().filter(|point| point[1].is_infinite()).count();
+    let said = series.iter().filter(|(_, all)| failed(all) > 0);
+    let said: Vec<String> =
+        said.map(|(label, all)| format!("{label} fails in {} of {}", failed(all), all.len())).collect();
+    if said.is_empty() { problem.to_owned() } else { format!("{problem}; {}", said.join(", ")) }
+}
+
+/// Points of the contender at place `index`: colours come round after seven, darker, and the marker moves on by one.
+fn points(points: Vec<[f64; 2]>, radius_pt: f64, index: usize, pale: f64, label: String) -> Points {
+    let round = index / SERIES.len();
+    let color = series_color(index).mixed(BLACK, if round == 0 { 0.0 } else { 0.4 });
+    Points { points, marker: series_marker(index + round), radius_pt, color: color.mixed(WHITE, pale), label }
 }

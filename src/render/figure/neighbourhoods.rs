@@ -49,7 +49,7 @@ impl Kind for Neighbourhoods {
 fn panel(row: &Row, region: &Exhibit, drawn: Option<&Exhibit>) -> Result<Panel, RenderError> {
     let steps = |exhibit: &Exhibit| exhibit.values.chunks(2).map(|s| [s[0], s[1]]).collect::<Vec<_>>();
     let reach = region.values.iter().copied().fold(1.0, f64::max) + 0.6;
-    let axis = |label: &str| Axis::linear(label, -reach, reach);
+    let axis = |label: &str| Axis::linear(label, -reach, reach).map(Axis::whole);
     let (tried, all) = (steps(drawn.unwrap_or(region)), steps(region));
     let title = format!("{}: {} of {}", row.contender, tried.len(), all.len());
     let mut panel =

@@ -97,7 +97,7 @@ impl Reductions {
 impl Kind for Reductions {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let height = ROW_PT * self.contenders.len() as f64;
-        let mut sheet = Sheet::new(Width::Double, self.columns, height);
+        let mut sheet = Sheet::new(Width::Double, self.columns, height).level();
         for index in 0..self.panels.len() {
             sheet.add(self.panel(scene, index));
         }

@@ -42,7 +42,7 @@ const BARS: [(&str, &str); 9] = [
 
 /// Pairs that are left out of a panel's whole, and its title.
 const PANELS: [(&[&str], &str); 2] =
-    [(&[], "(a) of all pairs"), (&["rejected_branch"], "(b) of pairs on one branch")];
+    [(&[], "of all pairs"), (&["rejected_branch"], "of pairs on one branch")];
 
 fn count(row: &PreparedRow, column: &str) -> Option<f64> {
     row.values.get(column).map(|value| value.as_f64())

@@ -10,7 +10,7 @@ use crate::render::chart::marks::{Band, Cells, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{
-    BLUE, Dash, Fill, GREEN, GREY, INK, Marker, SKY, Stroke, VERMILLION, WHITE, Width,
+    BLUE, Dash, Fill, GREEN, GREY, INK, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::settings::Settings;
 use serde::Deserialize;
@@ -50,6 +50,16 @@ struct ColumnSpec {
     claim: String,
     title: String,
     axis: String,
+    /// Where the axis begins, if what lies below is to be cut off.
+    low: Option<f64>,
+}
+
+/// What a column without outcomes says; a quick run may have too few maps for any.
+const NOTHING: &str = "no reading has enough maps";
+
+/// The axis that outcomes stand along, one unit each; it has room for one where there is none.
+fn places(label: &str, outcomes: &[Outcome]) -> Result<Axis, RenderError> {
+    Axis::linear(label, -0.5, outcomes.len().max(1) as f64 - 0.5)
 }
 
 struct Curve {
@@ -68,9 +78,13 @@ impl Curve {
 
     fn curve(scene: &Scene<'_>, spec: &ColumnSpec, outcomes: &[Outcome]) -> Result<Panel, RenderError> {
         let printed = printed_value(scene.evidence, &spec.claim);
-        let ends = outcomes.iter().flat_map(|o| [o.central.low, o.central.high]);
-        let x = Axis::linear("", -0.5, outcomes.len() as f64 - 0.5)?;
-        let mut panel = Panel::new(&spec.title, x, Axis::over(&spec.axis, ends.chain(printed)));
+        let low = spec.low.unwrap_or(f64::NEG_INFINITY);
+        let ends = outcomes.iter().flat_map(|o| [o.central.low, o.central.high]).map(|end| end.max(low));
+        let y = Axis::over(&spec.axis, ends.chain(printed));
+        if outcomes.is_empty() {
+            return Ok(Panel::new(format!("{}: {NOTHING}", spec.title), places("", outcomes)?, y));
+        }
+        let mut panel = Panel::new(&spec.title, places("", outcomes)?, y);
         let at = |index: usize| index as f64;
         let edges =
             outcomes.iter().enumerate().map(|(i, o)| [at(i), o.central.low, o.central.high]).collect();
@@ -85,9 +99,15 @@ impl Curve {
         let medians = outcomes.iter().enumerate().map(|(i, o)| [at(i), o.median]).collect();
         let label = "median over maps".to_owned();
         panel.add(Points { points: medians, marker: Marker::Circle, radius_pt: 1.2, color: BLUE, label });
-        let met = outcomes.iter().enumerate().filter(|(_, o)| o.met > 0);
-        let points = met.filter_map(|(i, _)| Some([at(i), printed?])).collect();
-        let label = "met exactly on some map".to_owned();
+        let met = |is: fn(&Outcome) -> bool| {
+            let met = outcomes.iter().enumerate().filter(move |(_, o)| is(o));
+            met.filter_map(|(i, _)| Some([at(i), printed?])).collect::<Vec<_>>()
+        };
+        let label = "met on a map that was searched for".to_owned();
+        let points = met(|o| o.met_searched > 0);
+        panel.add(Points { points, marker: Marker::Cross, radius_pt: 2.2, color: ORANGE, label });
+        let label = "met on some random map".to_owned();
+        let points = met(|o| o.met > 0);
         panel.add(Points { points, marker: Marker::Diamond, radius_pt: 1.8, color: GREEN, label });
         Ok(panel)
     }
@@ -100,8 +120,11 @@ impl Curve {
                 String::new()
             }
         });
-        let x = Axis::linear("readings, by median", -0.5, outcomes.len() as f64 - 0.5)?;
+        let x = places("readings, by median", outcomes)?;
         let mut panel = Panel::new("", x, Axis::names("", names.collect::<Vec<_>>()));
+        if outcomes.is_empty() {
+            return Ok(panel);
+        }
         let color = |outcome: &Outcome, [reading, option]: &[String; 2]| {
             (outcome.point.choices()[reading] == *option).then_some(if outcome.is_among {
                 INK
@@ -129,7 +152,7 @@ impl Curve {
 impl Kind for Curve {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let columns = &self.read.columns;
-        let mut sheet = Sheet::new(Width::Double, columns.len(), PLOT_PT);
+        let mut sheet = Sheet::new(Width::Double, columns.len(), PLOT_PT).level();
         let all: Vec<Vec<Outcome>> =
             columns.iter().map(|column| self.outcomes(scene, column)).collect::<Result<_, _>>()?;
         for (column, outcomes) in columns.iter().zip(&all) {
@@ -168,8 +191,9 @@ impl Kind for Curve {
             table.row(cells);
         }
         table.note(
-            "Readings with the option under which the printed number lies among the central 95 % of maps, and under \
-             which it is met exactly on some map, of all readings with the option.",
+            "Readings with the option under which the printed number lies among the central 95 % of random maps, and under \
+             which it is met exactly on some random map (maps that were searched for do not count), of the readings with the \
+             option that can be judged.",
         );
         Ok(Some(table))
     }

@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "tip_path_joints",
-    about: "joint angles of a planar arm along the paths of its tip: θ1 above θ2, one column a problem",
+    about: "joint angles of a planar arm along the paths of its tip: θ1 beside θ2, one row a problem",
     build: |settings, study, _paper| {
         let read: TipPathJoints = settings.read()?;
         for panel in &read.panels {
@@ -27,7 +27,18 @@ const PLOT_PT: f64 = 105.0;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TipPathJoints {
+    /// Draws, at each share of the way, how far each curve is from that of the panel's first contender, which is not
+    /// drawn: curves that all but coincide can then be told apart.
+    #[serde(default)]
+    differences: bool,
+    /// How many panels stand side by side: θ1 and θ2 of a problem follow each other.
+    #[serde(default = "two")]
+    columns: usize,
     panels: Vec<PanelSetting>,
+}
+
+fn two() -> usize {
+    2
 }
 
 #[derive(Deserialize)]
@@ -39,33 +50,86 @@ struct PanelSetting {
     contenders: Vec<String>,
 }
 
+/// A curve with the contender it belongs to.
+type Curves<'a> = Vec<(&'a String, Vec<[f64; 2]>)>;
+
 impl Kind for TipPathJoints {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, self.panels.len(), PLOT_PT);
-        for joint in 0..2 {
-            for panel in &self.panels {
-                sheet.add(panel_of(scene, panel, joint)?);
+        let mut sheet = Sheet::new(Width::Double, self.columns, PLOT_PT);
+        let mut all = Vec::new();
+        for panel in &self.panels {
+            all.push([self.curves(scene, panel, 0)?, self.curves(scene, panel, 1)?]);
+        }
+        // One scale for each joint, so that cases can be compared.
+        let ranges = [0, 1].map(|joint| {
+            let points = all.iter().flat_map(move |both| &both[joint]).flat_map(|(_, points)| points);
+            points.map(|point| point[1]).collect::<Vec<f64>>()
+        });
+        for (setting, both) in self.panels.iter().zip(all) {
+            for (joint, curves) in both.into_iter().enumerate() {
+                sheet.add(self.panel(scene, &setting.problem, joint, curves, &ranges[joint]));
             }
         }
         Ok(sheet)
     }
 }
 
-fn panel_of(scene: &Scene<'_>, setting: &PanelSetting, joint: usize) -> Result<Panel, RenderError> {
-    let mut curves = Vec::new();
-    for label in &setting.contenders {
-        let row = ask::trial(scene, &setting.problem, 0, None, label)?;
-        // A failed trial has no path and no curve.
-        curves.extend(curve(scene, row, joint).map(|points| (label, points)));
+impl TipPathJoints {
+    fn panel(
+        &self,
+        scene: &Scene<'_>,
+        problem: &str,
+        joint: usize,
+        curves: Curves<'_>,
+        range: &[f64],
+    ) -> Panel {
+        let ways = curves.iter().flat_map(|(_, points)| points).map(|point| point[0]);
+        let way = if self.differences { "share of the way (%)" } else { "way along the path (cm)" };
+        let angle = format!("{}θ{} (°)", if self.differences { "Δ" } else { "" }, joint + 1);
+        let (x, y) = (Axis::over(way, ways), Axis::over(angle, range.iter().copied()));
+        let mut panel = Panel::new(format!("{problem}, θ{}", joint + 1), x, y);
+        for (label, points) in curves {
+            let stroke = series_stroke(ask::place(scene, label));
+            panel.add(Line::through(points, stroke).labelled(label.clone()));
+        }
+        panel
     }
-    let values = |axis: usize| curves.iter().flat_map(move |(_, points)| points.iter().map(move |p| p[axis]));
-    let label = format!("θ{} (°)", joint + 1);
-    let (x, y) = (Axis::over("way along the path (cm)", values(0)), Axis::over(label, values(1)));
-    let mut panel = Panel::new(format!("{}, θ{}", setting.problem, joint + 1), x, y);
-    for (index, (label, points)) in curves.into_iter().enumerate() {
-        panel.add(Line::through(points, series_stroke(index)).labelled(label.clone()));
+
+    fn curves<'a>(
+        &self,
+        scene: &Scene<'_>,
+        setting: &'a PanelSetting,
+        joint: usize,
+    ) -> Result<Curves<'a>, RenderError> {
+        let mut curves = Vec::new();
+        for label in &setting.contenders {
+            let row = ask::trial(scene, &setting.problem, 0, None, label)?;
+            // A failed trial has no path and no curve.
+            curves.extend(curve(scene, row, joint).map(|points| (label, points)));
+        }
+        if self.differences && !curves.is_empty() {
+            let (_, base) = curves.remove(0);
+            for (_, points) in &mut curves {
+                *points = away(points, &base);
+            }
+        }
+        Ok(curves)
     }
-    Ok(panel)
+}
+
+/// How far `points` are from `base` at each share of the way, in percent.
+fn away(points: &[[f64; 2]], base: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let length = |of: &[[f64; 2]]| of.last().map_or(1.0, |last| last[0]).max(f64::MIN_POSITIVE);
+    let (own, other) = (length(points), length(base));
+    let point = |[way, angle]: &[f64; 2]| [100.0 * way / own, angle - at(base, way / own * other)];
+    points.iter().map(point).collect()
+}
+
+/// The angle of a curve at `way`, even between its stations.
+fn at(curve: &[[f64; 2]], way: f64) -> f64 {
+    let after = curve.partition_point(|point| point[0] < way).clamp(1, curve.len().max(2) - 1);
+    let ([x, y], [to_x, to_y]) = (curve[after - 1], curve[after.min(curve.len() - 1)]);
+    if to_x > x { y + (to_y - y) * (way - x) / (to_x - x) } else { y }
 }
 
 /// The way along the path and the joint's angle at every station.
@@ -81,4 +145,19 @@ fn curve(scene: &Scene<'_>, row: &Row, joint: usize) -> Option<Vec<[f64; 2]>> {
         [way, station[joint]]
     };
     Some(stations.iter().map(point).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_is_nowhere_away_from_itself_however_it_is_sampled() {
+        let base = [[0.0, 1.0], [2.0, 5.0], [10.0, -3.0]];
+        // The same curve, twice as long and with a station more.
+        let same = [[0.0, 1.0], [4.0, 5.0], [12.0, 1.0], [20.0, -3.0]];
+        assert!(away(&same, &base).iter().all(|[_, gap]| gap.abs() < 1e-12));
+        let higher = same.map(|[way, angle]| [way, angle + 2.0]);
+        assert_eq!(away(&higher, &base).last(), Some(&[100.0, 2.0]));
+    }
 }

@@ -1,12 +1,12 @@
 //! One metric against another, a point a contender: means over the same problems with intervals both ways.
 
 use super::{Entry, Kind, Scene, check_labels};
-use crate::analysis::effect::mean;
+use crate::analysis::effect::{mean, solved_by_all};
 use crate::analysis::metric::{self, Metric};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{SERIES, Stroke, Width, series_color, series_marker};
+use crate::render::style::{GREY, INK, SERIES, Stroke, Width, series_color, series_marker};
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -52,18 +52,22 @@ struct PanelSpec {
 
 impl Tradeoff {
     fn panel(&self, scene: &Scene<'_>, spec: &PanelSpec, [x, y]: [&Metric; 2]) -> Panel {
+        let solved = solved_by_all(scene.run, &spec.problems, &self.contenders);
         let both = |contender: &String| {
-            let of = |metric| mean(scene.run, &spec.problems, contender, metric);
+            let of = |metric| mean(scene.run, &solved[contender], contender, metric);
             of(x).zip(of(y))
         };
         let points: Vec<_> = self.contenders.iter().map(both).collect();
+        let maps = solved.values().next().map_or(0, Vec::len);
         let found = || points.iter().flatten();
         let across = found().flat_map(|(a, _)| [a.interval.low, a.interval.high]);
         let up = found().flat_map(|(_, b)| [b.interval.low, b.interval.high]);
-        let mut panel = Panel::new(&spec.title, Axis::over(x.title(), across), Axis::over(y.title(), up));
+        let title = format!("{}, {maps} maps", spec.title);
+        let mut panel = Panel::new(&title, Axis::over(x.title(), across), Axis::over(y.title(), up));
         for (index, (contender, point)) in self.contenders.iter().zip(&points).enumerate() {
             let Some((a, b)) = point else { continue };
-            let stroke = Stroke::solid(series_color(index), 0.9);
+            let color = if index < SERIES.len() { series_color(index) } else { GREY.mixed(INK, 0.3) };
+            let stroke = Stroke::solid(color, 0.9);
             let cross = vec![
                 [a.interval.low, b.value],
                 [a.interval.high, b.value],
@@ -73,7 +77,7 @@ impl Tradeoff {
             ];
             panel.add(Line::through(cross, stroke));
             // One marker on for each round of the colours, so that no two are alike.
-            let (marker, color) = (series_marker(index + index / SERIES.len()), series_color(index));
+            let marker = series_marker(index + index / SERIES.len());
             let points = vec![[a.value, b.value]];
             panel.add(Points { points, marker, radius_pt: 3.0, color, label: contender.clone() });
         }
@@ -89,6 +93,6 @@ impl Kind for Tradeoff {
         for panel in &self.panels {
             sheet.add(self.panel(scene, panel, metrics));
         }
-        Ok(sheet.noted("Means over maps that the contender solved, with 95 % bootstrap intervals over maps."))
+        Ok(sheet.noted("Means over the maps that every contender solved, with 95 % bootstrap intervals of each mean over maps."))
     }
 }

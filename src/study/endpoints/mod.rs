@@ -10,7 +10,7 @@ mod never_lowered;
 mod tests;
 
 use crate::grid::{CornerRule, Grid2, Moves};
-use crate::search::{Octile, OctileAstar, ScaledOctile};
+use crate::search::{Octile, OctileAstar, ScaledOctile, Ties};
 use crate::space::{ArmRules, ArmWorld, Obstacle};
 use crate::study::prepared::lattice::CornerSetting;
 use crate::study::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
@@ -59,6 +59,9 @@ pub struct Variant {
     hop_check: Option<HopSetting>,
     /// Whether the paper's A* lowers the g of an open node; lowered if absent.
     pub open_node: Option<OpenNode>,
+    /// The order among equal f of that A*, which matters only where open nodes are never lowered; first in first out
+    /// if absent.
+    pub ties: Option<TieOrder>,
 }
 
 /// The shapes that obstacles may have.
@@ -87,6 +90,28 @@ pub enum OpenNode {
     Lowered,
     /// It does not, as the pseudocode may be read.
     Never,
+}
+
+/// The order among equal f.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TieOrder {
+    /// The one opened first.
+    Fifo,
+    /// The one opened last.
+    Lifo,
+    /// The one with the larger g.
+    LargerG,
+}
+
+impl From<TieOrder> for Ties {
+    fn from(order: TieOrder) -> Self {
+        match order {
+            TieOrder::Fifo => Self::Fifo,
+            TieOrder::Lifo => Self::Lifo,
+            TieOrder::LargerG => Self::LargerG,
+        }
+    }
 }
 
 /// Two cells, the one with the smaller number first.

@@ -23,10 +23,10 @@ pub struct NeverLowered {
 
 impl NeverLowered {
     /// Tries every ordered pair whose shortest lengths are at most `excess` steps below the printed ones.
-    pub fn find(grids: &[&Grid2], moves: &[Moves], cases: &[Case], excess: f64) -> Self {
+    pub fn find(grids: &[&Grid2], moves: &[Moves], cases: &[Case], excess: f64, ties: Ties) -> Self {
         let cells = grids.first().map_or(0, |grid| grid.cell_count());
         let searches = || {
-            let astar = Search::new(Heap::new(Ties::Fifo));
+            let astar = Search::new(Heap::new(ties));
             (moves.iter().map(search).collect::<Vec<_>>(), astar)
         };
         let found: Vec<(Vec<Pair>, usize)> = (0..cells)

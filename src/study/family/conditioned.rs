@@ -2,7 +2,10 @@
 //!
 //! One draw tries maps in a written order until one is accepted: try `i` takes its family and its seed from the
 //! draw's seed and `i`. Accepted draws are therefore independent and distributed as the mixture of the families,
-//! given the bands. How many tries each took is recorded, so that acceptance rates are known.
+//! given the bands. How many tries each took is recorded, so that acceptance rates are known, and may be listed in a
+//! file ([`found`]): a listed draw is looked at again, but not the tries before it.
+
+mod found;
 
 use super::{Entry, Family, Query};
 use crate::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
@@ -11,6 +14,7 @@ use crate::settings::{Settings, SettingsError};
 use crate::space::{World, WorldKind};
 use crate::study::judge::{LATTICE_COLUMNS, measured};
 use crate::study::prepared::{Prepared, lattice};
+use crate::study::store::sha256;
 use crate::study::{Inputs, StudyError, column};
 use rand::RngExt as _;
 use serde::Deserialize;
@@ -34,8 +38,25 @@ pub static ENTRY: Entry = Entry {
         if queries.len() != 1 || families.iter().any(|family| family.queries() != queries) {
             return Err(settings.error("`of` has families with different queries, or more than one").into());
         }
-        let files = families.iter().flat_map(|family| family.inputs().to_vec()).collect();
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Rejection { read, families, planner, queries, files }))
+        let mut files: Vec<PathBuf> = families.iter().flat_map(|family| family.inputs().to_vec()).collect();
+        let found = match &read.found {
+            None => BTreeMap::new(),
+            Some(name) => {
+                let file = inputs.locate(name).map_err(|message| settings.error(message))?;
+                let found =
+                    found::read(&file, &read.fingerprint()).map_err(|message| settings.error(message))?;
+                files.push(file);
+                found
+            }
+        };
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Rejection {
+            read,
+            families,
+            planner,
+            queries,
+            files,
+            found,
+        }))
     },
 };
 
@@ -58,6 +79,8 @@ struct Conditioned {
     expansions: u64,
     /// At most this many tries a draw; a draw that is not accepted is an invalid problem.
     tries: u64,
+    /// A file that lists how many tries draws took, so that they need not be tried again.
+    found: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -68,6 +91,29 @@ struct Of {
 }
 
 impl Conditioned {
+    /// What decides which try is accepted; a list holds for an equal one alone.
+    fn fingerprint(&self) -> String {
+        let Self {
+            of,
+            shared,
+            corner_rule,
+            planner,
+            planner_settings,
+            given,
+            expansions,
+            tries: _,
+            found: _,
+        } = self;
+        let revisions: Vec<Option<u32>> =
+            of.iter().map(|of| super::find(&of.family).map(|entry| entry.revision)).collect();
+        let revision = planner::find(planner).map(|entry| entry.revision);
+        let text = format!(
+            "{} {of:?} {shared} {corner_rule} {planner} {planner_settings} {given:?} {expansions} {revisions:?} {revision:?}",
+            ENTRY.revision
+        );
+        sha256(text.as_bytes())[..16].to_owned()
+    }
+
     fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
         for (name, [low, high]) in &self.given {
             if column::find(name).is_none() {
@@ -128,6 +174,8 @@ struct Rejection {
     planner: Box<dyn Planner>,
     queries: Vec<Query>,
     files: Vec<PathBuf>,
+    /// Tries by seed, where they are known.
+    found: BTreeMap<u64, u64>,
 }
 
 impl Rejection {
@@ -161,10 +209,14 @@ impl Family for Rejection {
 
     fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
         let mut stream = seed::stream(seed);
+        let known = self.found.get(&seed).copied().unwrap_or(0);
         for tries in 1..=self.read.tries {
             let family = stream.random_range(0..self.families.len());
             // Half of the range of u64, as all seeds are.
             let seed = stream.random_range(0..=u64::MAX >> 1);
+            if tries < known {
+                continue;
+            }
             if self.families[family].draw(seed).is_ok_and(|world| self.accepts(&world)) {
                 let mut prepared = self.families[family].prepare(seed)?;
                 prepared.values.insert("tries", Value::Count(tries));

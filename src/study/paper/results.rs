@@ -32,6 +32,8 @@ pub struct BlockSpec {
     pub title: String,
     /// The problem group.
     pub problems: Spanned<String>,
+    /// Another problem group, shown by the cells that are `beside`.
+    pub beside: Option<Spanned<String>>,
 }
 
 /// One column.
@@ -46,6 +48,9 @@ pub struct CellSpec {
     pub label: Option<String>,
     /// How many decimals it is shown with.
     pub decimals: usize,
+    /// Whether it is of the block's other problem group.
+    #[serde(default)]
+    pub beside: bool,
 }
 
 /// What is shown of a metric over the trials of a row.
@@ -60,6 +65,8 @@ pub enum Show {
     Percent,
     /// The share of trials that were solved, in percent.
     Solved,
+    /// The median over trials that were not solved.
+    Failed,
     /// The value of the first trial that has one, whatever its status.
     Value,
 }
@@ -74,16 +81,18 @@ impl Paper {
                     format!("there is no study `{}`; there are {}", table.study.get_ref(), known.join(", "));
                 return Err(self.document.error(table.study.span(), message));
             };
-            for block in &table.blocks {
-                if !study.groups.iter().any(|group| group.label == *block.problems.get_ref()) {
+            for named in
+                table.blocks.iter().flat_map(|block| std::iter::once(&block.problems).chain(&block.beside))
+            {
+                if !study.groups.iter().any(|group| group.label == *named.get_ref()) {
                     let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
                     let message = format!(
                         "study `{}` has no problem group `{}`; it has {}",
                         study.name,
-                        block.problems.get_ref(),
+                        named.get_ref(),
                         known.join(", ")
                     );
-                    return Err(self.document.error(block.problems.span(), message));
+                    return Err(self.document.error(named.span(), message));
                 }
             }
         }

@@ -1,7 +1,5 @@
-//! The paper's own tables, redrawn with ours beside them.
+//! The paper's own tables as they are asked for beside ours.
 
-use super::Paper;
-use crate::settings::SettingsError;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -22,6 +20,22 @@ pub struct TableSpec {
     /// Its rows.
     #[serde(rename = "row")]
     pub rows: Vec<TableRow>,
+    /// One problem of ours whose trials stand beside the printed rows; without it, each cell takes its own claim's.
+    pub ours: Option<OursSpec>,
+}
+
+/// The problem that a table's own rows are from.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OursSpec {
+    /// The study.
+    pub study: Spanned<String>,
+    /// The problem group; its first draw is shown.
+    pub problems: String,
+    /// The metric in each column, as readings name them.
+    pub metrics: Vec<String>,
+    /// What a reader must know about this problem.
+    pub note: String,
 }
 
 /// A row of a table.
@@ -36,27 +50,8 @@ pub struct TableRow {
     /// What stands in each column where the table holds no claims.
     #[serde(default)]
     pub cells: Vec<String>,
-}
-
-impl Paper {
-    /// Every row has as many claims, or cells, as its table has columns.
-    pub(super) fn check_tables(&self) -> Result<(), SettingsError> {
-        for table in &self.tables {
-            for row in &table.rows {
-                let (claims, cells) = (row.claims.len(), row.cells.len());
-                if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
-                    let message = format!(
-                        "row `{}` of table `{}` has {claims} claims and {cells} cells; either are accepted, one for each of \
-                         the {} columns",
-                        row.label,
-                        table.id,
-                        table.columns.len()
-                    );
-                    let span = row.claims.first().map_or(0..0, Spanned::span);
-                    return Err(self.document.error(span, message));
-                }
-            }
-        }
-        Ok(())
-    }
+    /// The contender whose trial is shown.
+    pub contender: Option<String>,
+    /// The contender that its reduction in per cent is from, where the row prints reductions.
+    pub reduced_from: Option<String>,
 }

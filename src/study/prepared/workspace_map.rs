@@ -81,14 +81,20 @@ pub enum ShapeSetting {
     Circle,
     /// A square whose sides are as long as the diameter and parallel to the axes.
     Square,
+    /// A square whose diagonals are as long as the diameter and whose sides are parallel to the axes.
+    SquareInscribed,
     /// A regular hexagon with its corners on the circle of the diameter, two of them level with its centre.
     Hexagon,
+    /// The hexagon turned so that two of its corners stand above each other.
+    HexagonTurned,
     /// A regular triangle with its corners on the circle of the diameter, one of them on top.
     Triangle,
+    /// The triangle turned so that one of its corners is at the bottom.
+    TriangleTurned,
 }
 
 impl ShapeSetting {
-    /// Every shape.
+    /// The four shapes, each standing as it is usually drawn.
     pub const ALL: [Self; 4] = [Self::Circle, Self::Square, Self::Hexagon, Self::Triangle];
 
     /// The obstacle of this shape about `center`.
@@ -106,8 +112,11 @@ impl ShapeSetting {
                 let half = Vec2::new(radius, radius);
                 ConvexPolygon::rectangle(center - half, center + half)
             }
+            Self::SquareInscribed => regular(4, PI / 4.0),
             Self::Hexagon => regular(6, 0.0),
+            Self::HexagonTurned => regular(6, PI / 2.0),
             Self::Triangle => regular(3, PI / 2.0),
+            Self::TriangleTurned => regular(3, -PI / 2.0),
         };
         polygon.map(Obstacle::Polygon).map_err(|e| e.to_string())
     }

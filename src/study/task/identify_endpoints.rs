@@ -2,7 +2,7 @@
 
 use super::{Entry, Task};
 use crate::planner::{Exhibit, Value};
-use crate::search::ScaledOctile;
+use crate::search::{ScaledOctile, Ties};
 use crate::space::{ArmRules, ArmWorld, TipLattice};
 use crate::study::checked::Study;
 use crate::study::endpoints::{self, Case, FreeShapes, NeverLowered, OpenNode, Pair, ShapeChoice, Variant};
@@ -14,7 +14,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "identify_endpoints",
     about: "which pairs of lattice points have the printed lengths in all cases, by exact single-source searches",
-    revision: 1,
+    revision: 2,
     columns: &["start_x_cm", "start_y_cm", "goal_x_cm", "goal_y_cm", "pairs", "pairs_on_fives", "candidates"],
     build: |settings| {
         let read: Identify = settings.read()?;
@@ -25,6 +25,12 @@ pub static ENTRY: Entry = Entry {
             return Err(
                 settings.error(format!("hops is {:?}; a length of at least one hop is needed", case.hops))
             );
+        }
+        let is_never = |variant: &Variant| variant.open_node == Some(OpenNode::Never);
+        if let Some(variant) = read.variants.iter().find(|v| v.ties.is_some() && !is_never(v)) {
+            let message =
+                format!("variant `{}` has ties, which only matter with open_node = \"never\"", variant.label);
+            return Err(settings.error(message));
         }
         Ok(Box::new(read))
     },
@@ -97,7 +103,8 @@ impl Identify {
         let (pairs, candidates) = match variant.open_node {
             Some(OpenNode::Never) => {
                 let grids: Vec<_> = worlds.iter().map(ArmWorld::grid).collect();
-                let found = NeverLowered::find(&grids, &moves, &self.cases, self.excess_steps);
+                let ties = variant.ties.map_or(Ties::Fifo, Into::into);
+                let found = NeverLowered::find(&grids, &moves, &self.cases, self.excess_steps, ties);
                 (found.pairs, Some(found.candidates))
             }
             Some(OpenNode::Lowered) | None => (endpoints::pairs(&moves, &self.cases), None),

@@ -45,6 +45,9 @@ pub fn default() -> &'static Entry {
     &plan::ENTRY
 }
 
+#[cfg(test)]
+mod tests;
+
 /// The row of a unit's prepared object.
 fn prepared_row(unit: &Unit<'_>, prepared: Result<&Prepared, &Invalid>) -> PreparedRow {
     PreparedRow {

@@ -13,7 +13,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "null_rate",
     about: "the share of targets of equal parity near two printed lengths that some pair of points meets",
-    revision: 1,
+    revision: 2,
     columns: &["targets", "targets_hit", "hit_share_percent"],
     build: |settings| {
         let read: NullRate = settings.read()?;
@@ -33,7 +33,7 @@ pub static ENTRY: Entry = Entry {
 };
 
 /// The label of the row over all variants.
-const ANY: &str = "any of them";
+const ANY: &str = "any of the above";
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -79,3 +79,52 @@ fn wrong_settings_are_refused_with_what_is_accepted() {
     assert!(with("blocked_share = 0.3", "share = 1").contains("`of` random_cells"));
     assert!(with("start = [1, 2]", "start = [12, 2]").contains("start is [12, 2], outside the map"));
 }
+
+#[test]
+fn a_listed_draw_is_what_a_search_finds() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let inputs = Inputs { roots: vec![root.to_owned()] };
+    let study = crate::study::Study::load(&root.join("experiments/zhang/conditioned.toml"), &inputs).unwrap();
+    let point = crate::study::Point::new(&study.readings, &BTreeMap::new()).unwrap();
+    let mut longest = 0.0_f64;
+    for group in &study.groups {
+        let listed = group.family(&point, &inputs).unwrap();
+        let mut table = group.settings.table().clone();
+        assert!(table.remove("found").is_some(), "{} lists no draws", group.label);
+        let searched = (ENTRY.build)(&Settings::composed("searched", table), &inputs).unwrap();
+        for replicate in 0..3_u32 {
+            let names = ["zhang", "conditioned", "problem", &group.label, &replicate.to_string()];
+            let seed = seed::derive(study.seed, &names);
+            let [ours, truth] = [&listed, &searched].map(|family| family.prepare(seed).unwrap());
+            assert_eq!(ours.values, truth.values, "{} {replicate}", group.label);
+            assert_eq!(ours.exhibits, truth.exhibits, "{} {replicate}", group.label);
+            longest = longest.max(tries(&truth));
+        }
+    }
+    assert!(longest > 100.0, "no long search in the sample: {longest}");
+}
+
+#[test]
+fn a_list_made_under_other_settings_is_not_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let wide = "path_cost_cells = [11, 12]";
+    let truth = tries(&family(wide).unwrap().prepare(8).unwrap());
+    let print = |given: &str| {
+        let read: Conditioned = toml::from_str(&(SETTINGS.to_owned() + given)).unwrap();
+        read.fingerprint()
+    };
+    for (made_for, expected) in [(wide, truth + 1.0), ("path_cost_cells = [11, 13]", truth)] {
+        let list = format!("for {}\n8 {}\n", print(made_for), truth + 1.0);
+        std::fs::write(folder.path().join("list.txt"), list).unwrap();
+        let text = format!("found = 'list.txt'\n{SETTINGS}{wide}");
+        let inputs = Inputs { roots: vec![folder.path().to_owned()] };
+        let family =
+            (ENTRY.build)(&Settings::composed("a test", toml::from_str(&text).unwrap()), &inputs).unwrap();
+        let found = tries(&family.prepare(8).unwrap());
+        // The search goes on from a listed try: what is before it is taken on trust.
+        assert!(
+            found >= expected && (expected > truth || found == truth),
+            "{made_for}: {found} of {expected}"
+        );
+    }
+}

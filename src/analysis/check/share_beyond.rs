@@ -1,0 +1,90 @@
+//! On what share of draws a contender's metric is above a number, group by group.
+
+use super::{Check, Entry};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::proportion::wilson;
+use crate::analysis::verdict::{Finding, Verdict};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "share_beyond",
+    about: "on what share of draws is a contender's metric above a number; optionally, is it on every one?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let mut metric = None;
+        for set in &settings.sets {
+            let study = context.study(&set.study, &set.problems, &[settings.contender.as_str()])?;
+            metric = Some(context.metric(&settings.metric, study)?);
+        }
+        let metric = metric.ok_or_else(|| context.settings.error("`sets` names no problems"))?;
+        Ok(Box::new(ShareBeyond { settings, metric }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    metric: String,
+    contender: String,
+    /// Whether the claim is that it is above on every draw; otherwise the shares are shown and nothing is judged.
+    #[serde(default)]
+    every: bool,
+    sets: Vec<SetSpec>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SetSpec {
+    study: String,
+    problems: Vec<String>,
+    /// In the metric's unit; a value this close above it is not above it.
+    above: f64,
+}
+
+struct ShareBeyond {
+    settings: Settings,
+    metric: &'static Metric,
+}
+
+/// Values closer than this differ by the order of a sum alone.
+const EQUAL: f64 = 1e-9;
+
+impl Check for ShareBeyond {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let (mut below, mut all) = (None, 0);
+        for set in &self.settings.sets {
+            let Some(run) = evidence.run(&set.study) else { continue };
+            for group in &set.problems {
+                let contender = &self.settings.contender;
+                let pairs = run.pairs(group, contender, contender);
+                let known = pairs.iter().filter_map(|pair| Some((pair, run.value(pair.other, self.metric)?)));
+                let (beyond, not): (Vec<_>, Vec<_>) =
+                    known.partition(|(_, value)| *value > set.above + EQUAL);
+                let n = beyond.len() + not.len();
+                all += n;
+                below = below.or(not.first().map(|(pair, _)| format!("{}/{}", set.study, pair.other.trial)));
+                let Some(interval) = wilson(beyond.len(), n, 0.95) else { continue };
+                finding.because.push(format!(
+                    "{group}: {} above {} on {:.1} % of {n} maps ({:.1} to {:.1} %)",
+                    self.metric.title().to_lowercase(),
+                    set.above,
+                    100.0 * beyond.len() as f64 / n as f64,
+                    100.0 * interval.low,
+                    100.0 * interval.high
+                ));
+            }
+        }
+        if self.settings.every {
+            finding.verdict = Some(match (all, &below) {
+                (0, _) => Verdict::Undecided,
+                (_, None) => Verdict::Reproduced,
+                (_, Some(_)) => Verdict::NotReproduced,
+            });
+            finding.trial = below;
+        }
+        finding
+    }
+}

@@ -1,0 +1,77 @@
+//! Whether a contender's metric differs between problems that differ in one thing.
+
+use super::{Check, Entry};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::summary::median;
+use crate::analysis::verdict::{Finding, Verdict};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "varies",
+    about: "does a contender's median differ between problems that differ in one thing?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders = [settings.contender.as_str()];
+        let study = context.study(&settings.study, &settings.problems.concat(), &contenders)?;
+        if settings.problems.iter().any(|set| set.len() < 2) || settings.problems.is_empty() {
+            return Err(context.settings.error("each set of problems needs at least two names"));
+        }
+        let metric = context.metric(&settings.metric, study)?;
+        let is_fitted = study.fitted_to.contains(&context.claim.id);
+        Ok(Box::new(Varies { settings, metric, is_fitted }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    /// Sets of problems; within each the metric is claimed to vary.
+    problems: Vec<Vec<String>>,
+    contender: String,
+    metric: String,
+}
+
+struct Varies {
+    settings: Settings,
+    metric: &'static Metric,
+    is_fitted: bool,
+}
+
+impl Check for Varies {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let Some(run) = evidence.run(&self.settings.study) else { return finding };
+        let value = |problem: &String| {
+            let rows = run.rows(problem, &self.settings.contender);
+            median(&rows.iter().filter_map(|row| run.value(row, self.metric)).collect::<Vec<_>>())
+        };
+        let mut differ = 0;
+        for set in &self.settings.problems {
+            let found: Vec<Option<f64>> = set.iter().map(value).collect();
+            let spelled = |(problem, value): (&String, &Option<f64>)| match value {
+                Some(value) => format!("{problem} {value:.4}"),
+                None => format!("{problem} –"),
+            };
+            finding.because.push(set.iter().zip(&found).map(spelled).collect::<Vec<_>>().join(", "));
+            let known: Vec<f64> = found.into_iter().flatten().collect();
+            let is_other = |value: &f64| (value - known[0]).abs() > 1e-9;
+            differ += usize::from(known.len() == set.len() && known.iter().any(is_other));
+        }
+        finding.verdict = Some(match (differ, self.is_fitted) {
+            (0, _) => Verdict::NotReproduced,
+            (_, true) => Verdict::Fitted,
+            (all, false) if all == self.settings.problems.len() => Verdict::Reproduced,
+            _ => Verdict::DirectionOnly,
+        });
+        finding.because.push(format!(
+            "{} of {} differs in {differ} of {} sets",
+            self.metric.label.to_lowercase(),
+            self.settings.contender,
+            self.settings.problems.len()
+        ));
+        finding
+    }
+}

@@ -1,0 +1,90 @@
+use crate::study::lock::Lock;
+use crate::study::paper::Paper;
+use crate::study::session::{Options, run};
+use crate::study::{Inputs, runner::Unwatched};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+const PAPER: &str = "[source]\ntitle = 'a test'\n[prints]\nfigures = 0\ntables = 0\nequations = 0\n";
+
+/// A quarter of the reproduced workspace, one obstacle in each case.
+const WORKSPACE: &str = "
+seed = 6
+paper = 'p'
+question = 'q'
+[budget]
+expansions = 1000
+[quick]
+replicates = 1
+[[problems]]
+label = 'w'
+family = 'arm_workspace'
+[problems.settings]
+links_cm = [15, 10]
+x_cm = [-25, 25]
+y_cm = [0, 25]
+step_cm = 1
+inner_radius_cm = 10
+elbow = 'negative_theta2'
+touching = 'collides'
+hop_check = 'end_points'
+corner_rule = 'allow'
+obstacle_diameter_cm = 6
+obstacle_shapes = ['circle']
+obstacles_cm = []
+";
+
+const CASES: &str = "
+cases = [
+  { obstacles_cm = [[3, 17]], hops = [14, 10] },
+  { obstacles_cm = [[15, 10]], hops = [12, 11] },
+]
+variants = [
+  { label = 'circles', shape = 'circle', diameter_cm = 6 },
+  { label = 'swept', shape = 'circle', diameter_cm = 6, hop_check = 'continuous' },
+";
+
+/// Every file of facts that the study `p/s.toml` leaves when it runs on `threads`.
+fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
+    let inputs = Inputs { roots: vec![folder.join("p")] };
+    let paper = Paper::load(&folder.join("p"), &inputs).unwrap();
+    let points = paper.studies[0].trial_points().unwrap();
+    let out = folder.join(threads.to_string());
+    let lock = Lock::take(&out).unwrap();
+    let options = Options {
+        lock: &lock,
+        points: &points,
+        inputs: &inputs,
+        command: String::new(),
+        claims: String::new(),
+        quick: false,
+        fresh: false,
+        threads: Some(threads),
+        stop: &AtomicBool::new(false),
+        progress: &Unwatched,
+    };
+    let report = run(&paper.studies[0], &options).unwrap();
+    assert!(report.trials > 2, "{} trials", report.trials);
+    let files = ["trials", "prepared", "exhibits"].map(|kind| format!("s.{kind}.parquet"));
+    files.map(|name| (name.clone(), fs::read(out.join(name)).unwrap())).into()
+}
+
+#[test]
+fn end_points_and_null_rate_are_the_same_bytes_on_one_thread_and_on_two() {
+    let never =
+        "{ label = 'never', shape = 'circle', diameter_cm = 6, open_node = 'never', ties = 'lifo' },\n";
+    let free = "{ label = 'free', shape = 'free', diameter_cm = 6 },\n";
+    for (task, more, close) in [
+        ("identify_endpoints", format!("{never}{free}"), "]\nexcess_steps = 2.0\n"),
+        ("null_rate", String::new(), "]\nwindow_cm = 2.0\n"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("p")).unwrap();
+        fs::write(folder.path().join("p/paper.toml"), PAPER).unwrap();
+        let study = format!("task = '{task}'\n{WORKSPACE}\n[task_settings]{CASES}{more}{close}");
+        fs::write(folder.path().join("p/s.toml"), study).unwrap();
+        assert!(facts(folder.path(), 1) == facts(folder.path(), 2), "{task} differs between 1 thread and 2");
+    }
+}
