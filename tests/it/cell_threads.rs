@@ -1,5 +1,6 @@
 //! A whole study of an arm in its cell, roadmaps included, gives equal bytes at one and at two threads.
 
+use replan::study::lock::Lock;
 use replan::study::runner::Unwatched;
 use replan::study::session::{Options, run};
 use replan::study::{Inputs, Study};
@@ -62,7 +63,7 @@ fn records(home: &Path, threads: usize) -> Vec<(String, Vec<u8>)> {
     let folder = home.join(format!("runs{threads}"));
     let points = study.trial_points().unwrap();
     let options = Options {
-        folder: &folder,
+        lock: &Lock::take(&folder).unwrap(),
         points: &points[..1],
         inputs: &inputs,
         command: String::new(),
