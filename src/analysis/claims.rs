@@ -112,6 +112,7 @@ fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, Setting
         printed: claim.printed.clone(),
         unit: claim.unit.clone(),
         verdict,
+        theorem: claim.theorem.clone(),
         reading: reading.unwrap_or_else(|| evidence.point.name().to_owned()),
         findings,
     })

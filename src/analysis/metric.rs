@@ -43,6 +43,7 @@ pub static METRICS: &[Metric] = &[
     metric("connected", "Start and goal connected", "", Better::Neither),
     metric("expansions", "Expansions", "", Better::Lower),
     metric("generated", "Generated successors", "", Better::Lower),
+    metric("goal_links", "Neighbours of the goal", "", Better::Neither),
     metric("hit_share_percent", "Targets met", "%", Better::Neither),
     metric("hops", "Hops", "", Better::Lower),
     metric("is_unsafe", "Paths that hit an obstacle", "", Better::Lower),
@@ -73,10 +74,12 @@ pub static METRICS: &[Metric] = &[
     metric("printed_optimal_cells", "Printed optimal cost", "cells", Better::Neither),
     metric("sharp_edges", "Sharp edges", "", Better::Lower),
     metric("shots", "Shots at the goal", "", Better::Neither),
+    metric("start_links", "Neighbours of the start", "", Better::Neither),
     metric("targets", "Targets", "", Better::Neither),
     metric("targets_hit", "Targets met by a pair", "", Better::Neither),
     metric("turn_exterior_deg", "Turn sum, exterior angles", "°", Better::Lower),
     metric("turn_interior_deg", "Turn sum, interior angles", "°", Better::Lower),
+    metric("unjoined_legs", "Legs that are no edges", "", Better::Lower),
     metric("unsafe_hops", "Hops that hit an obstacle", "", Better::Lower),
 ];
 

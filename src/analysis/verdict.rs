@@ -118,6 +118,9 @@ pub struct Judged {
     pub unit: Option<String>,
     /// The verdict.
     pub verdict: Verdict,
+    /// Why it must hold, if it is asserted and not found out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub theorem: Option<String>,
     /// The reading it was judged under.
     pub reading: String,
     /// What each check found.
@@ -126,6 +129,15 @@ pub struct Judged {
 }
 
 impl Judged {
+    /// What tables say of it: its verdict or, of what must hold, that it was asserted.
+    pub fn outcome(&self) -> &'static str {
+        match (&self.theorem, self.verdict) {
+            (Some(_), Verdict::Reproduced) => "asserted, holds",
+            (Some(_), Verdict::NotReproduced) => "asserted, violated",
+            _ => self.verdict.name(),
+        }
+    }
+
     /// The number of ours that stands beside the printed one.
     pub fn ours(&self) -> Option<&Estimate> {
         let deciding = self.findings.iter().find(|finding| finding.verdict == Some(self.verdict));

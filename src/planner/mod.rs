@@ -15,6 +15,7 @@ mod lattice;
 mod lattice_astar;
 mod roadmap;
 mod roadmap_astar;
+mod shorten_best;
 mod straighten;
 mod tips;
 
@@ -30,6 +31,7 @@ pub static REGISTRY: &[&Entry] = &[
     &direct::ENTRY,
     &lattice_astar::ENTRY,
     &roadmap_astar::ENTRY,
+    &shorten_best::ENTRY,
     &straighten::ENTRY,
 ];
 

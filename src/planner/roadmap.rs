@@ -93,6 +93,23 @@ impl<'a> Part<'a> {
         touched(&self.start_links).iter().any(|part| at_goal.contains(part)) || self.has_direct_edge()
     }
 
+    /// How many of its samples the start and the goal are joined with.
+    pub(super) fn end_links(&self) -> [u64; 2] {
+        [&self.start_links, &self.goal_links]
+            .map(|links| links.iter().filter(|(to, gap)| self.is_linked(*gap, *to)).count() as u64)
+    }
+
+    /// How many of `nodes` are not joined by an edge with the one before.
+    pub(super) fn unjoined(&mut self, nodes: &[u32]) -> u64 {
+        let mut missing = 0;
+        for pair in nodes.windows(2) {
+            let mut is_joined = false;
+            self.successors(pair[0], |to, _| is_joined |= to == pair[1]);
+            missing += u64::from(!is_joined);
+        }
+        missing
+    }
+
     fn has_direct_edge(&self) -> bool {
         self.map.gap_mm(self.start, self.goal) <= self.radius_mm
             && self.map.join(self.start, self.goal).is_ok()

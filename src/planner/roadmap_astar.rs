@@ -14,9 +14,20 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "roadmap_astar",
     about: "A* on the first samples of a roadmap; f = depth or way so far + distance to the goal; perhaps a shot at the goal",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Roadmap,
-    columns: &["opened", "closed", "expansions", "generated", "shots", "connected", "components"],
+    columns: &[
+        "opened",
+        "closed",
+        "expansions",
+        "generated",
+        "shots",
+        "connected",
+        "components",
+        "start_links",
+        "goal_links",
+        "unjoined_legs",
+    ],
     build: Build::Planner(|settings| {
         let read: RoadmapAstar = settings.read()?;
         read.check(settings)?;
@@ -35,6 +46,9 @@ struct RoadmapAstar {
     nearest: Option<u32>,
     /// What g counts.
     cost: CostSetting,
+    /// Whether the search is blind: `h = 0`, so that the path costs least in g.
+    #[serde(default)]
+    blind: bool,
     /// When a local path straight to the goal is tried.
     goal_shot: ShotSetting,
     /// Which nodes make the path.
@@ -112,6 +126,9 @@ impl RoadmapAstar {
             let parts = components.iter().zip(0..).filter(|(part, node)| **part == *node).count();
             counts.insert("components", Value::Count(parts as u64));
             counts.insert("connected", Value::Count(u64::from(part.is_connected(&components))));
+            let [start, goal] = part.end_links();
+            counts.insert("start_links", Value::Count(start));
+            counts.insert("goal_links", Value::Count(goal));
         }
         counts
     }
@@ -131,7 +148,8 @@ impl Planner for RoadmapAstar {
         let posed = Posed::new(request)?;
         let mut part = self.part(&posed)?;
         let (map, start, goal) = (posed.map, posed.start, posed.goal);
-        let estimate = Combined { h: distance_to(map, goal), combine: sum };
+        let (to_goal_mm, weight) = (distance_to(map, goal), if self.blind { 0.0 } else { 1.0 });
+        let estimate = Combined { h: |node| weight * to_goal_mm(node), combine: sum };
         let (mut shots, mut lists) = (0, Trace::default());
         let mut shoot = |node: u32, _: f64| {
             let is_tried = match self.goal_shot {
@@ -152,14 +170,20 @@ impl Planner for RoadmapAstar {
         };
         let report =
             Search::new(Heap::new(Ties::Fifo)).run(terms, start, |node| node == goal, rules, &mut shoot);
-        let counts = self.counts(&part, &report.counters, shots);
+        let mut counts = self.counts(&part, &report.counters, shots);
         let mut plan = match report.outcome {
             Outcome::NoPath => unsolved(Ending::NoPath, counts),
             Outcome::BudgetSpent => unsolved(Ending::BudgetSpent, counts),
             Outcome::Solved(route) => {
                 let nodes = match self.path {
                     PathSetting::Parents => route.nodes,
-                    PathSetting::ClosedSequence => lists.closed.iter().copied().chain([goal]).collect(),
+                    PathSetting::ClosedSequence => {
+                        let nodes: Vec<u32> = lists.closed.iter().copied().chain([goal]).collect();
+                        // The last leg is an edge or a shot that was found free.
+                        let unjoined = part.unjoined(&nodes[..nodes.len() - 1]);
+                        counts.insert("unjoined_legs", Value::Count(unjoined));
+                        nodes
+                    }
                 };
                 solved(map, &nodes, counts)
             }
@@ -184,3 +208,6 @@ fn places(name: &str, map: &Roadmap, nodes: &[u32]) -> Exhibit {
     let values = nodes.iter().flat_map(|node| map.place_mm(*node)).collect();
     Exhibit { name: name.to_owned(), width: 3, values }
 }
+
+#[cfg(test)]
+mod tests;

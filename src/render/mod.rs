@@ -10,6 +10,7 @@ pub mod figure;
 pub mod font;
 pub mod latex;
 pub mod output;
+mod prose;
 pub mod report;
 pub mod results;
 pub mod scene3;

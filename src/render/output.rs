@@ -97,13 +97,14 @@ fn figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, R
         Output { name: format!("{id}.svg"), bytes: drawn.svg.into_bytes() },
         Output { name: format!("{id}.png"), bytes: drawn.png },
     ];
+    let table_id = spec.table.as_deref().unwrap_or(id);
     if let Some(table) = kind.table(
         scene,
-        &format!("{}:{id}", paper.id),
+        &format!("{}:{table_id}", paper.id),
         spec.table_caption.as_ref().unwrap_or(&spec.caption),
     )? {
         let text = table.latex(&tables::made(paper, id, scene.verdicts))?;
-        outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
+        outputs.push(Output { name: format!("{table_id}.tex"), bytes: text.into_bytes() });
     }
     Ok(outputs)
 }

@@ -114,16 +114,21 @@ fn heading(text: &mut String, paper: &Paper, verdicts: &Verdicts) {
         line!(text);
     }
     for finding in &paper.source.findings {
-        line!(text, "- {finding}");
+        line!(text, "- {}", super::prose::prose(finding, verdicts));
     }
 }
 
 fn counts(text: &mut String, verdicts: &Verdicts) {
+    let found: Vec<&Judged> = verdicts.claims.iter().filter(|judged| judged.theorem.is_none()).collect();
     let counted = Verdict::ALL.iter().filter_map(|verdict| {
-        let count = verdicts.claims.iter().filter(|judged| judged.verdict == *verdict).count();
+        let count = found.iter().filter(|judged| judged.verdict == *verdict).count();
         (count > 0).then(|| format!("{count} {}", verdict.name()))
     });
-    line!(text, "\n{} claims: {}.", verdicts.claims.len(), counted.collect::<Vec<_>>().join(", "));
+    line!(text, "\n{} claims: {}.", found.len(), counted.collect::<Vec<_>>().join(", "));
+    let asserted = verdicts.claims.len() - found.len();
+    if asserted > 0 {
+        line!(text, "{asserted} more must hold whatever was drawn; they are asserted and count for nothing.");
+    }
 }
 
 fn claims(text: &mut String, verdicts: &Verdicts) {
@@ -135,7 +140,7 @@ fn claims(text: &mut String, verdicts: &Verdicts) {
             || ("–".to_owned(), "–".to_owned()),
             |ours| (format!("{} ({})", short(ours), ours.what), ours.n.to_string()),
         );
-        let (claim, at, said, verdict) = (&judged.claim, &judged.at, said(judged), judged.verdict.name());
+        let (claim, at, said, verdict) = (&judged.claim, &judged.at, said(judged), judged.outcome());
         line!(text, "| `{claim}` | {at} | {said} | {ours} | {n} | **{verdict}** |");
     }
 }
@@ -182,7 +187,10 @@ fn reasons(text: &mut String, verdicts: &Verdicts) {
 const LONG: usize = 200;
 
 fn reason(text: &mut String, judged: &Judged) {
-    line!(text, "**`{}`** ({}): {}\n", judged.claim, judged.at, judged.verdict.name());
+    line!(text, "**`{}`** ({}): {}\n", judged.claim, judged.at, judged.outcome());
+    if let Some(theorem) = &judged.theorem {
+        line!(text, "- it must hold: {theorem}.");
+    }
     for finding in &judged.findings {
         if let [first, .., last] = &finding.because[..]
             && first.len() + last.len() > LONG

@@ -108,6 +108,7 @@ struct Tag {
 pub struct Scene {
     meshes: Vec<Mesh>,
     chains: Vec<Chain>,
+    overlays: Vec<Chain>,
     tags: Vec<Tag>,
 }
 
@@ -146,6 +147,11 @@ impl Scene {
     /// Adds a chain of straight pieces, hidden where something stands before it.
     pub fn polyline(&mut self, points: Vec<Vec3>, stroke: Stroke) {
         self.chains.push(Chain { points, stroke });
+    }
+
+    /// Adds a chain of straight pieces that is drawn over everything, to be seen where another is hidden.
+    pub fn overlay(&mut self, points: Vec<Vec3>, stroke: Stroke) {
+        self.overlays.push(Chain { points, stroke });
     }
 
     /// Names a point; the text is never hidden.

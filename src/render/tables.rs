@@ -19,6 +19,7 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
     let mut head = vec![Cell::from(""), Cell::from("")];
     head.extend(table.columns.iter().map(Cell::from));
     latex.head(head);
+    let shown = |estimate: &Estimate| rounded(estimate, table.decimals.unwrap_or(2));
     for row in &table.rows {
         if row.claims.is_empty() {
             let cells = [row.label.as_str(), ""].into_iter().chain(row.cells.iter().map(String::as_str));
@@ -35,11 +36,11 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
         latex.row(line(&row.label, "printed", &|judged| judged.printed.clone().unwrap_or_else(dash)));
         match &table.ours {
             Some(ours) => latex.row(own_row(evidence, ours, row)?),
-            None => latex.row(line("", "ours", &|judged| judged.ours().map_or_else(dash, short))),
+            None => latex.row(line("", "ours", &|judged| judged.ours().map_or_else(dash, shown))),
         };
-        latex.row(line("", "verdict", &|judged| judged.verdict.name().to_owned()));
+        latex.row(line("", "verdict", &|judged| judged.outcome().to_owned()));
     }
-    for note in &paper.source.notes {
+    for note in table.notes.as_ref().unwrap_or(&paper.source.notes) {
         latex.note(note);
     }
     if let Some(ours) = &table.ours {
@@ -112,7 +113,7 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
             }
             numbers.add(&key("n"), &ours.n.to_string())?;
         }
-        numbers.add(&key("verdict"), judged.verdict.name())?;
+        numbers.add(&key("verdict"), judged.outcome())?;
     }
     numbers.latex(&paper.id, &made(paper, "numbers", verdicts))
 }
@@ -128,9 +129,14 @@ fn dash() -> String {
 
 /// Our number as tables show it: four decimals at most, two with its interval.
 pub fn short(estimate: &Estimate) -> String {
+    rounded(estimate, 2)
+}
+
+/// The same with so many decimals where it has an interval.
+fn rounded(estimate: &Estimate, decimals: usize) -> String {
     match estimate.interval {
         Some([low, high]) => {
-            let coarse = |value: f64| format!("{value:.2}");
+            let coarse = |value: f64| format!("{value:.decimals$}");
             format!("{} [{}, {}]", coarse(estimate.value), coarse(low), coarse(high))
         }
         None => number(estimate.value),
@@ -138,7 +144,7 @@ pub fn short(estimate: &Estimate) -> String {
 }
 
 /// A number with four decimals at most; what these would show as zero stands as a power of ten.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     if value != 0.0 && value.abs() < 5e-5 {
         return format!("{value:.1e}");
     }

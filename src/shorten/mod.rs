@@ -5,10 +5,12 @@
 
 mod inflection;
 mod measure;
+mod selection;
 mod straighten;
 #[cfg(test)]
 mod tests;
 
 pub use inflection::{bends, inflection_deletion};
 pub use measure::{TurnAngle, path_length, turn_sum_deg};
+pub use selection::least_selection;
 pub use straighten::{LastNode, straightening};

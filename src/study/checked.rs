@@ -66,6 +66,8 @@ pub struct Group {
     pub family: &'static family::Entry,
     /// How many independent draws.
     pub replicates: u32,
+    /// The name of its draws, if it shares them with other groups.
+    pub draw: Option<String>,
     /// Whether the spec asks for more than one draw: their names then carry a number.
     pub is_numbered: bool,
     /// The family's settings.

@@ -80,6 +80,9 @@ pub static COLUMNS: &[Column] = &[
         "greatest acceleration of a joint if each local path takes the tool at 0.5 m/s, 1 m/s²",
     ),
     count("connected", "1 if the roadmap's edges join start and goal, else 0"),
+    count("start_links", "samples that the start is joined with"),
+    count("goal_links", "samples that the goal is joined with"),
+    count("unjoined_legs", "nodes of the returned path that no edge joins with the one before"),
     count("shots", "local paths to the goal that were tried before an expansion"),
     count("joins", "local paths that were tried to straighten the path"),
     count("samples", "samples of a roadmap"),
@@ -95,6 +98,43 @@ pub static COLUMNS: &[Column] = &[
     count("rejected_end", "pairs whose line ends in another configuration"),
     count("rejected_contact", "pairs on whose line the robot touches something"),
 ];
+
+/// Exhibits whose rows have named columns: the exhibit, and the columns in order.
+pub static EXHIBITS: &[(&str, &[&str])] = &[
+    ("pose", POSE),
+    (
+        "trajectory",
+        &[
+            "time_s", "q1_deg", "q2_deg", "q3_deg", "q4_deg", "q5_deg", "q6_deg", "tip_x_mm", "tip_y_mm",
+            "tip_z_mm",
+        ],
+    ),
+];
+
+const POSE: &[&str] = &[
+    "q1_deg",
+    "q2_deg",
+    "q3_deg",
+    "q4_deg",
+    "q5_deg",
+    "q6_deg",
+    "flange_x_mm",
+    "flange_y_mm",
+    "flange_z_mm",
+    "tip_x_mm",
+    "tip_y_mm",
+    "tip_z_mm",
+    "direction_x",
+    "direction_y",
+    "direction_z",
+];
+
+/// The columns of the exhibit called `name`, separated by commas, if they are named; what follows a space in its name is not
+/// looked at.
+pub fn of_exhibit(name: &str) -> Option<String> {
+    let kind = name.split(' ').next()?;
+    EXHIBITS.iter().find(|(known, _)| *known == kind).map(|(_, columns)| columns.join(","))
+}
 
 /// The column called `name`.
 pub fn find(name: &str) -> Option<&'static Column> {

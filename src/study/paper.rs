@@ -2,9 +2,12 @@
 //!
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
+mod findings;
 pub mod results;
 mod rules;
 mod tables;
+
+pub use findings::filled;
 
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
@@ -31,6 +34,8 @@ struct PaperSpec {
     tables: Vec<TableSpec>,
     #[serde(default)]
     results: Vec<ResultsSpec>,
+    #[serde(default)]
+    series: BTreeMap<String, usize>,
 }
 
 /// Where the paper was published, as far as its text says.
@@ -46,7 +51,7 @@ pub struct Source {
     /// What a reader must know about this reproduction as a whole.
     #[serde(default)]
     pub notes: Vec<String>,
-    /// What was found, in a few sentences; the chapter opens with them.
+    /// What was found, in a few sentences; the chapter opens with them, our number standing for each `{claim}`.
     #[serde(default)]
     pub findings: Vec<String>,
 }
@@ -95,6 +100,7 @@ struct ClaimSpec {
     unit: Option<String>,
     digits: Option<Digits>,
     untestable: Option<String>,
+    theorem: Option<String>,
     #[serde(default)]
     check: BTreeMap<String, Spanned<Table>>,
 }
@@ -130,6 +136,8 @@ pub struct Claim {
     pub digits: Option<Digits>,
     /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
     pub untestable: Option<String>,
+    /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
+    pub theorem: Option<String>,
     /// How it is judged: checks by name.
     pub checks: BTreeMap<String, Settings>,
 }
@@ -153,6 +161,8 @@ pub struct Paper {
     pub tables: Vec<TableSpec>,
     /// Tables of our own results.
     pub results: Vec<ResultsSpec>,
+    /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
+    pub series: BTreeMap<String, usize>,
     /// Its studies, in the order of their names.
     pub studies: Vec<Study>,
     /// The file it was read from.
@@ -192,6 +202,7 @@ impl Paper {
             claims: spec.claims.iter().map(|c| claim(&document, c)).collect::<Result<_, _>>()?,
             tables: spec.tables,
             results: spec.results,
+            series: spec.series,
             studies,
             document,
         };
@@ -217,15 +228,21 @@ impl Paper {
         readings
     }
 
+    /// The figures of all its studies.
+    fn figures(&self) -> impl Iterator<Item = &super::spec::FigureSpec> {
+        self.studies.iter().flat_map(|study| &study.figures)
+    }
+
     /// The names of all figures of its studies.
     pub fn figure_ids(&self) -> impl Iterator<Item = &str> {
-        self.studies.iter().flat_map(|study| study.figures.iter().map(|figure| figure.id.get_ref().as_str()))
+        self.figures().map(|figure| figure.id.get_ref().as_str())
     }
 
     /// The names of all its tables, the paper's own and those of our results.
     pub fn table_ids(&self) -> impl Iterator<Item = &str> {
         let own = self.tables.iter().map(|table| table.id.as_str());
-        own.chain(self.results.iter().map(|table| table.id.get_ref().as_str()))
+        let behind = self.figures().filter_map(|figure| figure.table.as_deref());
+        own.chain(behind).chain(self.results.iter().map(|table| table.id.get_ref().as_str()))
     }
 
     /// The claim called `id`.
@@ -270,6 +287,7 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         unit: spec.unit.clone(),
         digits: spec.digits,
         untestable: spec.untestable.clone(),
+        theorem: spec.theorem.clone(),
         checks: checks.collect(),
     })
 }

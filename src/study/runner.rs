@@ -169,7 +169,11 @@ impl<'a> Field<'a> {
         family: &'b dyn Family,
         replicate: u32,
     ) -> Unit<'b> {
-        let names = [&self.study.paper, &self.study.name, "problem", &group.label, &replicate.to_string()];
+        let number = replicate.to_string();
+        let names: &[&str] = match &group.draw {
+            Some(draw) => &[&self.study.paper, "draw", draw, &number],
+            None => &[&self.study.paper, &self.study.name, "problem", &group.label, &number],
+        };
         Unit {
             name: draw_name(group, replicate) + &reading_suffix(point),
             group,
@@ -177,7 +181,7 @@ impl<'a> Field<'a> {
             point,
             racers,
             replicate,
-            seed: seed::derive(self.study.seed, &names),
+            seed: seed::derive(self.study.seed, names),
             keeps_all: false,
         }
     }

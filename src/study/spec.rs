@@ -65,6 +65,9 @@ pub struct ProblemsSpec {
     pub family: Spanned<String>,
     /// How many independent draws.
     pub replicates: Option<Spanned<u32>>,
+    /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
+    /// what their settings do can be compared in pairs. The study and the label if absent.
+    pub draw: Option<String>,
     /// The family's settings.
     pub settings: Spanned<Table>,
 }
@@ -204,6 +207,8 @@ pub struct FigureSpec {
     pub kind: Spanned<String>,
     /// What it shows, printed below it.
     pub caption: String,
+    /// What the table of its numbers is called, if its kind has one and it does not bear the figure's name.
+    pub table: Option<String>,
     /// What its table shows, if it has one; the figure's caption if absent.
     pub table_caption: Option<String>,
     /// Trials whose exhibits it needs.

@@ -1,7 +1,7 @@
 //! In what share of draws one contender is lower than another on every query.
 
 use super::{Check, Entry};
-use crate::analysis::draws::values;
+use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::stats::proportion::{trials_for_margin, wilson};
@@ -35,6 +35,8 @@ struct Settings {
     higher: String,
     /// The claim is kept if it holds in at least this share of draws.
     in_share: f64,
+    /// Whether only draws count of which both solve every query.
+    whole_draws: bool,
 }
 
 struct AllInDraw {
@@ -44,10 +46,12 @@ struct AllInDraw {
 
 impl Check for AllInDraw {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let Settings { study, problems, lower, higher, in_share, .. } = &self.settings;
+        let Settings { study, problems, lower, higher, in_share, whole_draws, .. } = &self.settings;
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let Some(run) = evidence.run(study) else { return finding };
-        let draws = values(run, problems, higher, lower, self.metric);
+        let compared =
+            Compared { group: problems, contenders: [higher, lower], query: None, whole: *whole_draws };
+        let draws = compared.values(run, self.metric);
         let all = draws.iter().filter(|draw| draw.iter().all(|(base, other)| other < base)).count();
         let Some(interval) = wilson(all, draws.len(), 0.95) else {
             finding.verdict = Some(Verdict::Undecided);
@@ -63,15 +67,19 @@ impl Check for AllInDraw {
         });
         let share = all as f64 / draws.len() as f64;
         let queries: Vec<&(f64, f64)> = draws.iter().flatten().collect();
-        let on = queries.iter().filter(|(base, other)| other < base).count();
+        let count = |is: fn(&&&(f64, f64)) -> bool| queries.iter().filter(is).count();
         let what = "share of draws in which it is lower on every query, Wilson 95 %";
         finding.ours = Some(Estimate::new(share, interval, what, draws.len()));
         finding.because.push(format!(
-            "{lower} against {higher}: {} is lower on every query that both solve in {all} of {} draws, and on {on} of {} \
-             queries; kept if in at least {in_share} of draws",
+            "{lower} against {higher}: {} is lower on every query that both solve in {all} of {} draws{}; of {} \
+             queries it is lower on {}, equal on {}, higher on {}; kept if in at least {in_share} of draws",
             self.metric.label.to_lowercase(),
             draws.len(),
-            queries.len()
+            if *whole_draws { " of which both solve every query" } else { "" },
+            queries.len(),
+            count(|(base, other)| other < base),
+            count(|(base, other)| other == base),
+            count(|(base, other)| other > base)
         ));
         if finding.verdict == Some(Verdict::Undecided) {
             let margin = (share - in_share).abs().max(0.005);

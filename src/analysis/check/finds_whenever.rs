@@ -49,9 +49,10 @@ impl Check for Settings {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let Some(run) = evidence.run(&self.study) else { return finding };
-        let (mut both_find, mut only_other, mut more) = (0, Vec::new(), 0);
+        let (mut both_find, mut only_other, mut more, mut refused) = (0, Vec::new(), 0, 0);
         for group in self.problems.listed() {
             for [base, own] in both(run, &group, &self.whenever, &self.contender).values().flatten() {
+                refused += usize::from(base.status == Status::Rejected);
                 match (base.status == Status::Solved, own.status == Status::Solved) {
                     (true, true) => both_find += 1,
                     (true, false) => only_other.push(own.trial.clone()),
@@ -72,6 +73,12 @@ impl Check for Settings {
             both_find + only_other.len(),
             self.whenever
         ));
+        if refused > 0 {
+            finding.because.push(format!(
+                "{refused} more paths of {} are refused by the verifier and stand on neither side",
+                self.whenever
+            ));
+        }
         finding
     }
 }

@@ -1,7 +1,7 @@
 //! Whether one contender is lower than another on average over queries, with whole draws as the units of the interval.
 
 use super::{Check, Entry};
-use crate::analysis::draws::values;
+use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::stats::bootstrap::{Plan, percentile};
@@ -32,6 +32,8 @@ struct Settings {
     metric: String,
     lower: String,
     higher: String,
+    /// The one query that the claim is about; all if absent.
+    query: Option<String>,
 }
 
 struct LowerByDraw {
@@ -49,12 +51,11 @@ fn change_percent(draws: &[&Vec<(f64, f64)>]) -> Option<f64> {
 
 impl Check for LowerByDraw {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let Settings { study, problems, lower, higher, .. } = &self.settings;
+        let Settings { study, problems, lower, higher, query, .. } = &self.settings;
+        let (contenders, query) = ([higher.as_str(), lower.as_str()], query.as_deref());
+        let compared = Compared { group: problems, contenders, query, whole: false };
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
-        let draws = evidence
-            .run(study)
-            .map(|run| values(run, problems, higher, lower, self.metric))
-            .unwrap_or_default();
+        let draws = evidence.run(study).map(|run| compared.values(run, self.metric)).unwrap_or_default();
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = percentile(&draws, change_percent, plan) else {
             finding.verdict = Some(Verdict::Undecided);
@@ -71,8 +72,9 @@ impl Check for LowerByDraw {
         let pairs: Vec<&(f64, f64)> = draws.iter().flatten().collect();
         let count = |is: fn(&(f64, f64)) -> bool| pairs.iter().filter(|pair| is(pair)).count();
         finding.because.push(format!(
-            "{lower} against {higher}: {} changes by {:.1} % in all (95 % interval {:.1} to {:.1}, bootstrap over {} draws); lower \
+            "{lower} against {higher}{}: {} changes by {:.1} % in all (95 % interval {:.1} to {:.1}, bootstrap over {} draws); lower \
              on {}, equal on {}, higher on {} of {} queries that both solve",
+            query.map_or(String::new(), |name| format!(" on query {name}")),
             self.metric.label.to_lowercase(),
             found.value,
             found.interval.low,

@@ -10,7 +10,9 @@ mod attained;
 mod clock_ticks;
 mod compare;
 mod count_bound;
+mod equals_least;
 mod fails_where;
+mod failure_causes;
 mod finds_whenever;
 mod how_often;
 mod joint_length_turn;
@@ -19,6 +21,7 @@ mod lattice_length;
 mod listed_points;
 mod lower_by_draw;
 mod lowest_median;
+mod mean_curve_above;
 mod octagon_nodes;
 mod oracle;
 mod ordering;
@@ -30,6 +33,7 @@ mod reach_ring;
 mod refused_by_option;
 mod row_among_draws;
 mod saving_per_draw;
+mod savings_within;
 mod share_above;
 mod share_beyond;
 mod share_of_paths;
@@ -39,6 +43,7 @@ mod table_cell;
 mod table_row;
 mod turn_needs_length;
 mod varies;
+mod zero_everywhere;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
@@ -117,6 +122,8 @@ pub static REGISTRY: &[&Entry] = &[
     &clock_ticks::ENTRY,
     &compare::ENTRY,
     &count_bound::ENTRY,
+    &equals_least::ENTRY,
+    &failure_causes::ENTRY,
     &fails_where::ENTRY,
     &finds_whenever::ENTRY,
     &how_often::ENTRY,
@@ -126,6 +133,7 @@ pub static REGISTRY: &[&Entry] = &[
     &listed_points::ENTRY,
     &lower_by_draw::ENTRY,
     &lowest_median::ENTRY,
+    &mean_curve_above::ENTRY,
     &octagon_nodes::ENTRY,
     &oracle::ENTRY,
     &ordering::ENTRY,
@@ -137,6 +145,7 @@ pub static REGISTRY: &[&Entry] = &[
     &refused_by_option::ENTRY,
     &row_among_draws::ENTRY,
     &saving_per_draw::ENTRY,
+    &savings_within::ENTRY,
     &share_above::ENTRY,
     &share_beyond::ENTRY,
     &share_of_paths::ENTRY,
@@ -146,6 +155,7 @@ pub static REGISTRY: &[&Entry] = &[
     &table_row::ENTRY,
     &turn_needs_length::ENTRY,
     &varies::ENTRY,
+    &zero_everywhere::ENTRY,
 ];
 
 /// The entry called `name`.

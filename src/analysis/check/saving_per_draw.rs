@@ -2,7 +2,7 @@
 
 use super::{Check, Entry};
 use crate::analysis::audit::printed::Printed;
-use crate::analysis::draws::values;
+use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::stats::proportion::predictive;
@@ -34,6 +34,8 @@ struct Settings {
     contender: String,
     against: String,
     of_queries: Statistic,
+    /// Whether only draws count of which both solve every query: a least value falls with the number it is taken of.
+    whole_draws: bool,
 }
 
 /// What is taken of the savings on one draw's queries.
@@ -73,14 +75,13 @@ struct SavingPerDraw<'a> {
 
 impl Check for SavingPerDraw<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let Settings { study, problems, contender, against, of_queries, .. } = &self.settings;
+        let Settings { study, problems, contender, against, of_queries, whole_draws, .. } = &self.settings;
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let Some(run) = evidence.run(study) else { return finding };
-        let savings = |draw: &Vec<(f64, f64)>| -> Vec<f64> {
-            draw.iter().map(|(base, other)| 100.0 * (1.0 - other / base)).collect()
-        };
-        let drawn = values(run, problems, against, contender, self.metric);
-        let draws: Vec<f64> = drawn.iter().map(|draw| of_queries.of(&savings(draw))).collect();
+        let compared =
+            Compared { group: problems, contenders: [against, contender], query: None, whole: *whole_draws };
+        let drawn = compared.savings_percent(run, self.metric);
+        let draws: Vec<f64> = drawn.iter().map(|draw| of_queries.of(draw)).collect();
         let (Some(interval), Some(mean)) = (predictive(&draws, 0.95), mean(&draws)) else {
             finding.verdict = Some(Verdict::Undecided);
             finding
@@ -101,14 +102,16 @@ impl Check for SavingPerDraw<'_> {
         let what = format!("{name} saving over a draw's queries in %, mean and 95 % predictive interval");
         finding.ours = Some(Estimate::new(mean, interval, what, draws.len()));
         let pairs: usize = drawn.iter().map(Vec::len).sum();
+        let which = if *whole_draws { "draws of which both solve every query" } else { "draws" };
         finding.because.push(format!(
-            "{contender} against {against}: the {name} saving in {} over the queries that both solve ({pairs} on {} draws) is \
-             {mean:.1} % on average and lies in [{:.1}, {:.1}] % for one more draw; printed {} %",
+            "{contender} against {against}: the {name} saving in {} over the queries that both solve ({pairs} on {} {which}) is \
+             {mean:.1} % on average and lies in [{:.1}, {:.1}] % for one more draw; printed {} %, reached in {} draws",
             self.metric.label.to_lowercase(),
             draws.len(),
             interval.low,
             interval.high,
-            self.printed
+            self.printed,
+            draws.iter().filter(|draw| **draw >= printed).count()
         ));
         finding
     }

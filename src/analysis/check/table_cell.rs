@@ -42,6 +42,9 @@ struct Settings {
     sweep: String,
 }
 
+/// An interval that covers this much of all percentages refuses next to nothing: it decides nothing either.
+const NO_POWER_POINTS: f64 = 80.0;
+
 struct TableCell<'a> {
     settings: Settings,
     study: &'a Study,
@@ -63,7 +66,9 @@ impl Check for TableCell<'_> {
             return finding;
         };
         let printed = self.printed.value();
+        let has_power = interval.high - interval.low < NO_POWER_POINTS;
         finding.verdict = Some(match interval.contains(printed) {
+            true if !has_power => Verdict::Undecided,
             true if self.is_fitted => Verdict::Fitted,
             true if self.study.searched => Verdict::Attainable,
             true => Verdict::Reproduced,
@@ -80,6 +85,12 @@ impl Check for TableCell<'_> {
             self.printed,
             draws.len()
         ));
+        if !has_power {
+            finding.because.push(format!(
+                "no power: the interval covers {NO_POWER_POINTS} points or more of the 100 there are, so hardly any printed value \
+                 could be refused"
+            ));
+        }
         finding
     }
 }

@@ -18,14 +18,19 @@ pub static ENTRY: Entry = Entry {
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let problems = std::slice::from_ref(&settings.problems);
-        let study = context.study(&settings.study, problems, &[&settings.contender])?;
-        let printed = settings.claims.iter().map(|id| context.printed_of(id).map(|(printed, _)| printed));
-        let printed: Vec<Printed> = printed.collect::<Result<_, _>>()?;
-        if printed.len() != study.sweep_points().len() {
-            let (cells, points) = (printed.len(), study.sweep_points().len());
-            let message =
-                format!("the row has {cells} claims; study `{}` sweeps {points} points", study.name);
-            return Err(context.settings.error(message));
+        let contenders: Vec<&str> = settings.rows.iter().map(|row| row.contender.as_str()).collect();
+        let study = context.study(&settings.study, problems, &contenders)?;
+        let mut printed = Vec::new();
+        for row in &settings.rows {
+            let (cells, points) = (row.claims.len(), study.sweep_points().len());
+            if cells != points {
+                let message =
+                    format!("a row has {cells} claims; study `{}` sweeps {points} points", study.name);
+                return Err(context.settings.error(message));
+            }
+            for id in &row.claims {
+                printed.push(context.printed_of(id)?.0);
+            }
         }
         let is_fitted = study.fitted_to.contains(&context.claim.id);
         Ok(Box::new(TableRow { settings, study, printed, is_fitted }))
@@ -37,11 +42,19 @@ pub static ENTRY: Entry = Entry {
 struct Settings {
     study: String,
     problems: String,
+    /// One row, or several that come from one draw and are ranked as one.
+    rows: Vec<RowOf>,
+    /// The row is refused if fewer than this share of our draws are as far from the mean curve, or if its mean is as far
+    /// out on one side.
+    refused_below: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RowOf {
     contender: String,
     /// The claim of each cell, in the order of the study's sweep.
     claims: Vec<String>,
-    /// The row is refused if fewer than this share of our draws are as far from the mean curve.
-    refused_below: f64,
 }
 
 struct TableRow<'a> {
@@ -85,27 +98,70 @@ pub(super) fn place(row: &[f64], cells: &[Vec<f64>]) -> Option<Place> {
     Some(Place { distance, as_far, draws })
 }
 
+/// On which side of our curve a row lies.
+struct Level {
+    /// Cells in which our mean is below the printed value, and in all.
+    short: [usize; 2],
+    /// The mean over cells of ours less printed.
+    difference: f64,
+    /// The row's mean among the means of our draws.
+    rank: Rank,
+    /// Draws that are at or above the row in every cell.
+    dominating: usize,
+}
+
+impl Level {
+    fn of(row: &[f64], cells: &[Vec<f64>]) -> Option<Self> {
+        let means: Vec<f64> = cells.iter().map(|cell| mean(cell)).collect::<Option<_>>()?;
+        let draws = cells.iter().map(Vec::len).min()?;
+        let of_draw = |draw: usize| cells.iter().map(move |cell| cell[draw]);
+        let levels: Vec<f64> =
+            (0..draws).filter_map(|draw| mean(&of_draw(draw).collect::<Vec<_>>())).collect();
+        let dominates = |draw: &usize| of_draw(*draw).zip(row).all(|(own, printed)| own >= *printed);
+        Some(Self {
+            short: [means.iter().zip(row).filter(|(own, printed)| own < printed).count(), row.len()],
+            difference: mean(&means)? - mean(row)?,
+            rank: Rank::of(mean(row)?, &levels),
+            dominating: (0..draws).filter(dominates).count(),
+        })
+    }
+
+    fn said(&self, refused_below: f64) -> String {
+        let Self { short: [short, cells], difference, rank, dominating } = self;
+        format!(
+            "on which side: our mean is below the printed value in {short} of {cells} cells, by {difference:+.1} points on average; \
+             the row's mean is at or above that of {} of {} draws (two-sided rank {:.3}, refused below {refused_below}); \
+             {dominating} draws are at or above the printed row in every cell",
+            rank.below + rank.equal,
+            rank.draws(),
+            rank.p_two_sided()
+        )
+    }
+}
+
 impl Check for TableRow<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let Settings { study, problems, contender, refused_below, .. } = &self.settings;
+        let Settings { study, problems, rows, refused_below } = &self.settings;
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let points = self.study.sweep_points();
+        let wanted = rows.iter().flat_map(|row| points.iter().map(move |point| (&row.contender, point)));
         let cells: Vec<Vec<f64>> = evidence.run(study).map_or_else(Vec::new, |run| {
-            points.iter().map(|point| solved_percents(run, problems, contender, &point.name)).collect()
+            wanted.map(|(contender, point)| solved_percents(run, problems, contender, &point.name)).collect()
         });
         let row: Vec<f64> = self.printed.iter().map(|printed| printed.value()).collect();
-        let Some(place) = place(&row, &cells) else {
+        let (Some(place), Some(level)) = (place(&row, &cells), Level::of(&row, &cells)) else {
             finding.verdict = Some(Verdict::Undecided);
             finding.because.push("fewer than three draws were run".to_owned());
             return finding;
         };
         // Among our draws and the row itself.
         let rank = (place.as_far + 1) as f64 / (place.draws + 1) as f64;
-        finding.verdict = Some(match rank >= *refused_below {
+        finding.verdict = Some(match rank.min(level.rank.p_two_sided()) >= *refused_below {
             true if self.is_fitted => Verdict::Fitted,
             true => Verdict::Reproduced,
             false => Verdict::NotReproduced,
         });
+        let contender = rows.iter().map(|row| row.contender.as_str()).collect::<Vec<_>>().join(" and ");
         let share = Rank { below: place.draws - place.as_far, equal: place.as_far, above: 0 };
         let what = "share of our draws at least as far from the mean curve";
         finding.ours = Some(crate::analysis::verdict::Estimate {
@@ -119,7 +175,8 @@ impl Check for TableRow<'_> {
              against the others' curve, are as far (rank {rank:.3}; refused below {refused_below})",
             place.distance, place.as_far, place.draws
         ));
-        if let Some(chance) = monotone_probability(&cells) {
+        finding.because.push(level.said(*refused_below));
+        if let Some(chance) = monotone_probability(&cells).filter(|_| rows.len() == 1) {
             finding.because.push(format!(
                 "if each cell came from a roadmap of its own, a row that never falls would have probability {chance:.1e}: the \
                  printed row looks like one roadmap that grows"

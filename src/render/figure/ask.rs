@@ -33,15 +33,17 @@ pub(super) fn printed(settings: &Settings, paper: &Paper, id: &str) -> Result<f6
     number.ok_or_else(|| settings.error(format!("there is no claim `{id}` with a printed number")))
 }
 
+pub(super) use crate::analysis::draws::query;
+
+/// Which series `contender` is drawn as: the paper's own for its label, or the one at its place.
+pub(super) fn series(scene: &Scene<'_>, contender: &str, place: usize) -> usize {
+    scene.evidence.paper.series.get(contender).copied().unwrap_or(place)
+}
+
 /// The place of the contender called `label` in its study, which gives it the same colour in every figure.
 pub(super) fn place(scene: &Scene<'_>, label: &str) -> usize {
     let contenders = &scene.run.study.contenders;
     contenders.iter().position(|contender| contender.label == label).unwrap_or(contenders.len())
-}
-
-/// The name of the query that a trial answers: the last part of its problem's name.
-pub(super) fn query(row: &Row) -> &str {
-    row.problem.rsplit('/').next().unwrap_or_default()
 }
 
 /// The exhibit `name` of a trial or a prepared object.

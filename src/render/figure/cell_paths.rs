@@ -1,11 +1,14 @@
-//! Ways of the tool in a work cell: paths of contenders on one query, from two sides.
+//! Ways of the tool in a work cell: one column a contender on one query, from two sides.
 
 use super::cell_poses::{VIEWS, add_capsules, furnished, panel};
 use super::{Entry, Kind, Scene, ask};
+use crate::analysis::draws::Compared;
+use crate::analysis::metric;
+use crate::analysis::stats::summary::median;
 use crate::render::RenderError;
-use crate::render::chart::{Key, Sheet, Swatch};
+use crate::render::chart::{Panel, Sheet};
 use crate::render::scene3::Paint;
-use crate::render::style::{GREY, Stroke, WHITE, Width, series_color};
+use crate::render::style::{Dash, GREY, Stroke, WHITE, Width, series_color};
 use crate::study::slug;
 use serde::Deserialize;
 
@@ -28,39 +31,72 @@ struct CellPaths {
     contenders: Vec<String>,
 }
 
+/// What the picked draw's saving is among those of all draws, in words.
+fn rank(scene: &Scene<'_>, read: &CellPaths, replicate: u32) -> Option<String> {
+    let (first, last) = (read.contenders.first()?, read.contenders.last()?);
+    let length = metric::find("path_length_mm")?;
+    let contenders = [first.as_str(), last.as_str()];
+    let compared = Compared { group: &read.problems, contenders, query: Some(&read.query), whole: false };
+    let all: Vec<f64> = compared.savings_percent(scene.run, length).concat();
+    let row = |contender: &String| ask::trial(scene, &read.problems, replicate, Some(&read.query), contender);
+    let [base, other] = [row(first).ok()?, row(last).ok()?].map(|row| scene.run.value(row, length));
+    let own = 100.0 * (1.0 - other? / base?);
+    let below = all.iter().filter(|saving| **saving < own).count();
+    Some(format!(
+        "saving {own:.1} %: {below} of {} roadmaps save less, the median saves {:.1} %",
+        all.len(),
+        median(&all)?
+    ))
+}
+
+impl CellPaths {
+    fn panel(
+        &self,
+        scene: &Scene<'_>,
+        replicate: u32,
+        index: usize,
+        view: usize,
+    ) -> Result<Panel, RenderError> {
+        let draw = format!("{}/{replicate}", slug(&self.problems));
+        let (contender, (seen, camera)) = (&self.contenders[index], VIEWS[view]);
+        let mut solids = furnished(scene, &draw)?;
+        let body = ask::exhibit(scene, &draw, &format!("body {}/start", self.query))?;
+        let pale = Paint { outlined: false, ..Paint::solid(GREY.mixed(WHITE, 0.45)) };
+        add_capsules(&mut solids, body, pale);
+        let row = ask::trial(scene, &self.problems, replicate, Some(&self.query), contender)?;
+        let stops = ask::exhibit(scene, &row.trial, "trajectory")?;
+        let points: Vec<[f64; 3]> =
+            stops.values.chunks(stops.width).map(|stop| [stop[7], stop[8], stop[9]]).collect();
+        let color = series_color(ask::series(scene, contender, index));
+        for (name, at) in [("start", points.first()), ("goal", points.last())] {
+            if let Some(at) = at {
+                solids.tag(*at, name);
+            }
+        }
+        solids.overlay(points.clone(), Stroke::solid(color, 0.7).dashed(Dash::Dotted));
+        solids.polyline(points, Stroke::solid(color, 1.8));
+        let number = |column: &str| row.value(column).unwrap_or(f64::NAN);
+        let title = if view == 0 {
+            let [length, legs] = ["path_length_mm", "local_paths"].map(number);
+            format!("{contender}: {length:.0} mm, {legs} local paths")
+        } else {
+            format!("the same {seen}")
+        };
+        panel(&title, solids, camera, Vec::new())
+    }
+}
+
 impl Kind for CellPaths {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let replicate = ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
-        let draw = format!("{}/{replicate}", slug(&self.problems));
-        let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 230.0);
-        for (title, camera) in VIEWS {
-            let mut solids = furnished(scene, &draw)?;
-            let body = ask::exhibit(scene, &draw, &format!("body {}/start", self.query))?;
-            let pale = Paint { outlined: false, ..Paint::solid(GREY.mixed(WHITE, 0.45)) };
-            add_capsules(&mut solids, body, pale);
-            let mut keys = Vec::new();
-            for (index, contender) in self.contenders.iter().enumerate() {
-                let row = ask::trial(scene, &self.problems, replicate, Some(&self.query), contender)?;
-                let stops = ask::exhibit(scene, &row.trial, "trajectory")?;
-                let points: Vec<[f64; 3]> =
-                    stops.values.chunks(stops.width).map(|stop| [stop[7], stop[8], stop[9]]).collect();
-                let stroke = Stroke::solid(series_color(index), 1.6);
-                let ends = [("start", points.first()), ("goal", points.last())];
-                for (name, at) in ends.into_iter().filter(|_| index == 0) {
-                    if let Some(at) = at {
-                        solids.tag(*at, name);
-                    }
-                }
-                solids.polyline(points, stroke);
-                let number = |column: &str| row.value(column).unwrap_or(f64::NAN);
-                let label = format!(
-                    "{contender}: {:.0} mm, {} local paths",
-                    number("path_length_mm"),
-                    number("local_paths")
-                );
-                keys.push(Key { swatch: Swatch::Line(stroke, None), label });
+        let mut sheet = Sheet::new(Width::Double, self.contenders.len(), 200.0);
+        if let Some(rank) = rank(scene, self, replicate) {
+            sheet = sheet.titled(rank);
+        }
+        for view in 0..VIEWS.len() {
+            for index in 0..self.contenders.len() {
+                sheet.add(self.panel(scene, replicate, index, view)?);
             }
-            sheet.add(panel(title, solids, camera, keys)?);
         }
         Ok(sheet)
     }

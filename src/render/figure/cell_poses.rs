@@ -5,6 +5,7 @@ use crate::planner::Exhibit;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Axis, Key, Panel, Sheet, Trim};
+use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{GREY, Rgb, WHITE, Width, YELLOW, series_color};
 use crate::study::slug;
@@ -95,11 +96,18 @@ pub(super) fn panel(
     Ok(panel)
 }
 
-impl Kind for CellPoses {
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+impl CellPoses {
+    /// The name of the group's first draw.
+    fn draw_name(&self, scene: &Scene<'_>) -> String {
         let group = scene.run.study.groups.iter().find(|group| group.label == self.problems);
         let numbered = group.is_some_and(|group| group.is_numbered);
-        let draw = if numbered { format!("{}/0", slug(&self.problems)) } else { slug(&self.problems) };
+        if numbered { format!("{}/0", slug(&self.problems)) } else { slug(&self.problems) }
+    }
+}
+
+impl Kind for CellPoses {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let draw = self.draw_name(scene);
         let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);
         let named: Vec<(usize, (&String, &String))> =
             self.poses.iter().zip(&self.names).enumerate().collect();
@@ -108,7 +116,7 @@ impl Kind for CellPoses {
                 let mut solids = furnished(scene, &draw)?;
                 let mut keys = vec![cell_key("obstacles", obstacle())];
                 for (place, (index, (pose, name))) in shown.iter().enumerate() {
-                    let color = series_color(*index).mixed(WHITE, 0.25);
+                    let color = series_color(*index).mixed(WHITE, 0.35);
                     let body = ask::exhibit(scene, &draw, &format!("body {pose}"))?;
                     // Base and turret stand where they stand at every pose: one of each is drawn.
                     let fixed = if place == 0 { 0 } else { FIXED_PARTS * body.width };
@@ -123,5 +131,29 @@ impl Kind for CellPoses {
             }
         }
         Ok(sheet)
+    }
+
+    fn table(&self, scene: &Scene<'_>, label: &str, caption: &str) -> Result<Option<Table>, RenderError> {
+        let draw = self.draw_name(scene);
+        let kinds = [Column::Left, Column::Left, Column::Right, Column::Right, Column::Right, Column::Right];
+        let mut table = Table::new(label, caption, &kinds);
+        let heads = ["group", "", "joint angles (°)", "flange (mm)", "tip (mm)", "direction"];
+        table.head(heads.map(Cell::from).to_vec());
+        let kept = scene.run.records.batch.kept.iter().filter(|kept| kept.of == draw);
+        for exhibit in kept.map(|kept| &kept.exhibit) {
+            let Some((group, end)) = exhibit.name.strip_prefix("pose ").and_then(|name| name.split_once('/'))
+            else {
+                continue;
+            };
+            let numbers = |from: usize, to: usize, decimals: usize| {
+                let of = |value: &f64| crate::render::chart::axis::number(*value, decimals);
+                exhibit.values[from..to].iter().map(of).collect::<Vec<_>>().join(", ")
+            };
+            let group = if end == "start" { group } else { "" };
+            let cells = [numbers(0, 6, 0), numbers(6, 9, 1), numbers(9, 12, 1), numbers(12, 15, 3)];
+            let row = [group.to_owned(), end.to_owned()].into_iter().chain(cells);
+            table.row(row.map(Cell::from).collect());
+        }
+        Ok(Some(table))
     }
 }

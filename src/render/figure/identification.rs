@@ -31,7 +31,18 @@ pub static ENTRY: Entry = Entry {
         }
         let printed = read.printed.iter().map(|id| ask::printed(settings, paper, id));
         let printed = printed.collect::<Result<_, _>>()?;
-        Ok(Box::new(Identification { read, printed }))
+        let mut row = Vec::new();
+        if let Some(wanted) = &read.row {
+            let sweep = study.sweeps.iter().find(|sweep| sweep.key == wanted.sweep);
+            let sweep = sweep.ok_or_else(|| {
+                settings.error(format!("study `{}` does not sweep `{}`", study.name, wanted.sweep))
+            })?;
+            for value in &sweep.values {
+                let claim = ask::printed(settings, paper, &format!("{}{value}", wanted.printed))?;
+                row.push((format!("{}={value}", wanted.sweep), claim));
+            }
+        }
+        Ok(Box::new(Identification { read, printed, row }))
     },
 };
 
@@ -46,12 +57,32 @@ struct Read {
     others: Vec<String>,
     /// The claim printed for each panel.
     printed: Vec<String>,
+    /// A printed row whose distance from the mean curve is shown in a last panel.
+    row: Option<RowOf>,
     studies: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RowOf {
+    /// The sweep along the row.
+    sweep: String,
+    /// What the claims of its cells are called before the sweep's value.
+    printed: String,
 }
 
 struct Identification {
     read: Read,
     printed: Vec<f64>,
+    /// The row's cells: the sweep's point and the printed share.
+    row: Vec<(String, f64)>,
+}
+
+/// The root of the mean square of the differences of a mean curve from the printed cells.
+fn row_distance(draws: &[&Vec<f64>], printed: &[f64]) -> Option<f64> {
+    let mean = |cell: usize| draws.iter().map(|draw| draw[cell]).sum::<f64>() / draws.len() as f64;
+    let squares = printed.iter().enumerate().map(|(cell, value)| (mean(cell) - value).powi(2));
+    (!draws.is_empty()).then(|| (squares.sum::<f64>() / printed.len() as f64).sqrt())
 }
 
 /// A point of a curve: the swept value, and the mean share with its interval.
@@ -79,12 +110,63 @@ impl Identification {
     }
 }
 
+impl Identification {
+    /// How far the mean curve along the row is from the printed one, at each value of the sweep along the axis.
+    fn distances(&self, run: &Run<'_>) -> Vec<Point> {
+        let Some(group) = run.study.groups.first() else { return Vec::new() };
+        let Some(sweep) = run.study.sweeps.iter().find(|sweep| sweep.key == self.read.sweep) else {
+            return Vec::new();
+        };
+        let printed: Vec<f64> = self.row.iter().map(|(_, printed)| *printed).collect();
+        let mut points = Vec::new();
+        for value in &sweep.values {
+            let at = format!("{}={value}", self.read.sweep);
+            let cells: Vec<Vec<f64>> = self
+                .row
+                .iter()
+                .map(|(cell, _)| {
+                    let point = run.study.sweep_points().into_iter().find(|point| {
+                        let parts: Vec<&str> = point.name.split(',').collect();
+                        parts.contains(&at.as_str()) && parts.contains(&cell.as_str())
+                    });
+                    point.map_or_else(Vec::new, |point| {
+                        solved_percents(run, &group.label, &self.read.contender, &point.name)
+                    })
+                })
+                .collect();
+            let count = cells.iter().map(Vec::len).min().unwrap_or(0);
+            let draws: Vec<Vec<f64>> =
+                (0..count).map(|d| cells.iter().map(|cell| cell[d]).collect()).collect();
+            let seed = seed::derive(0, &["identification", "row", &run.study.name, &at]);
+            let plan = Plan { resamples: 1000, level: 0.95, seed };
+            let found = percentile(&draws, |draws| row_distance(draws, &printed), plan);
+            let at = value.as_float().or_else(|| value.as_integer().map(|value| value as f64));
+            if let (Some(at), Some(found)) = (at, found) {
+                points.push([at, found.value, found.interval.low, found.interval.high]);
+            }
+        }
+        points
+    }
+
+    fn add_curves(panel: &mut Panel, runs: &[&Run<'_>], curves: &[Vec<Point>]) {
+        for (index, (run, curve)) in runs.iter().zip(curves).enumerate() {
+            let edges = curve.iter().map(|[x, _, low, high]| [*x, *low, *high]).collect();
+            let fill = Fill::sheer(series_color(index), 0.18);
+            panel.add(Band { edges, fill, label: String::new() });
+            let line = Line::through(curve.iter().map(|p| [p[0], p[1]]).collect(), series_stroke(index));
+            let label = run.study.groups.first().map_or("", |group| &group.label);
+            panel.add(line.marked(series_marker(index)).labelled(label));
+        }
+    }
+}
+
 impl Kind for Identification {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, self.read.others.len(), 170.0);
+        let panels = self.read.others.len() + usize::from(!self.row.is_empty());
+        let mut sheet = Sheet::new(Width::Double, panels, 150.0);
+        let runs: Vec<&Run<'_>> =
+            self.read.studies.iter().filter_map(|name| scene.evidence.run(name)).collect();
         for (other, printed) in self.read.others.iter().zip(&self.printed) {
-            let runs: Vec<&Run<'_>> =
-                self.read.studies.iter().filter_map(|name| scene.evidence.run(name)).collect();
             let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.curve(run, other)).collect();
             let x = Axis::over(&self.read.axis, curves.iter().flatten().map(|point| point[0]));
             let [low, high] = x.ends();
@@ -92,14 +174,16 @@ impl Kind for Identification {
                 Panel::new(other.replace('=', " = "), x, Axis::linear("groups solved (%)", -3.0, 103.0)?);
             let dashed = Stroke::solid(GREY, 0.9).dashed(Dash::Dashed);
             panel.add(Line::through(vec![[low, *printed], [high, *printed]], dashed).labelled("printed"));
-            for (index, (run, curve)) in runs.iter().zip(&curves).enumerate() {
-                let edges = curve.iter().map(|[x, _, low, high]| [*x, *low, *high]).collect();
-                let fill = Fill::sheer(series_color(index), 0.18);
-                panel.add(Band { edges, fill, label: String::new() });
-                let line = Line::through(curve.iter().map(|p| [p[0], p[1]]).collect(), series_stroke(index));
-                let label = run.study.groups.first().map_or("", |group| &group.label);
-                panel.add(line.marked(series_marker(index)).labelled(label));
-            }
+            Self::add_curves(&mut panel, &runs, &curves);
+            sheet.add(panel);
+        }
+        if !self.row.is_empty() {
+            let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.distances(run)).collect();
+            let x = Axis::over(&self.read.axis, curves.iter().flatten().map(|point| point[0]));
+            let top = curves.iter().flatten().map(|point| point[3]).fold(1.0, f64::max);
+            let y = Axis::linear("distance from the printed row (points)", 0.0, top * 1.05)?;
+            let mut panel = Panel::new(format!("all {} cells", self.row.len()), x, y);
+            Self::add_curves(&mut panel, &runs, &curves);
             sheet.add(panel);
         }
         Ok(sheet)

@@ -1,12 +1,15 @@
-//! A metric by query and contender over the draws on which all compared contenders solve the query.
+//! A metric by query and contender over the draws on which all compared contenders solve the query, and what the last of
+//! them saves against the first.
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::summary::quantile_type7;
+use crate::analysis::stats::summary::{mean, median, quantile_type7};
 use crate::render::RenderError;
+use crate::render::chart::marks::Line;
 use crate::render::chart::rows::BoxStrip;
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{Width, series_color};
+use crate::render::latex::{Cell, Column, Table};
+use crate::render::style::{Dash, GREY, Stroke, Width, series_color};
 use crate::study::record::Status;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -14,13 +17,15 @@ use std::collections::BTreeMap;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "paired_boxes",
-    about: "a metric by query and contender, boxes over the draws on which all compared contenders solve the query",
-    build: |settings, study, _paper| {
+    about: "a metric by query and contender, boxes over the draws on which all compared contenders solve the query, and savings",
+    build: |settings, study, paper| {
         let read: Read = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
         let metric = crate::analysis::metric::find(&read.metric)
             .ok_or_else(|| settings.error(format!("there is no metric `{}`", read.metric)))?;
-        Ok(Box::new(PairedBoxes { read, metric }))
+        let printed = read.savings.iter().flatten().map(|id| ask::printed(settings, paper, id));
+        let printed = printed.collect::<Result<_, _>>()?;
+        Ok(Box::new(PairedBoxes { read, metric, printed }))
     },
 };
 
@@ -31,11 +36,19 @@ struct Read {
     metric: String,
     contenders: Vec<String>,
     axis: String,
+    /// The point of the sweeps, in a study that has any.
+    #[serde(default)]
+    sweep: String,
+    /// Adds a panel, and a table, of what the last contender saves against the first; claims whose printed savings are drawn
+    /// as lines.
+    savings: Option<Vec<String>>,
 }
 
 struct PairedBoxes {
     read: Read,
     metric: &'static Metric,
+    /// Printed savings.
+    printed: Vec<f64>,
 }
 
 /// With more contenders than this there is no room for single values beside their boxes.
@@ -49,7 +62,8 @@ impl PairedBoxes {
         let mut order: Vec<String> = Vec::new();
         let mut found: BTreeMap<(String, u32), Vec<f64>> = BTreeMap::new();
         for contender in &self.read.contenders {
-            for row in scene.run.rows(&self.read.problems, contender) {
+            let rows = scene.run.rows(&self.read.problems, contender).into_iter();
+            for row in rows.filter(|row| row.sweep == self.read.sweep) {
                 let name = ask::query(row).to_owned();
                 if !order.contains(&name) {
                     order.push(name.clone());
@@ -69,38 +83,127 @@ impl PairedBoxes {
         };
         order.into_iter().map(of_query).collect()
     }
-}
 
-impl Kind for PairedBoxes {
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let values = self.values(scene);
+    /// One box a query and contender.
+    fn boxes(&self, scene: &Scene<'_>, values: &ByQuery) -> Result<Panel, RenderError> {
         let names = values
             .iter()
             .map(|(name, columns)| format!("{name} (n = {})", columns.first().map_or(0, Vec::len)));
         let top =
             values.iter().flat_map(|(_, columns)| columns.iter().flatten()).copied().fold(0.0, f64::max);
+        // Single values beyond the whiskers are only drawn where there are strips of them.
+        let whiskers = values.iter().flat_map(|(_, columns)| columns).filter_map(|c| quantile_type7(c, 0.95));
+        let top = if self.has_strips() { top } else { whiskers.fold(0.0, f64::max) };
         let y = Axis::linear(self.metric.title(), 0.0, if top > 0.0 { top * 1.04 } else { 1.0 })?;
         let mut panel = Panel::new("", Axis::names(&self.read.axis, names), y);
         let step = 0.8 / self.read.contenders.len() as f64;
         for (place, (_, columns)) in values.iter().enumerate() {
             for (index, column) in columns.iter().enumerate().filter(|(_, column)| !column.is_empty()) {
-                let quantile = |share| quantile_type7(column, share).unwrap_or(f64::NAN);
+                let contender = &self.read.contenders[index];
                 panel.add(BoxStrip {
                     at: place as f64 - 0.4 + step * (index as f64 + 0.5),
                     width: step * 0.62,
-                    quantiles: [0.05, 0.25, 0.5, 0.75, 0.95].map(quantile),
-                    values: if self.read.contenders.len() > MOST_STRIPS {
-                        Vec::new()
-                    } else {
-                        column.clone()
-                    },
-                    color: series_color(index),
-                    label: if place == 0 { self.read.contenders[index].clone() } else { String::new() },
+                    quantiles: quantiles(column),
+                    values: if self.has_strips() { column.clone() } else { Vec::new() },
+                    color: series_color(ask::series(scene, contender, index)),
+                    label: if place == 0 { contender.clone() } else { String::new() },
                 });
             }
         }
-        let mut sheet = Sheet::new(Width::Double, 1, 200.0);
-        sheet.add(panel);
+        Ok(panel)
+    }
+
+    fn has_strips(&self) -> bool {
+        self.read.contenders.len() <= MOST_STRIPS
+    }
+
+    /// What the last contender saves against the first, by query, and over all queries.
+    fn savings(values: &ByQuery) -> ByQuery {
+        let of = |columns: &Vec<Vec<f64>>| -> Vec<f64> {
+            let (Some(base), Some(other)) = (columns.first(), columns.last()) else { return Vec::new() };
+            base.iter().zip(other).map(|(base, other)| 100.0 * (1.0 - other / base)).collect()
+        };
+        let mut savings: ByQuery = values.iter().map(|(name, c)| (name.clone(), vec![of(c)])).collect();
+        let all = savings.iter().flat_map(|(_, columns)| columns[0].clone()).collect();
+        savings.push(("all".to_owned(), vec![all]));
+        savings
+    }
+
+    fn savings_panel(&self, scene: &Scene<'_>, savings: &ByQuery) -> Result<Panel, RenderError> {
+        let low = savings.iter().flat_map(|(_, c)| &c[0]).copied().fold(0.0, f64::min);
+        let names = savings.iter().map(|(name, _)| name);
+        let y = Axis::linear("saving (%)", low - 5.0, 103.0)?;
+        let mut panel = Panel::new("", Axis::names(&self.read.axis, names), y);
+        let dashed = Stroke::solid(GREY, 0.9).dashed(Dash::Dashed);
+        let right = savings.len() as f64 - 0.5;
+        for printed in &self.printed {
+            let line = Line::through(vec![[-0.5, *printed], [right, *printed]], dashed);
+            panel.add(line.labelled("printed ends"));
+        }
+        let last = self.read.contenders.len() - 1;
+        let color = series_color(ask::series(scene, &self.read.contenders[last], last));
+        for (place, (_, columns)) in savings.iter().enumerate().filter(|(_, (_, c))| !c[0].is_empty()) {
+            panel.add(BoxStrip {
+                at: place as f64,
+                width: 0.5,
+                quantiles: quantiles(&columns[0]),
+                values: columns[0].clone(),
+                color,
+                label: String::new(),
+            });
+        }
+        Ok(panel)
+    }
+}
+
+fn quantiles(values: &[f64]) -> [f64; 5] {
+    [0.05, 0.25, 0.5, 0.75, 0.95].map(|share| quantile_type7(values, share).unwrap_or(f64::NAN))
+}
+
+impl Kind for PairedBoxes {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let values = self.values(scene);
+        let mut sheet = Sheet::new(Width::Double, 1, 190.0);
+        sheet.add(self.boxes(scene, &values)?);
+        if self.read.savings.is_some() {
+            sheet.add(self.savings_panel(scene, &Self::savings(&values))?);
+        }
         Ok(sheet)
+    }
+
+    fn table(&self, scene: &Scene<'_>, label: &str, caption: &str) -> Result<Option<Table>, RenderError> {
+        if self.read.savings.is_none() {
+            return Ok(None);
+        }
+        let values = self.values(scene);
+        let mut kinds = vec![Column::Left];
+        kinds.extend([Column::Right; 6]);
+        let mut table = Table::new(label, caption, &kinds);
+        let (first, last) = (&self.read.contenders[0], &self.read.contenders[self.read.contenders.len() - 1]);
+        let heads = ["query", "n", first, last, "mean saving (%)", "5 % to 95 %", "least to greatest"];
+        table.head(heads.map(Cell::from).to_vec());
+        for (place, (name, columns)) in Self::savings(&values).iter().enumerate() {
+            let saved = &columns[0];
+            let number = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
+            let middle = |column: usize| {
+                let of_query = values.get(place).and_then(|(_, columns)| columns.get(column));
+                number(of_query.and_then(|values| median(values)))
+            };
+            let range = |low: f64, high: f64| {
+                format!("{} to {}", number(quantile_type7(saved, low)), number(quantile_type7(saved, high)))
+            };
+            let row = [
+                name.clone(),
+                saved.len().to_string(),
+                middle(0),
+                middle(self.read.contenders.len() - 1),
+                number(mean(saved)),
+                range(0.05, 0.95),
+                range(0.0, 1.0),
+            ];
+            table.row(row.map(Cell::from).to_vec());
+        }
+        table.note(format!("{}: medians over draws; savings draw by draw.", self.metric.title()));
+        Ok(Some(table))
     }
 }

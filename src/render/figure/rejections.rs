@@ -40,33 +40,64 @@ const BARS: [(&str, &str); 9] = [
     ("rejected_contact", "contact"),
 ];
 
-impl Kind for Rejections {
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, 1, 150.0);
-        let x = Axis::names("", BARS.map(|(_, name)| name));
-        let mut panel = Panel::new("", x, Axis::linear("share of pairs (%)", 0.0, 100.0)?);
+/// Pairs that are left out of a panel's whole, and its title.
+const PANELS: [(&[&str], &str); 2] =
+    [(&[], "of all pairs"), (&["rejected_branch"], "of pairs on one branch")];
+
+fn count(row: &PreparedRow, column: &str) -> Option<f64> {
+    row.values.get(column).map(|value| value.as_f64())
+}
+
+impl Rejections {
+    fn rows<'s>(scene: &'s Scene<'_>, problems: &str) -> Vec<&'s PreparedRow> {
+        scene.run.records.batch.prepared.iter().filter(|row| row.group == problems).collect()
+    }
+
+    /// The bars that any roadmap of the figure has pairs for, without those left out.
+    fn bars(&self, scene: &Scene<'_>, left_out: &[&str]) -> Vec<(&'static str, &'static str)> {
+        let is_met = |column: &str| {
+            let mut rows = self.problems.iter().flat_map(|problems| Self::rows(scene, problems));
+            rows.any(|row| count(row, column).is_some_and(|pairs| pairs > 0.0))
+        };
+        let kept = BARS.into_iter().filter(|(column, _)| !left_out.contains(column) && is_met(column));
+        kept.collect()
+    }
+
+    fn panel(&self, scene: &Scene<'_>, left_out: &[&str], title: &str) -> Result<Panel, RenderError> {
+        let named = self.bars(scene, left_out);
+        let x = Axis::names("", named.iter().map(|(_, name)| *name));
+        let mut panel = Panel::new(title, x, Axis::linear("share of pairs (%)", 0.0, 100.0)?);
         let width = 0.8 / self.problems.len() as f64;
         for (index, problems) in self.problems.iter().enumerate() {
-            let rows: Vec<&PreparedRow> =
-                scene.run.records.batch.prepared.iter().filter(|row| row.group == *problems).collect();
+            let rows = Self::rows(scene, problems);
             let share = |row: &&PreparedRow, column: &str| {
-                let [part, all] = [column, "pairs"].map(|name| row.values.get(name).map(|v| v.as_f64()));
-                Some(100.0 * part? / all.filter(|all| *all > 0.0)?)
+                let out: f64 = left_out.iter().filter_map(|column| count(row, column)).sum();
+                let all = Some(count(row, "pairs")? - out).filter(|all| *all > 0.0);
+                Some(100.0 * count(row, column)? / all?)
             };
             let mut bars = Vec::new();
-            for (place, (column, _)) in BARS.iter().enumerate() {
+            for (place, (column, _)) in named.iter().enumerate() {
                 let shares: Vec<f64> = rows.iter().filter_map(|row| share(row, column)).collect();
                 let mean = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
                 let left = place as f64 - 0.4 + index as f64 * width;
                 bars.push([left, left + width, mean]);
                 let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Base);
-                let at = [left + width / 2.0, mean];
-                panel.add(Note { at, shift_pt: [0.0, -3.0], text: format!("{mean:.1}"), set });
+                let (at, text) = ([left + width / 2.0, mean], format!("{mean:.1}"));
+                panel.add(Note { at, shift_pt: [0.0, -3.0], text, set });
             }
             let label = if self.problems.len() > 1 { problems.clone() } else { String::new() };
             panel.add(Bars { bars, fill: Fill::solid(series_color(index)), label });
         }
-        sheet.add(panel);
+        Ok(panel)
+    }
+}
+
+impl Kind for Rejections {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let mut sheet = Sheet::new(Width::Double, PANELS.len(), 150.0);
+        for (left_out, title) in PANELS {
+            sheet.add(self.panel(scene, left_out, title)?);
+        }
         Ok(sheet)
     }
 }

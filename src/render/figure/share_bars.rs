@@ -1,7 +1,8 @@
-//! Shares of solved queries by problem group and contender at one point of the sweeps, with intervals over draws.
+//! Shares of solved queries by problem group and contender at one point of the sweeps, with intervals over draws; beside
+//! them, if asked for, what each group differs by from one of them, draw by draw.
 
 use super::{Entry, Kind, Scene, ask};
-use crate::analysis::draws::solved_percents;
+use crate::analysis::draws::{differences_percent, posed, solved_percents};
 use crate::analysis::stats::bootstrap::{Plan, percentile};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
@@ -15,10 +16,11 @@ use serde::Deserialize;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "share_bars",
-    about: "shares of solved queries by problem group and contender at one point of the sweeps, with intervals over draws",
+    about: "shares of solved queries by problem group and contender at one point of the sweeps, and paired differences from one group",
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
-        ask::known(settings, study, &read.problems, &[])?;
+        let named: Vec<String> = read.problems.iter().chain(&read.against).cloned().collect();
+        ask::known(settings, study, &named, &[])?;
         let printed = read.printed.iter().map(|id| ask::printed(settings, paper, id));
         let printed = printed.collect::<Result<_, _>>()?;
         Ok(Box::new(ShareBars { contenders: labels(study), printed, read }))
@@ -33,6 +35,8 @@ struct Read {
     /// Claims whose printed shares are drawn as lines.
     #[serde(default)]
     printed: Vec<String>,
+    /// The group that a second panel shows differences from.
+    against: Option<String>,
 }
 
 struct ShareBars {
@@ -46,50 +50,92 @@ fn labels(study: &Study) -> Vec<String> {
 }
 
 impl ShareBars {
-    /// The rows from the top down: of a single problem group one a contender, else one a problem group.
-    fn names(&self) -> &[String] {
-        if self.read.problems.len() == 1 { &self.contenders } else { &self.read.problems }
+    fn is_single(&self) -> bool {
+        self.read.problems.len() == 1
     }
-}
 
-impl Kind for ShareBars {
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let names = self.names();
-        let is_single = self.read.problems.len() == 1;
-        let rows = names.len() as f64;
-        let y = Axis::names("", names.iter().rev().cloned());
-        let mut panel = Panel::new("", Axis::linear("groups solved (%)", -3.0, 103.0)?, y);
-        for value in &self.printed {
-            let line = Line::through(
-                vec![[*value, -0.5], [*value, rows - 0.5]],
-                Stroke::solid(GREY, 0.9).dashed(Dash::Dashed),
-            );
-            panel.add(line.labelled("printed"));
+    /// The rows from the top down: of a single problem group one a contender, else one a problem group, with how many of its
+    /// queries could be posed if not all.
+    fn names(&self, scene: &Scene<'_>) -> Vec<String> {
+        if self.is_single() {
+            return self.contenders.clone();
         }
-        let step = if is_single { 0.0 } else { 0.7 / self.contenders.len() as f64 };
+        let named = |problems: &String| match posed(scene.run, problems) {
+            [posed, all] if posed < all => format!("{problems} ({posed} of {all} groups posed)"),
+            _ => problems.clone(),
+        };
+        self.read.problems.iter().map(named).collect()
+    }
+
+    /// A panel with the mean over draws of what `of` gives for each group and contender.
+    fn fill(
+        &self,
+        scene: &Scene<'_>,
+        panel: &mut Panel,
+        is_keyed: bool,
+        of: &dyn Fn(&str, &str) -> Vec<f64>,
+    ) {
+        let (is_single, count) = (self.is_single(), self.contenders.len());
+        let rows = if is_single { count } else { self.read.problems.len() } as f64;
+        let step = 0.7 / count as f64;
         for (i, problems) in self.read.problems.iter().enumerate() {
             for (j, contender) in self.contenders.iter().enumerate() {
-                let draws = solved_percents(scene.run, problems, contender, &self.read.sweep);
                 let seed = seed::derive(0, &["share_bars", problems, contender]);
                 let mean = |units: &[&f64]| {
                     (!units.is_empty()).then(|| units.iter().copied().sum::<f64>() / units.len() as f64)
                 };
                 let plan = Plan { resamples: 2000, level: 0.95, seed };
-                let Some(found) = percentile(&draws, mean, plan) else { continue };
+                let Some(found) = percentile(&of(problems, contender), mean, plan) else { continue };
                 let from_top = if is_single { j as f64 } else { i as f64 - 0.35 + step * (j as f64 + 0.5) };
-                let index = if is_single { 0 } else { j };
+                let index = ask::series(scene, contender, if is_single { 0 } else { j });
                 panel.add(Interval {
                     row: rows - 1.0 - from_top,
                     values: [found.interval.low, found.value, found.interval.high],
                     marker: series_marker(index),
                     color: series_color(index),
-                    label: if is_single { String::new() } else { contender.clone() },
+                    label: if is_single || !is_keyed { String::new() } else { contender.clone() },
                 });
             }
         }
-        let per_row = if is_single { 15.0 } else { 6.0 + 5.0 * self.contenders.len() as f64 };
-        let mut sheet = Sheet::new(Width::Double, 1, (rows * per_row).max(60.0));
+    }
+
+    /// A vertical line through all rows.
+    fn rule(panel: &mut Panel, at: f64, rows: usize, label: &str) {
+        let stroke = Stroke::solid(GREY, 0.9).dashed(Dash::Dashed);
+        let line = Line::through(vec![[at, -0.5], [at, rows as f64 - 0.5]], stroke);
+        panel.add(line.labelled(label));
+    }
+
+    fn differences(&self, scene: &Scene<'_>, against: &str, rows: usize) -> Result<Panel, RenderError> {
+        let axis = Axis::linear(format!("difference from “{against}” (points)"), -103.0, 103.0)?;
+        let mut panel = Panel::new("", axis, Axis::names("", vec![String::new(); rows]));
+        Self::rule(&mut panel, 0.0, rows, "");
+        self.fill(scene, &mut panel, false, &|problems, contender| {
+            differences_percent(scene.run, [against, problems], contender, &self.read.sweep)
+        });
+        Ok(panel)
+    }
+}
+
+impl Kind for ShareBars {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let names = self.names(scene);
+        let rows = names.len();
+        let y = Axis::names("", names.into_iter().rev());
+        let mut panel = Panel::new("", Axis::linear("groups solved (%)", -3.0, 103.0)?, y);
+        for value in &self.printed {
+            Self::rule(&mut panel, *value, rows, "printed");
+        }
+        self.fill(scene, &mut panel, true, &|problems, contender| {
+            solved_percents(scene.run, problems, contender, &self.read.sweep)
+        });
+        let per_row = if self.is_single() { 15.0 } else { 6.0 + 5.0 * self.contenders.len() as f64 };
+        let columns = 1 + usize::from(self.read.against.is_some());
+        let mut sheet = Sheet::new(Width::Double, columns, (rows as f64 * per_row).max(60.0));
         sheet.add(panel);
+        if let Some(against) = &self.read.against {
+            sheet.add(self.differences(scene, against, rows)?);
+        }
         Ok(sheet)
     }
 }

@@ -49,8 +49,8 @@ struct Read {
 #[serde(deny_unknown_fields)]
 struct ReadRow {
     contender: String,
-    /// What the claims of the printed cells are called before the sweep's value.
-    printed: String,
+    /// What the claims of the printed cells are called before the sweep's value, if a row is printed.
+    printed: Option<String>,
 }
 
 impl Shown {
@@ -67,8 +67,10 @@ impl Shown {
         }
         let mut rows = Vec::new();
         for row in read.rows {
-            let cells = points.iter().map(|(x, _)| {
-                ask::printed(settings, paper, &format!("{}{x}", row.printed)).map(|printed| [*x, printed])
+            let cells = row.printed.iter().flat_map(|prefix| {
+                points.iter().map(move |(x, _)| {
+                    ask::printed(settings, paper, &format!("{prefix}{x}")).map(|printed| [*x, printed])
+                })
             });
             rows.push(RowOf { printed: cells.collect::<Result<_, _>>()?, contender: row.contender });
         }
@@ -98,7 +100,8 @@ impl Kind for Shown {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, 1, 210.0);
         let mut panel = self.panel("")?;
-        for (index, row) in self.rows.iter().enumerate() {
+        for (place, row) in self.rows.iter().enumerate() {
+            let index = ask::series(scene, &row.contender, place);
             let curves = self.curves(scene, &row.contender);
             let seed = seed::derive(0, &["success_bands", &row.contender]);
             let plan = Plan { resamples: 2000, level: 0.95, seed };
@@ -113,6 +116,9 @@ impl Kind for Shown {
             panel.add(Band { edges, fill: Fill::sheer(color, 0.25), label: String::new() });
             let points = xs().zip(&mean).map(|(x, y)| [x, *y]).collect();
             panel.add(Line::through(points, series_stroke(index)).labelled(label));
+            if row.printed.is_empty() {
+                continue;
+            }
             panel.add(Points {
                 points: row.printed.clone(),
                 marker: series_marker(index),

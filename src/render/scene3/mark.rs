@@ -160,6 +160,10 @@ impl Mark for SceneMark {
         let room = Rect { x: frame.x + 6.0, y: frame.y + 3.0, w: frame.w - 12.0, h: frame.h - FOOT_PT - 3.0 };
         let lens = Lens::fitting(&self.scene, self.camera, room);
         draw_items(canvas, &lens, &self.items(&lens));
+        for chain in &self.scene.overlays {
+            let points: Vec<[f64; 2]> = chain.points.iter().map(|&point| lens.at(point)).collect();
+            canvas.polyline(&points, &chain.stroke);
+        }
         let foot = Rect { y: frame.bottom() - FOOT_PT, h: FOOT_PT, ..frame };
         self.triad(canvas, foot);
         self.scale_bar(canvas, &lens, foot);

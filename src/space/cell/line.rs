@@ -1,9 +1,10 @@
 //! Local paths: what joins two configurations without a search.
 //!
 //! The tool goes on a straight line, its orientation about one axis (slerp), both at even steps; the joints follow by
-//! inverse kinematics. At each step the configuration on the branch in hand is taken, of copies by whole turns the nearest
-//! one. A path is refused for a change of branch, a pose out of reach or limits, a jump of a joint, a joint too
-//! fast under the tool's time law, an end in another configuration than the one asked for, or a contact.
+//! inverse kinematics. At each step the configuration of the smallest change is taken; it is sought on the branch in hand, and
+//! on all only where another could be nearer. A path is refused for a change of branch, a pose out of reach or limits, a
+//! jump of a joint, a joint too fast under the tool's time law, an end in another configuration than the one asked
+//! for, or a contact. Jumps are judged at the steps; limits too and, where a joint is near one, at every quarter of a step.
 //!
 //! **What can slip through.** Every checked configuration is checked with each part thickened by 0.51 of the longest
 //! way that an end of its axis goes to the next checked ones. A contact between two that are clear is
@@ -14,11 +15,12 @@
 //! # Source
 //! Fu et al., *Robotics and Autonomous Systems* 106 (2018), section 3.1.
 
+use super::time_law::SpeedRule;
+use super::way::Way;
 use super::{Cell, Standing};
-use crate::geometry::{Capsule, Frame, Vec3};
+use crate::geometry::{Capsule, Frame};
 use crate::kinematics::ik::Branch;
 use crate::kinematics::{AXES, Joints, Missed};
-use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 
 /// How far a configuration at the end of an edge may be from the one asked for: radians.
@@ -83,33 +85,6 @@ pub enum Path {
     Joints,
 }
 
-/// A tool's time law: rest to rest with one acceleration and one greatest speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpeedRule {
-    /// The greatest speed of the tool.
-    pub speed_m_s: f64,
-    /// Its acceleration.
-    pub acceleration_m_s2: f64,
-}
-
-impl SpeedRule {
-    /// When the tool is `way_m` from its start on a path `length_m` long.
-    fn time_s(&self, way_m: f64, length_m: f64) -> f64 {
-        let ramp_m = (self.speed_m_s * self.speed_m_s / (2.0 * self.acceleration_m_s2)).min(length_m / 2.0);
-        let peak_m_s = (2.0 * self.acceleration_m_s2 * ramp_m).sqrt();
-        let ramp_s = peak_m_s / self.acceleration_m_s2;
-        let cruise_s = (length_m - 2.0 * ramp_m) / peak_m_s;
-        if way_m <= ramp_m {
-            (2.0 * way_m / self.acceleration_m_s2).sqrt()
-        } else if way_m <= length_m - ramp_m {
-            ramp_s + (way_m - ramp_m) / peak_m_s
-        } else {
-            let left_m = (length_m - way_m).max(0.0);
-            2.0 * ramp_s + cruise_s - (2.0 * left_m / self.acceleration_m_s2).sqrt()
-        }
-    }
-}
-
 /// What a local path must keep to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineRules {
@@ -161,57 +136,6 @@ impl Scratch {
 pub struct Lines {
     cell: Cell,
     rules: LineRules,
-}
-
-/// The tool's way from one pose to another: `R(t) = even + cos · cos(tθ) + sin · sin(tθ)`.
-struct Way {
-    from: Vec3,
-    along: Vec3,
-    even: Matrix3<f64>,
-    cos: Matrix3<f64>,
-    sin: Matrix3<f64>,
-    turn_rad: f64,
-}
-
-impl Way {
-    fn between(from: &Frame, to: &Frame) -> Self {
-        let (axis, turn_rad) = axis_angle(&(to.rotation * from.rotation.transpose()));
-        let sin = axis.cross_matrix() * from.rotation;
-        let even = axis * (axis.transpose() * from.rotation);
-        Self {
-            from: from.origin,
-            along: to.origin - from.origin,
-            cos: from.rotation - even,
-            even,
-            sin,
-            turn_rad,
-        }
-    }
-
-    #[inline]
-    fn at(&self, share: f64) -> Frame {
-        let (s, c) = libm::sincos(self.turn_rad * share);
-        Frame { rotation: self.even + self.cos * c + self.sin * s, origin: self.from + self.along * share }
-    }
-}
-
-/// The axis and the angle in `[0, π]` of a rotation; of half turns one of the two axes.
-fn axis_angle(r: &Matrix3<f64>) -> (Vec3, f64) {
-    let (x, y, z) = (r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
-    let (skew, trace) = (Vec3::new(x, y, z), r.trace());
-    let angle = libm::atan2(skew.norm(), trace - 1.0);
-    if skew.norm() > 1e-6 {
-        return (skew / skew.norm(), angle);
-    }
-    if trace > 0.0 {
-        return (Vec3::x(), 0.0);
-    }
-    // Near a half turn (R + I) / 2 is the axis times itself; its longest column is read.
-    let outer = (r + Matrix3::identity()) * 0.5;
-    let column = (0..3).max_by(|a, b| outer[(*a, *a)].total_cmp(&outer[(*b, *b)])).unwrap_or(0);
-    let axis = outer.column(column).into_owned();
-    let axis = axis / axis.norm();
-    (if axis.dot(&skew) < 0.0 { -axis } else { axis }, angle)
 }
 
 impl Lines {
@@ -295,6 +219,7 @@ impl Lines {
                     return Err(Rejection::Speed);
                 }
             }
+            self.keeps_limits_between([&last, &q], from.branch, |part| way.at(share - (1.0 - part) / steps))?;
             states.push(q);
             last = q;
         }
@@ -448,37 +373,5 @@ mod tests {
             order.sort_unstable();
             assert_eq!(order, (0..count).collect::<Vec<_>>(), "{count}");
         }
-    }
-
-    #[test]
-    fn the_way_ends_where_it_should_and_turns_evenly_even_by_half_a_turn() {
-        let axes = [Vec3::x(), Vec3::new(1.0, 2.0, -2.0) / 3.0, Vec3::new(0.0, 0.6, -0.8)];
-        for (axis, angle) in
-            axes.iter().flat_map(|axis| [0.0, 1e-8, 0.3, 2.9, std::f64::consts::PI].map(|a| (axis, a)))
-        {
-            let from = Frame::at(Vec3::new(1.0, 2.0, 3.0)) * Frame::turned(&Vec3::y(), 0.7);
-            let to =
-                Frame { rotation: Frame::turned(axis, angle).rotation * from.rotation, origin: Vec3::z() };
-            let way = Way::between(&from, &to);
-            assert!((way.turn_rad - angle).abs() < 1e-6, "{axis:?} {angle}: {}", way.turn_rad);
-            for (share, end) in [(0.0, &from), (1.0, &to)] {
-                let got = way.at(share);
-                assert!((got.rotation - end.rotation).norm() < 1e-6, "{axis:?} {angle} at {share}");
-                assert!((got.origin - end.origin).norm() < 1e-12);
-            }
-            let step = |a: f64, b: f64| (way.at(a).rotation.transpose() * way.at(b).rotation).trace();
-            assert!((step(0.1, 0.3) - step(0.6, 0.8)).abs() < 1e-9, "{axis:?} {angle}");
-        }
-    }
-
-    #[test]
-    fn the_time_law_is_rest_to_rest() {
-        let law = SpeedRule { speed_m_s: 0.5, acceleration_m_s2: 2.0 };
-        // 62.5 mm of ramp at either end, 0.25 s each; 0.875 m at 0.5 m/s between.
-        assert!((law.time_s(1.0, 1.0) - (0.5 + 1.75)).abs() < 1e-12);
-        assert!((law.time_s(0.0625, 1.0) - 0.25).abs() < 1e-12);
-        assert!((law.time_s(0.5, 1.0) * 2.0 - law.time_s(1.0, 1.0)).abs() < 1e-12);
-        // Too short to reach the speed: 2 √(length / acceleration).
-        assert!((law.time_s(0.02, 0.02) - 0.2).abs() < 1e-12);
     }
 }

@@ -4,13 +4,17 @@
 //! contact. Parts that the robot's file marks as self-only are not checked against the scene: base and turret
 //! stand on the floor.
 
+mod limits;
 mod line;
 mod scene;
 #[cfg(test)]
 mod tests;
+mod time_law;
+mod way;
 
-pub use line::{EdgeEnd, LineRules, Lines, Path, Pose, Rejection, Scratch, SpeedRule};
+pub use line::{EdgeEnd, LineRules, Lines, Path, Pose, Rejection, Scratch};
 pub use scene::{Obstacle, Scene};
+pub use time_law::SpeedRule;
 
 use crate::geometry::{
     Aabb, BroadPhase, Capsule, Solid, distance_capsule_capsule, distance_segment_segment,

@@ -137,17 +137,28 @@ fn defined(arm: &crate::kinematics::Arm, a: &Pose, b: &Pose) -> Result<(), Rejec
     let steps = (way.norm() / rules().step_m).max(from.angle_to(&to) / rules().step_rad).ceil().max(1.0);
     let mut last = a.q;
     for step in 1..=steps as u32 {
-        let share = f64::from(step) / steps;
-        let target = crate::geometry::Frame {
-            rotation: *from.slerp(&to, share).to_rotation_matrix().matrix(),
-            origin: a.tool.origin + way * share,
+        let at = |quarters: u32| {
+            let share = f64::from(4 * step - quarters) / (4.0 * steps);
+            crate::geometry::Frame {
+                rotation: *from.slerp(&to, share).to_rotation_matrix().matrix(),
+                origin: a.tool.origin + way * share,
+            }
         };
+        let target = at(0);
         let (branch, q) = arm.inverse_nearest(&target, &last).ok_or(Rejection::Unreachable)?;
         if branch != a.branch {
             return Err(Rejection::Branch);
         }
         if q.iter().zip(&last).any(|(x, y)| (x - y).abs() > rules().jump_rad) {
             return Err(Rejection::Jump);
+        }
+        // Limits are asked four times as often.
+        for quarters in 1..4 {
+            let between = arm.inverse_on(&at(quarters), a.branch, &last);
+            let is_within = between.is_some_and(|q| q.iter().zip(&last).all(|(x, y)| (x - y).abs() < PI));
+            if !is_within {
+                return Err(Rejection::Limits);
+            }
         }
         last = q;
     }

@@ -221,6 +221,7 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
         label: spec.label.get_ref().clone(),
         family: look_up(document, "problem family", &spec.family, family::find, known)?,
         replicates,
+        draw: spec.draw.clone(),
         is_numbered: replicates > 1,
         settings: Settings::written(document, &spec.settings),
     })

@@ -24,7 +24,7 @@ use toml::Spanned;
 pub static ENTRY: Entry = Entry {
     name: "cell_queries",
     about: "queries of a six-axis arm in its cell, on roadmaps of free configurations drawn at random",
-    revision: 1,
+    revision: 2,
     prepared: nested_roadmap::ENTRY.name,
     columns: ARM_COLUMNS,
     build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(Box::new(Posed::new(settings, inputs)?)),

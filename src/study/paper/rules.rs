@@ -35,6 +35,7 @@ impl Paper {
         for row in self.tables.iter().flat_map(|table| &table.rows) {
             self.known("claim", &row.claims, &claims)?;
         }
+        self.check_findings(&claims)?;
         self.check_tables()?;
         self.check_results()?;
         self.check_readings()?;

@@ -13,6 +13,10 @@ pub struct TableSpec {
     pub caption: String,
     /// The heads of its columns.
     pub columns: Vec<String>,
+    /// What stands below it; the paper's notes if absent.
+    pub notes: Option<Vec<String>>,
+    /// With how many decimals our numbers are shown; two if absent.
+    pub decimals: Option<usize>,
     /// Its rows.
     #[serde(rename = "row")]
     pub rows: Vec<TableRow>,

@@ -47,7 +47,8 @@ pub fn prepared(rows: &[PreparedRow]) -> DataFrame {
     assemble(rows.len(), frame)
 }
 
-/// The exhibits as a frame: one row an exhibit, its numbers as a list.
+/// The exhibits as a frame: one row an exhibit, its numbers as a list, row by row of `width` numbers, and the names of the
+/// columns that they stand in where these are known.
 pub fn exhibits(kept: &[Kept]) -> DataFrame {
     let lists: Vec<Series> =
         kept.iter().map(|kept| Series::new("values".into(), kept.exhibit.values.as_slice())).collect();
@@ -57,10 +58,13 @@ pub fn exhibits(kept: &[Kept]) -> DataFrame {
     } else {
         Series::new("values".into(), lists)
     };
+    let columns: Vec<Option<String>> =
+        kept.iter().map(|kept| column::of_exhibit(&kept.exhibit.name)).collect();
     let frame = vec![
         text("of", kept, |kept| Some(kept.of.as_str())),
         text("name", kept, |kept| Some(kept.exhibit.name.as_str())),
         whole("width", kept, |kept| Some(kept.exhibit.width as u64)),
+        Series::new("columns".into(), columns).into(),
         values.into(),
     ];
     assemble(kept.len(), frame)

@@ -9,6 +9,9 @@ use std::f64::consts::TAU;
 /// The tool's greatest speed and acceleration, m/s and m/s², under which joint accelerations are compared.
 pub const LAW: [f64; 2] = [0.5, 1.0];
 
+/// The time between two stops of a trajectory.
+pub const STOP_S: f64 = 0.04;
+
 /// How far joints may be from where they should arrive.
 const SAME_RAD: f64 = 1e-5;
 
@@ -25,7 +28,7 @@ pub struct Leg {
     pub duration_s: f64,
     /// The configuration in which the arm arrives.
     pub end: Angles,
-    /// The planner's stops on the way, both ends included.
+    /// Where the arm is every [`STOP_S`], both ends included.
     pub stops: Vec<Stop>,
 }
 
@@ -176,19 +179,42 @@ fn measure(case: &Case, states: &[Angles], length_m: f64, turn_rad: f64) -> Leg 
             peak_rad_s2 = peak_rad_s2.max((bend * speed2 + slope * push).abs());
         }
     }
-    let stop = |(index, q): (usize, &Angles)| Stop {
-        time_s: time_s(index as f64 * step_m, law_m, LAW),
-        q: *q,
-        tool_m: case.chain.tool(q).1.into(),
-    };
-    let stops = states.iter().enumerate().step_by(FINER as usize).map(stop).collect();
     Leg {
         length_m: states.windows(2).map(|w| case.straight_m(&w[0], &w[1])).sum(),
         travel_rad: travel_rad.sum(),
         peak_rad_s2,
         duration_s: time_s(law_m, law_m, LAW),
         end: states[states.len() - 1],
-        stops,
+        stops: stops(case, states, law_m),
+    }
+}
+
+/// Where the arm is at even times from the leg's start on, and at its end; joints go straight between two states.
+fn stops(case: &Case, states: &[Angles], law_m: f64) -> Vec<Stop> {
+    let (duration_s, last) = (time_s(law_m, law_m, LAW), states.len() - 1);
+    let count = (duration_s / STOP_S - 1e-9).ceil().max(1.0) as u32;
+    let stop = |index: u32| {
+        let time_s = (f64::from(index) * STOP_S).min(duration_s);
+        let at = (way_m(time_s, law_m, LAW) / law_m * last as f64).clamp(0.0, last as f64);
+        let (before, share) = (at.floor() as usize, at.fract());
+        let (a, b) = (&states[before], &states[(before + 1).min(last)]);
+        let q = std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share);
+        Stop { time_s, q, tool_m: case.chain.tool(&q).1.into() }
+    };
+    (0..=count).map(stop).collect()
+}
+
+/// How far a tool that starts and ends at rest has gone of `length_m` at a time: [`time_s`] the other way round.
+fn way_m(time_s: f64, length_m: f64, [speed, acceleration]: [f64; 2]) -> f64 {
+    let whole_s = self::time_s(length_m, length_m, [speed, acceleration]);
+    let ramp_s = (speed / acceleration).min((length_m / acceleration).sqrt());
+    let from_rest = |time_s: f64| acceleration * time_s * time_s / 2.0;
+    if time_s < ramp_s {
+        from_rest(time_s)
+    } else if time_s <= whole_s - ramp_s {
+        from_rest(ramp_s) + acceleration * ramp_s * (time_s - ramp_s)
+    } else {
+        length_m - from_rest(whole_s - time_s)
     }
 }
 
@@ -255,4 +281,20 @@ fn matrix(q: &Quaternion<f64>) -> Matrix3<f64> {
         2.0 * (y * z + w * x),
         1.0 - 2.0 * (x * x + y * y),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn way_and_time_are_each_others_inverse_on_long_and_short_legs() {
+        for length_m in [0.02, 0.25, 1.3] {
+            for step in 0..=50 {
+                let way = length_m * f64::from(step) / 50.0;
+                let back = way_m(time_s(way, length_m, LAW), length_m, LAW);
+                assert!((back - way).abs() < 1e-12, "{length_m} m: {way} becomes {back}");
+            }
+        }
+    }
 }

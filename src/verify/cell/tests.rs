@@ -70,7 +70,12 @@ fn a_straight_leg_is_as_long_as_it_is_and_takes_as_long_as_the_law_says() {
     // 0.125 m of ramp at either end and nothing between: 0.5 s each.
     let last = motion.stops.last().unwrap();
     assert!((last.time_s - 1.0).abs() < 1e-9, "{}", last.time_s);
-    assert_eq!(motion.stops.len(), 14);
+    assert_eq!(motion.stops.len(), 26);
+    let gaps = motion.stops.windows(2).map(|w| w[1].time_s - w[0].time_s);
+    assert!(gaps.into_iter().all(|gap| (gap - follow::STOP_S).abs() < 1e-9));
+    // A quarter of the ramp's time is a sixteenth of its way.
+    let early = motion.stops[3].tool_m[1] - motion.stops[0].tool_m[1];
+    assert!((early - 0.12 * 0.12 / 2.0).abs() < 1e-5, "{early}");
     let least: f64 = home.iter().zip(&up).map(|(a, b)| (a - b).abs()).sum();
     assert!(motion.travel_rad >= least - 1e-9 && motion.travel_rad < 3.0 * least, "{}", motion.travel_rad);
     assert!(motion.peak_rad_s2 > 0.5 && motion.peak_rad_s2 < 20.0, "{}", motion.peak_rad_s2);

@@ -1,4 +1,4 @@
-//! What pictures of a cell need: obstacles and the robot at the queries' ends, millimetres.
+//! What pictures and tables of a cell need: obstacles and the robot at the queries' ends, millimetres.
 
 use super::Query;
 use crate::geometry::{Solid, Vec3};
@@ -10,7 +10,8 @@ fn mm(point: &Vec3) -> [f64; 3] {
     (point * 1e3).into()
 }
 
-/// Boxes by their eight corners, round obstacles by ends and radius, and the robot's capsules at each query's ends.
+/// Boxes by their eight corners, round obstacles by ends and radius, and the robot's capsules and pose at each query's
+/// ends.
 pub(super) fn exhibits(cell: &Cell, queries: &[Query]) -> Vec<Exhibit> {
     let (mut boxes, mut rounds) = (Vec::new(), Vec::new());
     for obstacle in cell.scene().obstacles() {
@@ -40,6 +41,7 @@ pub(super) fn exhibits(cell: &Cell, queries: &[Query]) -> Vec<Exhibit> {
     for query in queries {
         for (end, config) in [("start", &query.start), ("goal", &query.goal)] {
             exhibits.push(body(cell, format!("body {}/{end}", query.name), config));
+            exhibits.push(pose(cell, format!("pose {}/{end}", query.name), config));
         }
     }
     exhibits
@@ -51,6 +53,17 @@ fn body(cell: &Cell, name: String, config: &[f64]) -> Exhibit {
     cell.place(&q, &mut placed);
     let capsules = placed.iter().flat_map(|c| round(&c.segment.a, &c.segment.b, c.radius));
     Exhibit { name, width: 7, values: capsules.collect() }
+}
+
+/// Joint angles in degrees, flange and tip in millimetres, and the tool's direction.
+fn pose(cell: &Cell, name: String, config: &[f64]) -> Exhibit {
+    let q = joints(config).expect("a query of an arm has six angles");
+    let chain = cell.robot().arm().chain();
+    let tip = chain.forward(&q);
+    let direction: [f64; 3] = tip.rotation.column(2).into_owned().into();
+    let places = [mm(&chain.flange(&q).origin), mm(&tip.origin), direction];
+    let values = q.map(f64::to_degrees).into_iter().chain(places.concat()).collect();
+    Exhibit { name, width: 15, values }
 }
 
 fn round(a: &Vec3, b: &Vec3, radius_m: f64) -> [f64; 7] {

@@ -1,0 +1,107 @@
+//! Whether one contender's mean share of solved queries is above another's all along a sweep.
+
+use super::{Check, Entry};
+use crate::analysis::draws::solved_percents;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::interval::Interval;
+use crate::analysis::stats::bands::sup_t;
+use crate::analysis::stats::bootstrap::Plan;
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::seed;
+use crate::study::Study;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "mean_curve_above",
+    about: "is one contender's mean share of solved queries above another's at every point of the sweep, draws paired?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders = [settings.contender.as_str(), settings.against.as_str()];
+        let study = context.study(&settings.study, std::slice::from_ref(&settings.problems), &contenders)?;
+        let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);
+        Ok(Box::new(MeanCurveAbove { settings, study, seed }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: String,
+    contender: String,
+    against: String,
+}
+
+struct MeanCurveAbove<'a> {
+    settings: Settings,
+    study: &'a Study,
+    seed: u64,
+}
+
+fn verdict(band: &[Interval]) -> Verdict {
+    if band.iter().all(|b| b.low > 0.0) {
+        Verdict::Reproduced
+    } else if band.iter().any(|b| b.high < 0.0) {
+        Verdict::NotReproduced
+    } else if band.iter().any(|b| b.low > 0.0) {
+        Verdict::DirectionOnly
+    } else {
+        Verdict::Undecided
+    }
+}
+
+impl Check for MeanCurveAbove<'_> {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let Settings { study, problems, contender, against } = &self.settings;
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let Some(run) = evidence.run(study) else { return finding };
+        let points = self.study.sweep_points();
+        let shares = |who: &str| -> Vec<Vec<f64>> {
+            points.iter().map(|point| solved_percents(run, problems, who, &point.name)).collect()
+        };
+        let (own, other) = (shares(contender), shares(against));
+        let draws = own.iter().chain(&other).map(Vec::len).min().unwrap_or(0);
+        let curve = |draw: usize| own.iter().zip(&other).map(|(a, b)| a[draw] - b[draw]).collect();
+        let curves: Vec<Vec<f64>> = (0..draws).map(curve).collect();
+        let Some(found) = sup_t(&curves, Plan { resamples: 2000, level: 0.95, seed: self.seed }) else {
+            finding.verdict = Some(Verdict::Undecided);
+            finding.because.push(format!("{draws} draws; at least 2 are needed"));
+            return finding;
+        };
+        finding.verdict = Some(verdict(&found.band));
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by(|a, b| found.mean[*a].total_cmp(&found.mean[*b]));
+        let [least, most] = [order[0], order[order.len() - 1]];
+        let what =
+            format!("least mean difference in points, at {}, simultaneous 95 % band", points[least].name);
+        finding.ours = Some(Estimate::new(found.mean[least], found.band[least], what, draws));
+        finding.because.push(format!(
+            "{contender} less {against} on {problems}: the mean share of solved queries differs by {:.1} points (band {:.1} to {:.1}) \
+             at {} and by {:.1} at {}; the simultaneous band over {draws} draws is above 0 at {} of {} points",
+            found.mean[least],
+            found.band[least].low,
+            found.band[least].high,
+            points[least].name,
+            found.mean[most],
+            points[most].name,
+            found.band.iter().filter(|b| b.low > 0.0).count(),
+            points.len()
+        ));
+        finding
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_is_above_only_where_its_whole_band_is() {
+        let band = |ends: &[(f64, f64)]| ends.iter().map(|(a, b)| Interval::new(*a, *b)).collect::<Vec<_>>();
+        assert_eq!(verdict(&band(&[(1.0, 2.0), (0.5, 3.0)])), Verdict::Reproduced);
+        assert_eq!(verdict(&band(&[(1.0, 2.0), (0.0, 0.0)])), Verdict::DirectionOnly);
+        assert_eq!(verdict(&band(&[(-1.0, 2.0), (-1.0, 0.5)])), Verdict::Undecided);
+        assert_eq!(verdict(&band(&[(1.0, 2.0), (-2.0, -1.0)])), Verdict::NotReproduced);
+    }
+}

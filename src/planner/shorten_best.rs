@@ -1,0 +1,58 @@
+//! The best that can be made of a roadmap's path by leaving out nodes: a yardstick for straightening.
+
+use super::roadmap::{roadmap, solved};
+use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use crate::shorten::least_selection;
+use crate::space::WorldKind;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "shorten_best",
+    about: "keeps those nodes of a roadmap's path that make it shortest, or that are fewest, of all ways to leave nodes out",
+    revision: 1,
+    needs: WorldKind::Roadmap,
+    columns: &["joins"],
+    build: Build::Stage(|settings| {
+        let read: ShortenBest = settings.read()?;
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ShortenBest {
+    /// What is least.
+    least: Least,
+}
+
+#[derive(Deserialize, Clone, Copy)]
+#[serde(rename_all = "snake_case")]
+enum Least {
+    Length,
+    Nodes,
+}
+
+impl Stage for ShortenBest {
+    fn refine(&self, request: &Request<'_>, plan: Plan) -> Plan {
+        if plan.ending != Ending::Solved {
+            return plan;
+        }
+        let map = roadmap(request.world);
+        let number = |config: &Vec<f64>| map.number("node", config).expect("a path's nodes are free");
+        let nodes: Vec<u32> = plan.path.iter().map(number).collect();
+        let mut joins = 0;
+        let kept = least_selection(nodes.len(), |i, j| {
+            let is_own = j == i + 1;
+            joins += u64::from(!is_own);
+            (is_own || map.join(nodes[i], nodes[j]).is_ok()).then(|| match self.least {
+                Least::Length => map.gap_mm(nodes[i], nodes[j]),
+                Least::Nodes => 1.0,
+            })
+        });
+        let kept: Vec<u32> = kept.into_iter().map(|index| nodes[index]).collect();
+        let mut counts = plan.counts;
+        counts.insert("joins", Value::Count(joins));
+        Plan { exhibits: plan.exhibits, ..solved(map, &kept, counts) }
+    }
+}

@@ -1,0 +1,73 @@
+//! Limits between two steps of a local path: a joint that bends there may leave its range and come back.
+
+use super::line::{Lines, Rejection};
+use crate::geometry::Frame;
+use crate::kinematics::ik::Branch;
+use crate::kinematics::serial::Joint;
+use crate::kinematics::{Joints, Missed};
+use std::f64::consts::PI;
+
+/// The parts of a step at which limits are asked where they are near.
+const PARTS: [f64; 3] = [0.25, 0.5, 0.75];
+
+impl Lines {
+    /// Whether joints keep to their limits between two steps; `target` is where the tool is after a part of the step.
+    ///
+    /// A joint is asked about only if it is nearer to a limit than it turns in the step: it would have to turn back within it
+    /// to do harm elsewhere.
+    ///
+    /// # Errors
+    /// [`Rejection::Limits`], or [`Rejection::Unreachable`] if the wrist cannot be there.
+    #[inline]
+    pub(super) fn keeps_limits_between(
+        &self,
+        [last, next]: [&Joints; 2],
+        branch: Branch,
+        target: impl Fn(f64) -> Frame,
+    ) -> Result<(), Rejection> {
+        let arm = self.cell().robot().arm();
+        let mut pairs = arm.chain().joints().iter().zip(last.iter().zip(next));
+        if !pairs.any(|(joint, (a, b))| is_near_limit(joint, *a, *b)) {
+            return Ok(());
+        }
+        for part in PARTS {
+            let q = arm.follow(&target(part), branch, last).map_err(|missed| match missed {
+                Missed::Unreachable => Rejection::Unreachable,
+                Missed::Limits => Rejection::Limits,
+            })?;
+            // A joint that could go on only by a turn back has met its limit.
+            if q.iter().zip(last).any(|(a, b)| (a - b).abs() > PI) {
+                return Err(Rejection::Limits);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn is_near_limit(joint: &Joint, a_rad: f64, b_rad: f64) -> bool {
+    let turn_rad = (a_rad - b_rad).abs();
+    a_rad.max(b_rad) + turn_rad > joint.upper_rad || a_rad.min(b_rad) - turn_rad < joint.lower_rad
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_joint_is_near_a_limit_if_one_more_such_step_would_pass_it() {
+        let joint = Joint {
+            alpha_rad: 0.0,
+            a_m: 0.0,
+            d_m: 0.0,
+            offset_rad: 0.0,
+            lower_rad: -1.0,
+            upper_rad: 2.0,
+            speed_rad_s: 1.0,
+        };
+        for (a, b, near) in
+            [(0.0, 0.5, false), (1.0, 1.4, false), (1.4, 1.8, true), (1.8, 1.4, true), (-0.7, -0.2, true)]
+        {
+            assert_eq!(is_near_limit(&joint, a, b), near, "{a} to {b}");
+        }
+    }
+}

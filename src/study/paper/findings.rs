@@ -1,0 +1,46 @@
+//! What a paper's file says was found, with places for our numbers.
+
+use super::Paper;
+use crate::settings::SettingsError;
+use std::collections::BTreeSet;
+
+/// `text` with every `{claim}` or `{claim:form}` replaced by what `with` says of the claim in that form.
+pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String {
+    let mut pieces = text.split('{');
+    let mut whole = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (name, rest) = piece.split_once('}').unwrap_or((piece, ""));
+        let (claim, form) = name.split_once(':').unwrap_or((name, ""));
+        whole += &with(claim, form);
+        whole += rest;
+    }
+    whole
+}
+
+impl Paper {
+    /// Every claim that the findings speak of exists.
+    pub(super) fn check_findings(&self, claims: &BTreeSet<&str>) -> Result<(), SettingsError> {
+        let mut missing = None;
+        for text in &self.source.findings {
+            filled(text, |claim, _| {
+                missing = missing.take().or_else(|| (!claims.contains(claim)).then(|| claim.to_owned()));
+                String::new()
+            });
+        }
+        let message = |claim| format!("`findings` speaks of `{{{claim}}}`; there is no such claim");
+        missing.map_or(Ok(()), |claim| Err(self.document.error(0..0, message(claim))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_filled_and_all_else_is_kept() {
+        let said =
+            filled("of {a.b} we find {a.b:percent}, {c:n}.", |claim, form| format!("<{claim}|{form}>"));
+        assert_eq!(said, "of <a.b|> we find <a.b|percent>, <c|n>.");
+        assert_eq!(filled("nothing to fill", |_, _| String::new()), "nothing to fill");
+    }
+}
