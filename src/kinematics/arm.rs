@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct Arm {
     chain: Chain,
-    solver: Arc<dyn Solver>,
+    pub(super) solver: Arc<dyn Solver>,
     base_inverse: Frame,
     tool_inverse: Frame,
 }
@@ -127,7 +127,7 @@ impl Arm {
     }
 
     #[inline]
-    fn flange(&self, target: &Frame) -> Frame {
+    pub(super) fn flange(&self, target: &Frame) -> Frame {
         self.base_inverse * *target * self.tool_inverse
     }
 

@@ -1,5 +1,8 @@
 //! Distances of segments in lanes: the closed forms of the scalar code, with choices in place of branches.
-#![expect(clippy::inline_always, reason = "lanes are compiled for the instructions of the function they end up in")]
+#![expect(
+    clippy::inline_always,
+    reason = "lanes are compiled for the instructions of the function they end up in"
+)]
 
 use super::{ExtractToken, Frames, Lane, Point, Select, Simd, SimdBase, SimdFloat, SimdMask, splat3};
 use crate::geometry::{HalfSpace, OrientedBox, Vec3};
@@ -92,7 +95,8 @@ pub fn squared_distance_segment_box_lanes<S: Simd>(
         half: splat3(simd, [half.x, half.y, half.z]),
     };
     let (zero, one) = (Lane::splat(simd, 0.0), Lane::splat(simd, 1.0));
-    let (mut low, mut slope_low, mut high, mut slope_high) = (zero, within.slope(zero), one, within.slope(one));
+    let (mut low, mut slope_low, mut high, mut slope_high) =
+        (zero, within.slope(zero), one, within.slope(one));
     let (at_start, at_end) = (slope_low.simd_ge(0.0), slope_high.simd_le(0.0));
     for axis in 0..3 {
         let inverse = one / within.d[axis];

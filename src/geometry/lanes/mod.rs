@@ -4,7 +4,10 @@
 //! multiply-adds and other polynomials make results differ from the scalar code in the last digits. So nothing here
 //! decides a close call: callers compare with a band ([`SLACK`]) and ask the scalar code inside it. A NaN must
 //! end inside the band too: write comparisons so that it fails the certain side.
-#![expect(clippy::inline_always, reason = "lanes are compiled for the instructions of the function they end up in")]
+#![expect(
+    clippy::inline_always,
+    reason = "lanes are compiled for the instructions of the function they end up in"
+)]
 
 mod distance;
 #[cfg(test)]
@@ -66,6 +69,7 @@ impl<S: Simd> Point<S> {
 
     /// The vector product.
     #[inline(always)]
+    #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self {
             x: self.y * other.z - self.z * other.y,
@@ -90,12 +94,14 @@ impl<S: Simd> Point<S> {
 
     /// The point `factor` times as far out.
     #[inline(always)]
+    #[must_use]
     pub fn scaled(self, factor: Lane<S>) -> Self {
         Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
     }
 
     /// This point and `factor` times `direction`.
     #[inline(always)]
+    #[must_use]
     pub fn plus(self, factor: Lane<S>, direction: Self) -> Self {
         Self {
             x: direction.x.mul_add(factor, self.x),
@@ -159,6 +165,7 @@ impl<S: Simd> Frames<S> {
 
     /// `other`, given in this frame, in the parent.
     #[inline(always)]
+    #[must_use]
     pub fn then(&self, simd: S, other: &Frame) -> Self {
         let [x, y, z] = [other.axis(0), other.axis(1), other.axis(2)];
         Self {
@@ -169,6 +176,7 @@ impl<S: Simd> Frames<S> {
 
     /// This frame, given in `parent`, in the parent of `parent`.
     #[inline(always)]
+    #[must_use]
     pub fn within(&self, simd: S, parent: &Frame) -> Self {
         let parent = Self::splat(simd, parent);
         let [x, y, z] = self.axes;

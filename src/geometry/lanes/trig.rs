@@ -2,7 +2,10 @@
 //!
 //! # Source
 //! The polynomials are those of Sun's fdlibm (`k_sin.c`, `k_cos.c`, `s_atan.c`), the reduction is its first step.
-#![expect(clippy::inline_always, reason = "lanes are compiled for the instructions of the function they end up in")]
+#![expect(
+    clippy::inline_always,
+    reason = "lanes are compiled for the instructions of the function they end up in"
+)]
 
 use super::{ExtractToken, Lane, Select, Simd, SimdBase, SimdFloat};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI};
@@ -10,10 +13,10 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI};
 /// The first 33 bits of π / 2, and the rest.
 const QUARTER: [f64; 2] = [1.570_796_326_734_125_6, 6.077_100_506_506_192e-11];
 const SIN: [f64; 6] = [
-    1.589_690_995_211_550_1e-10,
+    1.589_690_995_211_55e-10,
     -2.505_076_025_340_686_3e-8,
     2.755_731_370_707_006_8e-6,
-    -1.984_126_982_985_794_9e-4,
+    -1.984_126_982_985_795e-4,
     8.333_333_333_322_49e-3,
     -1.666_666_666_666_663_2e-1,
 ];

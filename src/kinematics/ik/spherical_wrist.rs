@@ -14,7 +14,8 @@
 mod rows;
 
 use super::{
-    Branch, Chain, Family, Frame, Joints, KinematicsError, LaneSolutions, Shape, Solutions, Solver, opening_cosine,
+    Branch, Chain, Family, Frame, Joints, KinematicsError, LaneSolutions, Shape, Solutions, Solver,
+    opening_cosine,
 };
 use crate::geometry::Vec3;
 use crate::geometry::lanes::{self, PoseRows, dispatch};

@@ -4,6 +4,7 @@
 //! contact. Parts that the robot's file marks as self-only are not checked against the scene: base and turret
 //! stand on the floor.
 
+mod doubt;
 mod lanes;
 mod line;
 mod scene;
@@ -64,7 +65,7 @@ impl Cell {
         };
         let self_reach_m = self_pairs.iter().map(|[a, b]| ball_m(*a) + ball_m(*b)).collect();
         let (exposed, broad) = (exposed.collect(), BroadPhase::new(boxes));
-        Self { exposed, broad, self_pairs, self_reach_m, robot, body, scene }
+        Self { robot, body, scene, broad, exposed, self_pairs, self_reach_m }
     }
 
     /// The robot.

@@ -43,9 +43,10 @@ impl Way {
     pub(super) fn at_lanes<S: Simd>(&self, simd: S, shares: Row) -> PoseRows {
         let share = Lane::load_array(simd, shares);
         let (s, c) = lanes::sincos(share * self.turn_rad);
-        let [even, cos, sin] = [&self.even, &self.cos, &self.sin]
-            .map(|m| Frame { rotation: *m, origin: Vec3::zeros() });
-        let [even, cos, sin] = [Frames::splat(simd, &even), Frames::splat(simd, &cos), Frames::splat(simd, &sin)];
+        let [even, cos, sin] =
+            [&self.even, &self.cos, &self.sin].map(|m| Frame { rotation: *m, origin: Vec3::zeros() });
+        let [even, cos, sin] =
+            [Frames::splat(simd, &even), Frames::splat(simd, &cos), Frames::splat(simd, &sin)];
         let origin = Point::splat(simd, &self.from).plus(share, Point::splat(simd, &self.along));
         let mut axes = even.axes;
         for (i, axis) in axes.iter_mut().enumerate() {

@@ -1,5 +1,8 @@
 //! The same closed form for four flanges at once.
-#![expect(clippy::inline_always, reason = "lanes are compiled for the instructions of the function they end up in")]
+#![expect(
+    clippy::inline_always,
+    reason = "lanes are compiled for the instructions of the function they end up in"
+)]
 
 use super::{Branch, LaneSolutions, SphericalWrist};
 use crate::geometry::lanes::{
@@ -36,7 +39,8 @@ impl SphericalWrist {
         let [sign1, sign3, ..] = self.signs;
         let x3 = Point { x: h[0] * c, y: h[1] * c, z: s * sign1 };
         let z3 = Point { x: h[0] * s * sign3, y: h[1] * s * sign3, z: -c * (sign1 * sign3) };
-        let ([theta4, theta5, theta6], sin5) = self.wrist_rows([x3, z3.cross(x3), z3], &flange, branch.wrist());
+        let ([theta4, theta5, theta6], sin5) =
+            self.wrist_rows([x3, z3.cross(x3), z3], &flange, branch.wrist());
         let (theta1, offsets) = (atan2(h[1], h[0]), &self.offsets);
         let regular = radius.simd_gt(NEARLY_SINGULAR) & sin5.simd_gt(NEARLY_SINGULAR);
         let solved = regular & cosine.abs().simd_lt(1.0 - EDGE_OF_REACH);

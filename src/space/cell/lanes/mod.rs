@@ -8,8 +8,13 @@
 mod follow;
 mod place;
 mod stand;
+#[cfg(test)]
+mod tests;
 
-use super::line::{Doubt, HALVINGS, between, middle_outwards};
+use stand::Look;
+
+use super::doubt::{Doubt, HALVINGS};
+use super::line::{between, middle_outwards};
 use super::way::Way;
 use super::{Lines, Path, Pose, Rejection};
 use crate::geometry::Capsule;
@@ -111,20 +116,27 @@ impl Lines {
         };
         memory.close_rows(self.cell.body.parts().len());
         dispatch!(level(), simd => memory.place(simd, &self.cell));
-        let contact = dispatch!(level(), simd => memory.first_contact(simd, &self.cell))?;
-        let settled = match contact {
-            Some(order) => {
+        match dispatch!(level(), simd => memory.look(simd, &self.cell)) {
+            Look::Doubt => None,
+            Look::Contact(order) => {
                 *checked += order as u64 + 1;
-                return Some(Err(Rejection::Contact));
+                Some(Err(Rejection::Contact))
             }
-            None => self.settle_lanes(way.as_ref(), from.branch, memory)?,
-        };
-        *checked += memory.count as u64;
-        Some(settled)
+            Look::Free => {
+                let settled = self.settle_lanes(way.as_ref(), from.branch, memory)?;
+                *checked += memory.count as u64;
+                Some(settled)
+            }
+        }
     }
 
     /// Looks more closely at the steps from and to configurations that are near something.
-    fn settle_lanes(&self, way: Option<&Way>, branch: Branch, memory: &Memory) -> Option<Result<(), Rejection>> {
+    fn settle_lanes(
+        &self,
+        way: Option<&Way>,
+        branch: Branch,
+        memory: &Memory,
+    ) -> Option<Result<(), Rejection>> {
         let last = memory.count - 1;
         let ends_q = [memory.state(0), memory.state(last)];
         let doubt = Doubt { lines: self, way, branch, ends_q, slack_m: SLACK };

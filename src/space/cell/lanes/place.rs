@@ -1,5 +1,8 @@
 //! The body at every configuration of a path.
-#![expect(clippy::inline_always, reason = "lanes are compiled for the instructions of the function they end up in")]
+#![expect(
+    clippy::inline_always,
+    reason = "lanes are compiled for the instructions of the function they end up in"
+)]
 
 use super::Memory;
 use crate::geometry::lanes::{Frames, LANES, Lane, Point, Simd, SimdBase, SimdFloat};

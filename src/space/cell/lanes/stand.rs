@@ -1,5 +1,8 @@
 //! How four configurations stand in their cell.
-#![expect(clippy::inline_always, reason = "lanes are compiled for the instructions of the function they end up in")]
+#![expect(
+    clippy::inline_always,
+    reason = "lanes are compiled for the instructions of the function they end up in"
+)]
 
 use super::{Memory, middle_outwards};
 use crate::geometry::lanes::{
@@ -8,7 +11,16 @@ use crate::geometry::lanes::{
 };
 use crate::geometry::{Aabb, Solid, Vec3};
 use crate::space::cell::Cell;
-use crate::space::cell::line::HALF_WAY;
+use crate::space::cell::doubt::HALF_WAY;
+
+/// What a path's configurations came to.
+pub(super) enum Look {
+    Free,
+    /// In contact, with the first one's place in the order from the middle outwards.
+    Contact(usize),
+    /// A comparison was too close, or a solid has no lanes.
+    Doubt,
+}
 
 /// One bit a configuration.
 #[derive(Default)]
@@ -113,10 +125,10 @@ impl Memory {
         Some(bits)
     }
 
-    /// Where in the order from the middle outwards the first configuration in contact stands, and, in `near`, which
-    /// come near something; `None` in doubt.
+    /// Which of the configurations, in the order from the middle outwards, is the first in contact, and, in `near`,
+    /// which come near something.
     #[inline(always)]
-    pub(super) fn first_contact<S: Simd>(&mut self, simd: S, cell: &Cell) -> Option<Option<usize>> {
+    pub(super) fn look<S: Simd>(&mut self, simd: S, cell: &Cell) -> Look {
         self.collect_close(simd, cell);
         self.near.clear();
         self.near.resize(self.count, false);
@@ -129,7 +141,7 @@ impl Memory {
             if states.clone().all(|state| order(state) > first) {
                 continue;
             }
-            let bits = self.stand(simd, cell, block * LANES)?;
+            let Some(bits) = self.stand(simd, cell, block * LANES) else { return Look::Doubt };
             for state in states {
                 let lane = state - block * LANES;
                 self.near[state] = bits.near >> lane & 1 == 1;
@@ -138,6 +150,6 @@ impl Memory {
                 }
             }
         }
-        Some((first != usize::MAX).then_some(first))
+        if first == usize::MAX { Look::Free } else { Look::Contact(first) }
     }
 }
