@@ -252,14 +252,18 @@ fn motions(c: &mut Criterion) {
 /// Each sample with its 12 nearest in joint space, every pair once.
 fn neighbours(samples: &[Sample]) -> Vec<[usize; 2]> {
     let angles: Vec<Joints> = samples.iter().map(|s| s.config.as_slice().try_into().expect("six")).collect();
-    let (mut pairs, mut row) = (Vec::new(), Vec::<(f64, usize)>::new());
+    let mut pairs = Vec::new();
     for (i, own) in angles.iter().enumerate() {
         let gap = |other: &Joints| own.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-        row.clear();
-        row.extend(angles.iter().enumerate().map(|(j, other)| (gap(other), j)).filter(|(_, j)| *j != i));
-        let nearest = row.len().min(12);
-        row.select_nth_unstable_by(nearest - 1, |a, b| a.0.total_cmp(&b.0));
-        pairs.extend(row[..nearest].iter().map(|(_, j)| [i.min(*j), i.max(*j)]));
+        let mut nearest: Vec<(f64, usize)> = Vec::with_capacity(13);
+        for (j, other) in angles.iter().enumerate().filter(|(j, _)| *j != i) {
+            let found = gap(other);
+            if nearest.len() < 12 || found < nearest[11].0 {
+                nearest.insert(nearest.partition_point(|(known, _)| *known <= found), (found, j));
+                nearest.truncate(12);
+            }
+        }
+        pairs.extend(nearest.iter().map(|(_, j)| [i.min(*j), i.max(*j)]));
     }
     pairs.sort_unstable();
     pairs.dedup();

@@ -9,11 +9,11 @@ use crate::geometry::lanes::{
     Frames, Lane, Point, PoseRows, Simd, SimdBase, SimdFloat, SimdMask, atan2, sincos,
 };
 
-/// Below this sine (or metres, of the wrist's centre from axis 1) angles lose more digits than the lanes may.
-const NEARLY_SINGULAR: f64 = 1e-4;
-/// How far the elbow's cosine must be from 1 to be within reach, and beyond it to be out of reach: the sine of
-/// [`NEARLY_SINGULAR`], squared.
-const EDGE_OF_REACH: f64 = 1e-8;
+/// Below these sines of wrist and elbow, and below as many metres of the wrist's centre from axis 1, angles lose more digits
+/// than the lanes may: an error grows by the inverse of each, and by both near a folded arm with a straight wrist.
+const NEARLY_SINGULAR: f64 = 1e-2;
+/// How far the elbow's cosine must be beyond 1 to be out of reach; the scalar code allows for less.
+const BEYOND_REACH: f64 = 1e-9;
 
 fn sign(positive: bool) -> f64 {
     if positive { 1.0 } else { -1.0 }
@@ -43,8 +43,8 @@ impl SphericalWrist {
             self.wrist_rows([x3, z3.cross(x3), z3], &flange, branch.wrist());
         let (theta1, offsets) = (atan2(h[1], h[0]), &self.offsets);
         let regular = radius.simd_gt(NEARLY_SINGULAR) & sin5.simd_gt(NEARLY_SINGULAR);
-        let solved = regular & cosine.abs().simd_lt(1.0 - EDGE_OF_REACH);
-        let unreachable = radius.simd_gt(NEARLY_SINGULAR) & cosine.abs().simd_gt(1.0 + EDGE_OF_REACH);
+        let solved = regular & sine.simd_gt(NEARLY_SINGULAR);
+        let unreachable = radius.simd_gt(NEARLY_SINGULAR) & cosine.abs().simd_gt(1.0 + BEYOND_REACH);
         LaneSolutions {
             q: [
                 (theta1 - offsets[0]).to_array(),
