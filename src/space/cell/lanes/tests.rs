@@ -4,8 +4,9 @@ use super::*;
 use crate::kinematics::Robot;
 use crate::seed::{self, Stream};
 use crate::settings::Document;
+use crate::space::cell::doubt::{HALF_WAY, axis_way_m};
 use crate::space::cell::tests::{draw, fu_cell, rules};
-use crate::space::cell::{Cell, EdgeEnd, LineRules, Scene, Scratch, SpeedRule};
+use crate::space::cell::{Cell, EdgeEnd, LineRules, Scene, Scratch, SpeedRule, Standing};
 use rand::RngExt as _;
 use std::collections::BTreeMap;
 use std::path::Path as FilePath;
@@ -46,7 +47,26 @@ fn compared(lines: &Lines, a: &Joints, b: &Joints, place: &str) -> Option<Result
         return Some(Err(Rejection::Branch));
     }
     let (mut memory, mut checked) = (Memory::default(), 0);
-    lines.join_lanes(&from, &to, &mut memory, &mut checked)
+    let found = lines.join_lanes(&from, &to, &mut memory, &mut checked);
+    if found == Some(Ok(())) {
+        assert_eq!(memory.near, near(lines.cell(), &memory), "{place}: {a:?} {b:?}");
+    }
+    found
+}
+
+/// Which configurations of a free path come near something, by the scalar code.
+fn near(cell: &Cell, memory: &Memory) -> Vec<bool> {
+    let mut bodies = vec![Vec::new(); memory.count];
+    for (state, placed) in bodies.iter_mut().enumerate() {
+        cell.place(&memory.state(state), placed);
+    }
+    let is_near = |state: usize| {
+        let to = |other: usize, part: usize| axis_way_m(&bodies[state][part], &bodies[other][part]);
+        let next = (state + 1).min(memory.count - 1);
+        let margin = |part| HALF_WAY * to(state.saturating_sub(1), part).max(to(next, part));
+        cell.standing(&bodies[state], margin) == Standing::Near
+    };
+    (0..memory.count).map(is_near).collect()
 }
 
 #[test]
