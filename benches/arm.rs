@@ -3,9 +3,14 @@
 //! - `configuration/ours` and `/parry3d`: is a random configuration free? Both place the same capsules by the same forward
 //!   kinematics; parry3d's capsules are asked behind the same axis-aligned boxes. The two are held to equal answers
 //!   first, but for the false contacts between capsules that parry3d 0.31 reports, which are counted and printed.
-//! - `motion/certified`: a local path between neighbours within 500 mm, contacts and all.
+//! - `motion/ours` and `/parry3d`: a straight motion in joint space between near configurations, every state at even steps of
+//!   1/32 rad. Ours also covers what lies between the states (see `space::cell`), parry3d's states alone are asked, so
+//!   neither is a proof, and ours does more.
+//! - `motion/tool_line`: a local path with inverse kinematics between neighbours within 500 mm, contacts and all.
 //! - `forward`, `inverse_on`, `inverse_all`: kinematics.
 //! - `roadmap/task_space_1500`: 1500 samples, edges up to 500 mm that end in their own configuration.
+//! - `roadmap/joint_space_1500`: 1500 samples, each tried with its 12 nearest in joint space on a straight line there, in the
+//!   study's steps of 4°; the search for neighbours is part of it.
 //! - `query/original` and `/improved`: one query on that roadmap, its local paths already known.
 
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -44,6 +49,11 @@ fn rules() -> LineRules {
         speed: None,
         end: EdgeEnd::Own,
     }
+}
+
+/// Straight lines in joint space at steps of at most 1/32 rad.
+fn joint_rules() -> LineRules {
+    LineRules { path: Path::Joints, step_rad: 1.0 / 32.0, ..rules() }
 }
 
 fn draw(stream: &mut seed::Stream) -> Joints {
@@ -120,6 +130,23 @@ impl Parry {
     }
 }
 
+impl Parry {
+    /// Whether no state at even steps of at most 1/32 rad is in contact, from the middle outwards.
+    fn is_free_along(&self, cell: &Cell, from: &Joints, to: &Joints) -> bool {
+        let longest = from.iter().zip(to).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let steps = (longest * 32.0).ceil().max(1.0) as usize;
+        let mut placed = Vec::new();
+        let middle = steps.div_ceil(2);
+        (0..=steps).all(|i| {
+            let state = if i % 2 == 0 { middle + i / 2 } else { middle - i.div_ceil(2) };
+            let share = state as f64 / steps as f64;
+            let q = std::array::from_fn(|joint| from[joint] + (to[joint] - from[joint]) * share);
+            cell.place(&q, &mut placed);
+            !self.touches(cell, &placed)
+        })
+    }
+}
+
 fn configurations(c: &mut Criterion) {
     let (cell, mut stream) = (cell(), seed::stream(SEED));
     let parry = Parry::new(&cell);
@@ -193,12 +220,72 @@ fn motions(c: &mut Criterion) {
     }
     println!("motion: {} free local paths", joined.len());
     let mut next = (0..joined.len()).cycle();
-    c.benchmark_group("motion").bench_function("certified", |b| {
+    let mut group = c.benchmark_group("motion");
+    group.bench_function("tool_line", |b| {
         b.iter(|| {
             let (from, to) = &joined[next.next().expect("endless")];
             black_box(lines.join(from, to, &mut scratch))
         });
     });
+    let lines = Lines::new(cell(), joint_rules());
+    let parry = Parry::new(lines.cell());
+    let pairs = neighbours(&samples);
+    let mut next = (0..pairs.len()).cycle();
+    let ends = |pair: usize| pairs[pair].map(|i| poses[i]);
+    let free = pairs.iter().filter(|[a, b]| lines.join(&poses[*a], &poses[*b], &mut scratch).is_ok()).count();
+    println!("motion: {free} of {} straight motions in joint space are free", pairs.len());
+    group.bench_function("ours", |b| {
+        b.iter(|| {
+            let [from, to] = ends(next.next().expect("endless"));
+            black_box(lines.join(&from, &to, &mut scratch))
+        });
+    });
+    group.bench_function("parry3d", |b| {
+        b.iter(|| {
+            let [from, to] = ends(next.next().expect("endless"));
+            black_box(parry.is_free_along(lines.cell(), &from.q, &to.q))
+        });
+    });
+    group.finish();
+}
+
+/// Each sample with its 12 nearest in joint space, every pair once.
+fn neighbours(samples: &[Sample]) -> Vec<[usize; 2]> {
+    let angles: Vec<Joints> = samples.iter().map(|s| s.config.as_slice().try_into().expect("six")).collect();
+    let mut pairs = Vec::new();
+    for (i, own) in angles.iter().enumerate() {
+        let gap = |other: &Joints| own.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        let mut nearest: Vec<(f64, usize)> = Vec::with_capacity(13);
+        for (j, other) in angles.iter().enumerate().filter(|(j, _)| *j != i) {
+            let found = gap(other);
+            if nearest.len() < 12 || found < nearest[11].0 {
+                nearest.insert(nearest.partition_point(|(known, _)| *known <= found), (found, j));
+                nearest.truncate(12);
+            }
+        }
+        pairs.extend(nearest.iter().map(|(_, j)| [i.min(*j), i.max(*j)]));
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+fn joint_roadmap(c: &mut Criterion) {
+    let lines = Lines::new(cell(), LineRules { path: Path::Joints, ..rules() });
+    let samples = samples(lines.cell(), 1500);
+    let mut scratch = Scratch::default();
+    let mut built = || {
+        let angles = samples.iter().map(|s| s.config.as_slice().try_into().expect("six angles"));
+        let poses: Vec<Pose> = angles.map(|q| lines.pose(&q)).collect();
+        let mut edges = neighbours(&samples);
+        edges.retain(|[a, b]| lines.join(&poses[*a], &poses[*b], &mut scratch).is_ok());
+        edges
+    };
+    println!("joint-space roadmap: {} of {} pairs are edges", built().len(), neighbours(&samples).len());
+    let mut group = c.benchmark_group("roadmap");
+    group.sample_size(10).measurement_time(Duration::from_secs(4));
+    group.bench_function("joint_space_1500", |b| b.iter(|| black_box(built())));
+    group.finish();
 }
 
 fn roadmaps(c: &mut Criterion) {
@@ -238,6 +325,6 @@ fn planner(shot: &str) -> Box<dyn Planner> {
 criterion_group! {
     name = benches;
     config = Criterion::default().measurement_time(Duration::from_secs(2)).warm_up_time(Duration::from_millis(500));
-    targets = configurations, kinematics, motions, roadmaps
+    targets = configurations, kinematics, motions, roadmaps, joint_roadmap
 }
 criterion_main!(benches);

@@ -12,6 +12,7 @@ mod aabb;
 mod convex;
 mod error;
 mod frame;
+pub mod lanes;
 mod oriented_box;
 pub mod planar;
 mod round;

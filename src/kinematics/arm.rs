@@ -3,17 +3,18 @@
 use super::{
     KinematicsError,
     angle::wrapped,
-    ik::{self, Branch, Solutions, Solver},
+    ik::{self, Branch, LaneSolutions, Solutions, Solver},
     serial::{Chain, Joints},
 };
 use crate::geometry::Frame;
+use crate::geometry::lanes::{self, Frames, PoseRows, dispatch};
 use std::sync::Arc;
 
 /// An arm that knows the way to a pose of its tool.
 #[derive(Debug, Clone)]
 pub struct Arm {
     chain: Chain,
-    solver: Arc<dyn Solver>,
+    pub(super) solver: Arc<dyn Solver>,
     base_inverse: Frame,
     tool_inverse: Frame,
 }
@@ -114,8 +115,19 @@ impl Arm {
         self.allowed_copy(&q, reference).ok_or(Missed::Limits)
     }
 
+    /// What the solver finds on one branch for four poses of the tool at once, without regard to limits; `None` if it has
+    /// no lanes.
+    pub fn solve_lanes(&self, targets: &PoseRows, branch: Branch) -> Option<LaneSolutions> {
+        let level = lanes::level();
+        let flanges = dispatch!(level, simd => {
+            let tools = Frames::from_rows(simd, targets);
+            tools.within(simd, &self.base_inverse).then(simd, &self.tool_inverse).to_rows()
+        });
+        self.solver.solve_lanes(&flanges, branch)
+    }
+
     #[inline]
-    fn flange(&self, target: &Frame) -> Frame {
+    pub(super) fn flange(&self, target: &Frame) -> Frame {
         self.base_inverse * *target * self.tool_inverse
     }
 

@@ -3,5 +3,5 @@
 mod pairs;
 mod parry;
 mod reference;
-mod sample;
+pub(super) mod sample;
 mod shapes;

@@ -13,6 +13,7 @@ use super::{
     serial::{AXES, Chain, Joints},
 };
 use crate::geometry::Frame;
+use crate::geometry::lanes::{PoseRows, Row};
 use std::{fmt::Debug, sync::Arc};
 
 /// Which of the up to eight ways an arm takes to a pose: three signs.
@@ -74,6 +75,17 @@ impl Solutions {
     }
 }
 
+/// What four flanges came to.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneSolutions {
+    /// The joint angles, modulo whole turns, joint by joint; they mean nothing where a lane is not solved.
+    pub q: [Row; AXES],
+    /// The lanes that are solved, one bit a lane.
+    pub solved: u64,
+    /// The lanes whose flange is out of reach; a lane that is neither is for [`Solver::solve`] to settle.
+    pub unreachable: u64,
+}
+
 /// Inverse kinematics of one chain.
 ///
 /// Angles are found modulo whole turns and without regard to limits. Where a pose leaves an angle free, it
@@ -89,6 +101,13 @@ pub trait Solver: Debug + Send + Sync {
 
     /// The configuration on one branch that puts the flange at `flange`, given in the base.
     fn solve(&self, flange: &Frame, branch: Branch, reference: &Joints) -> Option<Joints>;
+
+    /// [`solve`](Self::solve) for four flanges at once, `None` if the solver has no lanes.
+    ///
+    /// Only what is away from singular poses and from the edge of reach is sure; angles are then right to 1e-11.
+    fn solve_lanes(&self, _flanges: &PoseRows, _branch: Branch) -> Option<LaneSolutions> {
+        None
+    }
 
     /// The configurations on all branches.
     fn solve_all(&self, flange: &Frame, reference: &Joints) -> Solutions;

@@ -11,10 +11,14 @@
 //! Pieper, *The Kinematics of Manipulators under Computer Control* (1968), for the decoupling; the formulas
 //! below follow from the rows, with `σi` the sign of `alpha i` and `θi = qi + offset i`.
 
+mod rows;
+
 use super::{
-    Branch, Chain, Family, Frame, Joints, KinematicsError, Shape, Solutions, Solver, opening_cosine,
+    Branch, Chain, Family, Frame, Joints, KinematicsError, LaneSolutions, Shape, Solutions, Solver,
+    opening_cosine,
 };
 use crate::geometry::Vec3;
+use crate::geometry::lanes::{self, PoseRows, dispatch};
 use std::{f64::consts::PI, sync::Arc};
 
 /// Where axes count as in line or a centre as on an axis: radians or metres.
@@ -170,6 +174,11 @@ impl Solver for SphericalWrist {
         let plane = self.plane(&self.wrist_center(flange), branch.shoulder(), reference)?;
         let reached = self.reached(&plane, branch.elbow());
         Some(self.wrists(&reached, flange, reference)[usize::from(!branch.wrist())])
+    }
+
+    fn solve_lanes(&self, flanges: &PoseRows, branch: Branch) -> Option<LaneSolutions> {
+        let level = lanes::level();
+        Some(dispatch!(level, simd => self.solve_rows(simd, flanges, branch)))
     }
 
     fn solve_all(&self, flange: &Frame, reference: &Joints) -> Solutions {

@@ -11,6 +11,14 @@ use std::f64::consts::PI;
 const PARTS: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Lines {
+    /// Whether a joint is nearer to a limit than it turns from `last` to `next`, or than that and `slack_rad`.
+    #[inline]
+    pub(super) fn nears_limit(&self, last: &Joints, next: &Joints, slack_rad: f64) -> bool {
+        let joints = self.cell().robot().arm().chain().joints();
+        let mut pairs = joints.iter().zip(last.iter().zip(next));
+        pairs.any(|(joint, (a, b))| is_near_limit(joint, *a, *b, slack_rad))
+    }
+
     /// Whether joints keep to their limits between two steps; `target` is where the tool is after a part of the step.
     ///
     /// A joint is asked about only if it is nearer to a limit than it turns in the step: it would have to turn back within it
@@ -25,11 +33,10 @@ impl Lines {
         branch: Branch,
         target: impl Fn(f64) -> Frame,
     ) -> Result<(), Rejection> {
-        let arm = self.cell().robot().arm();
-        let mut pairs = arm.chain().joints().iter().zip(last.iter().zip(next));
-        if !pairs.any(|(joint, (a, b))| is_near_limit(joint, *a, *b)) {
+        if !self.nears_limit(last, next, 0.0) {
             return Ok(());
         }
+        let arm = self.cell().robot().arm();
         for part in PARTS {
             let q = arm.follow(&target(part), branch, last).map_err(|missed| match missed {
                 Missed::Unreachable => Rejection::Unreachable,
@@ -44,8 +51,8 @@ impl Lines {
     }
 }
 
-fn is_near_limit(joint: &Joint, a_rad: f64, b_rad: f64) -> bool {
-    let turn_rad = (a_rad - b_rad).abs();
+fn is_near_limit(joint: &Joint, a_rad: f64, b_rad: f64, slack_rad: f64) -> bool {
+    let turn_rad = (a_rad - b_rad).abs() + slack_rad;
     a_rad.max(b_rad) + turn_rad > joint.upper_rad || a_rad.min(b_rad) - turn_rad < joint.lower_rad
 }
 
@@ -67,7 +74,7 @@ mod tests {
         for (a, b, near) in
             [(0.0, 0.5, false), (1.0, 1.4, false), (1.4, 1.8, true), (1.8, 1.4, true), (-0.7, -0.2, true)]
         {
-            assert_eq!(is_near_limit(&joint, a, b), near, "{a} to {b}");
+            assert_eq!(is_near_limit(&joint, a, b, 0.0), near, "{a} to {b}");
         }
     }
 }

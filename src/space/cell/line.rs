@@ -15,20 +15,17 @@
 //! # Source
 //! Fu et al., *Robotics and Autonomous Systems* 106 (2018), section 3.1.
 
+use super::doubt::{Doubt, HALF_WAY, HALVINGS, axis_way_m};
 use super::time_law::SpeedRule;
 use super::way::Way;
-use super::{Cell, Standing};
+use super::{Cell, Standing, lanes};
 use crate::geometry::{Capsule, Frame};
 use crate::kinematics::ik::Branch;
 use crate::kinematics::{AXES, Joints, Missed};
 use std::f64::consts::TAU;
 
 /// How far a configuration at the end of an edge may be from the one asked for: radians.
-const SAME_RAD: f64 = 1e-6;
-/// Half a chord with room for the arc above it.
-const HALF_WAY: f64 = 0.51;
-/// How often a doubtful step is halved.
-const HALVINGS: u32 = 3;
+pub(super) const SAME_RAD: f64 = 1e-6;
 
 /// Why there is no local path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -121,6 +118,7 @@ pub struct Scratch {
     states: Vec<Joints>,
     placed: Vec<Capsule>,
     ways: Vec<f64>,
+    lanes: lanes::Memory,
     checked: u64,
 }
 
@@ -131,11 +129,34 @@ impl Scratch {
     }
 }
 
+/// How a way of the tool is taken.
+pub(super) struct Pace {
+    /// How many steps it takes.
+    pub(super) steps: f64,
+    /// Its length under the time law: a turn counts as the way that takes as many steps.
+    law_m: f64,
+}
+
+impl Pace {
+    #[inline]
+    pub(super) fn share(&self, step: u32) -> f64 {
+        f64::from(step) / self.steps
+    }
+
+    /// How long the step of this number takes.
+    #[inline]
+    pub(super) fn duration_s(&self, law: &SpeedRule, step: u32) -> f64 {
+        let (share, law_m) = (self.share(step), self.law_m);
+        let before = (share - 1.0 / self.steps) * law_m;
+        law.time_s(share * law_m, law_m) - law.time_s(before, law_m)
+    }
+}
+
 /// The local path planner of a cell.
 #[derive(Debug, Clone)]
 pub struct Lines {
-    cell: Cell,
-    rules: LineRules,
+    pub(super) cell: Cell,
+    pub(super) rules: LineRules,
 }
 
 impl Lines {
@@ -162,16 +183,35 @@ impl Lines {
 
     /// Whether the local path between two free configurations can be executed.
     ///
+    /// Four configurations are looked at at once, and one at a time where that left a doubt.
+    ///
     /// # Errors
     /// The first reason against it.
     pub fn join(&self, from: &Pose, to: &Pose, scratch: &mut Scratch) -> Result<(), Rejection> {
+        if self.parts_branches(from, to) {
+            return Err(Rejection::Branch);
+        }
+        let settled = self.join_lanes(from, to, &mut scratch.lanes, &mut scratch.checked);
+        settled.unwrap_or_else(|| self.join_singly(from, to, scratch))
+    }
+
+    /// Whether the ends alone rule a path out: on a straight way the branch cannot change.
+    #[inline]
+    pub(super) fn parts_branches(&self, from: &Pose, to: &Pose) -> bool {
+        self.rules.path == Path::Tool && self.rules.end != EdgeEnd::PoseOnly && from.branch != to.branch
+    }
+
+    /// [`join`](Self::join), one configuration at a time.
+    pub(super) fn join_singly(&self, from: &Pose, to: &Pose, scratch: &mut Scratch) -> Result<(), Rejection> {
         let way = match self.rules.path {
             Path::Joints => {
-                self.straight_joints(from, to, scratch);
+                let steps = self.joint_steps(from, to);
+                scratch.states.clear();
+                scratch.states.extend(steps.map(|share| between(&from.q, &to.q, share)));
                 None
             }
             Path::Tool => {
-                if self.rules.end != EdgeEnd::PoseOnly && from.branch != to.branch {
+                if self.parts_branches(from, to) {
                     return Err(Rejection::Branch);
                 }
                 let way = Way::between(&from.tool, &to.tool);
@@ -190,40 +230,56 @@ impl Lines {
         if way.turn_rad > rules.turn_rad {
             return Err(Rejection::Turn);
         }
-        let length_m = way.along.norm();
-        let steps = (length_m / rules.step_m).max(way.turn_rad / rules.step_rad).ceil().max(1.0);
-        let law_m = length_m.max(way.turn_rad / rules.step_rad * rules.step_m);
-        let arm = self.cell.robot().arm();
+        let pace = self.pace(way);
         states.clear();
         states.push(from.q);
         let mut last = from.q;
-        for step in 1..=steps as u32 {
-            let share = f64::from(step) / steps;
-            let q = arm.follow(&way.at(share), from.branch, &last).map_err(|missed| match missed {
-                Missed::Unreachable => Rejection::Unreachable,
-                Missed::Limits => Rejection::Limits,
-            })?;
-            if self.leaves_branch(&q, &last, from.branch, &way.at(share)) {
-                return Err(Rejection::Branch);
-            }
-            let change = largest_change(&q, &last);
-            if change > rules.jump_rad {
-                // Only a joint that ran into a limit goes back by a turn.
-                return Err(if change > 0.9 * TAU { Rejection::Limits } else { Rejection::Jump });
-            }
-            if let Some(law) = &rules.speed {
-                let before = (share - 1.0 / steps) * law_m;
-                let duration_s = law.time_s(share * law_m, law_m) - law.time_s(before, law_m);
-                let joints = arm.chain().joints().iter().zip(q.iter().zip(&last));
-                if joints.into_iter().any(|(j, (a, b))| (a - b).abs() > j.speed_rad_s * duration_s) {
-                    return Err(Rejection::Speed);
-                }
-            }
-            self.keeps_limits_between([&last, &q], from.branch, |part| way.at(share - (1.0 - part) / steps))?;
-            states.push(q);
-            last = q;
+        for step in 1..=pace.steps as u32 {
+            last = self.step(way, from.branch, &pace, step, &last)?;
+            states.push(last);
         }
         Ok(())
+    }
+
+    /// The configuration at the step of this number, on from the one before.
+    pub(super) fn step(
+        &self,
+        way: &Way,
+        branch: Branch,
+        pace: &Pace,
+        step: u32,
+        last: &Joints,
+    ) -> Result<Joints, Rejection> {
+        let (rules, arm) = (&self.rules, self.cell.robot().arm());
+        let target = way.at(pace.share(step));
+        let q = arm.follow(&target, branch, last).map_err(|missed| match missed {
+            Missed::Unreachable => Rejection::Unreachable,
+            Missed::Limits => Rejection::Limits,
+        })?;
+        if self.leaves_branch(&q, last, branch, &target) {
+            return Err(Rejection::Branch);
+        }
+        let change = largest_change(&q, last);
+        if change > rules.jump_rad {
+            // Only a joint that ran into a limit goes back by a turn.
+            return Err(if change > 0.9 * TAU { Rejection::Limits } else { Rejection::Jump });
+        }
+        if let Some(law) = &rules.speed {
+            let duration_s = pace.duration_s(law, step);
+            let joints = arm.chain().joints().iter().zip(q.iter().zip(last));
+            if joints.into_iter().any(|(j, (a, b))| (a - b).abs() > j.speed_rad_s * duration_s) {
+                return Err(Rejection::Speed);
+            }
+        }
+        let within = |part: f64| way.at(pace.share(step) - (1.0 - part) / pace.steps);
+        self.keeps_limits_between([last, &q], branch, within)?;
+        Ok(q)
+    }
+
+    pub(super) fn pace(&self, way: &Way) -> Pace {
+        let (rules, length_m) = (&self.rules, way.along.norm());
+        let steps = (length_m / rules.step_m).max(way.turn_rad / rules.step_rad).ceil().max(1.0);
+        Pace { steps, law_m: length_m.max(way.turn_rad / rules.step_rad * rules.step_m) }
     }
 
     /// Whether another branch offers a smaller change than `q`, of `branch`, does from `last`.
@@ -251,18 +307,17 @@ impl Lines {
         if far { Err(Rejection::End) } else { Ok(()) }
     }
 
-    fn straight_joints(&self, from: &Pose, to: &Pose, scratch: &mut Scratch) {
+    /// The shares of the way at which a path that is straight in joint space is checked.
+    pub(super) fn joint_steps(&self, from: &Pose, to: &Pose) -> impl Iterator<Item = f64> {
         let steps = (largest_change(&from.q, &to.q) / self.rules.step_rad).ceil().max(1.0);
-        let at = |step: u32| between(&from.q, &to.q, f64::from(step) / steps);
-        scratch.states.clear();
-        scratch.states.extend((0..=steps as u32).map(at));
+        (0..=steps as u32).map(move |step| f64::from(step) / steps)
     }
 
     /// Whether no configuration of `scratch` and none between them is in contact: from the middle outwards.
     fn clear(&self, way: Option<&Way>, branch: Branch, scratch: &mut Scratch) -> Result<(), Rejection> {
         let chain = self.cell.robot().arm().chain();
         let parts = self.cell.body().parts();
-        let Scratch { states, placed, ways, checked } = scratch;
+        let Scratch { states, placed, ways, checked, .. } = scratch;
         placed.clear();
         for q in states.iter() {
             let frames = chain.frames(q);
@@ -292,71 +347,24 @@ impl Lines {
         let doubtful = (1..states.len()).filter(|step| near.contains(step) || near.contains(&(step - 1)));
         for step in doubtful {
             let ends = [step - 1, step].map(|state| (share(state), states[state], at(state)));
-            let between = Doubt { lines: self, way, branch, states };
-            between.settle([ends[0], ends[1]], HALVINGS)?;
+            let ends_q = [states[0], states[states.len() - 1]];
+            let doubt = Doubt { lines: self, way, branch, ends_q, slack_m: -1.0 };
+            doubt.settle([ends[0], ends[1]], HALVINGS).expect("nothing is closer than a negative slack")?;
         }
         Ok(())
     }
 }
 
-/// A path with a step that must be looked at more closely.
-struct Doubt<'a> {
-    lines: &'a Lines,
-    way: Option<&'a Way>,
-    branch: Branch,
-    states: &'a [Joints],
-}
-
-/// A share of the path, the joints there, and the body placed.
-type Stop<'a> = (f64, Joints, &'a [Capsule]);
-
-impl Doubt<'_> {
-    fn settle(&self, [a, b]: [Stop<'_>; 2], halvings: u32) -> Result<(), Rejection> {
-        let cell = &self.lines.cell;
-        let share = f64::midpoint(a.0, b.0);
-        let q = match self.way {
-            Some(way) => cell
-                .robot()
-                .arm()
-                .follow(&way.at(share), self.branch, &a.1)
-                .map_err(|_| Rejection::Unreachable)?,
-            None => between(&self.states[0], &self.states[self.states.len() - 1], share),
-        };
-        let mut placed = Vec::with_capacity(a.2.len());
-        cell.place(&q, &mut placed);
-        let reach = |part: usize| {
-            2.0 * HALF_WAY * axis_way_m(&a.2[part], &placed[part]).max(axis_way_m(&placed[part], &b.2[part]))
-        };
-        match cell.standing(&placed, reach) {
-            Standing::Contact => Err(Rejection::Contact),
-            Standing::Near if halvings > 1 => {
-                let middle: Stop<'_> = (share, q, &placed);
-                self.settle([a, middle], halvings - 1)?;
-                self.settle([middle, b], halvings - 1)
-            }
-            Standing::Clear | Standing::Near => Ok(()),
-        }
-    }
-}
-
-/// The longest way that an end of a capsule's axis goes.
-#[inline]
-fn axis_way_m(from: &Capsule, to: &Capsule) -> f64 {
-    let a = (to.segment.a - from.segment.a).norm_squared();
-    let b = (to.segment.b - from.segment.b).norm_squared();
-    a.max(b).sqrt()
-}
-
-fn largest_change(a: &Joints, b: &Joints) -> f64 {
+pub(super) fn largest_change(a: &Joints, b: &Joints) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-fn between(a: &Joints, b: &Joints, share: f64) -> Joints {
+pub(super) fn between(a: &Joints, b: &Joints, share: f64) -> Joints {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
 }
 
 /// 0 to `count - 1`, the middle first and the ends last.
-fn middle_outwards(count: usize) -> impl Iterator<Item = usize> {
+pub(super) fn middle_outwards(count: usize) -> impl Iterator<Item = usize> {
     let middle = count / 2;
     (0..count).map(move |i| if i % 2 == 0 { middle + i / 2 } else { middle - i.div_ceil(2) })
 }

@@ -17,11 +17,11 @@ fn robot() -> Robot {
     Robot::load(&file("robots/motoman_up6.toml")).unwrap()
 }
 
-fn fu_cell() -> Cell {
+pub(super) fn fu_cell() -> Cell {
     Cell::new(robot(), Scene::load(&file("scenes/fu2018_cell.toml")).unwrap(), true)
 }
 
-fn rules() -> LineRules {
+pub(super) fn rules() -> LineRules {
     LineRules {
         path: Path::Tool,
         step_m: 0.02,
@@ -47,7 +47,7 @@ const GROUPS: [[[f64; 6]; 2]; 10] =
     [[P1, P2], [P1, P3], [P2, P3], [H, P1], [H, P2], [H, P3], [P5, P1], [P5, P2], [P6, P2], [P6, P1]];
 
 /// Evenly drawn configurations within limits, at most half a turn either way.
-fn draw(stream: &mut seed::Stream) -> Joints {
+pub(super) fn draw(stream: &mut seed::Stream) -> Joints {
     let whole =
         [[-170.0, 170.0], [-180.0, 65.0], [-190.0, 170.0], [-180.0, 180.0], [-135.0, 135.0], [-180.0, 180.0]];
     whole.map(|[low, high]: [f64; 2]| stream.random_range(low..high).to_radians())

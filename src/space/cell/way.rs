@@ -1,5 +1,6 @@
 //! Straight ways of a tool: its place on a line, its orientation about one axis.
 
+use crate::geometry::lanes::{self, Frames, Lane, Point, PoseRows, Row, Simd, SimdBase};
 use crate::geometry::{Frame, Vec3};
 use nalgebra::Matrix3;
 
@@ -34,6 +35,24 @@ impl Way {
     pub(super) fn at(&self, share: f64) -> Frame {
         let (s, c) = libm::sincos(self.turn_rad * share);
         Frame { rotation: self.even + self.cos * c + self.sin * s, origin: self.from + self.along * share }
+    }
+
+    /// The tool at four shares.
+    #[expect(clippy::inline_always, reason = "lanes are compiled for the instructions of their caller")]
+    #[inline(always)]
+    pub(super) fn at_lanes<S: Simd>(&self, simd: S, shares: Row) -> PoseRows {
+        let share = Lane::load_array(simd, shares);
+        let (s, c) = lanes::sincos(share * self.turn_rad);
+        let [even, cos, sin] =
+            [&self.even, &self.cos, &self.sin].map(|m| Frame { rotation: *m, origin: Vec3::zeros() });
+        let [even, cos, sin] =
+            [Frames::splat(simd, &even), Frames::splat(simd, &cos), Frames::splat(simd, &sin)];
+        let origin = Point::splat(simd, &self.from).plus(share, Point::splat(simd, &self.along));
+        let mut axes = even.axes;
+        for (i, axis) in axes.iter_mut().enumerate() {
+            *axis = axis.plus(c, cos.axes[i]).plus(s, sin.axes[i]);
+        }
+        Frames { axes, origin }.to_rows()
     }
 }
 

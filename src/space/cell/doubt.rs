@@ -1,0 +1,67 @@
+//! Steps of a path that come near something, looked at more closely.
+
+use super::line::between;
+use super::way::Way;
+use super::{Lines, Rejection, Standing};
+use crate::geometry::Capsule;
+use crate::kinematics::Joints;
+use crate::kinematics::ik::Branch;
+
+/// Half a chord with room for the arc above it.
+pub(super) const HALF_WAY: f64 = 0.51;
+/// How often a doubtful step is halved.
+pub(super) const HALVINGS: u32 = 3;
+
+/// A path with a step that must be looked at more closely.
+pub(super) struct Doubt<'a> {
+    pub(super) lines: &'a Lines,
+    pub(super) way: Option<&'a Way>,
+    pub(super) branch: Branch,
+    /// The first and the last configuration.
+    pub(super) ends_q: [Joints; 2],
+    /// How close a comparison may be; a negative slack settles everything.
+    pub(super) slack_m: f64,
+}
+
+/// A share of the path, the joints there, and the body placed.
+pub(super) type Stop<'a> = (f64, Joints, &'a [Capsule]);
+
+impl Doubt<'_> {
+    /// Whether the path is free between two stops; `None` if a comparison is closer than the slack.
+    pub(super) fn settle(&self, [a, b]: [Stop<'_>; 2], halvings: u32) -> Option<Result<(), Rejection>> {
+        let cell = self.lines.cell();
+        let share = f64::midpoint(a.0, b.0);
+        let q = match self.way {
+            Some(way) => match cell.robot().arm().follow(&way.at(share), self.branch, &a.1) {
+                Ok(q) => q,
+                Err(_) if self.slack_m > 0.0 => return None,
+                Err(_) => return Some(Err(Rejection::Unreachable)),
+            },
+            None => between(&self.ends_q[0], &self.ends_q[1], share),
+        };
+        let mut placed = Vec::with_capacity(a.2.len());
+        cell.place(&q, &mut placed);
+        let reach = |part: usize| {
+            2.0 * HALF_WAY * axis_way_m(&a.2[part], &placed[part]).max(axis_way_m(&placed[part], &b.2[part]))
+        };
+        match cell.sure_standing(&placed, reach, self.slack_m)? {
+            Standing::Contact => Some(Err(Rejection::Contact)),
+            Standing::Near if halvings > 1 => {
+                let middle: Stop<'_> = (share, q, &placed);
+                match self.settle([a, middle], halvings - 1)? {
+                    Ok(()) => self.settle([middle, b], halvings - 1),
+                    refused => Some(refused),
+                }
+            }
+            Standing::Clear | Standing::Near => Some(Ok(())),
+        }
+    }
+}
+
+/// The longest way that an end of a capsule's axis goes.
+#[inline]
+pub(super) fn axis_way_m(from: &Capsule, to: &Capsule) -> f64 {
+    let a = (to.segment.a - from.segment.a).norm_squared();
+    let b = (to.segment.b - from.segment.b).norm_squared();
+    a.max(b).sqrt()
+}

@@ -1,0 +1,129 @@
+//! Lanes against one configuration at a time: the same verdict, reason and count on every motion.
+
+use super::*;
+use crate::kinematics::Robot;
+use crate::seed::{self, Stream};
+use crate::settings::Document;
+use crate::space::cell::doubt::{HALF_WAY, axis_way_m};
+use crate::space::cell::tests::{draw, fu_cell, rules};
+use crate::space::cell::{Cell, EdgeEnd, LineRules, Scene, Scratch, SpeedRule, Standing};
+use rand::RngExt as _;
+use std::collections::BTreeMap;
+use std::path::Path as FilePath;
+
+/// A cell with every kind of obstacle, two of which have no lanes, and a turned box.
+fn mixed_cell(robot: &Robot) -> Cell {
+    let text = "name = 'mixed'\n[floor]\nheight_mm = 0\n[[box]]\nname = 'b'\nmin_mm = [600, -300, 0]\n\
+                max_mm = [900, 100, 700]\nyaw_deg = 30\n[[capsule]]\nname = 'c'\nfrom_mm = [-800, 500, 300]\n\
+                to_mm = [0, 900, 900]\nradius_mm = 60\n[[sphere]]\nname = 's'\ncenter_mm = [900, 900, 900]\n\
+                radius_mm = 100\n[[convex]]\nname = 'p'\nvertices_mm = [[-900, 0, 0], [-600, 0, 0], [-900, -300, 0], \
+                [-900, 0, 600]]\n";
+    let scene = Scene::parse(&Document::new(FilePath::new("mixed.toml"), text.to_owned())).unwrap();
+    Cell::new(robot.clone(), scene, true)
+}
+
+/// A configuration on the same branch as `from`, or one not far off, whatever its branch.
+fn partner(lines: &Lines, from: &Joints, stream: &mut Stream) -> Joints {
+    if stream.random_bool(0.5) {
+        return from.map(|angle| angle + stream.random_range(-0.5..0.5));
+    }
+    let arm = lines.cell().robot().arm();
+    loop {
+        let q = draw(stream);
+        if arm.branch_of(&q) == arm.branch_of(from) {
+            return q;
+        }
+    }
+}
+
+/// What the lanes alone say, after holding them and [`Lines::join`] to one configuration at a time.
+fn compared(lines: &Lines, a: &Joints, b: &Joints, place: &str) -> Option<Result<(), Rejection>> {
+    let [from, to] = [a, b].map(|q| lines.pose(q));
+    let (mut single, mut both) = (Scratch::default(), Scratch::default());
+    let expected = lines.join_singly(&from, &to, &mut single);
+    assert_eq!(lines.join(&from, &to, &mut both), expected, "{place}: {a:?} {b:?}");
+    assert_eq!(both.checked(), single.checked(), "{place}: {a:?} {b:?}");
+    if lines.parts_branches(&from, &to) {
+        return Some(Err(Rejection::Branch));
+    }
+    let (mut memory, mut checked) = (Memory::default(), 0);
+    let found = lines.join_lanes(&from, &to, &mut memory, &mut checked);
+    if found == Some(Ok(())) {
+        assert_eq!(memory.near, near(lines.cell(), &memory), "{place}: {a:?} {b:?}");
+    }
+    found
+}
+
+/// Which configurations of a free path come near something, by the scalar code.
+fn near(cell: &Cell, memory: &Memory) -> Vec<bool> {
+    let mut bodies = vec![Vec::new(); memory.count];
+    for (state, placed) in bodies.iter_mut().enumerate() {
+        cell.place(&memory.state(state), placed);
+    }
+    let is_near = |state: usize| {
+        let to = |other: usize, part: usize| axis_way_m(&bodies[state][part], &bodies[other][part]);
+        let next = (state + 1).min(memory.count - 1);
+        let margin = |part| HALF_WAY * to(state.saturating_sub(1), part).max(to(next, part));
+        cell.standing(&bodies[state], margin) == Standing::Near
+    };
+    (0..memory.count).map(is_near).collect()
+}
+
+#[test]
+fn lanes_and_one_configuration_at_a_time_agree_on_every_motion() {
+    let (cell, speed) = (fu_cell(), SpeedRule { speed_m_s: 0.5, acceleration_m_s2: 2.0 });
+    let mixed = mixed_cell(cell.robot());
+    let readings = [
+        (rules(), 40_000),
+        (LineRules { path: Path::Joints, ..rules() }, 30_000),
+        (LineRules { speed: Some(speed), end: EdgeEnd::WholeTurns, ..rules() }, 20_000),
+        (LineRules { end: EdgeEnd::PoseOnly, turn_rad: 1.5, ..rules() }, 10_000),
+    ];
+    let (mut seen, mut doubts) = (BTreeMap::new(), 0);
+    for (number, (rules, count)) in readings.into_iter().enumerate() {
+        let mut stream = seed::stream(seed::derive(51, &[&number.to_string()]));
+        let cells = [cell.clone(), mixed.clone()].map(|cell| Lines::new(cell, rules));
+        for index in 0..count {
+            let lines = &cells[usize::from(index % 4 == 0)];
+            let from = draw(&mut stream);
+            let to = partner(lines, &from, &mut stream);
+            match compared(lines, &from, &to, &format!("seed 51 reading {number} motion {index}")) {
+                Some(verdict) => *seen.entry(format!("{verdict:?}")).or_insert(0) += 1,
+                None => doubts += 1,
+            }
+        }
+    }
+    assert!(seen.len() == 9 && seen.values().all(|count| *count > 100), "one-sided sample: {seen:?}");
+    assert!(doubts < 10_000, "{doubts} motions in doubt: {seen:?}");
+}
+
+#[test]
+fn motions_that_stop_a_nanometre_before_or_in_contact_are_left_to_the_scalar_code() {
+    let lines = Lines::new(fu_cell(), LineRules { path: Path::Joints, ..rules() });
+    let (cell, mut stream) = (lines.cell(), seed::stream(52));
+    let (mut cases, mut contacts, mut doubts) = (0, 0, 0);
+    while cases < 4_000 {
+        let [free, other] = [0; 2].map(|_| draw(&mut stream));
+        if !cell.is_free(&free) || cell.is_free(&other) {
+            continue;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        while high - low > 1e-15 {
+            let share = f64::midpoint(low, high);
+            if share <= low || share >= high {
+                break;
+            }
+            *(if cell.is_free(&between(&free, &other, share)) { &mut low } else { &mut high }) = share;
+        }
+        let off = stream.random_range(-3e-10..3e-10);
+        let end = between(&free, &other, high + off);
+        let start = between(&free, &other, (high - 0.1).max(0.0));
+        let place = format!("seed 52 case {cases}");
+        let lanes = compared(&lines, &start, &end, &place);
+        contacts += u32::from(!cell.is_free(&end));
+        doubts += u32::from(lanes.is_none());
+        cases += 1;
+    }
+    assert!((1_000..3_000).contains(&contacts), "one-sided sample: {contacts}");
+    assert!(doubts > 3_000, "only {doubts} of {cases} were passed on");
+}
