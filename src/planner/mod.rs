@@ -6,14 +6,30 @@
 
 mod astar;
 mod bidirectional;
+mod bspline;
 mod delete_inflections;
 mod entry;
+mod key_nodes;
+mod keynode_astar;
 mod lattice;
+mod lattice26_astar;
+mod polyhedra;
+mod straighten_from_previous;
+mod visibility_edges;
 
 pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
 
 /// Every planner and stage, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&astar::ENTRY, &bidirectional::ENTRY, &delete_inflections::ENTRY];
+pub static REGISTRY: &[&Entry] = &[
+    &astar::ENTRY,
+    &bidirectional::ENTRY,
+    &bspline::ENTRY,
+    &delete_inflections::ENTRY,
+    &keynode_astar::ENTRY,
+    &lattice26_astar::ENTRY,
+    &straighten_from_previous::ENTRY,
+    &visibility_edges::ENTRY,
+];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -43,6 +43,18 @@ pub static COLUMNS: &[Column] = &[
     count("free_cells", "cells that are not blocked"),
     count("components", "connected components of the free cells"),
     real("octile_distance_cells", "8-connected distance from start to goal without obstacles"),
+    real("path_length_cm", "length of the returned path of the tip"),
+    real("straight_line_cm", "distance from start to goal"),
+    count("obstacles", "obstacles in the scene"),
+    count("free_nodes", "nodes of the cubic lattice that are not blocked"),
+    count("fell_back", "1 if the lattice was searched because no key node was left"),
+    real("cut_in_cm", "how deep the smoothed path is in an obstacle before it is guarded"),
+    count("raised_points", "control points that count more often so that the smoothed path is free"),
+    real("joint_range_rad", "sum over the joints of the greatest less the least angle"),
+    real("joint_travel_rad", "sum over the joints of all changes of angle"),
+    real("tip_jitter_cm", "sum of the second differences of the tip's place over 200 equal spans of time"),
+    real("posture_jitter_rad", "sum of the changes of the tip's turning over 200 equal spans of time"),
+    real("joint_jitter_rad", "sum of the second differences of all joints over 200 equal spans of time"),
 ];
 
 /// The column called `name`.

@@ -3,6 +3,10 @@
 //! The verifier shares no code with planners; this module only takes worlds apart for it and turns its answer
 //! into the trial's status and measured values.
 
+mod polyhedra;
+
+pub use polyhedra::{CARRIED_COLUMNS, POLYHEDRA_COLUMNS};
+
 use super::checked::Pipeline;
 use super::family::Query;
 use super::record::Status;
@@ -16,10 +20,12 @@ pub const LATTICE_COLUMNS: &[&str] =
     &["path_cost_cells", "turn_exterior_deg", "turn_interior_deg", "bends", "optimal_cost_cells"];
 
 /// What the verifier found out about a query before any planner ran.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Truth {
-    /// The least cost in the world's graph; `None` if the goal cannot be reached.
+    /// The least cost in the world's graph; `None` if the goal cannot be reached, or in worlds without a graph.
     pub optimal: Option<f64>,
+    /// What there is to know of polyhedra.
+    polyhedra: Option<polyhedra::Truth>,
 }
 
 /// The verifier's answer about one plan.
@@ -34,7 +40,10 @@ pub struct Judged {
 /// The truth about `query` in `world`.
 pub fn truth(world: &World, query: &Query) -> Truth {
     match world {
-        World::Lattice(lattice) => Truth { optimal: case(lattice, &query.start, &query.goal).optimal_cost() },
+        World::Lattice(lattice) => {
+            Truth { optimal: case(lattice, &query.start, &query.goal).optimal_cost(), polyhedra: None }
+        }
+        World::Polyhedra(world) => Truth { optimal: None, polyhedra: Some(polyhedra::truth(world)) },
     }
 }
 
@@ -42,6 +51,10 @@ pub fn truth(world: &World, query: &Query) -> Truth {
 pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Judged {
     match request.world {
         World::Lattice(lattice) => judge_lattice(lattice, request, plan, pipeline, truth),
+        World::Polyhedra(world) => {
+            let truth = truth.polyhedra.as_ref().expect("the truth about polyhedra was asked for");
+            polyhedra::judge(world, request, plan, truth)
+        }
     }
 }
 
@@ -83,13 +96,17 @@ fn judge_lattice(
         let inner = bends(&plan.path).len().saturating_sub(2);
         values.insert("bends", Value::Count(inner as u64));
     }
-    let outcome = match (refusal, plan.ending) {
+    Judged { outcome: outcome(refusal, plan, request), values }
+}
+
+/// The status that a plan's ending and the verifier's refusal amount to, and the reason unless solved.
+fn outcome(refusal: Option<String>, plan: &Plan, request: &Request<'_>) -> (Status, Option<String>) {
+    match (refusal, plan.ending) {
         (Some(refusal), _) => (Status::Rejected, Some(refusal)),
         (None, Ending::Solved) => (Status::Solved, None),
         (None, Ending::NoPath) => (Status::NoPath, Some("the planner found no path".to_owned())),
         (None, Ending::BudgetSpent) => {
             (Status::BudgetSpent, Some(format!("budget of {} expansions spent", request.expansions)))
         }
-    };
-    Judged { outcome, values }
+    }
 }

@@ -67,6 +67,11 @@ pub struct Racer<'a> {
 }
 
 impl Unit<'_> {
+    /// The queries asked of this draw.
+    pub fn queries(&self) -> Vec<Query> {
+        self.family.queries_for(self.seed)
+    }
+
     /// The name of the problem that `query` poses in this unit.
     pub fn problem(&self, query: &Query) -> String {
         let draw = draw_name(self.group, self.replicate);
@@ -249,7 +254,7 @@ impl<'a> Field<'a> {
 
     fn time_unit(&self, unit: &Unit<'_>, repeats: u32, readings: &mut Vec<Timing>) {
         let Ok(prepared) = unit.family.prepare(unit.seed) else { return };
-        for query in unit.family.queries() {
+        for query in &unit.queries() {
             for racer in unit.racers {
                 let request = Request {
                     world: &prepared.world,

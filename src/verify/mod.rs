@@ -3,3 +3,5 @@
 //! It recomputes costs, checks every step of a path, and refuses what is too good as surely as what collides.
 
 pub mod lattice;
+pub mod polyhedra;
+pub mod rods;

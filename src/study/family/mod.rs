@@ -4,7 +4,9 @@
 //! it. Its settings come from the study, with the reading's options laid on top.
 
 mod grid_map;
+mod polyhedra_scene;
 mod random_cells;
+mod random_polyhedra;
 
 use super::prepared::Prepared;
 use super::{Inputs, StudyError};
@@ -38,6 +40,12 @@ pub trait Family: Send + Sync {
     /// The queries asked of every draw.
     fn queries(&self) -> &[Query];
 
+    /// The queries asked of the draw that belongs to `seed`: those of every draw, unless the family draws them too.
+    fn queries_for(&self, seed: u64) -> Vec<Query> {
+        let _ = seed;
+        self.queries().to_vec()
+    }
+
     /// The files that were read for it.
     fn inputs(&self) -> &[PathBuf] {
         &[]
@@ -62,7 +70,8 @@ pub struct Entry {
 }
 
 /// Every family, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&grid_map::ENTRY, &random_cells::ENTRY];
+pub static REGISTRY: &[&Entry] =
+    &[&grid_map::ENTRY, &polyhedra_scene::ENTRY, &random_cells::ENTRY, &random_polyhedra::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

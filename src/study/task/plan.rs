@@ -40,7 +40,7 @@ impl Task for PlanTask {
         {
             batch.keep(&unit.name, prepared.exhibits.clone());
         }
-        for query in unit.family.queries() {
+        for query in &unit.queries() {
             let truth = prepared.as_ref().ok().map(|p| judge::truth(&p.world, query));
             for racer in unit.racers {
                 for repeat in 0..racer.contender.repeats {
