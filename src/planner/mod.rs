@@ -9,11 +9,13 @@ mod bidirectional;
 mod bspline;
 mod delete_inflections;
 mod entry;
+mod joint_astar;
 mod key_nodes;
 mod keynode_astar;
 mod lattice;
 mod lattice26_astar;
 mod polyhedra;
+mod posture;
 mod straighten_from_previous;
 mod visibility_edges;
 
@@ -25,8 +27,10 @@ pub static REGISTRY: &[&Entry] = &[
     &bidirectional::ENTRY,
     &bspline::ENTRY,
     &delete_inflections::ENTRY,
+    &joint_astar::ENTRY,
     &keynode_astar::ENTRY,
     &lattice26_astar::ENTRY,
+    &posture::ENTRY,
     &straighten_from_previous::ENTRY,
     &visibility_edges::ENTRY,
 ];
