@@ -24,9 +24,14 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     paper.claims.iter().try_for_each(|claim| checks(paper, claim).map(|_| ()))
 }
 
-/// The hash of everything that claims say, for manifests.
+/// The hash of what claims say and how they are judged, for manifests: wording and ledger do not count.
 pub fn claims_hash(paper: &Paper) -> String {
-    sha256(paper.document.text().as_bytes())
+    let judged = paper.claims.iter().map(|claim| {
+        let checks: Vec<String> =
+            claim.checks.iter().map(|(name, settings)| format!("{name}: {}", settings.table())).collect();
+        format!("{} {:?} {:?} {:?} {checks:?}\n", claim.id, claim.printed, claim.digits, claim.untestable)
+    });
+    sha256(judged.collect::<String>().as_bytes())
 }
 
 /// Judges every claim under the evidence's reading.
@@ -42,6 +47,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         paper: paper.id.clone(),
         command: evidence.runs().next().map_or_else(String::new, |run| run.manifest.command.clone()),
         quick: evidence.runs().any(|run| run.manifest.quick),
+        reading: evidence.point.choices().clone(),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
         claims: claims.collect::<Result<_, _>>()?,
         together: together(evidence)?,
@@ -108,7 +114,7 @@ fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
             by_contender.entry(contender).or_default().insert(claim.id.clone(), is_met);
         }
     }
-    let mut sets: Vec<Together> = outcomes.into_iter().flat_map(|(place, by)| sets_of(&place, by)).collect();
+    let mut sets: Vec<Together> = outcomes.into_iter().flat_map(|(place, by)| sets_of(&place, &by)).collect();
     sets.sort_by_key(|set| std::cmp::Reverse(set.hold.len()));
     let mut known = BTreeSet::new();
     sets.retain(|set| set.hold.len() > 1 && known.insert(set.hold.clone()));
@@ -123,7 +129,7 @@ const LISTED_SETS: usize = 12;
 /// shares a claim with belong to every set.
 fn sets_of(
     (study, problem): &(String, String),
-    by_contender: BTreeMap<String, BTreeMap<String, bool>>,
+    by_contender: &BTreeMap<String, BTreeMap<String, bool>>,
 ) -> Vec<Together> {
     let claims_of = |label: &String| by_contender[label].keys().cloned().collect::<BTreeSet<_>>();
     let rivals = |label: &String| {

@@ -1,10 +1,11 @@
 //! The records that claims are judged by, ready to be asked.
 
 use super::metric::{self, Metric};
+use super::stats::summary;
 use crate::planner::Exhibit;
 use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
-use crate::study::record::{Row, Status};
+use crate::study::record::{PreparedRow, Row, Status};
 use crate::study::store::{Records, read_records};
 use crate::study::{Point, Study, StudyError};
 use std::collections::BTreeMap;
@@ -39,7 +40,35 @@ pub struct Pair<'a> {
     pub other: &'a Row,
 }
 
+/// One problem measured with two contenders.
+pub struct Measured {
+    /// The metric of the one that the other is compared with, and of the other.
+    pub values: (f64, f64),
+    /// The other's trial, as `--trial` takes it.
+    pub trial: String,
+}
+
 impl<'a> Evidence<'a> {
+    /// `metric` of two contenders on every problem of the groups of `study` that both solved and where it was measured
+    /// for both.
+    pub fn measured(
+        &self,
+        study: &str,
+        groups: &[String],
+        metric: &Metric,
+        base: &str,
+        other: &str,
+    ) -> Vec<Measured> {
+        let Some(run) = self.run(study) else { return Vec::new() };
+        let pairs = groups.iter().flat_map(|group| run.pairs(group, base, other));
+        pairs
+            .filter_map(|pair| {
+                let values = (run.value(pair.base, metric)?, run.value(pair.other, metric)?);
+                Some(Measured { values, trial: format!("{study}/{}", pair.other.trial) })
+            })
+            .collect()
+    }
+
     /// Reads the runs of every study of `paper` from `folder`, to be judged under the reading `point`.
     ///
     /// # Errors
@@ -47,7 +76,7 @@ impl<'a> Evidence<'a> {
     pub fn read(paper: &'a Paper, point: Point, folder: &Path) -> Result<Self, StudyError> {
         let mut runs = BTreeMap::new();
         for study in &paper.studies {
-            runs.insert(study.name.as_str(), Run::read(study, point.name(), folder)?);
+            runs.insert(study.name.as_str(), Run::read(study, &point, folder)?);
         }
         Ok(Self { paper, point, runs })
     }
@@ -74,7 +103,7 @@ pub fn default_point(paper: &Paper) -> Point {
 }
 
 impl<'a> Run<'a> {
-    fn read(study: &'a Study, reading: &str, folder: &Path) -> Result<Self, StudyError> {
+    fn read(study: &'a Study, point: &Point, folder: &Path) -> Result<Self, StudyError> {
         let manifest = Manifest::read(folder, &study.name)?;
         let spec = crate::study::store::sha256(study.document.text().as_bytes());
         if manifest.spec != spec {
@@ -87,8 +116,12 @@ impl<'a> Run<'a> {
         for time in &records.times {
             readings.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
         }
-        let median_ns = readings.into_iter().map(|(trial, times)| (trial, median(times))).collect();
-        Ok(Self { study, manifest, records, reading: reading.to_owned(), median_ns })
+        let reading = point.within(&study.readings).name().to_owned();
+        let median_ns = readings
+            .into_iter()
+            .map(|(trial, times)| (trial, summary::median(&times).expect("a timed trial has a reading")))
+            .collect();
+        Ok(Self { study, manifest, records, reading, median_ns })
     }
 
     /// What `metric` is for `row`; `None` if it was not measured.
@@ -121,15 +154,18 @@ impl<'a> Run<'a> {
             .collect()
     }
 
+    /// The prepared object that the trial `row` was run on.
+    pub fn prepared_of(&self, row: &Row) -> Option<&PreparedRow> {
+        self.records.batch.prepared.iter().find(|prepared| {
+            prepared.group == row.group
+                && prepared.replicate == row.replicate
+                && prepared.reading == row.reading
+        })
+    }
+
     /// The exhibit called `name` of a trial or prepared object.
     pub fn exhibit(&self, of: &str, name: &str) -> Option<&Exhibit> {
         let kept = &self.records.batch.kept;
         kept.iter().find(|kept| kept.of == of && kept.exhibit.name == name).map(|kept| &kept.exhibit)
     }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    if values.len() % 2 == 1 { values[middle] } else { (values[middle - 1] + values[middle]) / 2.0 }
 }

@@ -5,6 +5,7 @@ use crate::settings::Document;
 use crate::study::StudyError;
 use crate::study::store::write_whole;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// What we found about a claim, from the best that can be said to the worst.
@@ -156,6 +157,8 @@ pub struct Verdicts {
     pub command: String,
     /// Whether the records are those of a quick run.
     pub quick: bool,
+    /// The option of each reading that the claims were judged under.
+    pub reading: BTreeMap<String, String>,
     /// Studies whose claims changed after their run: a margin may have moved after seeing the data.
     pub claims_changed_since: Vec<String>,
     /// Every claim.

@@ -3,6 +3,8 @@
 use super::places::{Places, papers};
 use super::run::load;
 use super::{Failure, How, Which};
+use crate::study::paper::Paper;
+use crate::study::rerun;
 use clap::Args;
 
 /// Checks papers and specs.
@@ -11,6 +13,12 @@ pub struct Check {
     /// Papers or folders to check; every paper if none is given
     #[arg(value_name = "PAPER")]
     specs: Vec<String>,
+    /// Also run this many stored trials of each study again, drawn by seed, and compare their rows
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    rerun: usize,
+    /// Threads for the trials that are run again
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    threads: u32,
 }
 
 impl Check {
@@ -25,7 +33,8 @@ impl Check {
         for spec in specs {
             let which = Which { paper: folder_of(&spec), out: None };
             let how = How { quick: false, seed: None, readings: None, threads: None };
-            let paper = load(&Places::find(&which, "")?, &how)?;
+            let places = Places::find(&which, "")?;
+            let paper = load(&places, &how)?;
             println!(
                 "{}: {} studies, {} claims, {} ledger rows are in order",
                 paper.id,
@@ -33,9 +42,30 @@ impl Check {
                 paper.claims.len(),
                 paper.ledger.len()
             );
+            if self.rerun > 0 {
+                rerun(&paper, &places, self.rerun, self.threads as usize)?;
+            }
         }
         Ok(())
     }
+}
+
+/// Runs a sample of each study's stored trials again.
+fn rerun(paper: &Paper, places: &Places, count: usize, threads: usize) -> Result<(), Failure> {
+    for study in &paper.studies {
+        let done = rerun::rerun(study, &places.inputs, &places.runs, count, threads)?;
+        if let Some(first) = done.differ.first() {
+            return Err(Failure::stale(format!(
+                "{} of {} trials of study `{}` are not what is stored; the first is {}/{first}",
+                done.differ.len(),
+                done.trials,
+                study.name,
+                study.name
+            )));
+        }
+        println!("  {}: {} trials run again on {threads} threads equal their rows", study.name, done.trials);
+    }
+    Ok(())
 }
 
 /// A study's file stands for its paper: claims and studies are only right together.

@@ -118,9 +118,8 @@ impl How {
     /// An unknown reading or option.
     pub fn points(&self, study: &Study) -> Result<Vec<Point>, Failure> {
         match self.readings.as_deref() {
-            None => Ok(vec![self.point(&study.readings)?]),
             Some("all") => Ok(study.single_options()?),
-            Some(_) => Ok(vec![self.point(&study.readings)?]),
+            _ => Ok(vec![self.point(&study.readings)?]),
         }
     }
 

@@ -2,9 +2,10 @@
 
 use super::places::Places;
 use super::{Failure, How, Which};
-use crate::analysis::evidence::{Evidence, default_point};
+use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::{self, Output};
+use crate::study::Point;
 use crate::study::paper::Paper;
 use crate::study::store::write_whole;
 use clap::Args;
@@ -50,8 +51,11 @@ pub fn write(paper: &Paper, places: &Places) -> Result<(), Failure> {
 }
 
 fn draw(paper: &Paper, places: &Places, only: Option<&str>) -> Result<Drawn, Failure> {
-    let evidence = Evidence::read(paper, default_point(paper), &places.runs)?;
     let verdicts = Verdicts::read(&places.runs)?;
+    let point = Point::new(&paper.readings(), &verdicts.reading).map_err(|message| {
+        Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
+    })?;
+    let evidence = Evidence::read(paper, point, &places.runs)?;
     let outputs = output::outputs(&evidence, &verdicts, only)?;
     let chapter = || output::report_with_chapter(&places.report, &evidence, &verdicts, &places.plots);
     let report = only.is_none().then(chapter);

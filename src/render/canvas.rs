@@ -4,6 +4,7 @@
 //! remembered, so that [`Canvas::finish`] can say which labels run into each other or off the page.
 
 use super::RenderError;
+pub mod pen;
 mod room;
 
 use super::font::{self, CAP_EM, UNITS_PER_EM, Weight};
@@ -124,7 +125,7 @@ pub struct Canvas {
     clips: Vec<Rect>,
     glyphs: BTreeSet<(Weight, u16)>,
     texts: Vec<(String, Quad)>,
-    missing: Option<(char, String)>,
+    refused: Option<RenderError>,
 }
 
 impl Canvas {
@@ -137,7 +138,7 @@ impl Canvas {
             clips: Vec::new(),
             glyphs: BTreeSet::new(),
             texts: Vec::new(),
-            missing: None,
+            refused: None,
         }
     }
 
@@ -229,10 +230,15 @@ impl Canvas {
         }
     }
 
+    /// Lets [`Canvas::finish`] fail with `error`, unless it already fails with another.
+    fn refuse(&mut self, error: RenderError) {
+        self.refused.get_or_insert(error);
+    }
+
     /// Draws one line of text.
     pub fn text(&mut self, at: [f64; 2], text: &str, set: &Type) {
         if let Some(found) = font::missing(text, set.weight) {
-            self.missing.get_or_insert_with(|| (found, text.to_owned()));
+            self.refuse(RenderError::MissingGlyph { found, text: text.to_owned() });
         }
         let (placed, units) = font::line(text, set.weight);
         let (scale, size) = (set.size.pt() / UNITS_PER_EM, set.size.pt());
@@ -317,12 +323,12 @@ impl Canvas {
     /// The finished figure.
     ///
     /// # Errors
-    /// [`RenderError::MissingGlyph`] if a text holds a character that the font lacks; the errors of
-    /// rasterising ([`RenderError::Svg`], [`RenderError::Size`], [`RenderError::Png`]).
+    /// [`RenderError::MissingGlyph`] if a text holds a character that the font lacks;
+    /// [`RenderError::TextTooSmall`] if plotters was told to set one too small; the errors of rasterising ([`RenderError::Svg`], [`RenderError::Size`], [`RenderError::Png`]).
     pub fn finish(self, provenance: &Provenance) -> Result<Figure, RenderError> {
         let flaws = self.flaws();
-        if let Some((found, text)) = self.missing {
-            return Err(RenderError::MissingGlyph { found, text });
+        if let Some(error) = self.refused {
+            return Err(error);
         }
         let mut defs = String::new();
         for (index, clip) in self.clips.iter().enumerate() {

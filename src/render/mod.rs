@@ -56,6 +56,14 @@ pub enum RenderError {
         /// What would have been accepted.
         accepted: &'static str,
     },
+    /// A figure whose labels overlap or leave the page.
+    #[error("figure `{figure}` is not fit to print: {flaws}; labels must stay apart and on the page")]
+    Flawed {
+        /// Its id.
+        figure: String,
+        /// What is wrong, in words.
+        flaws: String,
+    },
     /// A sheet whose panels do not fit on it.
     #[error(
         "panel {panel} is left {width_pt:.0} × {height_pt:.0} pt for its plot; at least 30 × 30 pt is needed"

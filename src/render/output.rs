@@ -4,7 +4,7 @@ use super::RenderError;
 use super::figure::{self, Scene};
 use super::report;
 use super::tables;
-use super::vector::Provenance;
+use super::vector::{Figure, Provenance};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::study::StudyError;
@@ -24,7 +24,8 @@ pub struct Output {
 /// Every file for the paper of `evidence`, or only those whose name without its ending is `only`.
 ///
 /// # Errors
-/// A figure that cannot be drawn from what is stored; two numbers with one macro name.
+/// A figure that cannot be drawn from what is stored or whose labels collide ([`RenderError::Flawed`]); two
+/// numbers with one macro name.
 pub fn outputs(
     evidence: &Evidence<'_>,
     verdicts: &Verdicts,
@@ -44,6 +45,7 @@ pub fn outputs(
                 spec_hash: run.manifest.spec.clone(),
                 title: spec.caption.clone(),
             })?;
+            let drawn = fit_to_print(id, drawn)?;
             outputs.push(Output { name: format!("{id}.svg"), bytes: drawn.svg.into_bytes() });
             outputs.push(Output { name: format!("{id}.png"), bytes: drawn.png });
         }
@@ -62,6 +64,14 @@ pub fn outputs(
         });
     }
     Ok(outputs)
+}
+
+/// `drawn` unless labels of it overlap or leave the page.
+fn fit_to_print(id: &str, drawn: Figure) -> Result<Figure, RenderError> {
+    if drawn.flaws.is_empty() {
+        return Ok(drawn);
+    }
+    Err(RenderError::Flawed { figure: id.to_owned(), flaws: drawn.flaws.join("; ") })
 }
 
 /// What every quick figure says.
@@ -93,4 +103,30 @@ pub fn report_with_chapter(
     let folder = path.parent().unwrap_or(Path::new(""));
     let link = plots.strip_prefix(folder).unwrap_or(plots);
     report::with_chapter(&before, &evidence.paper.id, &report::chapter(evidence, verdicts, link))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::canvas::{Canvas, Type};
+    use crate::render::style::{TextSize, Width};
+
+    #[test]
+    fn a_figure_whose_labels_collide_is_refused_by_name() {
+        for (apart_pt, flawed) in [(30.0, false), (3.0, true)] {
+            let mut canvas = Canvas::new(Width::Single, 40.0);
+            for (text, x) in [("one", 10.0), ("two", 10.0 + apart_pt)] {
+                canvas.text([x, 20.0], text, &Type::of(TextSize::TICK));
+            }
+            let (command, spec_hash, title) = (String::new(), String::new(), String::new());
+            let drawn = canvas.finish(&Provenance { command, spec_hash, title }).unwrap();
+            match fit_to_print("fig7", drawn) {
+                Ok(_) => assert!(!flawed, "{apart_pt} pt apart"),
+                Err(error) => {
+                    let message = error.to_string();
+                    assert!(flawed && message.contains("`fig7`") && message.contains("`two` overlaps `one`"));
+                }
+            }
+        }
+    }
 }

@@ -1,19 +1,17 @@
-//! From a spec to checked types: every name is looked up, every settings table is understood, before a trial runs.
+//! Checked studies: every name is looked up, every settings table is understood, before a trial runs.
+
+mod load;
 
 use super::error::StudyError;
 use super::family::{self, Family};
 use super::reading::{Point, Reading};
-use super::spec::{
-    BudgetSpec, ContenderSpec, FigureSpec, ProblemsSpec, QuickSpec, StageSpec, StudySpec, TimingSpec,
-    TrialsSpec,
-};
+use super::spec::{BudgetSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::{Inputs, task};
 use crate::planner::{self, Build, Planner, Stage};
 use crate::settings::{Document, Settings, SettingsError};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::sync::Arc;
-use toml::{Spanned, Table};
+use toml::Table;
 
 /// A checked study.
 #[derive(Debug)]
@@ -167,141 +165,6 @@ pub struct SweepPoint {
 }
 
 impl Study {
-    /// Reads and checks the study in `path`.
-    ///
-    /// # Errors
-    /// Every name that does not exist, every settings table that its entry does not understand, every label
-    /// that is used twice: with file, line, column, what was found and what is accepted.
-    pub fn load(path: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
-        let document = Document::open(path)?;
-        let spec: StudySpec = document.read()?;
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let study = Self::resolve(name, spec, &document)?;
-        study.check(inputs)?;
-        Ok(study)
-    }
-
-    fn resolve(name: String, spec: StudySpec, document: &Arc<Document>) -> Result<Self, StudyError> {
-        unique(document, "problem group", spec.problems.iter().map(|p| &p.label))?;
-        unique(document, "contender", spec.contenders.iter().map(|c| &c.label))?;
-        unique(document, "reading", spec.readings.iter().map(|r| &r.id))?;
-        unique(document, "figure", spec.figures.iter().map(|f| &f.id))?;
-        let task = match &spec.task {
-            None => task::default(),
-            Some(task) => look_up(document, "task", task, task::find, task::REGISTRY.iter().map(|e| e.name))?,
-        };
-        let sweeps = spec.sweeps.into_iter().map(|s| Sweep {
-            key: s.key.into_inner(),
-            of: s.of.into_inner(),
-            values: s.values.into_inner(),
-        });
-        let readings = spec.readings.into_iter().map(|r| Reading {
-            id: r.id.into_inner(),
-            why: r.why,
-            default: r.default.into_inner(),
-            options: r.option.into_inner(),
-        });
-        Ok(Self {
-            name,
-            paper: spec.paper.into_inner(),
-            question: spec.question,
-            seed: spec.seed,
-            task,
-            task_settings: optional(document, spec.task_settings.as_ref(), "task_settings"),
-            searched: spec.searched,
-            fitted_to: spec.fitted_to.into_iter().map(Spanned::into_inner).collect(),
-            groups: spec.problems.iter().map(|p| group(document, p)).collect::<Result<_, _>>()?,
-            contenders: spec.contenders.iter().map(|c| contender(document, c)).collect::<Result<_, _>>()?,
-            sweeps: sweeps.collect(),
-            readings: readings.collect(),
-            budget: spec.budget,
-            timing: spec.timing,
-            keeps: spec.keeps,
-            quick: spec.quick,
-            figures: spec.figures,
-            document: document.clone(),
-        })
-    }
-
-    /// Builds everything once under every single option, so that nothing can fail for its settings later.
-    fn check(&self, inputs: &Inputs) -> Result<(), StudyError> {
-        let folder = self.document.path().parent().and_then(Path::file_name).unwrap_or_default();
-        if folder.to_string_lossy() != self.paper {
-            let message = format!(
-                "`paper` is `{}`, but the study lies in the folder of `{}`",
-                self.paper,
-                folder.display()
-            );
-            return Err(self.document.error(self.key_span("paper"), message).into());
-        }
-        (self.task.build)(&self.task_settings)?;
-        self.check_sweeps()?;
-        self.check_selections()?;
-        for point in self.single_options()? {
-            let mut kinds = BTreeSet::new();
-            for group in &self.groups {
-                kinds.insert(group.family(&point, inputs)?.world());
-            }
-            for contender in &self.contenders {
-                for sweep in self.sweep_points() {
-                    contender.pipeline(&point, &sweep)?;
-                }
-                for stage in &contender.stages {
-                    if let Some(kind) = kinds.iter().find(|kind| !kind.serves(stage.entry.needs)) {
-                        let message = format!(
-                            "contender `{}` uses `{}`, which needs a {} world; the study's problems are of kind {}",
-                            contender.label,
-                            stage.entry.name,
-                            stage.entry.needs.name(),
-                            kind.name()
-                        );
-                        return Err(stage.settings.error(message).into());
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn check_sweeps(&self) -> Result<(), StudyError> {
-        for sweep in &self.sweeps {
-            let used: BTreeSet<&str> = self.stage_names();
-            if !used.contains(sweep.of.as_str()) {
-                let message = format!(
-                    "sweep `{}` is over `{}`, which no contender uses; they use {}",
-                    sweep.key,
-                    sweep.of,
-                    Vec::from_iter(used).join(", ")
-                );
-                return Err(self.document.error(self.key_span("sweep"), message).into());
-            }
-        }
-        Ok(())
-    }
-
-    fn check_selections(&self) -> Result<(), StudyError> {
-        let shown = self.figures.iter().flat_map(|figure| &figure.shows);
-        for selection in shown.chain(&self.keeps) {
-            let labels = || self.groups.iter().map(|g| g.label.as_str()).collect::<Vec<_>>().join(", ");
-            if !self.groups.iter().any(|group| group.label == selection.problems) {
-                let message =
-                    format!("no problem group is called `{}`; they are {}", selection.problems, labels());
-                return Err(self.document.error(self.text_span(&selection.problems), message).into());
-            }
-            let Some(wanted) = &selection.contender else { continue };
-            if !self.contenders.iter().any(|contender| contender.label == *wanted) {
-                let known: Vec<&str> = self.contenders.iter().map(|c| c.label.as_str()).collect();
-                let message = format!("no contender is called `{wanted}`; they are {}", known.join(", "));
-                return Err(self.document.error(self.text_span(wanted), message).into());
-            }
-        }
-        Ok(())
-    }
-
-    fn stage_names(&self) -> BTreeSet<&'static str> {
-        self.contenders.iter().flat_map(|c| &c.stages).map(|stage| stage.entry.name).collect()
-    }
-
     /// The default point and, for every other option, the point that differs in it alone.
     ///
     /// # Errors
@@ -342,6 +205,12 @@ impl Study {
         counted.chain(posed).chain(self.task.columns).chain(timed).copied().collect()
     }
 
+    /// Which trials on the problem group `group` keep their exhibits: those that figures show, and `keep`.
+    pub fn kept(&self, group: &str) -> impl Iterator<Item = &TrialsSpec> {
+        let shown = self.figures.iter().flat_map(|figure| &figure.shows);
+        shown.chain(&self.keeps).filter(move |trials| trials.problems == group)
+    }
+
     /// The study cut down to what `--quick` keeps.
     #[must_use]
     pub fn quick(mut self) -> Self {
@@ -353,16 +222,6 @@ impl Study {
         }
         self
     }
-
-    fn key_span(&self, key: &str) -> std::ops::Range<usize> {
-        let at = self.document.text().find(key).unwrap_or(0);
-        at..at + key.len()
-    }
-
-    fn text_span(&self, text: &str) -> std::ops::Range<usize> {
-        let at = self.document.text().rfind(&format!("\"{text}\"")).unwrap_or(0);
-        at..at + text.len()
-    }
 }
 
 /// `label` in lower case with everything but letters and digits turned into dashes, `*` spelled out: part of a
@@ -371,97 +230,4 @@ pub fn slug(label: &str) -> String {
     let spelled = label.to_lowercase().replace('*', "-star").replace('+', "-plus");
     let dashed: String = spelled.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     dashed.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
-}
-
-fn unique<'a>(
-    document: &Document,
-    what: &str,
-    labels: impl Iterator<Item = &'a Spanned<String>>,
-) -> Result<(), SettingsError> {
-    let mut seen = BTreeSet::new();
-    for label in labels {
-        let slug = slug(label.get_ref());
-        if slug.is_empty() {
-            let message = format!("{what} `{}` has no letter or digit in its name", label.get_ref());
-            return Err(document.error(label.span(), message));
-        }
-        if !seen.insert(slug.clone()) {
-            let message =
-                format!("{what} `{}` is the second to be called `{slug}` in trial names", label.get_ref());
-            return Err(document.error(label.span(), message));
-        }
-    }
-    Ok(())
-}
-
-fn look_up<T>(
-    document: &Document,
-    what: &str,
-    name: &Spanned<String>,
-    find: impl Fn(&str) -> Option<T>,
-    known: impl Iterator<Item = &'static str>,
-) -> Result<T, SettingsError> {
-    find(name.get_ref()).ok_or_else(|| {
-        let known: Vec<&str> = known.collect();
-        let message =
-            format!("there is no {what} `{}`; the known ones are {}", name.get_ref(), known.join(", "));
-        document.error(name.span(), message)
-    })
-}
-
-fn optional(document: &Arc<Document>, table: Option<&Spanned<Table>>, whose: &str) -> Settings {
-    match table {
-        Some(table) => Settings::written(document, table),
-        None => Settings::composed(format!("{}: {whose}", document.path().display()), Table::new()),
-    }
-}
-
-fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
-    let known = family::REGISTRY.iter().map(|entry| entry.name);
-    let replicates = spec.replicates.as_ref().map_or(1, |replicates| *replicates.get_ref());
-    if let (0, Some(written)) = (replicates, &spec.replicates) {
-        return Err(document.error(written.span(), "replicates is 0; at least 1 is accepted"));
-    }
-    Ok(Group {
-        label: spec.label.get_ref().clone(),
-        family: look_up(document, "problem family", &spec.family, family::find, known)?,
-        replicates,
-        is_numbered: replicates > 1,
-        settings: Settings::written(document, &spec.settings),
-    })
-}
-
-fn contender(document: &Arc<Document>, spec: &ContenderSpec) -> Result<Contender, SettingsError> {
-    let label = spec.label.get_ref();
-    let repeats = spec.repeats.as_ref().map_or(1, |repeats| *repeats.get_ref());
-    if let (0, Some(written)) = (repeats, &spec.repeats) {
-        return Err(document.error(written.span(), "repeats is 0; at least 1 is accepted"));
-    }
-    let mut stages = vec![stage(document, label, &spec.planner, spec.settings.as_ref(), true)?];
-    for StageSpec { stage: name, settings } in &spec.then {
-        stages.push(stage(document, label, name, settings.as_ref(), false)?);
-    }
-    Ok(Contender { label: label.clone(), repeats, is_numbered: repeats > 1, stages })
-}
-
-fn stage(
-    document: &Arc<Document>,
-    label: &str,
-    name: &Spanned<String>,
-    settings: Option<&Spanned<Table>>,
-    first: bool,
-) -> Result<StageUse, SettingsError> {
-    let what = if first { "planner" } else { "stage" };
-    let fits = |entry: &planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
-    let known: Vec<&str> = planner::REGISTRY.iter().filter(|e| fits(e)).map(|e| e.name).collect();
-    let entry = planner::find(name.get_ref()).filter(|entry| fits(entry)).ok_or_else(|| {
-        let message = format!(
-            "contender `{label}` asks for {what} `{}`, which does not exist; the {what}s are {}",
-            name.get_ref(),
-            known.join(", ")
-        );
-        document.error(name.span(), message)
-    })?;
-    let settings = optional(document, settings, &format!("contender `{label}`, {what} `{}`", entry.name));
-    Ok(StageUse { entry, settings })
 }

@@ -87,14 +87,7 @@ fn judge_lattice(
         Ending::NoPath | Ending::BudgetSpent => None,
     };
     if plan.ending == Ending::Solved && refusal.is_none() {
-        values.insert("path_cost_cells", Value::Real(path_length(&plan.path)));
-        for (column, angle) in
-            [("turn_exterior_deg", TurnAngle::Exterior), ("turn_interior_deg", TurnAngle::Interior)]
-        {
-            values.insert(column, Value::Real(turn_sum_deg(&plan.path, angle)));
-        }
-        let inner = bends(&plan.path).len().saturating_sub(2);
-        values.insert("bends", Value::Count(inner as u64));
+        values.extend(measured(&plan.path));
     }
     Judged { outcome: outcome(refusal, plan, request), values }
 }
@@ -109,4 +102,15 @@ fn outcome(refusal: Option<String>, plan: &Plan, request: &Request<'_>) -> (Stat
             (Status::BudgetSpent, Some(format!("budget of {} expansions spent", request.expansions)))
         }
     }
+}
+
+/// What is measured of an accepted path on a lattice.
+fn measured(path: &[Vec<f64>]) -> Counts {
+    let inner = bends(path).len().saturating_sub(2);
+    Counts::from([
+        ("path_cost_cells", Value::Real(path_length(path))),
+        ("turn_exterior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Exterior))),
+        ("turn_interior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Interior))),
+        ("bends", Value::Count(inner as u64)),
+    ])
 }

@@ -2,7 +2,7 @@
 
 use super::checked::{Study, SweepPoint};
 use super::reading::Point;
-use super::store::{sha256, write_whole};
+use super::store::{Staged, sha256};
 use super::{StudyError, runner::Field};
 use crate::settings::Document;
 use serde::{Deserialize, Serialize};
@@ -115,13 +115,13 @@ impl Manifest {
         Ok(document.read()?)
     }
 
-    /// Writes the manifest into `folder`.
+    /// Stages the manifest for `folder`.
     ///
     /// # Errors
     /// [`StudyError::Io`].
-    pub fn write(&self, folder: &Path) -> Result<(), StudyError> {
+    pub fn stage(&self, staged: &mut Staged, folder: &Path) -> Result<(), StudyError> {
         let text = toml::to_string(self).expect("a manifest is strings, numbers and tables of them");
-        write_whole(&Self::path(folder, &self.study), text.as_bytes())
+        staged.add(&Self::path(folder, &self.study), text.as_bytes())
     }
 
     /// Why stored trials of `before` cannot stand for those of this manifest: one sentence a reason.
@@ -187,7 +187,7 @@ fn problem_hashes(
                 .over_problem()
                 .fold(group.settings.clone(), |s, (over, origin)| s.overlaid(over, origin));
             let text = format!(
-                "{} {} {} {} {:?} {} {} {} {:?} {:?} {inputs:?}",
+                "{} {} {} {} {:?} {} {} {} {:?} {:?} {:?} {inputs:?}",
                 study.paper,
                 study.name,
                 study.seed,
@@ -198,6 +198,7 @@ fn problem_hashes(
                 group.family.name,
                 group.family.revision,
                 (settings.table(), study.task_settings.table()),
+                study.kept(&group.label).collect::<Vec<_>>(),
             );
             hashes.insert(key(point.name(), &group.label), sha256(text.as_bytes()));
         }

@@ -15,6 +15,7 @@ pub mod paper;
 pub mod prepared;
 mod reading;
 pub mod record;
+pub mod rerun;
 pub mod runner;
 pub mod session;
 pub mod spec;

@@ -258,7 +258,25 @@ impl Paper {
             self.known("claim", &row.claims, &claims)?;
         }
         self.check_tables()?;
+        self.check_readings()?;
         self.check_numbering()
+    }
+
+    /// A reading's name means the same in every study of the paper.
+    fn check_readings(&self) -> Result<(), SettingsError> {
+        for (study, reading) in self.studies.iter().flat_map(|s| s.readings.iter().map(move |r| (s, r))) {
+            let all = self.readings();
+            let first = all.iter().find(|known| known.id == reading.id).expect("every reading is listed");
+            if first.default != reading.default || !first.options.keys().eq(reading.options.keys()) {
+                let message = format!(
+                    "reading `{}` has other options or another default in another study of the paper; one name must \
+                     mean the same everywhere",
+                    reading.id
+                );
+                return Err(study.document.error(0..0, message));
+            }
+        }
+        Ok(())
     }
 
     fn check_tables(&self) -> Result<(), SettingsError> {

@@ -58,6 +58,15 @@ impl Point {
         Ok(point)
     }
 
+    /// The same choices for those readings alone: the point of a study that has no others.
+    #[must_use]
+    pub fn within(&self, readings: &[Reading]) -> Self {
+        let is_had = |id: &String| readings.iter().any(|reading| reading.id == *id);
+        let choices = self.choices.iter().filter(|(id, _)| is_had(id));
+        Self::new(readings, &choices.map(|(id, option)| (id.clone(), option.clone())).collect())
+            .expect("readings of one name have the same options in every study of a paper")
+    }
+
     /// Its name in records.
     pub fn name(&self) -> &str {
         &self.name

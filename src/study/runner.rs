@@ -92,13 +92,12 @@ impl Unit<'_> {
 
     /// Whether exhibits of this unit (of `contender`, if given) are kept.
     pub fn is_kept(&self, study: &Study, contender: Option<&str>) -> bool {
-        let shown = study.figures.iter().flat_map(|figure| &figure.shows);
-        shown.chain(&study.keeps).any(|trials| {
+        study.kept(&self.group.label).any(|trials| {
             let named = match (contender, &trials.contender) {
                 (Some(contender), Some(wanted)) => contender == wanted,
                 _ => true,
             };
-            named && trials.problems == self.group.label && self.replicate < trials.replicates
+            named && self.replicate < trials.replicates
         })
     }
 }
@@ -232,10 +231,14 @@ impl<'a> Field<'a> {
     /// The timed pass: one thread, warmed up, with only the pipeline's call between two readings of the clock.
     ///
     /// It times the first draws of every group under the first point, every contender and sweep.
-    pub fn time(&self, stop: &AtomicBool, progress: &dyn Progress) -> Vec<Timing> {
-        let Some(timing) = self.study.timing else { return Vec::new() };
-        let sample: Vec<Unit<'_>> = self
-            .units()
+    ///
+    /// # Errors
+    /// [`StudyError::Interrupted`] if `stop` was set: half a sample would favour the first groups.
+    pub fn time(&self, stop: &AtomicBool, progress: &dyn Progress) -> Result<Vec<Timing>, StudyError> {
+        let Some(timing) = self.study.timing else { return Ok(Vec::new()) };
+        let units = self.units();
+        let total = units.len();
+        let sample: Vec<Unit<'_>> = units
             .into_iter()
             .filter(|unit| *unit.point == self.points[0] && unit.replicate < timing.problems)
             .collect();
@@ -243,13 +246,14 @@ impl<'a> Field<'a> {
         let mut readings = Vec::new();
         for unit in &sample {
             if stop.load(Ordering::Relaxed) {
-                break;
+                progress.end();
+                return Err(StudyError::Interrupted { study: self.study.name.clone(), kept: total, total });
             }
             self.time_unit(unit, timing.repeats, &mut readings);
             progress.step();
         }
         progress.end();
-        readings
+        Ok(readings)
     }
 
     fn time_unit(&self, unit: &Unit<'_>, repeats: u32, readings: &mut Vec<Timing>) {

@@ -4,14 +4,14 @@ use super::checked::Study;
 use super::manifest::{Manifest, key};
 use super::reading::Point;
 use super::record::{Batch, Row};
-use super::runner::{Field, Progress};
-use super::store::{Journal, Records, read_records, write_records};
+use super::runner::{Field, Progress, Unit};
+use super::store::{Journal, Records, Staged, read_records, remove_temporaries, stage_records};
 use super::{Inputs, StudyError};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How to run.
 pub struct Options<'a> {
@@ -63,44 +63,49 @@ pub struct Report {
 /// and those of the file system. Records that existed before stay as they are unless the run succeeds.
 pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let field = Field::new(study, options.points, options.inputs)?;
-    let mut manifest = Manifest::new(
-        study,
-        options.points,
-        &field,
-        options.claims.clone(),
-        options.command.clone(),
-        options.quick,
-    )?;
+    let (claims, command) = (options.claims.clone(), options.command.clone());
+    let mut manifest = Manifest::new(study, options.points, &field, claims, command, options.quick)?;
     let _lock = lock(options.folder)?;
+    remove_temporaries(options.folder, &study.name);
     let (journal, mut done) = Journal::open(&journal_path(options.folder, &study.name), &manifest.depends)?;
     let resumed = done.len();
     let stored = stored(options.folder, &study.name);
     let why = stored.as_ref().map_or_else(Vec::new, |(before, _)| manifest.differs_from(before));
-    let mut reused = 0;
-    if let (Some((before, records)), false) = (&stored, options.fresh) {
-        let found = reusable(&field, &manifest, before, records);
-        reused = found.keys().filter(|index| !done.contains_key(index)).count();
-        for (index, batch) in found {
-            done.entry(index).or_insert(batch);
-        }
+    let found = match &stored {
+        Some((before, records)) if !options.fresh => reusable(&field, &manifest, before, records),
+        _ => BTreeMap::new(),
+    };
+    let reused = found.keys().filter(|index| !done.contains_key(index)).count();
+    for (index, batch) in found {
+        done.entry(index).or_insert(batch);
     }
     let units = field.units().len();
     let journal = Mutex::new(journal);
     let pool = pool(options.threads);
     let batch = pool.install(|| field.run(done, &journal, options.stop, options.progress))?;
     let times = match &stored {
-        Some((before, records)) if reused == units && before.depends == manifest.depends => {
-            records.times.clone()
-        }
-        _ => field.time(options.stop, options.progress),
+        Some((before, records)) if reused == units && before.spec == manifest.spec => records.times.clone(),
+        _ => field.time(options.stop, options.progress)?,
     };
+    if options.stop.load(Ordering::Relaxed) {
+        // Every trial is in the journal; half a timed pass is of no use.
+        let study = study.name.clone();
+        return Err(StudyError::Interrupted { study, kept: units, total: units });
+    }
     let moved = stored.map_or_else(Vec::new, |(before, records)| moved(&manifest, &before, &records, &batch));
     let records = Records { batch, times };
-    let columns: Vec<&'static str> = study.columns().into_iter().collect();
-    manifest.files = write_records(options.folder, &study.name, &columns, &records)?;
-    manifest.write(options.folder)?;
+    write(study, options.folder, &mut manifest, &records)?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
     Ok(Report { manifest, trials: records.batch.rows.len(), resumed, reused, units, why, moved })
+}
+
+/// Puts records and manifest in their places, the manifest last: it says which records are whole.
+fn write(study: &Study, folder: &Path, manifest: &mut Manifest, records: &Records) -> Result<(), StudyError> {
+    let columns: Vec<&'static str> = study.columns().into_iter().collect();
+    let mut staged = Staged::default();
+    manifest.files = stage_records(&mut staged, folder, &study.name, &columns, records)?;
+    manifest.stage(&mut staged, folder)?;
+    staged.put()
 }
 
 /// The trial called `trial` run alone, without touching any file, and the same row as it is stored.
@@ -154,7 +159,8 @@ fn journal_path(folder: &Path, study: &str) -> std::path::PathBuf {
     folder.join(format!("{study}.journal"))
 }
 
-fn pool(threads: Option<usize>) -> rayon::ThreadPool {
+/// A pool of `threads` threads; of the machine's number if absent.
+pub(super) fn pool(threads: Option<usize>) -> rayon::ThreadPool {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads.unwrap_or(0))
         .build()
@@ -174,31 +180,36 @@ fn reusable(
     before: &Manifest,
     records: &Records,
 ) -> BTreeMap<usize, Batch> {
-    let same_contenders = manifest.contenders == before.contenders;
-    let mut by_name: BTreeMap<&str, Batch> = BTreeMap::new();
-    for row in &records.batch.prepared {
-        by_name.entry(&row.prepared).or_default().prepared.push(row.clone());
+    let mut batches: BTreeMap<usize, Batch> = BTreeMap::new();
+    if manifest.contenders != before.contenders {
+        return batches;
     }
-    let mut reusable = BTreeMap::new();
-    for (index, unit) in field.units().iter().enumerate() {
+    let units = field.units();
+    let is_same = |unit: &Unit<'_>| {
         let key = key(unit.point.name(), &unit.group.label);
-        let same_problems = manifest.problems.get(&key) == before.problems.get(&key);
-        if same_contenders && same_problems && by_name.contains_key(unit.name.as_str()) {
-            let mut batch = by_name.remove(unit.name.as_str()).expect("it was just found");
-            let is_own = |row: &&Row| {
-                row.group == unit.group.label
-                    && row.replicate == unit.replicate
-                    && row.reading == unit.point.name()
-            };
-            batch.rows = records.batch.rows.iter().filter(is_own).cloned().collect();
-            let names: BTreeSet<&str> =
-                batch.rows.iter().map(|row| row.trial.as_str()).chain([unit.name.as_str()]).collect();
-            let own = records.batch.kept.iter().filter(|kept| names.contains(kept.of.as_str()));
-            batch.kept = own.cloned().collect();
-            reusable.insert(index, batch);
-        }
+        manifest.problems.get(&key) == before.problems.get(&key)
+    };
+    let same = units.iter().enumerate().filter(|(_, unit)| is_same(unit));
+    let by_name: BTreeMap<&str, usize> = same.map(|(index, unit)| (unit.name.as_str(), index)).collect();
+    let mut by_draw = BTreeMap::new();
+    let mut owners: BTreeMap<&str, usize> = BTreeMap::new();
+    for row in &records.batch.prepared {
+        let Some(index) = by_name.get(row.prepared.as_str()) else { continue };
+        by_draw.insert((row.reading.as_str(), row.group.as_str(), row.replicate), *index);
+        owners.insert(&row.prepared, *index);
+        batches.entry(*index).or_default().prepared.push(row.clone());
     }
-    reusable
+    for row in &records.batch.rows {
+        let draw = (row.reading.as_str(), row.group.as_str(), row.replicate);
+        let Some(index) = by_draw.get(&draw) else { continue };
+        owners.insert(&row.trial, *index);
+        batches.entry(*index).or_default().rows.push(row.clone());
+    }
+    for kept in &records.batch.kept {
+        let Some(index) = owners.get(kept.of.as_str()) else { continue };
+        batches.entry(*index).or_default().kept.push(kept.clone());
+    }
+    batches
 }
 
 /// Trials whose problem and contender are unchanged but whose row is not what was stored.

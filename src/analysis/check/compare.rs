@@ -54,20 +54,6 @@ struct Compare<'a> {
 }
 
 impl Compare<'_> {
-    /// Every pair's values, the base first.
-    fn pairs(&self, evidence: &Evidence<'_>) -> Vec<(f64, f64)> {
-        let Some(run) = evidence.run(&self.settings.study) else { return Vec::new() };
-        let mut pairs = Vec::new();
-        for group in &self.settings.problems {
-            let found = run.pairs(group, &self.settings.against, &self.settings.contender);
-            let values = found.iter().filter_map(|pair| {
-                Some((run.value(pair.base, self.metric)?, run.value(pair.other, self.metric)?))
-            });
-            pairs.extend(values);
-        }
-        pairs
-    }
-
     fn verdict(&self, reduction: Interval) -> Verdict {
         let (printed, margin) = (self.printed.value(), self.settings.within_points);
         let accepted = Interval::new(printed - margin, printed + margin);
@@ -86,7 +72,9 @@ impl Compare<'_> {
 
 impl Check for Compare<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let pairs = self.pairs(evidence);
+        let Settings { study, problems, contender, against, .. } = &self.settings;
+        let measured = evidence.measured(study, problems, self.metric, against, contender);
+        let pairs: Vec<(f64, f64)> = measured.iter().map(|measured| measured.values).collect();
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let Some(ratio) = ratio_of_means(&pairs, plan) else {

@@ -56,21 +56,6 @@ struct Ordering<'a> {
 }
 
 impl Ordering<'_> {
-    /// Every pair's values, the one claimed to be higher first, and the trial of the other.
-    fn pairs(&self, evidence: &Evidence<'_>) -> Vec<((f64, f64), String)> {
-        let Some(run) = evidence.run(&self.settings.study) else { return Vec::new() };
-        let mut pairs = Vec::new();
-        for group in &self.settings.problems {
-            let found = run.pairs(group, &self.settings.higher, &self.settings.lower);
-            let values = found.iter().filter_map(|pair| {
-                let values = (run.value(pair.base, self.metric)?, run.value(pair.other, self.metric)?);
-                Some((values, format!("{}/{}", run.study.name, pair.other.trial)))
-            });
-            pairs.extend(values);
-        }
-        pairs
-    }
-
     fn holds(&self) -> Verdict {
         if self.study.searched { Verdict::Attainable } else { Verdict::Reproduced }
     }
@@ -115,8 +100,9 @@ impl Ordering<'_> {
 
 impl Check for Ordering<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let found = self.pairs(evidence);
-        let pairs: Vec<(f64, f64)> = found.iter().map(|(pair, _)| *pair).collect();
+        let Settings { study, problems, lower, higher, .. } = &self.settings;
+        let found = evidence.measured(study, problems, self.metric, higher, lower);
+        let pairs: Vec<(f64, f64)> = found.iter().map(|measured| measured.values).collect();
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let signs = signs(&pairs);
         finding.because.push(format!(
@@ -131,7 +117,7 @@ impl Check for Ordering<'_> {
             signs.higher,
             pairs.len()
         ));
-        finding.trial = found.iter().find(|((a, b), _)| b > a).map(|(_, trial)| trial.clone());
+        finding.trial = found.iter().find(|m| m.values.1 > m.values.0).map(|m| m.trial.clone());
         match self.settings.on {
             On::Every => self.on_every(&pairs, &mut finding),
             On::Average => self.on_average(&pairs, &mut finding),

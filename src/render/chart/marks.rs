@@ -3,13 +3,15 @@
 use super::legend::{Key, Swatch};
 use super::{Mark, View};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
-use crate::render::style::{Fill, Marker, Rgb, Stroke, TextSize};
+use crate::render::style::{Dash, Fill, Marker, Rgb, Stroke, TextSize};
+use plotters::element::Polygon;
+use plotters::series::LineSeries;
 use std::collections::BTreeMap;
 
 /// A chain of straight pieces, perhaps with a marker on each point.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// Points in data units; a point that is not finite breaks the line.
+    /// Points in data units; a point without a finite place on the axes breaks the line.
     pub points: Vec<[f64; 2]>,
     /// How it is drawn.
     pub stroke: Stroke,
@@ -52,8 +54,10 @@ impl Line {
 
 impl Mark for Line {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
-        for piece in self.points.split(|point| !point.iter().all(|value| value.is_finite())) {
-            canvas.polyline(&view.all(piece), &self.stroke);
+        let is_placed = |&point: &[f64; 2]| view.at(point).iter().all(|value| value.is_finite());
+        for piece in self.points.split(|point| !is_placed(point)) {
+            let points = piece.iter().map(|&point| point.into());
+            view.plot(canvas, self.stroke.dash, LineSeries::new(points, self.stroke));
         }
     }
 
@@ -94,9 +98,10 @@ pub struct Band {
 
 impl Mark for Band {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
-        let low = self.edges.iter().map(|&[x, low, _]| view.at([x, low]));
-        let high = self.edges.iter().rev().map(|&[x, _, high]| view.at([x, high]));
-        canvas.polygon(&low.chain(high).collect::<Vec<_>>(), Some(self.fill), None);
+        let low = self.edges.iter().map(|&[x, low, _]| (x, low));
+        let high = self.edges.iter().rev().map(|&[x, _, high]| (x, high));
+        let outline: Vec<(f64, f64)> = low.chain(high).collect();
+        view.plot(canvas, Dash::Solid, [Polygon::new(outline, self.fill)]);
     }
 
     fn keys(&self) -> Vec<Key> {

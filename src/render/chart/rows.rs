@@ -2,8 +2,11 @@
 
 use super::legend::{Key, Swatch};
 use super::{Mark, View};
-use crate::render::canvas::{Canvas, Rect};
-use crate::render::style::{Fill, INK, Marker, Rgb, Stroke, WHITE};
+use crate::render::canvas::Canvas;
+use crate::render::canvas::pen::units;
+use crate::render::style::{Dash, Fill, INK, Marker, Rgb, Stroke, WHITE};
+use plotters::element::{Circle, PathElement, Rectangle};
+use plotters::style::ShapeStyle;
 
 /// A dot with a whisker, lying in a row of a horizontal chart.
 #[derive(Clone, Debug)]
@@ -67,27 +70,23 @@ pub struct BoxStrip {
 impl Mark for BoxStrip {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
         let pale = Fill::sheer(self.color, 0.35);
-        for (index, &value) in self.values.iter().enumerate() {
-            // Golden-ratio steps spread neighbours evenly without a random stream.
-            let jitter = (index as f64 * 0.618_033_988_749_895).fract() - 0.5;
-            canvas.circle(view.at([self.at + jitter * self.width * 1.5, value]), 0.9, Some(pale), None);
-        }
+        // Golden-ratio steps spread neighbours evenly without a random stream.
+        let jitter = |index: usize| (index as f64 * 0.618_033_988_749_895).fract() - 0.5;
+        let strip = self.values.iter().enumerate();
+        let dots = strip.map(|(index, &value)| (self.at + jitter(index) * self.width * 1.5, value));
+        view.plot(canvas, Dash::Solid, dots.map(|at| Circle::new(at, units(0.9), pale)));
         let (ink, half) = (Stroke::solid(self.color.mixed(INK, 0.35), 0.9), self.width / 2.0);
         let [bottom, lower, median, upper, top] = self.quantiles;
-        canvas.polyline(&view.all(&[[self.at, bottom], [self.at, lower]]), &ink);
-        canvas.polyline(&view.all(&[[self.at, upper], [self.at, top]]), &ink);
-        for end in [bottom, top] {
-            canvas.polyline(&view.all(&[[self.at - half / 2.0, end], [self.at + half / 2.0, end]]), &ink);
-        }
-        let corners = view.all(&[
-            [self.at - half, lower],
-            [self.at + half, lower],
-            [self.at + half, upper],
-            [self.at - half, upper],
-        ]);
-        canvas.polygon(&corners, Some(Fill::sheer(self.color.mixed(WHITE, 0.55), 0.85)), Some(&ink));
+        let level = |reach: f64, value: f64| [(self.at - reach, value), (self.at + reach, value)];
+        let stem = |from: f64, to: f64| [(self.at, from), (self.at, to)];
+        let lines =
+            [stem(bottom, lower), stem(upper, top), level(half / 2.0, bottom), level(half / 2.0, top)];
+        view.plot(canvas, Dash::Solid, lines.map(|ends| PathElement::new(ends, ink)));
+        let body = ShapeStyle::from(Fill::sheer(self.color.mixed(WHITE, 0.55), 0.85));
+        let corners = [(self.at - half, lower), (self.at + half, upper)];
+        view.plot(canvas, Dash::Solid, [body, ink.into()].map(|style| Rectangle::new(corners, style)));
         let thick = Stroke { width_pt: 1.8, ..ink };
-        canvas.polyline(&view.all(&[[self.at - half, median], [self.at + half, median]]), &thick);
+        view.plot(canvas, Dash::Solid, [PathElement::new(level(half, median), thick)]);
     }
 
     fn keys(&self) -> Vec<Key> {
@@ -110,11 +109,10 @@ pub struct Bars {
 
 impl Mark for Bars {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
-        let rim = Stroke::solid(WHITE, 0.4);
+        let looks = [ShapeStyle::from(self.fill), Stroke::solid(WHITE, 0.4).into()];
         for &[left, right, height] in self.bars.iter().filter(|bar| bar[2] != 0.0) {
-            let ([x0, y0], [x1, y1]) = (view.at([left, 0.0]), view.at([right, height]));
-            let bar = Rect { x: x0.min(x1), y: y0.min(y1), w: (x1 - x0).abs(), h: (y1 - y0).abs() };
-            canvas.rect(bar, Some(self.fill), Some(&rim));
+            let corners = [(left, 0.0), (right, height)];
+            view.plot(canvas, Dash::Solid, looks.map(|style| Rectangle::new(corners, style)));
         }
     }
 

@@ -2,15 +2,23 @@
 
 use super::axis::{Axis, Tick};
 use super::legend::{self, Key};
-use super::{Panel, Trim, View};
+use super::{Panel, TAKES_ALL, Trim, View};
 use crate::render::RenderError;
+use crate::render::canvas::pen::{Pen, text_style, units};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
 use crate::render::font::{LINE_EM, Weight, wrapped};
-use crate::render::style::{GREY, GRID, INK, Stroke, TextSize, Width};
+use crate::render::style::{Dash, GREY, GRID, INK, Stroke, TextSize, Width};
 use crate::render::vector::{Figure, Provenance};
+use plotters::chart::ChartBuilder;
+use plotters::coord::combinators::BindKeyPoints as _;
+use plotters::prelude::DrawingArea;
 
 const EDGE_PT: f64 = 3.0;
-const TICK_PT: f64 = 2.5;
+const TICK_PT: f64 = 2.25;
+/// From the frame to a tick's label: twice the tick, as plotters has it.
+const LABEL_PT: f64 = 2.0 * TICK_PT;
+/// Room that an axis label needs below its baseline.
+const DROP_PT: f64 = 2.5;
 const TICK: Type = Type::of(TextSize::TICK);
 const LABEL: Type = Type::of(TextSize::LABEL);
 /// Turn of names under a horizontal axis that is too short for them.
@@ -198,8 +206,8 @@ impl Panel {
     fn left(&self, height_pt: f64) -> f64 {
         let widest =
             self.y.ticks(height_pt, false).iter().map(|tick| TICK.width_pt(&tick.label)).fold(0.0, f64::max);
-        let label = if self.y.label().is_empty() { 0.0 } else { line_pt(TextSize::LABEL) + 1.0 };
-        label + widest + TICK_PT + 2.5
+        let label = if self.y.label().is_empty() { 0.0 } else { line_pt(TextSize::LABEL) };
+        label + widest + LABEL_PT + 0.5
     }
 
     fn right(&self, width_pt: f64) -> f64 {
@@ -214,7 +222,7 @@ impl Panel {
         }
         let ticks = self.x.ticks(view.frame.w, true);
         let label = if self.x.label().is_empty() { 0.0 } else { line_pt(TextSize::LABEL) };
-        TICK_PT + 2.0 + self.names_height(&ticks, view.frame.w) + label
+        LABEL_PT + self.names_height(&ticks, view.frame.w) + label
     }
 
     fn names_height(&self, ticks: &[Tick], width_pt: f64) -> f64 {
@@ -229,69 +237,74 @@ impl Panel {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
         let frame = view.frame;
         let (xs, ys) = (view.x.ticks(frame.w, true), view.y.ticks(frame.h, false));
-        if self.trim == Trim::Grid {
-            grid(canvas, view, &xs, &ys);
+        if self.trim != Trim::Bare {
+            self.mesh(canvas, view, &xs, &ys);
         }
         canvas.clipped(frame, |canvas| self.marks.iter().for_each(|mark| mark.draw(canvas, view)));
         if self.trim != Trim::Bare {
             canvas.rect(frame, None, Some(&Stroke::solid(INK, 0.6)));
-            self.x_axis(canvas, view, &xs);
-            self.y_axis(canvas, view, &ys);
+            minor_ticks(canvas, view, &xs, &ys);
+            if !self.x.fits(&xs, frame.w) {
+                tilted_names(canvas, view, &xs);
+            }
         }
         self.marks.iter().for_each(|mark| mark.draw_over(canvas, view));
     }
 
-    fn x_axis(&self, canvas: &mut Canvas, view: &View, ticks: &[Tick]) {
-        let (frame, y) = (view.frame, view.frame.bottom());
-        let level = self.x.fits(ticks, frame.w);
-        for tick in ticks {
-            let x = frame.x + view.x.share(tick.at) * frame.w;
-            let length = if tick.label.is_empty() { TICK_PT * 0.6 } else { TICK_PT };
-            canvas.polyline(&[[x, y], [x, y + length]], &Stroke::solid(INK, 0.5));
-            let level_set = TICK.aligned(Align::Middle, Stand::Below);
-            let tilted_set = Type { turn_deg: TILT_DEG, ..TICK.aligned(Align::End, Stand::Centre) };
-            if level && !tick.label.is_empty() {
-                canvas.text([x, y + TICK_PT + 2.0], &tick.label, &level_set);
-            } else if !tick.label.is_empty() {
-                canvas.text([x + 1.0, y + TICK_PT + 3.0], &tick.label, &tilted_set);
-            }
+    /// The mesh of plotters: grid, ticks, their labels, labels of the axes.
+    fn mesh(&self, canvas: &mut Canvas, view: &View, xs: &[Tick], ys: &[Tick]) {
+        let (frame, left, foot) = (view.frame, self.left(view.frame.h), self.foot(view) - DROP_PT);
+        let area = DrawingArea::from(Pen::new(canvas, Dash::Solid))
+            .shrink((units(frame.x - left), units(frame.y)), (units(left + frame.w), units(frame.h + foot)));
+        let (x, y) = (view.x.clone(), view.y.clone());
+        let mut chart = ChartBuilder::on(&area)
+            .x_label_area_size(units(foot))
+            .y_label_area_size(units(left))
+            .build_cartesian_2d(x.with_key_points(places(xs)), y.with_key_points(places(ys)))
+            .expect(TAKES_ALL);
+        let level = self.x.fits(xs, frame.w);
+        let name_x = |at: &f64| if level { name(xs, *at) } else { String::new() };
+        let name_y = |at: &f64| name(ys, *at);
+        let mut mesh = chart.configure_mesh();
+        mesh.bold_line_style(Stroke::solid(GRID, 0.4)).axis_style(Stroke::solid(INK, 0.5));
+        mesh.label_style(text_style(&TICK)).axis_desc_style(text_style(&LABEL));
+        mesh.x_label_formatter(&name_x).y_label_formatter(&name_y);
+        mesh.x_desc(self.x.label()).y_desc(self.y.label()).set_all_tick_mark_size(units(TICK_PT));
+        if self.trim == Trim::Frame {
+            mesh.disable_mesh();
         }
-        if !self.x.label().is_empty() {
-            let below = TICK_PT + 3.5 + self.names_height(ticks, frame.w);
-            let set = LABEL.aligned(Align::Middle, Stand::Below);
-            canvas.text([frame.x + frame.w / 2.0, y + below], self.x.label(), &set);
-        }
-    }
-
-    fn y_axis(&self, canvas: &mut Canvas, view: &View, ticks: &[Tick]) {
-        let frame = view.frame;
-        let mut widest = 0.0_f64;
-        for tick in ticks {
-            let y = frame.bottom() - view.y.share(tick.at) * frame.h;
-            let length = if tick.label.is_empty() { TICK_PT * 0.6 } else { TICK_PT };
-            canvas.polyline(&[[frame.x - length, y], [frame.x, y]], &Stroke::solid(INK, 0.5));
-            if !tick.label.is_empty() {
-                let set = TICK.aligned(Align::End, Stand::Centre);
-                canvas.text([frame.x - TICK_PT - 2.0, y], &tick.label, &set);
-            }
-            widest = widest.max(TICK.width_pt(&tick.label));
-        }
-        if !self.y.label().is_empty() {
-            let set = Type { turn_deg: -90.0, ..LABEL.aligned(Align::Middle, Stand::Base) };
-            let x = frame.x - TICK_PT - 2.0 - widest - 3.5;
-            canvas.text([x, frame.y + frame.h / 2.0], self.y.label(), &set);
-        }
+        mesh.draw().expect(TAKES_ALL);
     }
 }
 
-fn grid(canvas: &mut Canvas, view: &View, xs: &[Tick], ys: &[Tick]) {
-    let (frame, thin) = (view.frame, Stroke::solid(GRID, 0.4));
-    for tick in xs.iter().filter(|tick| !tick.label.is_empty()) {
-        let x = frame.x + view.x.share(tick.at) * frame.w;
-        canvas.polyline(&[[x, frame.y], [x, frame.bottom()]], &thin);
+/// Where the named ticks stand, for plotters to draw.
+fn places(ticks: &[Tick]) -> Vec<f64> {
+    ticks.iter().filter(|tick| !tick.label.is_empty()).map(|tick| tick.at).collect()
+}
+
+fn name(ticks: &[Tick], at: f64) -> String {
+    ticks.iter().find(|tick| tick.at == at).map(|tick| tick.label.clone()).unwrap_or_default()
+}
+
+/// Short ticks without grid line and label, which the mesh of plotters does not have.
+fn minor_ticks(canvas: &mut Canvas, view: &View, xs: &[Tick], ys: &[Tick]) {
+    let ([left, bottom], thin) = ([view.frame.x, view.frame.bottom()], Stroke::solid(INK, 0.5));
+    let [low_x, low_y] = [view.x.ends()[0], view.y.ends()[0]];
+    for tick in xs.iter().filter(|tick| tick.label.is_empty()) {
+        let [x, _] = view.at([tick.at, low_y]);
+        canvas.polyline(&[[x, bottom], [x, bottom + TICK_PT * 0.6]], &thin);
     }
-    for tick in ys.iter().filter(|tick| !tick.label.is_empty()) {
-        let y = frame.bottom() - view.y.share(tick.at) * frame.h;
-        canvas.polyline(&[[frame.x, y], [frame.right(), y]], &thin);
+    for tick in ys.iter().filter(|tick| tick.label.is_empty()) {
+        let [_, y] = view.at([low_x, tick.at]);
+        canvas.polyline(&[[left - TICK_PT * 0.6, y], [left, y]], &thin);
+    }
+}
+
+/// Names that are too long to stand side by side; plotters turns text by right angles only.
+fn tilted_names(canvas: &mut Canvas, view: &View, ticks: &[Tick]) {
+    let set = Type { turn_deg: TILT_DEG, ..TICK.aligned(Align::End, Stand::Centre) };
+    for tick in ticks.iter().filter(|tick| !tick.label.is_empty()) {
+        let [x, _] = view.at([tick.at, view.y.ends()[0]]);
+        canvas.text([x + 1.0, view.frame.bottom() + LABEL_PT + 1.0], &tick.label, &set);
     }
 }

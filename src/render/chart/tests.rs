@@ -83,3 +83,28 @@ fn a_panel_without_room_is_refused_with_the_room_it_has() {
         "{error}"
     );
 }
+
+#[test]
+fn every_tick_of_a_panel_is_named_and_has_its_line_in_the_grid() {
+    let (x, y) = (Axis::linear("step", 0.0, 100.0).unwrap(), Axis::log("time / s", 0.1, 1000.0).unwrap());
+    let labels: Vec<String> = y.ticks(110.0, false).into_iter().map(|tick| tick.label).collect();
+    let named = labels.iter().filter(|label| !label.is_empty()).count();
+    assert!(named == 5 && labels.len() > 30, "{labels:?}");
+    for (trim, lines) in [(Trim::Grid, 1), (Trim::Frame, 0)] {
+        let mut sheet = Sheet::new(Width::Single, 1, 110.0);
+        sheet.add(Panel::new("", x.clone(), y.clone()).trimmed(trim));
+        let svg = draw(&sheet).svg;
+        for label in
+            labels.iter().filter(|label| !label.is_empty()).chain(&["step".into(), "time / s".into()])
+        {
+            assert!(svg.contains(&format!("aria-label=\"{label}\"")), "{label} is missing");
+        }
+        let of =
+            |color: crate::render::style::Rgb| svg.matches(&format!("stroke=\"{}\"", color.hex())).count();
+        let all = labels.len() + x.ticks(200.0, true).len();
+        let named = named + x.ticks(200.0, true).len();
+        assert_eq!(of(crate::render::style::GRID), lines * named, "{trim:?}");
+        // Two axis lines and the frame are in the ink of ticks.
+        assert_eq!(of(crate::render::style::INK), all + 3, "{trim:?}");
+    }
+}

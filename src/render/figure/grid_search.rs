@@ -10,7 +10,6 @@ use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, Marker, ORANGE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
-use crate::study::slug;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -68,43 +67,41 @@ impl Kind for GridSearch {
             let row = rows.first().ok_or_else(|| RenderError::NotStored {
                 what: format!("a trial of `{contender}` on `{}`", self.problem),
             })?;
-            sheet.add(self.panel(scene, row)?);
+            sheet.add(panel(scene, row)?);
         }
         Ok(sheet)
     }
 }
 
-impl GridSearch {
-    fn panel(&self, scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
-        let stored = |of: &str, name: &str| {
-            scene
-                .run
-                .exhibit(of, name)
-                .ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
-        };
-        let map = slug(&self.problem);
-        let size = stored(&map, "size_cells")?;
-        let (width, height) = (size.values[0], size.values[1]);
-        let axis = |label: &str, side: f64| Axis::linear(label, 0.0, side);
-        let mut panel = Panel::new(title(row), axis("x (cells)", width)?, axis("y (cells)", height)?)
-            .trimmed(Trim::Frame)
-            .with_equal_scales();
-        panel.add(cells(scene, row, stored(&map, "blocked")?, [width as usize, height as usize]));
-        if let Some(raw) = scene.run.exhibit(&row.trial, "raw_path") {
-            let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
-            panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
-        }
-        if let Some(path) = scene.run.exhibit(&row.trial, "path") {
-            panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
-            let points = centres(path);
-            let ends = [("start", Marker::Circle, points.first()), ("goal", Marker::Diamond, points.last())];
-            for (label, marker, at) in ends {
-                let points = at.into_iter().copied().collect();
-                panel.add(Points { points, marker, radius_pt: 3.2, color: GREEN, label: label.to_owned() });
-            }
-        }
-        Ok(panel)
+fn panel(scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
+    let stored = |of: &str, name: &str| {
+        scene
+            .run
+            .exhibit(of, name)
+            .ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
+    };
+    let map = scene.run.prepared_of(row).map_or("", |prepared| &prepared.prepared);
+    let size = stored(map, "size_cells")?;
+    let (width, height) = (size.values[0], size.values[1]);
+    let axis = |label: &str, side: f64| Axis::linear(label, 0.0, side);
+    let mut panel = Panel::new(title(row), axis("x (cells)", width)?, axis("y (cells)", height)?)
+        .trimmed(Trim::Frame)
+        .with_equal_scales();
+    panel.add(cells(scene, row, stored(map, "blocked")?, [width as usize, height as usize]));
+    if let Some(raw) = scene.run.exhibit(&row.trial, "raw_path") {
+        let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
+        panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
     }
+    if let Some(path) = scene.run.exhibit(&row.trial, "path") {
+        panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
+        let points = centres(path);
+        let ends = [("start", Marker::Circle, points.first()), ("goal", Marker::Diamond, points.last())];
+        for (label, marker, at) in ends {
+            let points = at.into_iter().copied().collect();
+            panel.add(Points { points, marker, radius_pt: 3.2, color: GREEN, label: label.to_owned() });
+        }
+    }
+    Ok(panel)
 }
 
 fn title(row: &Row) -> String {

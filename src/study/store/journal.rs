@@ -97,7 +97,7 @@ fn parse(line: &[u8]) -> Option<Line> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planner::{Exhibit, Value};
+    use crate::planner::Exhibit;
     use crate::study::record::Kept;
 
     fn batch(number: u32) -> Batch {

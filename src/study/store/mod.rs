@@ -14,7 +14,7 @@ use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 /// The records of one study.
@@ -29,16 +29,20 @@ pub struct Records {
 /// The kinds of file that hold a study's records.
 const PARTS: [&str; 4] = ["trials", "prepared", "exhibits", "times"];
 
+/// How names of half-written files end.
+const TEMPORARY: &str = ".tmp";
+
 /// Where the part `part` of `study`'s records lies in `folder`.
 pub fn part_path(folder: &Path, study: &str, part: &str) -> PathBuf {
     folder.join(format!("{study}.{part}.parquet"))
 }
 
-/// Writes every part of `records` into `folder` and returns the hash of each file by its name.
+/// Stages every part of `records` for `folder` and gives the hash of each file by its part.
 ///
 /// # Errors
-/// [`StudyError::Io`]; files that were not reached keep what they held.
-pub fn write_records(
+/// [`StudyError::Io`]; no file has changed then.
+pub fn stage_records(
+    staged: &mut Staged,
     folder: &Path,
     study: &str,
     columns: &[&'static str],
@@ -52,9 +56,8 @@ pub fn write_records(
     ];
     let mut hashes = BTreeMap::new();
     for (part, frame) in PARTS.into_iter().zip(parts) {
-        let path = part_path(folder, study, part);
         let bytes = table::to_parquet(frame);
-        write_whole(&path, &bytes)?;
+        staged.add(&part_path(folder, study, part), &bytes)?;
         hashes.insert(part.to_owned(), sha256(&bytes));
     }
     Ok(hashes)
@@ -95,26 +98,77 @@ pub fn read_records(
     })
 }
 
+/// Files that are written, but not in their places yet: all of them are put there, or none.
+///
+/// A disk that fills up is noticed while files are staged, before any of them replaces an older one.
+#[derive(Debug, Default)]
+pub struct Staged {
+    files: Vec<(PathBuf, PathBuf)>,
+}
+
+impl Staged {
+    /// Writes `bytes` beside `path`.
+    ///
+    /// # Errors
+    /// [`StudyError::Io`] with the path and what was being done, also if a folder stands in its place.
+    pub fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        fs::create_dir_all(folder).map_err(StudyError::io(folder, "creating the folder"))?;
+        let io = || StudyError::io(path, "writing the file");
+        if path.is_dir() {
+            return Err(io()(ErrorKind::IsADirectory.into()));
+        }
+        let mut name = path.file_name().unwrap_or_default().to_owned();
+        name.push(format!(".{}{TEMPORARY}", std::process::id()));
+        let temporary = folder.join(name);
+        self.files.push((temporary.clone(), path.to_owned()));
+        let written = fs::File::create(&temporary).and_then(|mut file| {
+            file.write_all(bytes)?;
+            file.sync_all()
+        });
+        written.map_err(io())
+    }
+
+    /// Puts every file in its place, in the order in which they were added.
+    ///
+    /// # Errors
+    /// [`StudyError::Io`].
+    pub fn put(mut self) -> Result<(), StudyError> {
+        self.files.drain(..).try_for_each(|(temporary, path)| {
+            fs::rename(&temporary, &path).map_err(StudyError::io(&path, "writing the file"))
+        })
+    }
+}
+
+impl Drop for Staged {
+    fn drop(&mut self) {
+        for (temporary, _) in &self.files {
+            // A half-written file is of no use to anyone; if even removing it fails, the first error says more.
+            let _ = fs::remove_file(temporary);
+        }
+    }
+}
+
 /// Writes `bytes` to `path`, whole or not at all.
 ///
 /// # Errors
 /// [`StudyError::Io`] with the path and what was being done.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).map_err(StudyError::io(folder, "creating the folder"))?;
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary = folder.join(name);
-    let written = fs::File::create(&temporary).and_then(|mut file| {
-        file.write_all(bytes)?;
-        file.sync_all()
-    });
-    let renamed = written.and_then(|()| fs::rename(&temporary, path));
-    renamed.map_err(|e| {
-        // The half-written file is of no use to anyone; if even removing it fails, the first error says more.
-        let _ = fs::remove_file(&temporary);
-        StudyError::io(path, "writing the file")(e)
-    })
+    let mut staged = Staged::default();
+    staged.add(path, bytes)?;
+    staged.put()
+}
+
+/// Removes what a killed run of `study` left half-written in `folder`; only for who holds the folder's lock.
+pub fn remove_temporaries(folder: &Path, study: &str) {
+    let prefix = format!("{study}.");
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name.starts_with(&prefix) && name.ends_with(TEMPORARY) {
+            // What cannot be removed does no harm but taking room.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// The SHA-256 of `bytes` in hexadecimal.

@@ -1,5 +1,6 @@
 //! Tasks: what a study does with its problems and contenders; one a file, all in [`REGISTRY`].
 
+mod formula_error;
 mod plan;
 
 use super::checked::Study;
@@ -29,7 +30,7 @@ pub struct Entry {
 }
 
 /// Every task, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&plan::ENTRY];
+pub static REGISTRY: &[&Entry] = &[&formula_error::ENTRY, &plan::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -1,6 +1,7 @@
 use super::*;
 use crate::render::chart::Axis;
-use crate::render::style::{BLUE, ORANGE};
+use crate::render::style::{BLUE, ORANGE, Width};
+use crate::render::vector::Provenance;
 use crate::seed;
 use rand::RngExt as _;
 
@@ -45,4 +46,48 @@ fn runs_cover_every_coloured_cell_once_and_no_other() {
         }
     }
     assert_eq!(seen, colors);
+}
+
+fn drawn(draw: impl FnOnce(&mut Canvas)) -> String {
+    let mut canvas = Canvas::new(Width::Double, 200.0);
+    draw(&mut canvas);
+    let (command, spec_hash, title) = (String::new(), String::new(), String::new());
+    canvas.finish(&Provenance { command, spec_hash, title }).unwrap().svg
+}
+
+#[test]
+fn a_line_that_leaves_the_frame_keeps_its_direction() {
+    // From (2, 5) rightwards and down to 500 frames below: on the page from (80, 100) on.
+    let stroke = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
+    let points = vec![[2.0, 5.0], [7.0, -5000.0], [-200.0, 9.0]];
+    let by_plotters = drawn(|canvas| Line::through(points, stroke).draw(canvas, &view()));
+    let by_hand = drawn(|canvas| {
+        canvas.polyline(&[[80.0, 100.0], [180.0, 50_150.0], [-3960.0, 60.0]], &stroke);
+    });
+    assert_eq!(by_plotters, by_hand);
+}
+
+#[test]
+fn a_point_without_a_place_breaks_the_line() {
+    let axis = Axis::log("n", 1.0, 100.0).unwrap();
+    let view = View { x: axis, ..view() };
+    let stroke = Stroke::solid(BLUE, 1.0);
+    for missing in [[0.0, 5.0], [f64::NAN, 5.0], [10.0, f64::INFINITY], [-1.0, 5.0]] {
+        let points = vec![[1.0, 0.0], [10.0, 10.0], missing, [10.0, 0.0], [100.0, 10.0]];
+        let by_plotters = drawn(|canvas| Line::through(points, stroke).draw(canvas, &view));
+        let by_hand = drawn(|canvas| {
+            canvas.polyline(&[[40.0, 150.0], [140.0, 50.0]], &stroke);
+            canvas.polyline(&[[140.0, 150.0], [240.0, 50.0]], &stroke);
+        });
+        assert_eq!(by_plotters, by_hand, "{missing:?}");
+    }
+}
+
+#[test]
+fn a_band_is_one_outline_of_its_two_curves() {
+    let (edges, fill) = (vec![[0.0, 1.0, 2.0], [10.0, 3.0, 5.0]], Fill::sheer(ORANGE, 0.3));
+    let band = Band { edges, fill, label: String::new() };
+    let outline = [[40.0, 140.0], [240.0, 120.0], [240.0, 100.0], [40.0, 130.0]];
+    let by_hand = drawn(|canvas| canvas.polygon(&outline, Some(fill), None));
+    assert_eq!(drawn(|canvas| band.draw(canvas, &view())), by_hand);
 }

@@ -1,0 +1,67 @@
+//! Reruns a seeded sample of stored trials and compares every row.
+
+use super::manifest::Manifest;
+use super::reading::Point;
+use super::record::Row;
+use super::runner::{Field, Unit};
+use super::store::read_records;
+use super::{Inputs, Study, StudyError};
+use crate::seed;
+use rand::RngExt as _;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// What a sample of stored trials came out as.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rerun {
+    /// How many trials were run again.
+    pub trials: usize,
+    /// Those whose row is not what is stored.
+    pub differ: Vec<String>,
+}
+
+/// Runs the units of `count` stored trials of `study`, drawn from the study's seed, on `threads` threads, and compares every
+/// trial of theirs with its stored row.
+///
+/// # Errors
+/// [`StudyError::Stored`] if there is no sound run in `folder`.
+pub fn rerun(
+    study: &Study,
+    inputs: &Inputs,
+    folder: &Path,
+    count: usize,
+    threads: usize,
+) -> Result<Rerun, StudyError> {
+    let manifest = Manifest::read(folder, &study.name)?;
+    let records = read_records(folder, &study.name, &manifest.files)?;
+    let points: Vec<Point> = study
+        .single_options()?
+        .into_iter()
+        .filter(|p| manifest.readings.iter().any(|r| r == p.name()))
+        .collect();
+    let field = Field::new(study, &points, inputs)?;
+    let wanted = sample(study, &records.batch.rows, count);
+    let units: Vec<Unit<'_>> =
+        field.units().into_iter().filter(|unit| wanted.contains(&place(unit))).collect();
+    let pool = super::session::pool(Some(threads));
+    let again = pool.install(|| units.par_iter().map(|unit| field.run_unit(unit)).collect::<Vec<_>>());
+    let stored: BTreeMap<&str, &Row> =
+        records.batch.rows.iter().map(|row| (row.trial.as_str(), row)).collect();
+    let rows: Vec<Row> = again.into_iter().flat_map(|batch| batch.rows).collect();
+    let is_other = |row: &&Row| stored.get(row.trial.as_str()).is_none_or(|stored| *stored != *row);
+    let differ = rows.iter().filter(is_other).map(|row| row.trial.clone()).collect();
+    Ok(Rerun { trials: rows.len(), differ })
+}
+
+type Place = (String, u32, String);
+
+fn place(unit: &Unit<'_>) -> Place {
+    (unit.group.label.clone(), unit.replicate, unit.point.name().to_owned())
+}
+
+fn sample(study: &Study, rows: &[Row], count: usize) -> BTreeSet<Place> {
+    let mut stream = seed::stream(seed::derive(study.seed, &[&study.paper, &study.name, "rerun"]));
+    let picks = (0..count.min(rows.len())).map(|_| &rows[stream.random_range(0..rows.len())]);
+    picks.map(|row| (row.group.clone(), row.replicate, row.reading.clone())).collect()
+}

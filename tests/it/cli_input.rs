@@ -1,0 +1,379 @@
+//! Bad input: what is said, with which exit code, and that nothing which existed before is lost.
+
+use crate::paper::Bench;
+use std::fs::{self, File};
+
+/// A wrong edit of the tiny paper and what must be said about it.
+struct Wrong {
+    file: &'static str,
+    from: &'static str,
+    to: &'static str,
+    said: &'static str,
+}
+
+const fn wrong(file: &'static str, from: &'static str, to: &'static str, said: &'static str) -> Wrong {
+    Wrong { file, from, to, said }
+}
+
+const WRONG: &[Wrong] = &[
+    wrong("draws", "[budget]", "[budget", "mini/draws.toml:5:8: "),
+    wrong("draws", "seed = 7\n", "", "mini/draws.toml:1:1: missing field `seed`"),
+    wrong("draws", "seed = 7", "seed = 'seven'", "mini/draws.toml:3:8: invalid type: string \"seven\""),
+    wrong("draws", "question", "questoin", "mini/draws.toml:2:1: unknown field `questoin`, expected one of"),
+    wrong(
+        "draws",
+        "planner = \"astar\"",
+        "planner = \"a-star\"",
+        "mini/draws.toml:24:11: contender `A*` asks for planner `a-star`, which does not exist; the planners are \
+         astar, bidirectional",
+    ),
+    wrong(
+        "draws",
+        "\"delete_inflections\"",
+        "\"astar\"",
+        "mini/draws.toml:31:19: contender `Two-sided` asks for stage `astar`, which does not exist; the stages are \
+         delete_inflections",
+    ),
+    wrong(
+        "draws",
+        "weight = 1,",
+        "wait = 1,",
+        "mini/draws.toml:25:14: unknown field `wait`, expected `weight` or",
+    ),
+    wrong(
+        "draws",
+        "weight = 1,",
+        "weight = -1,",
+        "weight is -1; 0 (Dijkstra), 1 (A*) or any larger number is acc",
+    ),
+    wrong(
+        "draws",
+        "\"fifo\" }\n\n",
+        "\"filo\" }\n\n",
+        "mini/draws.toml:25:33: unknown variant `filo`, expected one of",
+    ),
+    wrong(
+        "draws",
+        "\"random_cells\"",
+        "\"random_cell\"",
+        "mini/draws.toml:18:10: there is no problem family `random_cell`; the known ones are grid_map, random_cells",
+    ),
+    wrong("draws", "seed = 7", "seed = 7\ntask = \"plna\"", "there is no task `plna`; the known ones are"),
+    wrong(
+        "draws",
+        "replicates = 24",
+        "replicates = 0",
+        "mini/draws.toml:19:14: replicates is 0; at least 1 is",
+    ),
+    wrong(
+        "draws",
+        "default = \"allow\"",
+        "default = \"deny\"",
+        "reading `corners` has no option `deny`; it has allow,",
+    ),
+    wrong(
+        "draws",
+        "problem = { corner_rule = \"forbid_any\" }",
+        "problem = { corner_rule = \"never\" }",
+        "reading corners=forbid_any: unknown variant `never`, expected one of",
+    ),
+    wrong(
+        "draws",
+        "label = \"Two-sided\"",
+        "label = \"a-star\"",
+        "the second to be called `a-star` in trial names",
+    ),
+    wrong("draws", "\"mini\"", "\"maxi\"", "`paper` is `maxi`, but the study lies in the folder of `mini`"),
+    wrong(
+        "draws",
+        "goal = [11, 9]",
+        "goal = [12, 9]",
+        "goal is [12, 9], outside the map; cells are 0..12 by 0..12",
+    ),
+    wrong(
+        "room",
+        "start = [0, 0]",
+        "start = [3, 0]",
+        "mini/room.toml:15:12: the start [3.0, 0.0] is blocked",
+    ),
+    wrong(
+        "room",
+        "goal = [6, 3]",
+        "goal = [7, 3]",
+        "the goal [7.0, 3.0] is not a cell of the map; cells are 0..7 by",
+    ),
+    wrong(
+        "room",
+        "room.map.txt",
+        "hall.map.txt",
+        "input file `hall.map.txt` does not exist; looked for ./mini/hall",
+    ),
+    wrong(
+        "room",
+        "\"grid_search\"",
+        "\"grid_saerch\"",
+        "mini/room.toml:24:8: figure `fig1` is of kind `grid_saerch`, which does not exist; the kinds are grid_search",
+    ),
+    wrong(
+        "room",
+        "contenders = [\"A*\"]",
+        "contenders = [\"B*\"]",
+        "no contender is called `B*`; they are A*",
+    ),
+    wrong(
+        "room",
+        "shows = [{ problems = \"room\"",
+        "shows = [{ problems = \"hall\"",
+        "no problem group is called `hall`",
+    ),
+    wrong("room.map", "#", "x", "room.map.txt:3:4: "),
+    wrong(
+        "paper",
+        "claim.check.attained",
+        "claim.check.obtained",
+        "claim `cost` asks for the check `obtained`, which does not exist; the checks are attained, compare,",
+    ),
+    wrong(
+        "paper",
+        "metric = \"nodes\"",
+        "metric = \"knots\"",
+        "there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are bends, closed,",
+    ),
+    wrong(
+        "paper",
+        "metric = \"path_cost_cells\"",
+        "metric = \"plan_time_us\"",
+        "study `room` does not produce the metric `plan_time_us`; it produces bends, closed,",
+    ),
+    wrong(
+        "paper",
+        "study = \"draws\"",
+        "study = \"drawn\"",
+        "there is no study `drawn`; there are draws, room",
+    ),
+    wrong(
+        "paper",
+        "lower = \"Two-sided\"",
+        "lower = \"Two\"",
+        "study `draws` has no contender `Two`; it has A*, Two-sided",
+    ),
+    wrong(
+        "paper",
+        "printed = \"8.24\"",
+        "printed = \"8,24\"",
+        "mini/paper.toml:23:11: claim `cost`: printed is `8,24`",
+    ),
+    wrong(
+        "paper",
+        "figures = 1",
+        "figures = 2",
+        "the ledger has no row for Fig. 2; the paper has 2 of its kind",
+    ),
+    wrong(
+        "paper",
+        "figures = [\"fig1\"]",
+        "figures = [\"fig2\"]",
+        "there is no figure or table `fig2`; there are fig1, tab",
+    ),
+    wrong("paper", "id = \"nodes\"", "id = \"cost\"", "claim `cost` stands twice"),
+    wrong(
+        "paper",
+        "claims = [\"cost\", \"nodes\"]",
+        "claims = [\"cost\"]",
+        "row `A*` of table `table1` names 1 claims; the",
+    ),
+];
+
+fn file(name: &str) -> String {
+    if name.ends_with(".map") { format!("mini/{name}.txt") } else { format!("mini/{name}.toml") }
+}
+
+#[test]
+fn every_wrong_word_in_a_spec_is_told_with_its_place_and_what_is_accepted() {
+    let bench = Bench::new();
+    assert_eq!(bench.done(&["check", "./mini"]), "mini: 2 studies, 2 claims, 2 ledger rows are in order\n");
+    for case in WRONG {
+        let before = fs::read_to_string(bench.at(&file(case.file))).unwrap();
+        bench.edit(&file(case.file), case.from, case.to);
+        let said = bench.run(&["check", "./mini"]);
+        assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{}: {}\n{}", case.file, case.to, said.err);
+        assert!(said.err.starts_with("replan: "), "{}", said.err);
+        assert!(said.err.contains(case.said), "{}: {}\nis said: {}", case.file, case.to, said.err);
+        fs::write(bench.at(&file(case.file)), before).unwrap();
+    }
+}
+
+#[test]
+fn files_that_are_no_toml_are_told_apart() {
+    let bench = Bench::new();
+    let whole = fs::read(bench.at("mini/draws.toml")).unwrap();
+    let mut broken = whole.clone();
+    broken[20] = 0xff;
+    for (bytes, complaint) in [
+        (&b""[..], "draws.toml:1:1: the file is empty; a TOML table is expected"),
+        (b" \n\n", "draws.toml:1:1: the file is empty; a TOML table is expected"),
+        (&whole[..whole.len() / 2], "draws.toml:"),
+        (&broken, "draws.toml: byte 20 is not UTF-8; TOML files are UTF-8 text"),
+        (b"\x00\x01PAR1", "draws.toml:1:1: "),
+    ] {
+        fs::write(bench.at("mini/draws.toml"), bytes).unwrap();
+        let said = bench.run(&["repro", "./mini"]);
+        assert_eq!(said.code, Some(2), "{}", said.err);
+        assert!(said.err.contains(complaint), "{complaint}\nis said: {}", said.err);
+    }
+}
+
+#[test]
+fn a_study_cut_anywhere_is_never_taken_for_another_study() {
+    let bench = Bench::new();
+    let whole = fs::read_to_string(bench.at("mini/room.toml")).unwrap();
+    let mut refused = 0;
+    for cut in (0..whole.len() - 1).step_by(23) {
+        fs::write(bench.at("mini/room.toml"), &whole[..cut]).unwrap();
+        let said = bench.run(&["check", "./mini"]);
+        assert_eq!(said.code, Some(2), "cut at {cut}: {}{}", said.out, said.err);
+        refused += 1;
+    }
+    assert!(refused > 20, "only {refused} cuts");
+}
+
+#[test]
+fn papers_and_flags_that_do_not_exist_are_told() {
+    let bench = Bench::new();
+    for (arguments, complaint) in [
+        (
+            &["repro", "zhong"][..],
+            "`zhong` is neither a paper nor a folder with a paper.toml; there is no folder `experi",
+        ),
+        (&["check"], "there is no paper here to check; run replan from the project's own folder"),
+        (
+            &["repro", "./mini", "--readings", "corners"],
+            "--readings: `corners` is not `reading=option`; `all` or",
+        ),
+        (
+            &["repro", "./mini", "--readings", "corner=x"],
+            "--readings: there is no reading `corner`; the readings are",
+        ),
+        (
+            &["repro", "./mini", "--readings", "corners=x"],
+            "reading `corners` has no option `x`; it has allow, forbid_any",
+        ),
+        (
+            &["repro", "./mini", "--threads", "0"],
+            "invalid value '0' for '--threads <N>': 0 is not in 1..=1024",
+        ),
+        (&["repro", "./mini", "--seed", "-1"], "'-1'"),
+        (
+            &["repro", "./mini", "--trial", "hall/x"],
+            "there is no study `hall`; write STUDY/TRIAL, with a study of draws",
+        ),
+        (
+            &["repro", "./mini", "--trial", "draws/x"],
+            "study `draws` has no trial `x`; its first one is `draws/drawn/0/a",
+        ),
+        (&["judge", "./mini"], "no stored run"),
+        (&["render", "./mini"], "run the study first"),
+        (&["list", "plotters"], "invalid value 'plotters'"),
+        (&["reproduce", "./mini"], "unrecognized subcommand 'reproduce'"),
+    ] {
+        let said = bench.run(arguments);
+        assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
+        assert!(said.err.contains(complaint), "{arguments:?} is answered: {}", said.err);
+    }
+    assert!(!bench.at("mini/out").exists(), "a refused command wrote something");
+}
+
+#[test]
+fn a_wrong_spec_leaves_an_older_run_as_it_was() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let before = bench.tree("mini/out");
+    assert!(before.len() > 15, "{:?}", before.keys());
+    for case in WRONG.iter().step_by(7) {
+        let text = fs::read_to_string(bench.at(&file(case.file))).unwrap();
+        bench.edit(&file(case.file), case.from, case.to);
+        assert_eq!(bench.run(&["repro", "./mini"]).code, Some(2), "{}", case.to);
+        assert!(bench.tree("mini/out") == before, "{}: {} changed what was stored", case.file, case.to);
+        fs::write(bench.at(&file(case.file)), text).unwrap();
+    }
+}
+
+#[test]
+fn records_of_another_spec_truncated_or_missing_are_not_judged() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let trials = "mini/out/data/runs/mini/draws.trials.parquet";
+    let whole = fs::read(bench.at(trials)).unwrap();
+    let refused = |complaint: &str| {
+        for command in ["judge", "render"] {
+            let said = bench.run(&[command, "./mini"]);
+            assert_eq!(said.code, Some(2), "{command}: {}", said.err);
+            assert!(said.err.contains(complaint), "{command}: {}", said.err);
+        }
+    };
+    bench.write(trials, &whole[..whole.len() / 2]);
+    refused("draws.trials.parquet: is not the file that the manifest names (sha256 ");
+    bench.write(trials, &fs::read(bench.at("mini/out/data/runs/mini/room.trials.parquet")).unwrap());
+    refused("truncated, edited, or from another spec; run the study again");
+    fs::remove_file(bench.at(trials)).unwrap();
+    refused("draws.trials.parquet: cannot be read (");
+    bench.done(&["repro", "./mini"]);
+    assert!(fs::read(bench.at(trials)).unwrap() == whole, "the repaired run differs");
+    bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
+    refused("draws.manifest.toml: the stored run was made by another spec; run study `draws` again");
+    bench.write("mini/out/data/runs/mini/draws.manifest.toml", b"study = 3");
+    refused("draws.manifest.toml:1:9: invalid type: integer `3`");
+}
+
+#[test]
+fn places_that_cannot_be_written_are_told_with_exit_code_1() {
+    let bench = Bench::new();
+    bench.write("file", b"in the way");
+    let said = bench.run(&["repro", "./mini", "--out", "file/below"]);
+    assert_eq!(said.code, Some(1), "{}", said.err);
+    assert_eq!(
+        said.err,
+        "replan: file/below/data/runs/mini: creating the folder: Not a directory (os error 20)\n"
+    );
+    assert_eq!(fs::read(bench.at("file")).unwrap(), b"in the way");
+}
+
+#[test]
+fn a_folder_where_a_record_belongs_stops_the_run_before_any_record_changes() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let times = "mini/out/data/runs/mini/draws.times.parquet";
+    fs::remove_file(bench.at(times)).unwrap();
+    fs::create_dir(bench.at(times)).unwrap();
+    let before = bench.tree("mini/out");
+    bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
+    let said = bench.run(&["repro", "./mini"]);
+    assert_eq!(said.code, Some(1), "{}", said.err);
+    assert!(said.err.ends_with("draws.times.parquet: writing the file: is a directory\n"), "{}", said.err);
+    let after = bench.tree("mini/out");
+    assert!(
+        before.iter().all(|(path, bytes)| after.get(path) == Some(bytes)),
+        "an older record was replaced"
+    );
+    let journals = after.keys().filter(|path| !before.contains_key(*path)).collect::<Vec<_>>();
+    assert!(journals.len() == 1 && journals[0].ends_with("draws.journal"), "{journals:?}");
+}
+
+#[test]
+fn a_second_run_into_one_folder_is_refused_and_disturbs_nothing() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let before = bench.tree("mini/out");
+    let lock = File::open(bench.at("mini/out/data/runs/mini/.lock")).unwrap();
+    lock.try_lock().unwrap();
+    let said = bench.run(&["repro", "./mini"]);
+    assert_eq!(said.code, Some(1), "{}", said.err);
+    assert_eq!(
+        said.err,
+        "replan: ./mini/out/data/runs/mini: another run is writing here; wait for it or choose another place with \
+         --out\n"
+    );
+    assert!(bench.tree("mini/out") == before, "the refused run changed something");
+    drop(lock);
+    bench.done(&["repro", "./mini"]);
+}

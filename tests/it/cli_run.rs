@@ -1,0 +1,198 @@
+//! Runs from the command line: where outputs go, what repeats, what is reused.
+
+use crate::paper::Bench;
+use std::fs;
+
+const RUNS: &str = "mini/out/data/runs/mini";
+
+#[test]
+fn one_thread_and_two_write_equal_bytes_and_all_outputs_repeat() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini", "--threads", "1", "--out", "a"]);
+    bench.done(&["repro", "./mini", "--threads", "2", "--out", "b"]);
+    let (one, two) = (bench.facts("a"), bench.facts("b"));
+    assert_eq!(one.len(), 6, "{:?}", one.keys());
+    assert!(one == two, "records differ between 1 thread and 2");
+    for name in ["plots/mini/fig1.svg", "plots/mini/fig1.png"] {
+        assert!(
+            fs::read(bench.at(&format!("a/{name}"))).unwrap()
+                == fs::read(bench.at(&format!("b/{name}"))).unwrap()
+        );
+    }
+}
+
+#[test]
+fn render_writes_what_repro_wrote_byte_for_byte_and_check_notices_an_edit() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let before = bench.tree("mini/out");
+    assert_eq!(bench.done(&["render", "./mini", "--check"]), "5 files are current\n");
+    bench.done(&["render", "./mini"]);
+    assert!(bench.tree("mini/out") == before, "render changed what repro wrote");
+    for name in ["plots/mini/fig1.svg", "plots/mini/table1.tex", "plots/mini/numbers.tex", "paper_repro.md"] {
+        let path = bench.at(&format!("mini/out/{name}"));
+        let whole = fs::read_to_string(&path).unwrap();
+        fs::write(&path, whole.replacen("mini", "minni", 1)).unwrap();
+        let said = bench.run(&["render", "./mini", "--check"]);
+        assert_eq!((said.code, said.err), (Some(3), format!("replan: not current: ./mini/out/{name}\n")));
+        fs::write(&path, whole).unwrap();
+    }
+    fs::remove_file(bench.at("mini/out/plots/mini/fig1.png")).unwrap();
+    assert_eq!(bench.run(&["render", "./mini", "--check"]).code, Some(3));
+    bench.done(&["render", "./mini", "--only", "fig1"]);
+    assert!(bench.tree("mini/out") == before, "--only fig1 did not bring the figure back");
+    let said = bench.run(&["render", "./mini", "--only", "fig9"]);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("nothing like a figure or table `fig9`"), "{}", said.err);
+}
+
+#[test]
+fn a_quick_run_is_marked_in_every_output_and_lies_elsewhere() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let before = bench.tree("mini/out");
+    let out = bench.done(&["repro", "./mini", "--quick"]);
+    assert!(bench.tree("mini/out") == before, "a quick run wrote where full runs lie");
+    assert!(out.contains("a quick run: few replicates, so these verdicts are not the study's"), "{out}");
+    let read = |name: &str| fs::read_to_string(bench.at("target/replan/mini-quick").join(name)).unwrap();
+    let marked = "Quick run: few replicates, not the study's result.";
+    assert!(read("paper_repro.md").contains(marked));
+    assert!(read("plots/mini/table1.tex").contains(marked));
+    assert!(read("plots/mini/numbers.tex").contains("quick"), "{}", read("plots/mini/numbers.tex"));
+    assert!(read("data/runs/mini/draws.manifest.toml").contains("quick = true"));
+    assert!(read("data/runs/mini/verdicts.toml").contains("quick = true"));
+    let figures = ["mini/out", "target/replan/mini-quick"]
+        .map(|root| fs::read_to_string(bench.at(root).join("plots/mini/fig1.svg")).unwrap());
+    assert_ne!(figures[0], figures[1], "the quick figure does not say so");
+    assert_eq!(bench.facts("mini/out").len(), bench.facts("target/replan/mini-quick").len());
+}
+
+#[test]
+fn another_seed_and_another_reading_write_elsewhere() {
+    let bench = Bench::new();
+    for (flags, place) in [
+        (&["--seed", "9"][..], "target/replan/mini-seed-9"),
+        (&["--readings", "corners=forbid_any"], "target/replan/mini-readings-corners-forbid-any"),
+        (&["--readings", "all"], "target/replan/mini-readings-all"),
+        (&["--quick", "--seed", "9"], "target/replan/mini-quick-seed-9"),
+    ] {
+        bench.done(&[&["repro", "./mini"], flags].concat());
+        assert_eq!(bench.facts(place).len(), 6, "{flags:?}");
+    }
+    assert!(!bench.at("mini/out").exists());
+    let trials = |place: &str| bench.facts(place)["draws.trials.parquet"].clone();
+    let all = ["seed-9", "readings-corners-forbid-any", "readings-all"]
+        .map(|name| trials(&format!("target/replan/mini-{name}")));
+    assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2]);
+}
+
+#[test]
+fn a_paper_of_the_project_is_found_by_name_and_writes_the_committed_places() {
+    let bench = Bench::new();
+    fs::create_dir(bench.at("experiments")).unwrap();
+    fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
+    bench.done(&["repro", "mini"]);
+    for place in ["data/runs/mini/verdicts.toml", "plots/mini/fig1.png", "paper_repro.md"] {
+        assert!(bench.at(place).is_file(), "{place}");
+    }
+    assert!(bench.done(&["check"]).starts_with("mini: 2 studies"));
+    assert!(bench.done(&["check", "experiments/mini/draws.toml"]).starts_with("mini: 2 studies"));
+    let listed = bench.done(&["list"]);
+    for name in ["  mini ", "  mini/draws ", "  mini/corners ", "  astar ", "  grid_search ", "  ordering "] {
+        assert!(listed.contains(name), "{name}\n{listed}");
+    }
+}
+
+#[test]
+fn a_trial_run_alone_equals_its_stored_row_and_a_wrong_row_is_noticed() {
+    let bench = Bench::new();
+    let trial = ["repro", "./mini", "--trial", "draws/drawn/5/two-sided"];
+    assert!(bench.done(&trial).ends_with("no stored run has this trial\n"));
+    bench.done(&["repro", "./mini"]);
+    let before = bench.tree("mini/out");
+    let out = bench.done(&trial);
+    assert!(out.ends_with("equals the stored row\n"), "{out}");
+    assert!(out.contains("\nopened ") && out.contains("\nseed "), "{out}");
+    let room = bench.done(&["repro", "./mini", "--trial", "room/room/a-star"]);
+    assert!(room.contains("\npath                   [0.0, 0.0] ["), "the path is not shown: {room}");
+    assert!(bench.tree("mini/out") == before, "--trial wrote something");
+    bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
+    let said = bench.run(&trial);
+    assert_eq!(said.code, Some(3), "{}", said.out);
+    assert_eq!(
+        said.err,
+        "replan: trial draws/drawn/5/two-sided is not what is stored; the stored row stands above\n"
+    );
+}
+
+#[test]
+fn what_is_stored_and_unchanged_is_reused_and_why_says_what_changed() {
+    let bench = Bench::new();
+    let why = |flags: &[&str]| bench.done(&[&["run", "./mini", "--why"], flags].concat());
+    let says =
+        |out: &str, line: &str| assert!(out.lines().any(|l| l == line), "{line}\nis missing in\n{out}");
+    says(&why(&[]), "draws: 48 trials");
+    let (first, records) = (bench.facts(RUNS), bench.tree(RUNS));
+    let again = why(&[]);
+    says(&again, "draws: 48 trials (24 of 24 units reused)");
+    says(&again, "  why: nothing that the stored trials depend on has changed");
+    let is_record = |path: &std::path::Path| path.extension().is_some_and(|ending| ending == "parquet");
+    assert!(bench.tree(RUNS).iter().filter(|(path, _)| is_record(path)).all(|(p, b)| records[p] == *b));
+
+    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 30");
+    says(&why(&[]), "draws: 60 trials (24 of 30 units reused)");
+    bench.edit("mini/draws.toml", "replicates = 30", "replicates = 24");
+    says(&why(&[]), "draws: 48 trials (24 of 24 units reused)");
+    assert!(bench.facts(RUNS) == first, "reuse brought other records than a run");
+
+    bench.edit("mini/draws.toml", "ties = \"fifo\" }\n\n", "ties = \"lifo\" }\n\n");
+    let changed = why(&[]);
+    says(&changed, "draws: 48 trials");
+    says(&changed, "  why: contender `A*` has changed");
+    says(&changed, "room: 1 trials (1 of 1 units reused)");
+    bench.edit("mini/draws.toml", "blocked_share = 0.3", "blocked_share = 0.2");
+    says(&why(&[]), "  why: problem group `drawn` has changed");
+    says(&why(&["--fresh"]), "draws: 48 trials");
+}
+
+#[test]
+fn a_figure_or_keep_added_later_gets_its_exhibits_and_another_timing_its_readings() {
+    let bench = Bench::new();
+    bench.done(&["run", "./mini"]);
+    let before = bench.tree(RUNS);
+    let part = |tree: &std::collections::BTreeMap<std::path::PathBuf, Vec<u8>>, name: &str| {
+        tree[&bench.at(&format!("{RUNS}/draws.{name}.parquet"))].clone()
+    };
+    bench.edit(
+        "mini/draws.toml",
+        "[[reading]]",
+        "[[keep]]\nproblems = \"drawn\"\nreplicates = 2\n\n[[reading]]",
+    );
+    bench.done(&["run", "./mini"]);
+    let kept = bench.tree(RUNS);
+    assert!(part(&kept, "exhibits").len() > part(&before, "exhibits").len(), "no exhibit was kept");
+    assert!(part(&kept, "trials") == part(&before, "trials"), "keeping exhibits changed rows");
+    bench.edit("mini/draws.toml", "repeats = 2", "repeats = 40");
+    bench.done(&["run", "./mini"]);
+    assert!(
+        part(&bench.tree(RUNS), "times").len() > part(&kept, "times").len(),
+        "the clock was not read again"
+    );
+}
+
+#[test]
+fn help_has_examples_and_nothing_is_coloured_in_a_pipe() {
+    let bench = Bench::new();
+    let help = bench.done(&["--help"]);
+    assert!(help.contains("Examples:\n  replan repro zhang "), "{help}");
+    for command in ["repro", "check", "run", "judge", "render", "list"] {
+        assert!(help.contains(&format!("\n  {command} ")), "{help}");
+        assert!(bench.done(&[command, "--help"]).contains("Usage: replan "), "{command}");
+    }
+    bench.done(&["run", "./mini"]);
+    let said = bench.run(&["repro", "./mini", "--quick"]);
+    assert!(said.out.contains("verdict"), "{}", said.out);
+    for text in [&help, &said.out, &said.err, &bench.run(&["repro"]).err] {
+        assert!(!text.contains('\x1b'), "{text}");
+    }
+}

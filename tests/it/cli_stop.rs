@@ -1,0 +1,148 @@
+//! Runs that are stopped: by Ctrl-C or killed anywhere, the same command goes on and ends with equal bytes.
+
+use crate::paper::Bench;
+use rand::RngExt as _;
+use replan::seed;
+use std::fs;
+use std::process::{Child, Command};
+use std::thread::sleep;
+use std::time::Duration;
+
+const JOURNAL: &str = "mini/out/data/runs/mini/draws.journal";
+
+/// A bench whose study takes a moment: enough units that a run can be caught at work.
+fn slow() -> Bench {
+    let bench = Bench::new();
+    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 300");
+    bench.edit("mini/draws.toml", "[12, 12]", "[60, 60]");
+    bench.edit("mini/draws.toml", "[11, 9]", "[59, 50]");
+    bench.edit(
+        "mini/draws.toml",
+        "[[reading]]",
+        "[[keep]]\nproblems = \"drawn\"\nreplicates = 40\n\n[[reading]]",
+    );
+    bench
+}
+
+fn start(bench: &Bench, threads: &str) -> Child {
+    bench.command(&["run", "./mini", "--threads", threads]).spawn().unwrap()
+}
+
+fn journal_bytes(bench: &Bench) -> u64 {
+    fs::metadata(bench.at(JOURNAL)).map_or(0, |file| file.len())
+}
+
+/// Waits until the journal holds `bytes` or the run is over; whether the run is still at work then.
+fn await_journal(bench: &Bench, run: &mut Child, bytes: u64) -> bool {
+    while run.try_wait().unwrap().is_none() {
+        if journal_bytes(bench) >= bytes {
+            return true;
+        }
+        sleep(Duration::from_micros(200));
+    }
+    false
+}
+
+/// The bytes of a whole journal and the records of an undisturbed run.
+fn undisturbed(bench: &Bench) -> std::collections::BTreeMap<String, Vec<u8>> {
+    bench.done(&["run", "./mini", "--out", "calm"]);
+    bench.facts("calm")
+}
+
+/// Units in a journal: its lines but for the first.
+fn units(bench: &Bench) -> usize {
+    fs::read(bench.at(JOURNAL)).map_or(0, |bytes| bytes.iter().filter(|b| **b == b'\n').count().max(1) - 1)
+}
+
+#[test]
+fn a_run_killed_at_20_random_points_ends_with_the_bytes_of_an_undisturbed_one() {
+    let bench = slow();
+    let calm = undisturbed(&bench);
+    let whole_bytes = 400_000;
+    let (mut midway, mut done) = (0, 0);
+    for round in 0..4_u64 {
+        let mut stream = seed::stream(seed::derive(20, &["kill", &round.to_string()]));
+        for kill in 0..5 {
+            let mut run = start(&bench, ["1", "2"][(round % 2) as usize]);
+            let from = journal_bytes(&bench);
+            let until = from + stream.random_range(0..whole_bytes / 3);
+            let at_work = await_journal(&bench, &mut run, until);
+            run.kill().unwrap();
+            run.wait().unwrap();
+            let kept = units(&bench);
+            midway += usize::from(at_work && (1..300).contains(&kept));
+            done += usize::from(!at_work);
+            assert!(kept <= 300, "round {round}, kill {kill}: {kept} units");
+        }
+        let out = bench.done(&["run", "./mini"]);
+        assert!(
+            bench.facts("mini/out") == calm,
+            "round {round}: other bytes than the undisturbed run's\n{out}"
+        );
+        let left: Vec<_> = bench
+            .tree("mini/out")
+            .into_keys()
+            .filter(|p| !p.extension().is_some_and(|e| ["parquet", "toml"].iter().any(|known| e == *known)))
+            .collect();
+        assert!(left.is_empty(), "round {round}: left behind {left:?}");
+        fs::remove_dir_all(bench.at("mini/out")).unwrap();
+    }
+    println!("{midway} midway, {done} done");
+    assert!(midway >= 8, "only {midway} of 20 kills hit a run at work; {done} came too late");
+}
+
+#[test]
+fn ctrl_c_finishes_the_units_at_work_says_what_it_kept_and_the_run_goes_on() {
+    let bench = slow();
+    let calm = undisturbed(&bench);
+    let mut run = start(&bench, "2");
+    assert!(await_journal(&bench, &mut run, 20_000), "the run was over before it could be interrupted");
+    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).status().unwrap();
+    assert!(sent.success());
+    let said = bench.said(&run.wait_with_output().unwrap());
+    assert_eq!(said.code, Some(130), "{}", said.err);
+    let kept = units(&bench);
+    let message = format!(
+        "stopping after the units at work; press Ctrl-C again to stop at once\n\
+         replan: interrupted: {kept} of 300 units of study `draws` are kept; the same command goes on from there\n"
+    );
+    assert_eq!(said.err, message);
+    assert!((1..300).contains(&kept), "{kept}");
+    let out = bench.done(&["run", "./mini"]);
+    assert!(out.starts_with(&format!("draws: 600 trials ({kept} of 300 units resumed)\n")), "{out}");
+    assert!(bench.facts("mini/out") == calm);
+}
+
+#[test]
+fn ctrl_c_while_the_clock_is_read_keeps_the_trials_and_stores_no_half_sample() {
+    let bench = slow();
+    bench.edit("mini/draws.toml", "problems = 2\nrepeats = 2", "problems = 300\nrepeats = 20");
+    let mut run = start(&bench, "2");
+    while units(&bench) < 300 {
+        assert!(run.try_wait().unwrap().is_none(), "the run was over before its clock was seen");
+        sleep(Duration::from_micros(500));
+    }
+    sleep(Duration::from_millis(30));
+    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).status().unwrap();
+    assert!(sent.success());
+    let said = bench.said(&run.wait_with_output().unwrap());
+    assert_eq!(said.code, Some(130), "{}", said.err);
+    assert!(said.err.contains("300 of 300 units of study `draws` are kept"), "{}", said.err);
+    assert!(bench.facts("mini/out").is_empty(), "records were written");
+    bench.edit("mini/draws.toml", "problems = 300\nrepeats = 20", "problems = 2\nrepeats = 2");
+    assert!(bench.done(&["run", "./mini"]).starts_with("draws: 600 trials (300 of 300 units resumed)\n"));
+}
+
+#[test]
+fn a_journal_of_another_study_is_not_believed() {
+    let bench = slow();
+    let mut run = start(&bench, "2");
+    assert!(await_journal(&bench, &mut run, 20_000), "the run was over before it could be killed");
+    run.kill().unwrap();
+    run.wait().unwrap();
+    bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
+    let out = bench.done(&["run", "./mini"]);
+    assert!(out.starts_with("draws: 600 trials\n"), "{out}");
+    bench.done(&["run", "./mini", "--out", "calm"]);
+    assert!(bench.facts("mini/out") == bench.facts("calm"));
+}

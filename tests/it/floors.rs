@@ -1,0 +1,215 @@
+//! Holds the floors of `lib.rs`: a module names only modules on lower floors.
+
+use crate::source::{File, files};
+use std::collections::BTreeMap;
+
+/// Floors that the verifier may not stand on, although they are below it: it judges with code of its own.
+const BANNED_FROM_VERIFY: [&str; 5] = ["geometry", "space", "search", "shorten", "planner"];
+
+/// The most lines that a file may have.
+const FILE_LINES: usize = 400;
+
+/// The most lines that a function may have, signature and braces included.
+const FUNCTION_LINES: usize = 40;
+
+/// Every module of the crate with its floor, 0 at the bottom.
+fn floors(lib: &File) -> BTreeMap<String, usize> {
+    let mut floors = BTreeMap::new();
+    let mut floor = 0;
+    let lines = lib.code.lines().skip_while(|line| line.trim().is_empty());
+    for line in lines {
+        match line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';')) {
+            Some(module) => {
+                floors.insert(module.to_owned(), floor);
+            }
+            None => floor += 1,
+        }
+    }
+    floors
+}
+
+/// The crate's top modules that `file` names in paths, with the line.
+fn named(file: &File) -> Vec<(usize, String)> {
+    let depth = file.modules().len();
+    let mut inside = 0;
+    let mut named = Vec::new();
+    let mut start = 0;
+    for (index, line) in file.code.lines().enumerate() {
+        inside = match line {
+            _ if line.starts_with("mod ") && line.ends_with('{') => 1,
+            "}" => 0,
+            _ => inside,
+        };
+        let to_root = "super::".repeat(depth + inside);
+        for prefix in ["crate::", to_root.as_str()] {
+            for (at, _) in line.match_indices(prefix) {
+                let is_whole = prefix == "crate::" || !line[..at].ends_with("super::");
+                let is_word = !line[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+                if is_whole && is_word {
+                    let rest = &file.code[start + at + prefix.len()..];
+                    named.extend(heads(rest).into_iter().map(|head| (index + 1, head)));
+                }
+            }
+        }
+        start += line.len() + 1;
+    }
+    named
+}
+
+/// The first names after a path's root: one, or those of a braced list.
+fn heads(rest: &str) -> Vec<String> {
+    let word = |text: &str| -> String {
+        text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+    };
+    let Some(list) = rest.strip_prefix('{') else { return vec![word(rest)] };
+    let mut depth = 1;
+    let mut heads = vec![word(list)];
+    for (at, c) in list.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 1 => heads.push(word(&list[at + 1..])),
+            _ => {}
+        }
+        if depth == 0 {
+            break;
+        }
+    }
+    heads.retain(|head| !head.is_empty());
+    heads
+}
+
+/// Every way in which `files` break the floors.
+fn violations(files: &[File]) -> Vec<String> {
+    let lib = files.iter().find(|file| file.path.as_os_str() == "lib.rs").unwrap();
+    let floors = floors(lib);
+    let mut found = Vec::new();
+    for file in files {
+        let Some(own) = file.modules().first().cloned() else { continue };
+        let Some(floor) = floors.get(&own) else {
+            found.push(format!("{}: module `{own}` is not in lib.rs", file.path.display()));
+            continue;
+        };
+        for (line, other) in named(file) {
+            let place = format!("{}:{line}: `{own}` names `{other}`", file.path.display());
+            match floors.get(&other) {
+                _ if other == own => {}
+                None => found.push(format!("{place}, which is no module of lib.rs")),
+                Some(below) if below >= floor => {
+                    found.push(format!("{place}, which is not on a lower floor"))
+                }
+                Some(_) if own == "verify" && BANNED_FROM_VERIFY.contains(&other.as_str()) => {
+                    found.push(format!("{place}, but the verifier judges with code of its own"));
+                }
+                Some(_) => {}
+            }
+        }
+    }
+    found
+}
+
+/// Every function that is longer than `most` lines: file, line, length.
+fn long_functions(file: &File, most: usize) -> Vec<String> {
+    let lines: Vec<&str> = file.code.lines().collect();
+    let mut found = Vec::new();
+    for (start, line) in lines.iter().enumerate() {
+        let indent = line.len() - line.trim_start().len();
+        let words = line.split_whitespace().take_while(|word| !word.contains('='));
+        let before_fn: Vec<&str> = words.take_while(|word| *word != "fn").collect();
+        let is_fn = line.contains("fn ")
+            && before_fn.len() < line.split_whitespace().count()
+            && before_fn.iter().all(|word| word.starts_with("pub") || ["const", "async"].contains(word));
+        if !is_fn {
+            continue;
+        }
+        let closing = format!("{}}}", " ".repeat(indent));
+        let ends = |at: usize| at == start && line.ends_with(['}', ';']) || lines[at] == closing;
+        let is_bare =
+            |at: usize| lines[at].ends_with(';') && lines[at].starts_with(&closing.replace('}', ")"));
+        let end = (start..lines.len()).find(|at| ends(*at) || is_bare(*at)).unwrap_or(start);
+        let length = end - start + 1;
+        if length > most {
+            found.push(format!("{}:{}: {length} lines", file.path.display(), start + 1));
+        }
+    }
+    found
+}
+
+#[test]
+fn modules_name_only_lower_floors() {
+    let files = files();
+    let named: usize = files.iter().map(|file| named(file).len()).sum();
+    assert!(named > 200, "only {named} paths were read; the reader is blind");
+    let found = violations(&files);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn broken_floors_are_noticed_in_a_tree_made_up_for_it() {
+    let lib =
+        "//! Doc.\n\npub mod seed;\npub mod settings;\n\npub mod space;\n\npub mod verify;\n\npub mod cli;\n";
+    let tree = |path: &str, text: &str| violations(&[File::new("lib.rs", lib), File::new(path, text)]);
+    for (path, text, complaint) in [
+        ("seed.rs", "use crate::space::World;", "seed.rs:1: `seed` names `space`, which is not on a lower"),
+        ("seed.rs", "use crate::settings::Settings;", "which is not on a lower floor"),
+        ("space/mod.rs", "fn a() {\n    crate::cli::run();\n}", "space/mod.rs:2: `space` names `cli`"),
+        ("space/mod.rs", "use super::cli::run;", "`space` names `cli`"),
+        ("space/lattice/tests.rs", "use super::super::super::cli::run;", "`space` names `cli`"),
+        ("space/lattice.rs", "mod tests {\n    use super::super::super::cli;\n}", "`space` names `cli`"),
+        (
+            "space/lattice.rs",
+            "use crate::{\n    seed::derive,\n    cli::{run, Cli},\n};",
+            "`space` names `cli`",
+        ),
+        ("verify/lattice.rs", "use crate::space::World;", "the verifier judges with code of its own"),
+        ("attic.rs", "", "module `attic` is not in lib.rs"),
+        ("cli.rs", "use crate::attic::x;", "`attic`, which is no module of lib.rs"),
+    ] {
+        let found = tree(path, text);
+        assert!(found.len() == 1 && found[0].contains(complaint), "{path}\n{text}\n{found:?}");
+    }
+    for (path, text) in [
+        ("space/mod.rs", "use crate::seed::derive; // not crate::cli"),
+        ("space/lattice.rs", "use super::World;\nmod tests {\n    use super::super::World;\n}"),
+        ("verify/lattice.rs", "use crate::seed::derive;"),
+        ("cli.rs", "const TEXT: &str = \"crate::attic\";"),
+    ] {
+        assert_eq!(tree(path, text), [""; 0], "{path}\n{text}");
+    }
+}
+
+#[test]
+fn no_file_is_longer_than_400_lines_and_no_function_than_40() {
+    let mut found = Vec::new();
+    for file in files() {
+        let lines = file.code.lines().count();
+        if lines > FILE_LINES {
+            found.push(format!("{}: {lines} lines", file.path.display()));
+        }
+        found.extend(long_functions(&file, FUNCTION_LINES));
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn a_long_function_is_noticed() {
+    let text = "impl A {\n    pub fn a(\n        b: u8,\n    ) -> u8 {\n        b\n    }\n\n    fn c() {}\n}\n\
+                trait B {\n    fn d(\n        e: u8,\n    ) -> u8;\n    fn f();\n}\nfn g() {\n    if h {\n    }\n}\n";
+    let file = File::new("a.rs", text);
+    assert_eq!(long_functions(&file, 4), ["a.rs:2: 5 lines"]);
+    assert_eq!(long_functions(&file, 3), ["a.rs:2: 5 lines", "a.rs:16: 4 lines"]);
+}
+
+#[test]
+fn time_is_read_in_the_clock_alone_and_no_lint_is_silenced() {
+    let mut readers = Vec::new();
+    for file in files() {
+        let words = file.code.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        if words.into_iter().any(|word| ["Instant", "SystemTime"].contains(&word)) {
+            readers.push(file.path.display().to_string());
+        }
+        let silenced = file.code.contains("#[allow") || file.code.contains("#![allow");
+        assert!(!silenced, "{}: write #[expect(lint, reason)] instead of #[allow]", file.path.display());
+    }
+    assert_eq!(readers, ["study/clock.rs"]);
+}

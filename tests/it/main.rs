@@ -1,0 +1,9 @@
+//! Tests of the crate from outside: its source, its registries, its planners, its command line.
+
+mod cli_input;
+mod cli_run;
+mod cli_stop;
+mod floors;
+mod paper;
+mod registries;
+mod source;

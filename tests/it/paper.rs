@@ -1,0 +1,237 @@
+//! A tiny paper in a folder of its own, and the program run on it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+const PAPER: &str = r#"[source]
+title = "A tiny paper"
+authors = "N. N."
+
+[prints]
+figures = 1
+tables = 1
+equations = 0
+
+[[ledger]]
+item = "Fig. 1"
+says = "a search in a room"
+figures = ["fig1"]
+
+[[ledger]]
+item = "Table 1"
+says = "cost and nodes"
+figures = ["table1"]
+
+[[claim]]
+id = "cost"
+at = "Table 1, A*, cost"
+printed = "8.24"
+unit = "cells"
+[claim.check.attained]
+metric = "path_cost_cells"
+contenders = ["A*"]
+in = [{ study = "room", problems = ["room"] }]
+
+[[claim]]
+id = "nodes"
+at = "section 1"
+says = "two sides open fewer nodes"
+[claim.check.ordering]
+study = "draws"
+problems = ["drawn"]
+metric = "nodes"
+lower = "Two-sided"
+higher = "A*"
+on = "average"
+
+[[table]]
+id = "table1"
+caption = "Printed and ours"
+columns = ["Cost", "Nodes"]
+[[table.row]]
+label = "A*"
+claims = ["cost", "nodes"]
+"#;
+
+const DRAWS: &str = r#"paper = "mini"
+question = "Which side opens more?"
+seed = 7
+
+[budget]
+expansions = 10_000
+
+[quick]
+replicates = 3
+
+[timing]
+problems = 2
+repeats = 2
+
+[[problems]]
+label = "drawn"
+family = "random_cells"
+replicates = 24
+settings = { size_cells = [12, 12], start = [0, 0], goal = [11, 9], blocked_share = 0.3, corner_rule = "allow" }
+
+[[contender]]
+label = "A*"
+planner = "astar"
+settings = { weight = 1, ties = "fifo" }
+
+[[contender]]
+label = "Two-sided"
+planner = "bidirectional"
+settings = { weight = "one", meeting = "generated_any", side = "alternate", ties = "fifo" }
+then = [{ stage = "delete_inflections", settings = { line_of_sight = "exact_interior" } }]
+
+[[reading]]
+id = "nodes"
+why = "not said"
+default = "opened"
+[reading.option.opened]
+metric = { nodes = "opened" }
+[reading.option.closed]
+metric = { nodes = "closed" }
+
+[[reading]]
+id = "corners"
+why = "not said"
+default = "allow"
+[reading.option.allow]
+problem = { corner_rule = "allow" }
+[reading.option.forbid_any]
+problem = { corner_rule = "forbid_any" }
+"#;
+
+const ROOM: &str = r##"paper = "mini"
+question = "What does the room cost?"
+seed = 8
+searched = true
+
+[budget]
+expansions = 10_000
+
+[quick]
+replicates = 1
+
+[[problems]]
+label = "room"
+family = "grid_map"
+settings = { map = "room.map.txt", start = [0, 0], goal = [6, 3], corner_rule = "forbid_any" }
+
+[[contender]]
+label = "A*"
+planner = "astar"
+settings = { weight = 1, ties = "fifo" }
+
+[[figure]]
+id = "fig1"
+kind = "grid_search"
+caption = "A search in a room."
+shows = [{ problems = "room", replicates = 1 }]
+settings = { problem = "room", contenders = ["A*"] }
+"##;
+
+const MAP: &str = "; a room with a wall\n.......\n...#...\n...#...\n...#...\n";
+
+/// A folder that holds the paper `mini` and whatever is run on it.
+pub struct Bench {
+    folder: TempDir,
+}
+
+/// What the program said; the bench's folder is written as `[dir]`.
+#[derive(Debug, PartialEq)]
+pub struct Said {
+    pub code: Option<i32>,
+    pub out: String,
+    pub err: String,
+}
+
+impl Bench {
+    /// A fresh folder with the paper.
+    pub fn new() -> Self {
+        let bench = Self { folder: tempfile::tempdir().unwrap() };
+        for (name, text) in [("paper", PAPER), ("draws", DRAWS), ("room", ROOM)] {
+            bench.write(&format!("mini/{name}.toml"), text.as_bytes());
+        }
+        bench.write("mini/room.map.txt", MAP.as_bytes());
+        bench
+    }
+
+    /// The place called `name` in the folder.
+    pub fn at(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Writes a file, making folders on the way.
+    pub fn write(&self, name: &str, bytes: &[u8]) {
+        fs::create_dir_all(self.at(name).parent().unwrap()).unwrap();
+        fs::write(self.at(name), bytes).unwrap();
+    }
+
+    /// Replaces `from`, which must stand in the file once or more, by `to` where it stands first.
+    pub fn edit(&self, name: &str, from: &str, to: &str) {
+        let text = fs::read_to_string(self.at(name)).unwrap();
+        assert!(text.contains(from), "{name} does not hold `{from}`");
+        fs::write(self.at(name), text.replacen(from, to, 1)).unwrap();
+    }
+
+    /// Every file below `name` with its bytes, but for what only a run at work has.
+    pub fn tree(&self, name: &str) -> BTreeMap<PathBuf, Vec<u8>> {
+        let mut found = BTreeMap::new();
+        collect(&self.at(name), &mut found);
+        found
+    }
+
+    /// The records below `name` that must repeat: trials, prepared objects, exhibits.
+    pub fn facts(&self, name: &str) -> BTreeMap<String, Vec<u8>> {
+        let is_fact = |path: &str| {
+            ["trials", "prepared", "exhibits"].iter().any(|part| path.ends_with(&format!(".{part}.parquet")))
+        };
+        let named = self
+            .tree(name)
+            .into_iter()
+            .map(|(path, bytes)| (path.file_name().unwrap().to_string_lossy().into_owned(), bytes));
+        named.filter(|(path, _)| is_fact(path)).collect()
+    }
+
+    /// The program, ready to be called with `arguments` in the folder.
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_replan"));
+        command.current_dir(self.folder.path()).args(arguments);
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    /// Runs the program to its end.
+    pub fn run(&self, arguments: &[&str]) -> Said {
+        self.said(&self.command(arguments).output().unwrap())
+    }
+
+    /// Runs the program, which must succeed, and gives what it printed.
+    pub fn done(&self, arguments: &[&str]) -> String {
+        let said = self.run(arguments);
+        assert_eq!(said.code, Some(0), "{arguments:?}\n{}{}", said.out, said.err);
+        said.out
+    }
+
+    pub fn said(&self, output: &Output) -> Said {
+        let place = self.folder.path().display().to_string();
+        let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap().replace(&place, "[dir]");
+        Said { code: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
+    }
+}
+
+fn collect(folder: &Path, found: &mut BTreeMap<PathBuf, Vec<u8>>) {
+    for entry in fs::read_dir(folder).into_iter().flatten() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            collect(&path, found);
+        } else if !path.ends_with(".lock") {
+            found.insert(path.clone(), fs::read(&path).unwrap());
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Holds every registry to its folder: each file with an entry is registered under its own name, in order.
+
+use crate::source::files;
+use replan::analysis::check;
+use replan::planner;
+use replan::render::figure;
+use replan::study::{family, prepared, task};
+
+/// A registry as tests see it: its folder, the names it lists, and the names that its `find` gives back.
+struct Registry {
+    folder: &'static str,
+    names: Vec<&'static str>,
+    found: Vec<Option<&'static str>>,
+}
+
+macro_rules! registry {
+    ($folder:literal, $module:ident) => {{
+        let names: Vec<&'static str> = $module::REGISTRY.iter().map(|entry| entry.name).collect();
+        let found = names.iter().map(|name| $module::find(name).map(|entry| entry.name)).collect();
+        assert!($module::find("no such thing").is_none());
+        Registry { folder: $folder, names, found }
+    }};
+}
+
+fn registries() -> Vec<Registry> {
+    vec![
+        registry!("planner", planner),
+        registry!("study/family", family),
+        registry!("study/prepared", prepared),
+        registry!("study/task", task),
+        registry!("analysis/check", check),
+        registry!("render/figure", figure),
+    ]
+}
+
+#[test]
+fn every_file_with_an_entry_is_registered_under_its_own_name_and_nothing_else_is() {
+    let files = files();
+    for Registry { folder, names, .. } in registries() {
+        let in_folder: Vec<String> = files
+            .iter()
+            .filter(|file| file.code.contains("pub static ENTRY: Entry"))
+            .filter_map(|file| {
+                file.modules().join("/").strip_prefix(&format!("{folder}/")).map(str::to_owned)
+            })
+            .collect();
+        assert_eq!(names, in_folder, "{folder}: the registry, then the files with an entry");
+    }
+}
+
+#[test]
+fn registries_are_in_order_and_every_entry_is_found_by_its_name() {
+    for Registry { folder, names, found } in registries() {
+        assert!(!names.is_empty(), "{folder} is empty");
+        assert!(names.windows(2).all(|pair| pair[0] < pair[1]), "{folder}: {names:?}");
+        assert_eq!(found, names.iter().copied().map(Some).collect::<Vec<_>>(), "{folder}");
+    }
+}
+
+#[test]
+fn no_entry_lies_outside_a_registry() {
+    let folders: Vec<&str> = registries().iter().map(|registry| registry.folder).collect();
+    for file in files().iter().filter(|file| file.code.contains("static ENTRY")) {
+        let modules = file.modules();
+        let folder = modules[..modules.len() - 1].join("/");
+        assert!(folders.contains(&folder.as_str()), "{}: no registry is known there", file.path.display());
+    }
+}
