@@ -36,13 +36,27 @@ const fn metric(name: &'static str, label: &'static str, unit: &'static str, bet
 
 /// Every metric, in the order of their names.
 pub static METRICS: &[Metric] = &[
+    metric("adjustments", "Adjustments", "", Better::Neither),
     metric("bends", "Bends", "", Better::Lower),
     metric("closed", "Closed nodes", "", Better::Lower),
+    metric("cut_in_cm", "Cut-in depth", "cm", Better::Lower),
     metric("expansions", "Expansions", "", Better::Lower),
     metric("generated", "Generated successors", "", Better::Lower),
+    metric("joint_jitter_rad", "Joint jitter", "rad", Better::Lower),
+    metric("joint_range_rad", "Joint range", "rad", Better::Neither),
+    metric("joint_travel_rad", "Joint travel", "rad", Better::Lower),
     metric("opened", "Opened nodes", "", Better::Lower),
     metric("optimal_cost_cells", "Optimal cost", "cells", Better::Neither),
     metric("path_cost_cells", "Path cost", "cells", Better::Lower),
+    metric("path_length_cm", "Path length", "cm", Better::Lower),
+    Metric {
+        name: "plan_time_ms",
+        label: "Planning time",
+        unit: "ms",
+        better: Better::Lower,
+        column: clock::COLUMN,
+        scale: 1e-6,
+    },
     Metric {
         name: "plan_time_us",
         label: "Planning time",
@@ -51,6 +65,8 @@ pub static METRICS: &[Metric] = &[
         column: clock::COLUMN,
         scale: 1e-3,
     },
+    metric("posture_jitter_rad", "Posture jitter", "rad", Better::Lower),
+    metric("tip_jitter_cm", "Tip jitter", "cm", Better::Lower),
     metric("turn_exterior_deg", "Turn sum, exterior angles", "°", Better::Lower),
     metric("turn_interior_deg", "Turn sum, interior angles", "°", Better::Lower),
 ];

@@ -208,7 +208,7 @@ fn joint_plan(
 ) -> Plan {
     let tips: Vec<Vec<f64>> = trail.iter().map(|q| arm.tip(q).as_slice().to_vec()).collect();
     let exhibits =
-        if trace && !trail.is_empty() { vec![super::posture::rods(arm, trail)] } else { Vec::new() };
+        if trace && !trail.is_empty() { super::posture::trails(arm, trail) } else { Vec::new() };
     Plan {
         ending,
         path: trail.iter().map(|q| q.to_vec()).collect(),

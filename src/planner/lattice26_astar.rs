@@ -1,7 +1,7 @@
 //! A* on the cubic lattice with 26 neighbours, among polyhedra.
 
 use super::lattice::{COLUMNS, TiesSetting, UPDATE};
-use super::polyhedra::{Posed, exhibit, plan};
+use super::polyhedra::{Posed, plan};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
 use crate::geometry::{Segment, Vec3};
 use crate::grid::STEPS_26;
@@ -150,12 +150,7 @@ impl Planner for Pooled {
         let idle = self.idle.lock().expect("no thread panics while it takes a search").pop();
         let mut memory = idle.unwrap_or_else(|| Search::new(Heap::new(self.settings.ties.into())));
         let found = search(&posed, self.settings.checked, &mut memory, request.expansions)?;
-        let mut plan = plan(found.ending, &found.points, counts(&found.report));
-        if request.trace {
-            let opened: Vec<Vec3> =
-                memory.opened().iter().step_by(TRACED).map(|node| posed.world.point(*node)).collect();
-            plan.exhibits.push(exhibit("opened", &opened));
-        }
+        let plan = plan(found.ending, &found.points, counts(&found.report));
         self.idle.lock().expect("no thread panics while it returns a search").push(memory);
         Ok(plan)
     }
@@ -168,9 +163,6 @@ impl Planner for Pooled {
         false
     }
 }
-
-/// Every how many opened nodes one is kept for figures.
-const TRACED: usize = 50;
 
 /// A search's counters by column.
 pub(super) fn counts(report: &Report<f64>) -> Counts {

@@ -138,7 +138,7 @@ impl Posture {
             return without_path(plan);
         };
         if request.trace {
-            plan.exhibits.push(rods(follower.arm, &follower.trail));
+            plan.exhibits.extend(trails(follower.arm, &follower.trail));
         }
         if let Some(node) = failed_at {
             if self.diagnose {
@@ -176,8 +176,16 @@ fn other(follower: &Follower<'_>, tip: &Vec3, reach: [f64; 3]) -> bool {
     })
 }
 
+/// What figures need of a trail: rods, the tip's way, and its turns from pointing down.
+pub(super) fn trails(arm: &CarriedArm, trail: &[Joints]) -> Vec<Exhibit> {
+    let tips: Vec<Vec3> = trail.iter().map(|q| arm.tip(q)).collect();
+    let turn = |q: &Joints| rotation::log(&(arm.arm().chain().forward(q).rotation * DOWN.transpose()));
+    let turns: Vec<Vec3> = trail.iter().map(turn).collect();
+    vec![rods(arm, trail), exhibit("tip_trail", &tips), exhibit("posture_trail", &turns)]
+}
+
 /// The rods at configurations spread evenly over the trail: number of the posture, both ends, radius.
-pub(super) fn rods(arm: &CarriedArm, trail: &[Joints]) -> Exhibit {
+fn rods(arm: &CarriedArm, trail: &[Joints]) -> Exhibit {
     let last = trail.len() - 1;
     let mut values = Vec::new();
     for k in 0..SHOWN {

@@ -51,7 +51,7 @@ pub fn outputs(
         }
     }
     for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
-        let text = tables::table(paper, table, verdicts)?;
+        let text = tables::table(evidence, table, verdicts)?;
         outputs.push(Output { name: format!("{}.tex", table.id), bytes: text.into_bytes() });
     }
     if is_wanted("numbers") {

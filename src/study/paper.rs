@@ -130,9 +130,28 @@ pub struct TableSpec {
     pub caption: String,
     /// The heads of its columns.
     pub columns: Vec<String>,
-    /// Its rows.
-    #[serde(rename = "row")]
+    /// Its rows: claims, printed beside ours.
+    #[serde(default, rename = "row")]
     pub rows: Vec<TableRow>,
+    /// What is measured, where the printed numbers are lost: one line a problem group and contender.
+    pub measured: Option<Measured>,
+    /// Lines as they are written, for tables of parameters.
+    #[serde(default)]
+    pub lines: Vec<Vec<String>>,
+}
+
+/// What fills a table of measurements; the columns are the share of trials solved and the metrics.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measured {
+    /// The study.
+    pub study: Spanned<String>,
+    /// Its problem groups.
+    pub problems: Vec<String>,
+    /// Its contenders.
+    pub contenders: Vec<String>,
+    /// The metrics, averaged over solved trials.
+    pub metrics: Vec<String>,
 }
 
 /// A row of a table.
@@ -281,6 +300,10 @@ impl Paper {
 
     fn check_tables(&self) -> Result<(), SettingsError> {
         for table in &self.tables {
+            if let Some(measured) = &table.measured {
+                let studies = self.studies.iter().map(|study| study.name.as_str()).collect();
+                self.known("study", std::slice::from_ref(&measured.study), &studies)?;
+            }
             for row in &table.rows {
                 if row.claims.len() != table.columns.len() {
                     let message = format!(

@@ -185,6 +185,11 @@ impl<'a> Field<'a> {
         files
     }
 
+    /// The names of one unit's trials.
+    pub fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+        self.task.trials(unit)
+    }
+
     /// One unit's records.
     pub fn run_unit(&self, unit: &Unit<'_>) -> Batch {
         self.task.run(self.study, unit)

@@ -121,18 +121,9 @@ pub fn run_one(
 ) -> Result<(Batch, Option<Row>), StudyError> {
     let field = Field::new(study, points, inputs)?;
     let units = field.units();
-    let owner = units.iter().find(|unit| {
-        unit.queries().iter().any(|query| {
-            unit.racers.iter().any(|racer| {
-                (0..racer.contender.repeats).any(|repeat| unit.trial(query, racer, repeat) == trial)
-            })
-        })
-    });
+    let owner = units.iter().find(|unit| field.trials(unit).iter().any(|name| name == trial));
     let Some(owner) = owner else {
-        let first = units.first().and_then(|unit| {
-            let query = unit.queries().into_iter().next()?;
-            Some(unit.trial(&query, unit.racers.first()?, 0))
-        });
+        let first = units.first().and_then(|unit| field.trials(unit).into_iter().next());
         let hint = format!("its first one is `{}/{}`", study.name, first.unwrap_or_default());
         return Err(StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint });
     };

@@ -4,13 +4,19 @@
 //! with stored records. What a check compares with is written in the claim, before the first run.
 
 mod attained;
+mod between_groups;
 mod compare;
 mod largest_saving;
 mod lattice_length;
 mod ordering;
 mod percentage;
 mod point_distance;
+mod ratio;
+mod repulsion;
+mod share;
 mod straight_line;
+mod text_contradiction;
+mod trend;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
@@ -50,13 +56,19 @@ pub struct Entry {
 /// Every check, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &attained::ENTRY,
+    &between_groups::ENTRY,
     &compare::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
     &ordering::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
+    &ratio::ENTRY,
+    &repulsion::ENTRY,
+    &share::ENTRY,
     &straight_line::ENTRY,
+    &text_contradiction::ENTRY,
+    &trend::ENTRY,
 ];
 
 /// The entry called `name`.

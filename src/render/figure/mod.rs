@@ -2,7 +2,13 @@
 //!
 //! A kind turns stored records and exhibits into a [`Sheet`]; it runs no trial and draws no statistics of its own.
 
+mod arm_poses;
 mod grid_search;
+mod motion_curves;
+mod polyhedra_paths;
+mod polyhedra_scene;
+mod saving_over;
+mod sweep_curves;
 
 use super::RenderError;
 use super::chart::Sheet;
@@ -44,11 +50,42 @@ pub struct Entry {
 }
 
 /// Every kind, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&grid_search::ENTRY];
+pub static REGISTRY: &[&Entry] = &[
+    &arm_poses::ENTRY,
+    &grid_search::ENTRY,
+    &motion_curves::ENTRY,
+    &polyhedra_paths::ENTRY,
+    &saving_over::ENTRY,
+    &sweep_curves::ENTRY,
+];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
     REGISTRY.iter().copied().find(|entry| entry.name == name)
+}
+
+/// Refuses problem groups and contenders that `study` does not have.
+fn known(
+    settings: &Settings,
+    study: &Study,
+    groups: &[&str],
+    contenders: &[String],
+) -> Result<(), SettingsError> {
+    for group in groups {
+        if !study.groups.iter().any(|known| known.label == *group) {
+            let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
+            let message = format!("no problem group is called `{group}`; they are {}", known.join(", "));
+            return Err(settings.error(message));
+        }
+    }
+    for contender in contenders {
+        if !study.contenders.iter().any(|known| known.label == *contender) {
+            let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
+            let message = format!("no contender is called `{contender}`; they are {}", known.join(", "));
+            return Err(settings.error(message));
+        }
+    }
+    Ok(())
 }
 
 /// Builds every figure of every study, so that `replan check` finds what is wrong before anything runs.

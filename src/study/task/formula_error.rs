@@ -106,17 +106,24 @@ impl FormulaError {
     fn segment(&self, stream: &mut Stream, convex: &Convex) -> Segment {
         let (low, high) = (convex.aabb().min, convex.aabb().max);
         let margin = (high - low) * self.reach;
-        let mut end = || {
-            Vec3::from_fn(|i, _| stream.random_range(low[i] - margin[i]..=high[i] + margin[i]))
-        };
+        let mut end = || Vec3::from_fn(|i, _| stream.random_range(low[i] - margin[i]..=high[i] + margin[i]));
         Segment::new(end(), end())
     }
 }
 
+/// The name of a unit's only trial.
+fn trial(unit: &Unit<'_>) -> String {
+    format!("{}/samples", unit.name)
+}
+
 impl Task for FormulaError {
+    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+        vec![trial(unit)]
+    }
+
     fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
         let mut row = Row {
-            trial: format!("{}/samples", unit.name),
+            trial: trial(unit),
             problem: unit.name.clone(),
             group: unit.group.label.clone(),
             replicate: unit.replicate,

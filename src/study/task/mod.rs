@@ -12,6 +12,17 @@ use crate::settings::{Settings, SettingsError};
 pub trait Task: Send + Sync {
     /// Does one unit of work: everything that shares one prepared object.
     fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch;
+
+    /// The names of the unit's trials: one a query, racer and repeat, unless the task does something else.
+    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+        let mut trials = Vec::new();
+        for query in &unit.queries() {
+            for racer in unit.racers {
+                trials.extend((0..racer.contender.repeats).map(|repeat| unit.trial(query, racer, repeat)));
+            }
+        }
+        trials
+    }
 }
 
 /// A registered task.
