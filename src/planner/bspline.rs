@@ -110,3 +110,6 @@ fn depth(world: &PolyhedraWorld, curve: &Curve) -> f64 {
     };
     curve.iter().map(|(_, point)| below(&(*point).into())).fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests;

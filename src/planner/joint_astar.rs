@@ -207,8 +207,7 @@ fn joint_plan(
     trace: bool,
 ) -> Plan {
     let tips: Vec<Vec<f64>> = trail.iter().map(|q| arm.tip(q).as_slice().to_vec()).collect();
-    let exhibits =
-        if trace && !trail.is_empty() { super::posture::trails(arm, trail) } else { Vec::new() };
+    let exhibits = if trace && !trail.is_empty() { super::posture::trails(arm, trail) } else { Vec::new() };
     Plan {
         ending,
         path: trail.iter().map(|q| q.to_vec()).collect(),
@@ -217,3 +216,6 @@ fn joint_plan(
         exhibits,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,7 +9,7 @@ use crate::study::paper::{Measured, Paper, TableSpec};
 use crate::study::record::Status;
 
 /// `table` in LaTeX: for each of its rows the printed numbers, ours with their intervals, and the verdicts; or what is
-/// measured in their place; or its lines as written.
+/// measured in their place.
 ///
 /// # Errors
 /// Those of [`Table::latex`], and [`RenderError::NotStored`] for a study or metric that there is not.
@@ -17,7 +17,6 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
     let paper = evidence.paper;
     let mut latex = match &table.measured {
         Some(measured) => measurements(evidence, table, measured)?,
-        None if table.rows.is_empty() => written(paper, table),
         None => claims(paper, table, verdicts),
     };
     for note in &paper.source.notes {
@@ -27,17 +26,6 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
         latex.note(super::output::QUICK);
     }
     latex.latex(&made(paper, &table.id))
-}
-
-/// The table's lines as they are written.
-fn written(paper: &Paper, table: &TableSpec) -> Table {
-    let columns: Vec<Column> = table.columns.iter().map(|_| Column::Left).collect();
-    let mut latex = Table::new(format!("{}:{}", paper.id, table.id), &table.caption, &columns);
-    latex.head(table.columns.iter().map(Cell::from).collect());
-    for line in &table.lines {
-        latex.row(line.iter().map(Cell::from).collect());
-    }
-    latex
 }
 
 /// One line a problem group and contender: the share of trials solved, and each metric's mean over them.
@@ -87,6 +75,11 @@ fn claims(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Table {
     head.extend(table.columns.iter().map(Cell::from));
     latex.head(head);
     for row in &table.rows {
+        if row.claims.is_empty() {
+            let cells = [row.label.as_str(), ""].into_iter().chain(row.cells.iter().map(String::as_str));
+            latex.row(cells.map(Cell::from).collect());
+            continue;
+        }
         let judged: Vec<Option<&Judged>> =
             row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
         let line = |first: &str, second: &str, text: &dyn Fn(&Judged) -> String| {

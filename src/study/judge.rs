@@ -20,12 +20,12 @@ pub const LATTICE_COLUMNS: &[&str] =
     &["path_cost_cells", "turn_exterior_deg", "turn_interior_deg", "bends", "optimal_cost_cells"];
 
 /// What the verifier found out about a query before any planner ran.
-#[derive(Debug, Clone)]
-pub struct Truth {
-    /// The least cost in the world's graph; `None` if the goal cannot be reached, or in worlds without a graph.
-    pub optimal: Option<f64>,
-    /// What there is to know of polyhedra.
-    polyhedra: Option<polyhedra::Truth>,
+#[derive(Debug)]
+pub enum Truth {
+    /// On a lattice: the least cost in the world's graph; `None` if the goal cannot be reached.
+    Lattice(Option<f64>),
+    /// Among polyhedra: the solids, and the arm if there is one.
+    Polyhedra(polyhedra::Truth),
 }
 
 /// The verifier's answer about one plan.
@@ -40,21 +40,19 @@ pub struct Judged {
 /// The truth about `query` in `world`.
 pub fn truth(world: &World, query: &Query) -> Truth {
     match world {
-        World::Lattice(lattice) => {
-            Truth { optimal: case(lattice, &query.start, &query.goal).optimal_cost(), polyhedra: None }
-        }
-        World::Polyhedra(world) => Truth { optimal: None, polyhedra: Some(polyhedra::truth(world)) },
+        World::Lattice(lattice) => Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost()),
+        World::Polyhedra(world) => Truth::Polyhedra(polyhedra::truth(world)),
     }
 }
 
 /// Judges `plan`, which `pipeline` returned for `request`.
 pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Judged {
-    match request.world {
-        World::Lattice(lattice) => judge_lattice(lattice, request, plan, pipeline, truth),
-        World::Polyhedra(world) => {
-            let truth = truth.polyhedra.as_ref().expect("the truth about polyhedra was asked for");
-            polyhedra::judge(world, request, plan, truth)
+    match (request.world, truth) {
+        (World::Lattice(lattice), Truth::Lattice(optimal)) => {
+            judge_lattice(lattice, request, plan, pipeline, *optimal)
         }
+        (World::Polyhedra(world), Truth::Polyhedra(truth)) => polyhedra::judge(world, request, plan, truth),
+        _ => unreachable!("the truth is about the request's world"),
     }
 }
 
@@ -67,11 +65,11 @@ fn judge_lattice(
     request: &Request<'_>,
     plan: &Plan,
     pipeline: &Pipeline,
-    truth: &Truth,
+    optimal: Option<f64>,
 ) -> Judged {
     let case = case(lattice, request.start, request.goal);
     let mut values = Counts::new();
-    if let Some(optimal) = truth.optimal {
+    if let Some(optimal) = optimal {
         values.insert("optimal_cost_cells", Value::Real(optimal));
     }
     let untouched = pipeline.stages.is_empty();
@@ -82,8 +80,8 @@ fn judge_lattice(
         optimal: untouched && pipeline.planner.is_optimal(),
     };
     let refusal = match plan.ending {
-        Ending::Solved => case.refuse_path(&answer, truth.optimal),
-        Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(truth.optimal),
+        Ending::Solved => case.refuse_path(&answer, optimal),
+        Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(optimal),
         Ending::NoPath | Ending::BudgetSpent => None,
     };
     if plan.ending == Ending::Solved && refusal.is_none() {

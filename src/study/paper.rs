@@ -135,9 +135,6 @@ pub struct TableSpec {
     pub rows: Vec<TableRow>,
     /// What is measured, where the printed numbers are lost: one line a problem group and contender.
     pub measured: Option<Measured>,
-    /// Lines as they are written, for tables of parameters.
-    #[serde(default)]
-    pub lines: Vec<Vec<String>>,
 }
 
 /// What fills a table of measurements; the columns are the share of trials solved and the metrics.
@@ -161,7 +158,11 @@ pub struct TableRow {
     /// Its head.
     pub label: String,
     /// The claim in each column.
+    #[serde(default)]
     pub claims: Vec<Spanned<String>>,
+    /// What stands in each column where the table holds no claims.
+    #[serde(default)]
+    pub cells: Vec<String>,
 }
 
 /// A checked paper with its studies.
@@ -305,12 +306,13 @@ impl Paper {
                 self.known("study", std::slice::from_ref(&measured.study), &studies)?;
             }
             for row in &table.rows {
-                if row.claims.len() != table.columns.len() {
+                let (claims, cells) = (row.claims.len(), row.cells.len());
+                if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
                     let message = format!(
-                        "row `{}` of table `{}` names {} claims; the table has {} columns",
+                        "row `{}` of table `{}` has {claims} claims and {cells} cells; either are accepted, one for each of \
+                         the {} columns",
                         row.label,
                         table.id,
-                        row.claims.len(),
                         table.columns.len()
                     );
                     let span = row.claims.first().map_or(0..0, Spanned::span);

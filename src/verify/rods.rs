@@ -193,3 +193,6 @@ impl Case<'_> {
         self.refuse_stretch(reaches, a, &middle).or_else(|| self.refuse_stretch(reaches, &middle, b))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -53,6 +53,15 @@ impl BetweenGroups<'_> {
     }
 }
 
+/// The mean of the tagged values less that of the others; `None` if either has none.
+fn difference(units: &[&(bool, f64)]) -> Option<f64> {
+    let mean = |tag: bool| {
+        let values: Vec<f64> = units.iter().filter(|unit| unit.0 == tag).map(|unit| unit.1).collect();
+        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    };
+    Some(mean(true)? - mean(false)?)
+}
+
 impl Check for BetweenGroups<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let tagged = |groups: &[String], tag: bool| {
@@ -60,13 +69,6 @@ impl Check for BetweenGroups<'_> {
         };
         let mut units = tagged(&self.settings.lower, false);
         units.extend(tagged(&self.settings.higher, true));
-        let difference = |units: &[&(bool, f64)]| {
-            let mean = |tag: bool| {
-                let values: Vec<f64> = units.iter().filter(|unit| unit.0 == tag).map(|unit| unit.1).collect();
-                (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-            };
-            Some(mean(true)? - mean(false)?)
-        };
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = bootstrap::percentile(&units, difference, plan) else {
