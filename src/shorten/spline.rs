@@ -18,8 +18,8 @@ pub fn cubic_spline(control: &[[f64; 3]], multiplicity: &[u8], per_span: u32) ->
             let weights = basis(f64::from(k) / f64::from(per_span));
             let mut point = [0.0; 3];
             for (&index, weight) in span.iter().zip(weights) {
-                for axis in 0..3 {
-                    point[axis] += weight * control[index][axis];
+                for (at, from) in point.iter_mut().zip(control[index]) {
+                    *at += weight * from;
                 }
             }
             points.push((span[1], point));

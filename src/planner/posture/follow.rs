@@ -48,10 +48,10 @@ impl Follower<'_> {
             return self.advance(next, self.rotation);
         }
         let recovered = self.recovered();
-        if self.clearance_at(next, &recovered).is_some_and(|clearance| clearance >= self.settings.act_cm) {
-            if let Some(()) = self.turn_and_advance(here, next, recovered) {
-                return Some(());
-            }
+        let has_room =
+            self.clearance_at(next, &recovered).is_some_and(|clearance| clearance >= self.settings.act_cm);
+        if has_room && self.turn_and_advance(here, next, recovered).is_some() {
+            return Some(());
         }
         let turned = self.adjusted(next)?;
         self.turn_and_advance(here, next, turned)
@@ -139,7 +139,7 @@ impl Follower<'_> {
 
     /// The joints after turning by `w`, by the Jacobian alone.
     fn dead_reckoned(&self, w: &Vec3) -> Option<Joints> {
-        let inverse = inverse(self.arm.tip_jacobian(&self.q), self.settings.damping)?;
+        let inverse = inverse(&self.arm.tip_jacobian(&self.q), self.settings.damping)?;
         let change = inverse * Vector6::new(0.0, 0.0, 0.0, w.x, w.y, w.z);
         Some(std::array::from_fn(|i| self.q[i] + change[i]))
     }

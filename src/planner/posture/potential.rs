@@ -56,7 +56,7 @@ pub(super) fn direction(settings: &Posture, arm: &CarriedArm, q: &Joints, field:
         let moves = arm.rod_jacobian(q, contact.rod, &contact.on_rod);
         gradient += away.transpose() * moves.fixed_rows::<3>(0) * slope;
     }
-    let turning = gradient * inverse(arm.tip_jacobian(q), settings.damping)?;
+    let turning = gradient * inverse(&arm.tip_jacobian(q), settings.damping)?;
     let turning = Vec3::new(turning[3], turning[4], turning[5]);
     let unit = turning.try_normalize(1e-300).filter(|unit| unit.iter().all(|c| c.is_finite()))?;
     Some(match settings.sign {
@@ -66,10 +66,9 @@ pub(super) fn direction(settings: &Posture, arm: &CarriedArm, q: &Joints, field:
 }
 
 /// The inverse of the tip's Jacobian in metres and radians, damped as least squares are.
-pub(super) fn inverse(mut jacobian: Matrix6<f64>, damping: f64) -> Option<Matrix6<f64>> {
-    for value in jacobian.fixed_view_mut::<3, 6>(0, 0).iter_mut() {
-        *value /= 100.0;
-    }
+pub(super) fn inverse(jacobian: &Matrix6<f64>, damping: f64) -> Option<Matrix6<f64>> {
+    let mut jacobian = *jacobian;
+    jacobian.fixed_view_mut::<3, 6>(0, 0).scale_mut(1e-2);
     if damping == 0.0 {
         return jacobian.try_inverse();
     }

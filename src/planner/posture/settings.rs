@@ -111,7 +111,7 @@ impl Posture {
             ("recovery_rad", read.recovery_rad, -f64::MIN_POSITIVE),
             ("bounds_rad", read.bounds_rad.into_iter().fold(f64::INFINITY, f64::min), 0.0),
         ] {
-            if !(value > above) || (value.is_infinite() && name != "bounds_rad") {
+            if value.is_nan() || value <= above || (value.is_infinite() && name != "bounds_rad") {
                 let least = if above < 0.0 { "0 or more" } else { "more than 0" };
                 return Err(settings.error(format!("{name} is {value}; {least} is accepted")));
             }

@@ -70,9 +70,9 @@ pub(super) fn add_obstacles(
     }
     if frame {
         let corners = points(stored(run, of, "domain")?);
-        edges(corners[0], corners[1]).into_iter().for_each(|edge| {
+        for edge in edges(corners[0], corners[1]) {
             scene.polyline(edge.to_vec(), Stroke::solid(BLACK.mixed(WHITE, 0.7), 0.4));
-        });
+        }
     }
     Ok(())
 }

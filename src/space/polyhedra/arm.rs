@@ -128,9 +128,7 @@ impl CarriedArm {
     fn jacobian(&self, q: &Joints, link: usize, point: &Vec3) -> Matrix6<f64> {
         let frames = self.arm.chain().frames(q);
         let mut jacobian = crate::kinematics::Chain::jacobian(&frames, link, &(point / CM_PER_M));
-        for value in jacobian.fixed_view_mut::<3, 6>(0, 0).iter_mut() {
-            *value *= CM_PER_M;
-        }
+        jacobian.fixed_view_mut::<3, 6>(0, 0).scale_mut(CM_PER_M);
         jacobian
     }
 }
