@@ -3,6 +3,14 @@
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
 //! wrong input files; 3 done, but what was checked is not as stored; 130 interrupted, and what was done is kept.
 
+/// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
+macro_rules! say {
+    ($($arguments:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stdout(), $($arguments)*);
+    }};
+}
+
 mod check;
 mod judge;
 mod list;

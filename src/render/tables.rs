@@ -25,7 +25,7 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
     if verdicts.quick {
         latex.note(super::output::QUICK);
     }
-    latex.latex(&made(paper, &table.id))
+    latex.latex(&made(paper, &table.id, verdicts))
 }
 
 /// One line a problem group and contender: the share of trials solved, and each metric's mean over them.
@@ -111,11 +111,12 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
         }
         numbers.add(&key("verdict"), judged.verdict.name())?;
     }
-    Ok(numbers.latex(&paper.id, &made(paper, "numbers")))
+    Ok(numbers.latex(&paper.id, &made(paper, "numbers", verdicts)))
 }
 
-fn made(paper: &Paper, id: &str) -> String {
-    format!("made by `replan render {} --only {id}`", paper.id)
+fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
+    let made = format!("made by `replan render {} --only {id}`", paper.id);
+    if verdicts.quick { format!("{made}. {}", super::output::QUICK) } else { made }
 }
 
 fn dash() -> String {

@@ -79,11 +79,11 @@ fn judge_lattice(
         in_graph: untouched,
         optimal: untouched && pipeline.planner.is_optimal(),
     };
-    let refusal = match plan.ending {
+    let refusal = refuse_ending(request, plan).or_else(|| match plan.ending {
         Ending::Solved => case.refuse_path(&answer, optimal),
         Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(optimal),
         Ending::NoPath | Ending::BudgetSpent => None,
-    };
+    });
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
     }
@@ -112,3 +112,17 @@ fn measured(path: &[Vec<f64>]) -> Counts {
         ("bends", Value::Count(inner as u64)),
     ])
 }
+
+/// Why `plan` contradicts its own ending; `None` if it does not, or counts no expansions.
+fn refuse_ending(request: &Request<'_>, plan: &Plan) -> Option<String> {
+    if plan.ending != Ending::Solved && (!plan.path.is_empty() || plan.cost.is_some()) {
+        return Some("a path or a cost is given although none is claimed".to_owned());
+    }
+    let expansions = plan.counts.get("expansions")?.as_f64();
+    (plan.ending == Ending::BudgetSpent && expansions < request.expansions as f64).then(|| {
+        format!("the budget is said to be spent after {expansions} of {} expansions", request.expansions)
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -3,7 +3,11 @@
 mod cli_input;
 mod cli_run;
 mod cli_stop;
+mod conformance;
 mod floors;
+mod laws;
 mod paper;
 mod registries;
+mod snapshots;
 mod source;
+mod worlds;

@@ -1,6 +1,6 @@
 //! Plans among polyhedra: tip paths (three numbers a point) and joint paths (six) in the verifier's terms.
 
-use super::{Judged, outcome};
+use super::{Judged, outcome, refuse_ending};
 use crate::geometry::Vec3;
 use crate::kinematics::AXES;
 use crate::planner::{Counts, Ending, Plan, Request, Value};
@@ -55,7 +55,7 @@ pub fn truth(world: &PolyhedraWorld) -> Truth {
 pub fn judge(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth: &Truth) -> Judged {
     let [start, goal] = [request.start, request.goal].map(|p| [p[0], p[1], p[2]]);
     let is_joints = plan.path.first().is_some_and(|point| point.len() == AXES);
-    let refusal = match (plan.ending, &truth.arm) {
+    let refusal = refuse_ending(request, plan).or_else(|| match (plan.ending, &truth.arm) {
         (Ending::Solved, Some(arm)) if is_joints => {
             rods::Case { arm, solids: &truth.solids, start, goal }.refuse_path(&plan.path, plan.cost)
         }
@@ -65,7 +65,7 @@ pub fn judge(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth: 
             case.refuse_path(&plan.path, plan.cost)
         }
         (Ending::NoPath | Ending::BudgetSpent, _) => None,
-    };
+    });
     let straight = (Vec3::from(start) - Vec3::from(goal)).norm();
     let mut values = Counts::from([
         ("obstacles", Value::Count(world.obstacles().len() as u64)),
