@@ -31,7 +31,8 @@ pub fn nearest_segment_segment_printed(p: &Segment, q: &Segment) -> Nearest {
     Nearest::between(p.at(clamped), q.at(t.clamp(0.0, 1.0)))
 }
 
-/// The nearest points of a segment and a polyhedron by edges and diagonals (see the [module](self)).
+/// The nearest points of a segment and a polyhedron by the edges and diagonals of its faces, or where the segment
+/// pierces a face, as Tang et al. (2023) compute them.
 pub fn nearest_segment_convex_printed(segment: &Segment, convex: &Convex) -> Nearest {
     let mut best = Nearest { distance: f64::INFINITY, on_a: segment.a, on_b: segment.a };
     for face in convex.faces() {
