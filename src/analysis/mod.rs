@@ -6,8 +6,11 @@
 pub mod audit;
 pub mod check;
 pub mod claims;
+pub mod draws;
+pub mod effect;
 pub mod evidence;
 pub mod interval;
 pub mod metric;
 pub mod stats;
+pub mod together;
 pub mod verdict;

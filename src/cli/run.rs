@@ -42,6 +42,7 @@ pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
     how.check_readings(&paper)?;
     claims::validate(&paper)?;
     crate::render::figure::validate(&paper)?;
+    crate::render::results::validate(&paper)?;
     Ok(paper)
 }
 

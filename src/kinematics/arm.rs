@@ -2,6 +2,7 @@
 
 use super::{
     KinematicsError,
+    angle::wrapped,
     ik::{self, Branch, Solutions, Solver},
     serial::{Chain, Joints},
 };
@@ -15,6 +16,15 @@ pub struct Arm {
     solver: Arc<dyn Solver>,
     base_inverse: Frame,
     tool_inverse: Frame,
+}
+
+/// Why a branch has no configuration for a pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Missed {
+    /// The wrist's centre is out of reach.
+    Unreachable,
+    /// A joint would be outside its limits.
+    Limits,
 }
 
 impl Arm {
@@ -47,6 +57,15 @@ impl Arm {
     #[inline]
     pub fn branch_of(&self, q: &Joints) -> Branch {
         self.solver.branch_of(q)
+    }
+
+    /// The least distance, in the space of joint angles, from `reference` to a configuration that has the elbow or the
+    /// wrist of `q` the other way round. What is nearer to `reference` than this is nearer than they are.
+    #[inline]
+    pub fn nearest_flip_rad(&self, q: &Joints, reference: &Joints) -> f64 {
+        let (own, other) = (self.solver.folds_rad(q), self.solver.folds_rad(reference));
+        let apart = |i: usize| wrapped(own[i] + other[i]).abs();
+        apart(0).min(apart(1))
     }
 
     /// Every configuration within limits that puts the tool at `target`, at most one a branch: of those that
@@ -83,6 +102,16 @@ impl Arm {
     pub fn inverse_on(&self, target: &Frame, branch: Branch, reference: &Joints) -> Option<Joints> {
         let q = self.solver.solve(&self.flange(target), branch, reference)?;
         self.allowed_copy(&q, reference)
+    }
+
+    /// As [`inverse_on`](Self::inverse_on), with the reason if there is none.
+    ///
+    /// # Errors
+    /// [`Missed`].
+    #[inline]
+    pub fn follow(&self, target: &Frame, branch: Branch, reference: &Joints) -> Result<Joints, Missed> {
+        let q = self.solver.solve(&self.flange(target), branch, reference).ok_or(Missed::Unreachable)?;
+        self.allowed_copy(&q, reference).ok_or(Missed::Limits)
     }
 
     #[inline]

@@ -2,71 +2,14 @@
 
 use super::RenderError;
 use super::latex::{Cell, Column, Numbers, Table};
-use crate::analysis::evidence::Evidence;
-use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Judged, Verdicts};
-use crate::study::paper::{Measured, Paper, TableSpec};
-use crate::study::record::Status;
+use crate::study::paper::{Paper, TableSpec};
 
-/// `table` in LaTeX: for each of its rows the printed numbers, ours with their intervals, and the verdicts; or what is
-/// measured in their place.
+/// `table` in LaTeX: for each of its rows the printed numbers, ours with their intervals, and the verdicts.
 ///
 /// # Errors
-/// Those of [`Table::latex`], and [`RenderError::NotStored`] for a study or metric that there is not.
-pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) -> Result<String, RenderError> {
-    let paper = evidence.paper;
-    let mut latex = match &table.measured {
-        Some(measured) => measurements(evidence, table, measured)?,
-        None => claims(paper, table, verdicts),
-    };
-    for note in &paper.source.notes {
-        latex.note(note);
-    }
-    if verdicts.quick {
-        latex.note(super::output::QUICK);
-    }
-    latex.latex(&made(paper, &table.id, verdicts))
-}
-
-/// One line a problem group and contender: the share of trials solved, and each metric's mean over them.
-fn measurements(
-    evidence: &Evidence<'_>,
-    table: &TableSpec,
-    measured: &Measured,
-) -> Result<Table, RenderError> {
-    let lost = |what: String| RenderError::NotStored { what };
-    let run = evidence
-        .run(measured.study.get_ref())
-        .ok_or_else(|| lost(format!("study `{}`", measured.study.get_ref())))?;
-    let metrics: Vec<&Metric> = measured
-        .metrics
-        .iter()
-        .map(|name| evidence.metric(name).ok_or_else(|| lost(format!("metric `{name}`"))))
-        .collect::<Result<_, _>>()?;
-    let mut columns = vec![Column::Left, Column::Left, Column::Right];
-    columns.extend(metrics.iter().map(|_| Column::Right));
-    let mut latex = Table::new(format!("{}:{}", evidence.paper.id, table.id), &table.caption, &columns);
-    let mut head = vec![Cell::from("environment"), Cell::from("algorithm"), Cell::from("solved (%)")];
-    head.extend(metrics.iter().map(|metric| Cell::from(metric.title())));
-    latex.head(head);
-    for group in &measured.problems {
-        for contender in &measured.contenders {
-            let rows = run.rows(group, contender);
-            let solved: Vec<_> = rows.iter().filter(|row| row.status == Status::Solved).collect();
-            let share = 100.0 * solved.len() as f64 / rows.len().max(1) as f64;
-            let mut cells = vec![Cell::from(group), Cell::from(contender), Cell::from(format!("{share:.1}"))];
-            for metric in &metrics {
-                let values: Vec<f64> = solved.iter().filter_map(|row| run.value(row, metric)).collect();
-                let mean = values.iter().sum::<f64>() / values.len() as f64;
-                cells.push(Cell::from(if values.is_empty() { dash() } else { format!("{mean:.2}") }));
-            }
-            latex.row(cells);
-        }
-    }
-    Ok(latex)
-}
-
-fn claims(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Table {
+/// Those of [`Table::latex`]; none for a checked paper.
+pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<String, RenderError> {
     let mut columns = vec![Column::Left, Column::Left];
     columns.extend(table.columns.iter().map(|_| Column::Right));
     let label = format!("{}:{}", paper.id, table.id);
@@ -91,7 +34,13 @@ fn claims(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Table {
         latex.row(line("", "ours", &|judged| judged.ours().map_or_else(dash, short)));
         latex.row(line("", "verdict", &|judged| judged.verdict.name().to_owned()));
     }
-    latex
+    for note in &paper.source.notes {
+        latex.note(note);
+    }
+    if verdicts.quick {
+        latex.note(super::output::QUICK);
+    }
+    latex.latex(&made(paper, &table.id, verdicts))
 }
 
 /// One macro for each printed number, each of ours and each verdict.
@@ -114,7 +63,7 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
     Ok(numbers.latex(&paper.id, &made(paper, "numbers", verdicts)))
 }
 
-fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
+pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
     let made = format!("made by `replan render {} --only {id}`", paper.id);
     if verdicts.quick { format!("{made}. {}", super::output::QUICK) } else { made }
 }

@@ -2,30 +2,41 @@
 //!
 //! A [`World`] is what a planner plans in. It is built once by a prepared object and shared by all contenders.
 
+mod arm;
+pub mod cell;
 mod lattice;
 pub mod polyhedra;
+pub mod roadmap;
 
+pub use arm::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, Zone};
 pub use lattice::LatticeWorld;
 pub use polyhedra::PolyhedraWorld;
+use roadmap::Roadmap;
 
 /// The kinds of world there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WorldKind {
+    /// A planar arm whose tip moves over a lattice, among obstacles.
+    Arm,
     /// A point and the arm that carries it, among convex polyhedra.
     ArmAmongPolyhedra,
     /// A lattice of square cells, some of them blocked.
     Lattice,
     /// A point among convex polyhedra.
     Polyhedra,
+    /// Samples of a robot's configurations, joined by local paths.
+    Roadmap,
 }
 
 impl WorldKind {
     /// Its name in messages and listings.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Arm => "arm",
             Self::ArmAmongPolyhedra => "arm among polyhedra",
             Self::Lattice => "lattice",
             Self::Polyhedra => "polyhedra",
+            Self::Roadmap => "roadmap",
         }
     }
 
@@ -38,35 +49,45 @@ impl WorldKind {
 /// Something to plan in.
 #[derive(Debug)]
 pub enum World {
+    /// A planar arm whose tip moves over a lattice, among obstacles.
+    Arm(ArmWorld),
     /// A lattice of square cells.
     Lattice(LatticeWorld),
     /// Convex polyhedra, with or without an arm.
     Polyhedra(PolyhedraWorld),
+    /// Samples of a robot's configurations, joined by local paths.
+    Roadmap(Box<Roadmap>),
 }
 
 impl World {
     /// Which kind it is.
     pub fn kind(&self) -> WorldKind {
         match self {
+            Self::Arm(_) => WorldKind::Arm,
             Self::Lattice(_) => WorldKind::Lattice,
             Self::Polyhedra(world) if world.arm().is_some() => WorldKind::ArmAmongPolyhedra,
             Self::Polyhedra(_) => WorldKind::Polyhedra,
+            Self::Roadmap(_) => WorldKind::Roadmap,
         }
     }
 
     /// The lattice, if it is one.
     pub fn as_lattice(&self) -> Option<&LatticeWorld> {
-        match self {
-            Self::Lattice(lattice) => Some(lattice),
-            Self::Polyhedra(_) => None,
-        }
+        if let Self::Lattice(lattice) = self { Some(lattice) } else { None }
+    }
+
+    /// The arm's workspace, if it is one.
+    pub fn as_arm(&self) -> Option<&ArmWorld> {
+        if let Self::Arm(arm) = self { Some(arm) } else { None }
     }
 
     /// The polyhedra, if it is such a world.
     pub fn as_polyhedra(&self) -> Option<&PolyhedraWorld> {
-        match self {
-            Self::Polyhedra(polyhedra) => Some(polyhedra),
-            Self::Lattice(_) => None,
-        }
+        if let Self::Polyhedra(polyhedra) = self { Some(polyhedra) } else { None }
+    }
+
+    /// The roadmap, if it is one.
+    pub fn as_roadmap(&self) -> Option<&Roadmap> {
+        if let Self::Roadmap(roadmap) = self { Some(roadmap) } else { None }
     }
 }

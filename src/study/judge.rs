@@ -3,14 +3,17 @@
 //! The verifier shares no code with planners; this module only takes worlds apart for it and turns its answer
 //! into the trial's status and measured values.
 
+mod arm;
 mod polyhedra;
+pub mod roadmap;
 
+pub use arm::ARM_COLUMNS;
 pub use polyhedra::{CARRIED_COLUMNS, POLYHEDRA_COLUMNS};
 
 use super::checked::Pipeline;
 use super::family::Query;
 use super::record::Status;
-use crate::planner::{Counts, Ending, Plan, Request, Value};
+use crate::planner::{Counts, Ending, Exhibit, Plan, Request, Value};
 use crate::shorten::{TurnAngle, bends, path_length, turn_sum_deg};
 use crate::space::{LatticeWorld, World};
 use crate::verify::lattice::{Answer, Case};
@@ -26,6 +29,21 @@ pub enum Truth {
     Lattice(Option<f64>),
     /// Among polyhedra: the solids, and the arm if there is one.
     Polyhedra(polyhedra::Truth),
+    /// On a roadmap: its robot and surroundings.
+    Roadmap(roadmap::Case),
+    /// For a planar arm nothing is known beforehand.
+    Arm,
+}
+
+#[cfg(test)]
+impl Truth {
+    /// The least cost in a lattice's graph.
+    pub fn optimal(&self) -> Option<f64> {
+        match self {
+            Self::Lattice(optimal) => *optimal,
+            Self::Polyhedra(_) | Self::Roadmap(_) | Self::Arm => panic!("a lattice is tested"),
+        }
+    }
 }
 
 /// The verifier's answer about one plan.
@@ -35,12 +53,17 @@ pub struct Judged {
     pub outcome: (Status, Option<String>),
     /// What was measured.
     pub values: Counts,
+    /// What figures need of what was measured, if the request asked for it.
+    pub exhibits: Vec<Exhibit>,
 }
 
 /// The truth about `query` in `world`.
 pub fn truth(world: &World, query: &Query) -> Truth {
     match world {
+        // Its optimum depends on the planner's neighbourhood and is found when a plan is judged.
+        World::Arm(_) => Truth::Arm,
         World::Lattice(lattice) => Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost()),
+        World::Roadmap(roadmap) => Truth::Roadmap(roadmap::Case::new(roadmap)),
         World::Polyhedra(world) => Truth::Polyhedra(polyhedra::truth(world)),
     }
 }
@@ -48,10 +71,12 @@ pub fn truth(world: &World, query: &Query) -> Truth {
 /// Judges `plan`, which `pipeline` returned for `request`.
 pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Judged {
     match (request.world, truth) {
+        (World::Arm(world), _) => arm::judge(world, request, plan, pipeline),
         (World::Lattice(lattice), Truth::Lattice(optimal)) => {
             judge_lattice(lattice, request, plan, pipeline, *optimal)
         }
         (World::Polyhedra(world), Truth::Polyhedra(truth)) => polyhedra::judge(world, request, plan, truth),
+        (_, Truth::Roadmap(case)) => case.judge(request, plan),
         _ => unreachable!("the truth is about the request's world"),
     }
 }
@@ -87,11 +112,11 @@ fn judge_lattice(
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
     }
-    Judged { outcome: outcome(refusal, plan, request), values }
+    Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
 }
 
-/// The status that a plan's ending and the verifier's refusal amount to, and the reason unless solved.
-fn outcome(refusal: Option<String>, plan: &Plan, request: &Request<'_>) -> (Status, Option<String>) {
+/// The status of a trial that ended as `plan` did and was refused for `refusal`, if it was, and the reason.
+fn outcome(request: &Request<'_>, plan: &Plan, refusal: Option<String>) -> (Status, Option<String>) {
     match (refusal, plan.ending) {
         (Some(refusal), _) => (Status::Rejected, Some(refusal)),
         (None, Ending::Solved) => (Status::Solved, None),
@@ -103,7 +128,7 @@ fn outcome(refusal: Option<String>, plan: &Plan, request: &Request<'_>) -> (Stat
 }
 
 /// What is measured of an accepted path on a lattice.
-fn measured(path: &[Vec<f64>]) -> Counts {
+pub fn measured(path: &[Vec<f64>]) -> Counts {
     let inner = bends(path).len().saturating_sub(2);
     Counts::from([
         ("path_cost_cells", Value::Real(path_length(path))),

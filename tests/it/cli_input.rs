@@ -24,7 +24,7 @@ const WRONG: &[Wrong] = &[
         "draws",
         "planner = \"astar\"",
         "planner = \"a-star\"",
-        "mini/draws.toml:23:11: contender `A*` asks for planner `a-star`, which does not exist; the planners are ",
+        "mini/draws.toml:24:11: contender `A*` asks for planner `a-star`, which does not exist; the planners are ",
     ),
     wrong(
         "draws",
@@ -42,7 +42,7 @@ const WRONG: &[Wrong] = &[
         "draws",
         "weight = 1,",
         "weight = -1,",
-        "weight is -1; 0 (Dijkstra), 1 (A*) or any larger number is acc",
+        "weight is -1; 0 (Dijkstra), 1 (A*), any larger number, or",
     ),
     wrong(
         "draws",
@@ -54,7 +54,7 @@ const WRONG: &[Wrong] = &[
         "draws",
         "\"random_cells\"",
         "\"random_cell\"",
-        "mini/draws.toml:17:10: there is no problem family `random_cell`; the known ones are ",
+        "mini/draws.toml:18:10: there is no problem family `random_cell`; the known ones are ",
     ),
     wrong("draws", "seed = 7", "seed = 7\ntask = \"plna\"", "there is no task `plna`; the known ones are"),
     wrong(

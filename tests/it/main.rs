@@ -1,5 +1,6 @@
 //! Tests of the crate from outside: its source, its registries, its planners, its command line.
 
+mod arm;
 mod cli_input;
 mod cli_run;
 mod cli_stop;

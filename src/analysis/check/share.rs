@@ -17,8 +17,10 @@ pub static ENTRY: Entry = Entry {
     about: "does a share lie within bounds: of trials solved, of trials with a mark, of events counted in draws?",
     build: |context| {
         let settings: Settings = context.settings.read()?;
-        let contenders: Vec<&str> = settings.contender.iter().map(String::as_str).collect();
-        let study = context.study(&settings.study, &settings.problems, &contenders)?;
+        let mut study = context.study(&settings.study, &settings.problems, &[])?;
+        if !study.contenders.is_empty() {
+            study = context.study(&settings.study, &settings.problems, &[&settings.contender])?;
+        }
         let named = settings.of.iter().chain((settings.hits != SOLVED).then_some(&settings.hits));
         for name in named {
             if column::find(name).is_none() {
@@ -45,8 +47,8 @@ const SOLVED: &str = "solved";
 struct Settings {
     study: String,
     problems: Vec<String>,
-    /// None in a study that measures without contenders.
-    contender: Option<String>,
+    /// The contender, or what stands in its place in a study that measures without contenders.
+    contender: String,
     /// `solved`, or a column: a mark that is above 0, or with `of` a count of events.
     hits: String,
     /// The column that counts the chances for `hits`.
@@ -64,8 +66,7 @@ struct Share<'a> {
 impl Share<'_> {
     fn rows<'b>(&self, evidence: &'b Evidence<'_>) -> Vec<&'b Row> {
         let Some(run) = evidence.run(&self.settings.study) else { return Vec::new() };
-        let contender = self.settings.contender.as_deref().unwrap_or_default();
-        self.settings.problems.iter().flat_map(|group| run.rows(group, contender)).collect()
+        self.settings.problems.iter().flat_map(|group| run.rows(group, &self.settings.contender)).collect()
     }
 
     /// The share of trials that are hit, with the hits and the trials.
@@ -131,7 +132,7 @@ impl Check for Share<'_> {
         finding.verdict = Some(self.verdict(Interval::new(low, high)));
         finding.because.push(format!(
             "{} on {} of {}: {} {counted}, {:.2} % (95 % interval {:.2} to {:.2}); accepted {} to {} %",
-            self.settings.contender.as_deref().unwrap_or("samples"),
+            self.settings.contender,
             self.settings.problems.join(", "),
             self.settings.study,
             self.settings.hits,

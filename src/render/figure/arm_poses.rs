@@ -16,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     about: "the whole arm along its path among polyhedra, one row a contender, one panel a view",
     build: |settings, study, _paper| {
         let read: ArmPoses = settings.read()?;
-        super::known(settings, study, &[&read.problem], &read.contenders)?;
+        super::check_labels(settings, study, &read.contenders, [&read.problem])?;
         Ok(Box::new(read))
     },
 };

@@ -15,7 +15,7 @@ pub static ENTRY: Entry = Entry {
     about: "how tip, posture or joints change over the time of a motion, one panel a contender",
     build: |settings, study, _paper| {
         let read: MotionCurves = settings.read()?;
-        super::known(settings, study, &[&read.problem], &read.contenders)?;
+        super::check_labels(settings, study, &read.contenders, [&read.problem])?;
         Ok(Box::new(read))
     },
 };

@@ -15,7 +15,7 @@ pub static ENTRY: Entry = Entry {
     about: "tip paths among solid, depth-sorted polyhedra, one row a contender, one panel a view",
     build: |settings, study, _paper| {
         let read: PolyhedraPaths = settings.read()?;
-        super::known(settings, study, &[&read.problem], &read.contenders)?;
+        super::check_labels(settings, study, &read.contenders, [&read.problem])?;
         if read.views.is_empty() || read.contenders.is_empty() {
             return Err(settings.error("contenders and views name at least one each"));
         }

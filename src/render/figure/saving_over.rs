@@ -16,8 +16,7 @@ pub static ENTRY: Entry = Entry {
     about: "one contender's saving over another along a column of the problem, one panel a problem group",
     build: |settings, study, _paper| {
         let read: Settings = settings.read()?;
-        let groups: Vec<&str> = read.problems.iter().map(String::as_str).collect();
-        super::known(settings, study, &groups, &[read.contender.clone(), read.against.clone()])?;
+        super::check_labels(settings, study, [&read.contender, &read.against], &read.problems)?;
         let metric = metric::find(&read.metric)
             .ok_or_else(|| settings.error(format!("there is no metric `{}`", read.metric)))?;
         let column = column::find(&read.over)

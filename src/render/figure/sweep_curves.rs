@@ -14,7 +14,7 @@ pub static ENTRY: Entry = Entry {
     about: "metrics along a sweep, one panel a metric, one line a contender, on a logarithmic scale",
     build: |settings, study, _paper| {
         let read: Settings = settings.read()?;
-        super::known(settings, study, &[&read.problem], &read.contenders)?;
+        super::check_labels(settings, study, &read.contenders, [&read.problem])?;
         let found = |name: &String| {
             metric::find(name).ok_or_else(|| settings.error(format!("there is no metric `{name}`")))
         };

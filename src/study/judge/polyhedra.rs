@@ -82,7 +82,7 @@ pub fn judge(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth: 
         values.insert("path_length_cm", Value::Real(path_length(&tips)));
         values.insert("turn_exterior_deg", Value::Real(turn_sum_deg(&tips, TurnAngle::Exterior)));
     }
-    Judged { outcome: outcome(refusal, plan, request), values }
+    Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
 }
 
 fn joints(q: &[f64]) -> [f64; AXES] {

@@ -29,12 +29,6 @@ fn request<'a>(world: &'a World, query: &'a Query) -> Request<'a> {
     Request { world, start: &query.start, goal: &query.goal, expansions: 10_000, seed: 0, trace: false }
 }
 
-/// The least cost on a lattice.
-fn least(truth: &Truth) -> Option<f64> {
-    let Truth::Lattice(least) = truth else { panic!("the world is a lattice") };
-    *least
-}
-
 /// Whether `plan` is an optimal plan for `request`, by the table of legal moves and the cost `optimum`.
 fn is_right(request: &Request<'_>, plan: &Plan, optimum: Option<f64>) -> bool {
     let lattice = request.world.as_lattice().unwrap();
@@ -106,12 +100,12 @@ fn every_mutation_that_makes_a_plan_wrong_is_refused() {
         let plan = pipeline.planner.plan(&request).unwrap();
         let (status, reason) = judge(&request, &plan, &pipeline, &truth).outcome;
         assert!([Status::Solved, Status::NoPath].contains(&status), "seed {seed}: {status}, {reason:?}");
-        assert!(is_right(&request, &plan, least(&truth)), "seed {seed}: {plan:?}");
+        assert!(is_right(&request, &plan, truth.optimal()), "seed {seed}: {plan:?}");
         solved += u32::from(status == Status::Solved);
         let mut stream = stream(derive(seed, &["mutation"]));
         for (way, count) in refused.iter_mut().enumerate() {
             let wrong = mutate(&plan, way, &mut stream);
-            if is_right(&request, &wrong, least(&truth)) {
+            if is_right(&request, &wrong, truth.optimal()) {
                 continue;
             }
             let judged = judge(&request, &wrong, &pipeline, &truth);
@@ -131,7 +125,7 @@ fn a_path_claimed_where_there_is_none_is_refused() {
     for seed in 0..300 {
         let (world, query) = posed(seed);
         let (request, truth) = (request(&world, &query), truth(&world, &query));
-        if least(&truth).is_some() {
+        if truth.optimal().is_some() {
             continue;
         }
         let mut plan = pipeline.planner.plan(&request).unwrap();
@@ -152,7 +146,7 @@ fn a_detour_is_refused_of_an_optimal_planner_and_accepted_of_another() {
         let (world, query) = posed(seed);
         let (request, truth) = (request(&world, &query), truth(&world, &query));
         let plan = greedy.planner.plan(&request).unwrap();
-        let Some((cost, least)) = plan.cost.zip(least(&truth)) else { continue };
+        let Some((cost, least)) = plan.cost.zip(truth.optimal()) else { continue };
         if cost < least + 1e-9 {
             continue;
         }

@@ -1,7 +1,9 @@
 //! Prepared objects: what is costly to build and shared by many trials; one a file, all in [`REGISTRY`].
 
 pub mod lattice;
+pub mod nested_roadmap;
 pub mod polyhedra;
+pub mod workspace_map;
 
 use crate::planner::{Counts, Exhibit};
 use crate::space::World;
@@ -29,7 +31,8 @@ pub struct Entry {
 }
 
 /// Every kind, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&lattice::ENTRY, &polyhedra::ENTRY];
+pub static REGISTRY: &[&Entry] =
+    &[&lattice::ENTRY, &nested_roadmap::ENTRY, &polyhedra::ENTRY, &workspace_map::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -14,7 +14,7 @@ use crate::planner::Value;
 use crate::seed::{self, Stream};
 use crate::settings::Settings;
 use crate::study::checked::Study;
-use crate::study::record::{Batch, Row, Status, Values};
+use crate::study::record::{Batch, Status, Values};
 use crate::study::runner::Unit;
 use rand::RngExt as _;
 use serde::Deserialize;
@@ -48,6 +48,9 @@ pub static ENTRY: Entry = Entry {
 
 /// Distances that differ by less than this share of the obstacle's extent are the same.
 const SAME: f64 = 1e-6;
+
+/// What stands in a contender's place.
+const LABEL: &str = "Printed distance";
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -111,35 +114,20 @@ impl FormulaError {
     }
 }
 
-/// The name of a unit's only trial.
-fn trial(unit: &Unit<'_>) -> String {
-    format!("{}/samples", unit.name)
-}
-
 impl Task for FormulaError {
     fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
-        vec![trial(unit)]
+        vec![super::variant_name(unit, LABEL)]
     }
 
     fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
-        let mut row = Row {
-            trial: trial(unit),
-            problem: unit.name.clone(),
-            group: unit.group.label.clone(),
-            replicate: unit.replicate,
-            contender: String::new(),
-            sweep: String::new(),
-            reading: unit.point.name().to_owned(),
-            repeat: 0,
-            seed: unit.seed,
-            status: Status::InvalidProblem,
-            reason: None,
-            values: Values::new(),
-        };
+        let mut row = super::variant_row(unit, LABEL, "");
         match unit.family.prepare(unit.seed) {
-            Err(invalid) => row.reason = Some(invalid.0),
+            Err(invalid) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),
             Ok(prepared) => match prepared.world.as_polyhedra() {
-                None => row.reason = Some("the task measures polyhedra, and this world has none".to_owned()),
+                None => {
+                    let reason = "the task measures polyhedra, and this world has none".to_owned();
+                    (row.status, row.reason) = (Status::InvalidProblem, Some(reason));
+                }
                 Some(world) => {
                     let mut stream = seed::stream(seed::derive(unit.seed, &["segments"]));
                     let mut counted = Counted::default();
