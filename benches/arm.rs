@@ -103,7 +103,9 @@ impl Parry {
             let (bounds, own) = (Aabb::of_capsule(capsule), parry_capsule(capsule));
             self.obstacles.iter().any(|(reach, at, shape)| {
                 reach.overlaps(&bounds)
-                    && intersection_test(&ParryPose::IDENTITY, &own, at, &**shape).expect("parry knows these")
+                    && intersection_test(&ParryPose::IDENTITY, &own, at, &**shape)
+                        .expect("parry knows these")
+                        .intersecting
             })
         });
         with_scene
@@ -113,6 +115,7 @@ impl Parry {
                 overlap
                     && intersection_test(&ParryPose::IDENTITY, &p, &ParryPose::IDENTITY, &q)
                         .expect("parry knows these")
+                        .intersecting
             })
     }
 }

@@ -42,12 +42,15 @@ impl Kind for ArmPostures {
     }
 }
 
+/// Room around the arm for the names of its joints, which must not reach the ticks.
+const MARGIN_CM: f64 = 12.0;
+
 /// A station is θ1, θ2 in degrees, elbow and tip in centimetres.
 fn panel(name: &str, station: &[f64], all: &[&[f64]]) -> Result<Panel, RenderError> {
     let coordinates = |axis: usize| all.iter().flat_map(move |s| [0.0, s[2 + axis], s[4 + axis]]);
     let (low, high) = (
-        [0, 1].map(|axis| coordinates(axis).fold(f64::INFINITY, f64::min) - 6.0),
-        [0, 1].map(|axis| coordinates(axis).fold(f64::NEG_INFINITY, f64::max) + 6.0),
+        [0, 1].map(|axis| coordinates(axis).fold(f64::INFINITY, f64::min) - MARGIN_CM),
+        [0, 1].map(|axis| coordinates(axis).fold(f64::NEG_INFINITY, f64::max) + MARGIN_CM),
     );
     let title = format!("{name}: θ1 = {:.2}°, θ2 = {:.2}°", station[0], station[1]).replace('-', "−");
     let (x, y) = (Axis::linear("x (cm)", low[0], high[0])?, Axis::linear("y (cm)", low[1], high[1])?);

@@ -1,6 +1,6 @@
 //! Every draw's own row of solved shares along a sweep, their mean, and the printed row.
 
-use super::success_bands::Rows;
+use super::success_bands::Shown;
 use super::{Entry, Kind, Scene};
 use crate::analysis::stats::summary::mean;
 use crate::render::RenderError;
@@ -12,10 +12,10 @@ use crate::render::style::{GREY, Stroke, VERMILLION, WHITE, Width, series_color,
 pub static ENTRY: Entry = Entry {
     name: "row_draws",
     about: "every draw's own row of solved shares along a sweep, their mean, and the printed row; one panel a contender",
-    build: |settings, study, paper| Ok(Box::new(Draws(Rows::new(settings, study, paper)?))),
+    build: |settings, study, paper| Ok(Box::new(Draws(Shown::new(settings, study, paper)?))),
 };
 
-struct Draws(Rows);
+struct Draws(Shown);
 
 /// At most this many draws are drawn, the first ones.
 const DRAWN: usize = 60;

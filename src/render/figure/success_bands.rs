@@ -18,11 +18,11 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "success_bands",
     about: "shares of solved queries along a sweep: mean over draws with a simultaneous band, printed rows on top",
-    build: |settings, study, paper| Ok(Box::new(Rows::new(settings, study, paper)?)),
+    build: |settings, study, paper| Ok(Box::new(Shown::new(settings, study, paper)?)),
 };
 
 /// What the settings of a figure of rows say, with the printed rows looked up.
-pub(super) struct Rows {
+pub(super) struct Shown {
     pub(super) problems: String,
     /// The sweep's values and their names in records.
     pub(super) points: Vec<(f64, String)>,
@@ -53,7 +53,7 @@ struct ReadRow {
     printed: String,
 }
 
-impl Rows {
+impl Shown {
     pub(super) fn new(settings: &Settings, study: &Study, paper: &Paper) -> Result<Self, SettingsError> {
         let read: Read = settings.read()?;
         let contenders: Vec<String> = read.rows.iter().map(|row| row.contender.clone()).collect();
@@ -94,7 +94,7 @@ impl Rows {
     }
 }
 
-impl Kind for Rows {
+impl Kind for Shown {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, 1, 210.0);
         let mut panel = self.panel("")?;

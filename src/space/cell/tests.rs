@@ -199,32 +199,27 @@ fn an_accepted_line_is_free_at_a_sixteenth_of_its_steps_and_every_reason_occurs(
             continue;
         }
         let (a, b) = (lines.pose(&a), lines.pose(&b));
-        match lines.join(&a, &b, &mut scratch) {
-            Err(reason) => *reasons.entry(reason).or_insert(0) += 1,
-            Ok(()) => {
-                free += 1;
-                let quaternion = |r: &Matrix3<f64>| {
-                    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*r))
-                };
-                let (from, to) = (quaternion(&a.tool.rotation), quaternion(&b.tool.rotation));
-                let (mut q, mut longest, way_m) = (a.q, 0, (b.tool.origin - a.tool.origin).norm());
-                for step in 1..=400 {
-                    let share = f64::from(step) / 400.0;
-                    let rotation = *from.slerp(&to, share).to_rotation_matrix().matrix();
-                    let origin = a.tool.origin + (b.tool.origin - a.tool.origin) * share;
-                    let target = crate::geometry::Frame { rotation, origin };
-                    q = arm.inverse_on(&target, a.branch, &q).unwrap();
-                    let touches = !lines.cell().is_free(&q);
-                    grazed += u32::from(touches);
-                    longest = if touches { longest + 1 } else { 0 };
-                    // What slips through is thinner than the way in an eighth of a step.
-                    let steps = (way_m / 0.02).max(from.angle_to(&to) / rules().step_rad).ceil().max(1.0);
-                    assert!(
-                        f64::from(longest) <= 400.0 / (8.0 * steps) + 1.0,
-                        "seed 33 number {index} at {share}"
-                    );
-                }
-            }
+        if let Err(reason) = lines.join(&a, &b, &mut scratch) {
+            *reasons.entry(reason).or_insert(0) += 1;
+            continue;
+        }
+        free += 1;
+        let quaternion =
+            |r: &Matrix3<f64>| UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*r));
+        let (from, to) = (quaternion(&a.tool.rotation), quaternion(&b.tool.rotation));
+        let (mut q, mut longest, way_m) = (a.q, 0, (b.tool.origin - a.tool.origin).norm());
+        for step in 1..=400 {
+            let share = f64::from(step) / 400.0;
+            let rotation = *from.slerp(&to, share).to_rotation_matrix().matrix();
+            let origin = a.tool.origin + (b.tool.origin - a.tool.origin) * share;
+            let target = crate::geometry::Frame { rotation, origin };
+            q = arm.inverse_on(&target, a.branch, &q).unwrap();
+            let touches = !lines.cell().is_free(&q);
+            grazed += u32::from(touches);
+            longest = if touches { longest + 1 } else { 0 };
+            // What slips through is thinner than the way in an eighth of a step.
+            let steps = (way_m / 0.02).max(from.angle_to(&to) / rules().step_rad).ceil().max(1.0);
+            assert!(f64::from(longest) <= 400.0 / (8.0 * steps) + 1.0, "seed 33 number {index} at {share}");
         }
     }
     let wanted = [Rejection::Branch, Rejection::Turn, Rejection::Limits, Rejection::Jump, Rejection::Contact];

@@ -170,9 +170,9 @@ fn measure(case: &Case, states: &[Angles], length_m: f64, turn_rad: f64) -> Leg 
     let mut peak_rad_s2 = 0.0_f64;
     for (index, w) in states.windows(3).enumerate() {
         let (speed2, push) = speed2_and_push((index + 1) as f64 * step_m, law_m);
-        for i in 0..6 {
-            let slope = (w[2][i] - w[0][i]) / (2.0 * step_m);
-            let bend = (w[2][i] - 2.0 * w[1][i] + w[0][i]) / (step_m * step_m);
+        for ((before, at), after) in w[0].iter().zip(&w[1]).zip(&w[2]) {
+            let slope = (after - before) / (2.0 * step_m);
+            let bend = (after - 2.0 * at + before) / (step_m * step_m);
             peak_rad_s2 = peak_rad_s2.max((bend * speed2 + slope * push).abs());
         }
     }
