@@ -91,8 +91,6 @@ pub struct Entry {
 }
 
 /// Every family, in the order of their names.
-pub static REGISTRY: &[&Entry] =
-    &[&grid_map::ENTRY, &polyhedra_scene::ENTRY, &random_cells::ENTRY, &random_polyhedra::ENTRY];
 pub static REGISTRY: &[&Entry] = &[
     &arm_workspace::ENTRY,
     &cell_queries::ENTRY,
@@ -100,8 +98,10 @@ pub static REGISTRY: &[&Entry] = &[
     &grid_map::ENTRY,
     &movingai::ENTRY,
     &plane_queries::ENTRY,
+    &polyhedra_scene::ENTRY,
     &random_bars::ENTRY,
     &random_cells::ENTRY,
+    &random_polyhedra::ENTRY,
     &random_rectangles::ENTRY,
 ];
 
