@@ -81,8 +81,8 @@ fn distances(criterion: &mut Criterion) {
 }
 
 fn searches(criterion: &mut Criterion) {
-    let simple = World::Polyhedra(world("tang_e1", 0.0));
-    let many = World::Polyhedra(world("tang_e4", 0.0));
+    let simple = World::Polyhedra(Box::new(world("tang_e1", 0.0)));
+    let many = World::Polyhedra(Box::new(world("tang_e4", 0.0)));
     let simple_ends = [[10.0, 10.0, 10.0], [90.0, 85.0, 80.0]];
     let many_ends = [[6.0, 6.0, 6.0], [94.0, 93.0, 92.0]];
     let star = planner("lattice26_astar", "checked = 'segments'\nties = 'fifo'");
@@ -101,7 +101,7 @@ fn searches(criterion: &mut Criterion) {
 fn postures(criterion: &mut Criterion) {
     let robot = Robot::load(&file("robots/aubo_i10.toml")).unwrap();
     let arm = CarriedArm::new(&robot, "paper").unwrap();
-    let world = World::Polyhedra(world("tang_c1", 7.0).with_arm(arm));
+    let world = World::Polyhedra(Box::new(world("tang_c1", 7.0).with_arm(arm)));
     let ends = [[70.0, -46.0, 36.0], [70.0, 41.0, 51.0]];
     let key = planner("keynode_astar", "search = 'open_list'\ncluster = true\nlast_resort = true");
     let posture = stage(

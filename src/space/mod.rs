@@ -54,7 +54,7 @@ pub enum World {
     /// A lattice of square cells.
     Lattice(LatticeWorld),
     /// Convex polyhedra, with or without an arm.
-    Polyhedra(PolyhedraWorld),
+    Polyhedra(Box<PolyhedraWorld>),
     /// Samples of a robot's configurations, joined by local paths.
     Roadmap(Box<Roadmap>),
 }

@@ -28,7 +28,7 @@ pub enum Truth {
     /// On a lattice: the least cost in the world's graph; `None` if the goal cannot be reached.
     Lattice(Option<f64>),
     /// Among polyhedra: the solids, and the arm if there is one.
-    Polyhedra(polyhedra::Truth),
+    Polyhedra(Box<polyhedra::Truth>),
     /// On a roadmap: its robot and surroundings.
     Roadmap(roadmap::Case),
     /// For a planar arm nothing is known beforehand.
@@ -64,7 +64,7 @@ pub fn truth(world: &World, query: &Query) -> Truth {
         World::Arm(_) => Truth::Arm,
         World::Lattice(lattice) => Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost()),
         World::Roadmap(roadmap) => Truth::Roadmap(roadmap::Case::new(roadmap)),
-        World::Polyhedra(world) => Truth::Polyhedra(polyhedra::truth(world)),
+        World::Polyhedra(world) => Truth::Polyhedra(Box::new(polyhedra::truth(world))),
     }
 }
 

@@ -8,7 +8,7 @@ use crate::space::World;
 fn smoothed(settings: &str) -> (World, Plan) {
     let cube = Convex::cuboid(Vec3::repeat(20.0), Vec3::repeat(10.0)).unwrap();
     let domain = Aabb { min: Vec3::zeros(), max: Vec3::repeat(40.0) };
-    let world = World::Polyhedra(PolyhedraWorld::new(vec![cube], domain, 1.0, 0.0).unwrap());
+    let world = World::Polyhedra(Box::new(PolyhedraWorld::new(vec![cube], domain, 1.0, 0.0).unwrap()));
     let path: Vec<Vec<f64>> =
         [[20.0, 20.0, 5.0], [25.01, 20.0, 14.99], [25.01, 20.0, 25.01], [20.0, 20.0, 35.0]]
             .map(|point| point.to_vec())

@@ -18,7 +18,7 @@ fn cuboid(center: [f64; 3], size: [f64; 3]) -> Convex {
 
 fn world(bodies: Vec<Convex>) -> World {
     let domain = Aabb { min: Vec3::zeros(), max: Vec3::repeat(40.0) };
-    World::Polyhedra(PolyhedraWorld::new(bodies, domain, 1.0, 0.0).unwrap())
+    World::Polyhedra(Box::new(PolyhedraWorld::new(bodies, domain, 1.0, 0.0).unwrap()))
 }
 
 fn planner(name: &str, settings: &str) -> Box<dyn Planner> {

@@ -26,7 +26,7 @@ fn world(boxes: &[([f64; 3], [f64; 3])]) -> World {
     let bodies = boxes.iter().map(|(c, s)| Convex::cuboid((*c).into(), (*s).into()).unwrap()).collect();
     let domain = Aabb { min: Vec3::new(-100.0, -100.0, 0.0), max: Vec3::new(100.0, 100.0, 150.0) };
     let world = PolyhedraWorld::new(bodies, domain, 1.0, 0.0).unwrap();
-    World::Polyhedra(world.with_arm(CarriedArm::new(&robot, "paper").unwrap()))
+    World::Polyhedra(Box::new(world.with_arm(CarriedArm::new(&robot, "paper").unwrap())))
 }
 
 /// The stage along the straight line, tool down.

@@ -22,7 +22,7 @@ pub fn prepare(world: PolyhedraWorld) -> Prepared {
     let domain = [low, high].iter().flat_map(|corner| corner.as_slice().to_vec()).collect();
     let mut exhibits = vec![Exhibit { name: "domain".to_owned(), width: 3, values: domain }];
     exhibits.extend(solids("bodies", world.bodies()));
-    Prepared { world: World::Polyhedra(world), values, exhibits }
+    Prepared { world: World::Polyhedra(Box::new(world)), values, exhibits }
 }
 
 /// Vertices, and the numbers of the vertices of each face: (face, vertex) in order around it, counted through.

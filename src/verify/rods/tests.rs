@@ -25,9 +25,9 @@ fn q(first: f64, second: f64) -> Vec<f64> {
     vec![first, second, 0.0, 0.0, 0.0, 0.0]
 }
 
-fn tip_length(arm: &Arm, path: &[Vec<f64>]) -> Option<f64> {
+fn tip_length(arm: &Arm, path: &[Vec<f64>]) -> f64 {
     let tip = |q: &Vec<f64>| arm.tip(&[q[0], q[1], q[2], q[3], q[4], q[5]]);
-    Some(path.windows(2).map(|pair| distance(tip(&pair[0]), tip(&pair[1]))).sum())
+    path.windows(2).map(|pair| distance(tip(&pair[0]), tip(&pair[1]))).sum()
 }
 
 #[test]
@@ -43,20 +43,20 @@ fn a_free_swing_is_accepted_and_every_mutation_of_it_is_not() {
     let path = [q(0.0, 0.0), q(0.0, 2.4), q(FRAC_PI_2, 2.4), q(FRAC_PI_2, 0.0)];
     let solids = [cube([60.0, 60.0, 0.0], 4.0)];
     let case = Case { arm: &arm, solids: &solids, start: [100.0, 0.0, 0.0], goal: [0.0, 100.0, 0.0] };
-    let cost = tip_length(&arm, &path);
+    let cost = Some(tip_length(&arm, &path));
     assert_eq!(case.refuse_path(&path, cost), None);
     let refused = |path: &[Vec<f64>], cost: Option<f64>, part: &str| {
         let refusal = case.refuse_path(path, cost).expect(part);
         assert!(refusal.contains(part), "{refusal}");
     };
     let straight = [q(0.0, 0.0), q(FRAC_PI_2, 0.0)];
-    refused(&straight, tip_length(&arm, &straight), "a rod comes within");
+    refused(&straight, Some(tip_length(&arm, &straight)), "a rod comes within");
     refused(&path, cost.map(|cost| cost - 1e-3), "claimed cost");
     refused(&path, None, "claims no cost");
     refused(&path[1..], cost, "the tip misses start or goal");
     refused(&[], cost, "has no path");
     let beyond = [q(0.0, 0.0), q(0.0, 3.2), q(FRAC_PI_2, 2.4), q(FRAC_PI_2, 0.0)];
-    refused(&beyond, tip_length(&arm, &beyond), "configuration 1: joint 2 is beyond its limits");
+    refused(&beyond, Some(tip_length(&arm, &beyond)), "configuration 1: joint 2 is beyond its limits");
     refused(&[vec![0.0; 5]], cost, "six angles");
 }
 
@@ -69,7 +69,7 @@ fn a_box_between_two_free_configurations_is_found_however_small() {
     for (height, refused) in [(0.0, true), (4.1, true), (4.155, true), (4.2, false)] {
         let solids = [cube([80.0, 0.0, height], 0.15)];
         let case = Case { arm: &arm, solids: &solids, start: ends[0], goal: ends[1] };
-        let refusal = case.refuse_path(&path, tip_length(&arm, &path));
+        let refusal = case.refuse_path(&path, Some(tip_length(&arm, &path)));
         assert_eq!(refusal.is_some(), refused, "{height}: {refusal:?}");
     }
 }
