@@ -64,6 +64,27 @@ type Cell = [i16; AXES];
 struct States {
     cells: Vec<Cell>,
     numbers: BTreeMap<Cell, u32>,
+    /// The least cost with which each was reached, as the search adds it up.
+    reached: Vec<f64>,
+}
+
+impl States {
+    /// Whether going to `to` at the cost `reached` would be of use.
+    fn lowers(&self, to: &Cell, reached: f64) -> bool {
+        self.numbers.get(to).is_none_or(|known| reached < self.reached[*known as usize])
+    }
+
+    /// The number of `to`, reached at a cost that is lower than any before.
+    fn reach(&mut self, to: Cell, reached: f64) -> u32 {
+        let fresh = self.cells.len() as u32;
+        let number = *self.numbers.entry(to).or_insert(fresh);
+        if number == fresh {
+            self.cells.push(to);
+            self.reached.push(reached);
+        }
+        self.reached[number as usize] = reached;
+        number
+    }
 }
 
 struct Space<'a> {
@@ -105,26 +126,25 @@ impl Graph for Space<'_> {
         self.states.borrow().cells.len()
     }
 
+    /// The moves that lower the cost of where they lead; no other is worth asking whether it is free.
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
-        let cell = self.states.borrow().cells[node as usize];
+        let (cell, reached) = {
+            let states = self.states.borrow();
+            (states.cells[node as usize], states.reached[node as usize])
+        };
         let here = angles(&self.start, &cell, self.delta);
         for step in &self.steps {
             let to: Cell = std::array::from_fn(|i| cell[i] + step[i]);
-            let there = angles(&self.start, &to, self.delta);
-            if !self.is_clear(&here, &there) {
+            let moved = step.iter().filter(|c| **c != 0).count() as f64;
+            let length = self.delta * moved.sqrt();
+            if !self.states.borrow().lowers(&to, reached + length) {
                 continue;
             }
-            let moved = step.iter().filter(|c| **c != 0).count() as f64;
-            let number = {
-                let mut states = self.states.borrow_mut();
-                let fresh = states.cells.len() as u32;
-                let number = *states.numbers.entry(to).or_insert(fresh);
-                if number == fresh {
-                    states.cells.push(to);
-                }
-                number
-            };
-            visit(number, self.delta * moved.sqrt());
+            if !self.is_clear(&here, &angles(&self.start, &to, self.delta)) {
+                continue;
+            }
+            let number = self.states.borrow_mut().reach(to, reached + length);
+            visit(number, length);
         }
     }
 }
@@ -161,7 +181,11 @@ impl Planner for JointAstar {
         })?;
         let delta = self.delta_deg.to_radians();
         let zero: Cell = [0; AXES];
-        let states = RefCell::new(States { cells: vec![zero], numbers: BTreeMap::from([(zero, 0)]) });
+        let states = RefCell::new(States {
+            cells: vec![zero],
+            numbers: BTreeMap::from([(zero, 0)]),
+            reached: vec![0.0],
+        });
         let mut graph = Space { world, arm, start, delta, steps: steps(self.neighbours), states: &states };
         let probe = Space { world, arm, start, delta, steps: Vec::new(), states: &states };
         let at = |node: u32| angles(&start, &states.borrow().cells[node as usize], delta);

@@ -43,6 +43,8 @@ pub struct Source {
     /// What a reader must know about this reproduction as a whole.
     #[serde(default)]
     pub notes: Vec<String>,
+    /// What stands below every figure and table of results, if their inputs are not the paper's own.
+    pub stand_ins: Option<String>,
 }
 
 /// How many numbered things the paper has.

@@ -39,11 +39,18 @@ const SETTINGS: &[(&str, &[&str])] = &[
 /// Entries that these lattices cannot hold, and what does.
 const ELSEWHERE: &[(&str, &str)] = &[
     ("astar_octile", "search: held to the general kernel in cost and every counter; it keeps no trace"),
+    ("bspline", "polyhedra: held to the verifier among random solids"),
     ("chaos_astar", "arm: held to the verifier on the planar arm"),
     ("direct", "space::roadmap and verify::cell: no sample of roadmaps stands here yet"),
+    ("joint_astar", "planner::joint_astar: held to verify::rods; its states are joint angles"),
+    ("keynode_astar", "polyhedra: held to the verifier among random solids"),
+    ("lattice26_astar", "polyhedra: held to the verifier among random solids"),
     ("lattice_astar", "arm: held to the verifier on the planar arm"),
+    ("posture", "planner::posture: held to verify::rods; its answer is joint angles"),
     ("roadmap_astar", "space::roadmap and verify::cell: no sample of roadmaps stands here yet"),
     ("straighten", "space::roadmap and verify::cell: no sample of roadmaps stands here yet"),
+    ("straighten_from_previous", "polyhedra: held to the verifier among random solids"),
+    ("visibility_edges", "polyhedra: held to the verifier among random solids"),
 ];
 
 fn is_held_here(entry: &planner::Entry) -> bool {

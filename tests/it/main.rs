@@ -8,6 +8,7 @@ mod conformance;
 mod floors;
 mod laws;
 mod paper;
+mod polyhedra;
 mod registries;
 mod snapshots;
 mod source;

@@ -42,6 +42,9 @@ struct Settings {
     accepted: [f64; 2],
 }
 
+/// Means nearer to each other than by this share are equal: neither is the lower one.
+const EQUAL: f64 = 1e-3;
+
 struct Ratio<'a> {
     settings: Settings,
     study: &'a Study,
@@ -61,20 +64,20 @@ impl Ratio<'_> {
         };
         self.settings.problems.iter().flat_map(of_group).collect()
     }
+}
 
-    fn verdict(&self, ratio: Interval) -> Verdict {
-        let [low, high] = self.settings.accepted;
-        let accepted = Interval::new(low, high);
-        let same_side = (high < 1.0 && ratio.high < 1.0) || (low > 1.0 && ratio.low > 1.0);
-        if accepted.contains(ratio.low) && accepted.contains(ratio.high) {
-            if self.study.searched { Verdict::Attainable } else { Verdict::Reproduced }
-        } else if accepted.meets(ratio) {
-            Verdict::Undecided
-        } else if same_side {
-            Verdict::DirectionOnly
-        } else {
-            Verdict::NotReproduced
-        }
+/// The verdict on a ratio that is claimed to lie within `accepted`.
+fn verdict([low, high]: [f64; 2], ratio: Interval, searched: bool) -> Verdict {
+    let accepted = Interval::new(low, high);
+    let same_side = (high < 1.0 && ratio.high < 1.0 - EQUAL) || (low > 1.0 && ratio.low > 1.0 + EQUAL);
+    if accepted.contains(ratio.low) && accepted.contains(ratio.high) {
+        if searched { Verdict::Attainable } else { Verdict::Reproduced }
+    } else if accepted.meets(ratio) {
+        Verdict::Undecided
+    } else if same_side {
+        Verdict::DirectionOnly
+    } else {
+        Verdict::NotReproduced
     }
 }
 
@@ -88,7 +91,7 @@ impl Check for Ratio<'_> {
             finding.because.push(format!("{} pairs were measured; at least 2 are needed", pairs.len()));
             return finding;
         };
-        finding.verdict = Some(self.verdict(found.interval));
+        finding.verdict = Some(verdict(self.settings.accepted, found.interval, self.study.searched));
         finding.because.push(format!(
             "{} of {} over that of {} on {} of {}: {:.4} (95 % interval {:.4} to {:.4}, {} pairs); accepted {} to {}",
             self.metric.label.to_lowercase(),
@@ -106,5 +109,25 @@ impl Check for Ratio<'_> {
         let what = format!("ratio of mean {}, bootstrap 95 %", self.metric.label.to_lowercase());
         finding.ours = Some(Estimate::new(found.value, found.interval, what, pairs.len()));
         finding
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sign_alone_is_right_only_where_the_means_differ() {
+        for (low, high, searched, verdict_wanted) in [
+            (1.06, 1.2, false, Verdict::Reproduced),
+            (1.06, 1.2, true, Verdict::Attainable),
+            (1.02, 1.2, false, Verdict::Undecided),
+            (1.01, 1.02, false, Verdict::DirectionOnly),
+            (1.0 + 1e-9, 1.0 + 2e-9, false, Verdict::NotReproduced),
+            (0.9, 0.95, false, Verdict::NotReproduced),
+        ] {
+            let found = verdict([1.05, 10.0], Interval::new(low, high), searched);
+            assert_eq!(found, verdict_wanted, "{low} to {high}");
+        }
     }
 }
