@@ -69,6 +69,12 @@ struct States {
 }
 
 impl States {
+    /// The start alone, as number 0.
+    fn of_start() -> Self {
+        let start: Cell = [0; AXES];
+        Self { cells: vec![start], numbers: BTreeMap::from([(start, 0)]), reached: vec![0.0] }
+    }
+
     /// Whether going to `to` at the cost `reached` would be of use.
     fn lowers(&self, to: &Cell, reached: f64) -> bool {
         self.numbers.get(to).is_none_or(|known| reached < self.reached[*known as usize])
@@ -180,12 +186,7 @@ impl Planner for JointAstar {
             Invalid("no branch of the arm is free at start and goal with its tool down".to_owned())
         })?;
         let delta = self.delta_deg.to_radians();
-        let zero: Cell = [0; AXES];
-        let states = RefCell::new(States {
-            cells: vec![zero],
-            numbers: BTreeMap::from([(zero, 0)]),
-            reached: vec![0.0],
-        });
+        let states = RefCell::new(States::of_start());
         let mut graph = Space { world, arm, start, delta, steps: steps(self.neighbours), states: &states };
         let probe = Space { world, arm, start, delta, steps: Vec::new(), states: &states };
         let at = |node: u32| angles(&start, &states.borrow().cells[node as usize], delta);

@@ -1,4 +1,4 @@
-//! The whole arm along its path: postures at even intervals, one row a contender, one panel a view.
+//! The whole arm along its path: postures at even intervals, the last one solid, one row a contender, one panel a view.
 
 use super::polyhedra_scene::{View, add_obstacles, panel, points, stored};
 use super::{Entry, Kind, Scene};
@@ -42,11 +42,15 @@ fn shade(share: f64) -> Rgb {
     ORANGE.mixed(WHITE, 0.6 * (1.0 - share))
 }
 
+/// The line of a rod's axis.
+fn axis(share: f64) -> Stroke {
+    Stroke::solid(shade(share), 2.4)
+}
+
 impl Kind for ArmPoses {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let columns = if self.views.len() == 1 { self.contenders.len() } else { self.views.len() };
-        let mut sheet = Sheet::new(Width::Double, columns, PLOT_PT)
-            .noted("Stand-in environment: the paper's obstacles are lost. Rod radii are assumed.");
+        let mut sheet = Sheet::new(Width::Double, columns, PLOT_PT).noted("Rod radii are assumed.");
         for contender in &self.contenders {
             let row = self.row(scene, contender)?;
             for view in &self.views {
@@ -83,10 +87,17 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
     let rods = stored(scene.run, &row.trial, "rods")?;
     let last = rods.values.chunks(rods.width).map(|rod| rod[0]).fold(1.0, f64::max);
     for rod in rods.values.chunks(rods.width) {
-        let paint = Paint::solid(shade(rod[0] / last));
-        solids.capsule([rod[1], rod[2], rod[3]], [rod[4], rod[5], rod[6]], rod[7], paint);
+        let (from, to) = ([rod[1], rod[2], rod[3]], [rod[4], rod[5], rod[6]]);
+        // Solid rods of many postures cut each other into more facets than a picture can hold.
+        if rod[0] < last {
+            solids.polyline(vec![from, to], axis(rod[0] / last));
+        } else {
+            solids.capsule(from, to, rod[7], Paint::solid(shade(1.0)));
+        }
     }
-    let mut keys = vec![cell_key("arm at the start", shade(0.0)), cell_key("arm at the end", shade(1.0))];
+    let along =
+        Key { swatch: Swatch::Line(axis(0.0), None), label: "axes of the rods on the way".to_owned() };
+    let mut keys = vec![along, cell_key("arm at the end", shade(1.0))];
     for (name, label, color) in
         [("tip_path", "path to be followed", PURPLE), ("tip_trail", "way of the tip", VERMILLION)]
     {

@@ -72,7 +72,7 @@ impl Quantity {
 
 impl Kind for MotionCurves {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let note = "Stand-in environment. Stored configurations follow each other at equal times.";
+        let note = "Stored configurations follow each other at equal times.";
         let mut sheet = Sheet::new(Width::Double, self.contenders.len(), PLOT_PT).noted(note);
         for contender in &self.contenders {
             let rows = scene.run.rows(&self.problem, contender);

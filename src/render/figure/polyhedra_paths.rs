@@ -44,8 +44,7 @@ impl Kind for PolyhedraPaths {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         // One view each: contenders stand side by side.
         let columns = if self.views.len() == 1 { self.contenders.len() } else { self.views.len() };
-        let mut sheet = Sheet::new(Width::Double, columns, PLOT_PT)
-            .noted("Stand-in environment: the paper's obstacles are lost.");
+        let mut sheet = Sheet::new(Width::Double, columns, PLOT_PT);
         for contender in &self.contenders {
             let row = self.row(scene, contender)?;
             for view in &self.views {

@@ -48,7 +48,7 @@ struct SavingOver {
 
 impl Kind for SavingOver {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let note = "Random stand-in environments. Each dot is one environment; the line joins the means.";
+        let note = "Each dot is one environment; the line joins the means.";
         let mut sheet = Sheet::new(Width::Double, self.settings.problems.len(), PLOT_PT).noted(note);
         for group in &self.settings.problems {
             let points = self.points(scene, group);

@@ -51,7 +51,7 @@ struct SweepCurves {
 
 impl Kind for SweepCurves {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let note = "Stand-in environment. A trial that spent its budget shows what it spent.";
+        let note = "A trial that spent its budget shows what it spent.";
         let mut sheet = Sheet::new(Width::Double, self.metrics.len(), PLOT_PT).noted(note);
         for metric in &self.metrics {
             let curves: Vec<Vec<[f64; 2]>> =
