@@ -86,7 +86,8 @@ fn figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, R
     let (paper, run, id) = (scene.evidence.paper, scene.run, spec.id.get_ref());
     let kind = figure::build(spec, run.study, paper)?;
     let sheet = kind.draw(scene)?;
-    let sheet = if run.manifest.quick { sheet.noted(QUICK) } else { sheet };
+    let notes = paper.source.stand_ins.as_deref().into_iter().chain(run.manifest.quick.then_some(QUICK));
+    let sheet = sheet.noted(notes.collect::<Vec<_>>().join(" "));
     let drawn = sheet.draw(&Provenance {
         command: format!("replan render {} --only {id}", paper.id),
         spec_hash: run.manifest.spec.clone(),

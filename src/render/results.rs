@@ -123,8 +123,8 @@ pub fn latex(evidence: &Evidence<'_>, table: &ResultsSpec, quick: bool) -> Resul
             text.row(row.iter().map(Cell::from).collect());
         }
     }
-    if quick {
-        text.note(super::output::QUICK);
+    for note in paper.source.stand_ins.as_deref().into_iter().chain(quick.then_some(super::output::QUICK)) {
+        text.note(note);
     }
     text.latex(&format!("made by `replan render {} --only {id}`", paper.id))
 }

@@ -6,6 +6,8 @@
 mod inflection;
 mod measure;
 mod selection;
+mod spline;
+mod stepwise;
 mod straighten;
 #[cfg(test)]
 mod tests;
@@ -13,4 +15,6 @@ mod tests;
 pub use inflection::{bends, inflection_deletion};
 pub use measure::{TurnAngle, path_length, turn_sum_deg};
 pub use selection::least_selection;
+pub use spline::cubic_spline;
+pub use stepwise::{Resume, stepwise_straightening};
 pub use straighten::{LastNode, straightening};

@@ -54,6 +54,8 @@ pub struct Source {
     /// What was found, in a few sentences; the chapter opens with them, our number standing for each `{claim}`.
     #[serde(default)]
     pub findings: Vec<String>,
+    /// What stands below every figure and table of results, if their inputs are not the paper's own.
+    pub stand_ins: Option<String>,
 }
 
 /// How many numbered things the paper has.

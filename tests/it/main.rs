@@ -11,6 +11,7 @@ mod floors;
 mod latex;
 mod laws;
 mod paper;
+mod polyhedra;
 mod registries;
 mod snapshots;
 mod source;

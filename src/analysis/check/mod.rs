@@ -7,6 +7,7 @@ mod across_readings;
 mod all_in_draw;
 mod as_printed;
 mod attained;
+mod between_groups;
 mod clock_ticks;
 mod compare;
 mod count_bound;
@@ -29,11 +30,14 @@ mod over_claims;
 mod percentage;
 mod point_distance;
 mod printed_ratio;
+mod ratio;
 mod reach_ring;
 mod refused_by_option;
+mod repulsion;
 mod row_among_draws;
 mod saving_per_draw;
 mod savings_within;
+mod share;
 mod share_above;
 mod share_beyond;
 mod share_of_paths;
@@ -41,6 +45,7 @@ mod sight_bound;
 mod straight_line;
 mod table_cell;
 mod table_row;
+mod trend;
 mod turn_needs_length;
 mod varies;
 mod zero_everywhere;
@@ -119,6 +124,7 @@ pub static REGISTRY: &[&Entry] = &[
     &all_in_draw::ENTRY,
     &as_printed::ENTRY,
     &attained::ENTRY,
+    &between_groups::ENTRY,
     &clock_ticks::ENTRY,
     &compare::ENTRY,
     &count_bound::ENTRY,
@@ -141,11 +147,14 @@ pub static REGISTRY: &[&Entry] = &[
     &percentage::ENTRY,
     &point_distance::ENTRY,
     &printed_ratio::ENTRY,
+    &ratio::ENTRY,
     &reach_ring::ENTRY,
     &refused_by_option::ENTRY,
+    &repulsion::ENTRY,
     &row_among_draws::ENTRY,
     &saving_per_draw::ENTRY,
     &savings_within::ENTRY,
+    &share::ENTRY,
     &share_above::ENTRY,
     &share_beyond::ENTRY,
     &share_of_paths::ENTRY,
@@ -153,6 +162,7 @@ pub static REGISTRY: &[&Entry] = &[
     &straight_line::ENTRY,
     &table_cell::ENTRY,
     &table_row::ENTRY,
+    &trend::ENTRY,
     &turn_needs_length::ENTRY,
     &varies::ENTRY,
     &zero_everywhere::ENTRY,

@@ -60,10 +60,12 @@ impl Sheet {
         Self { title: title.into(), ..self }
     }
 
-    /// The same with a note below the legend; it is wrapped to the page.
+    /// The same with one more note below the legend; notes are wrapped to the page.
     #[must_use]
     pub fn noted(self, note: impl Into<String>) -> Self {
-        Self { note: note.into(), ..self }
+        let note = note.into();
+        let gap = if self.note.is_empty() || note.is_empty() { "" } else { " " };
+        Self { note: [self.note.as_str(), note.as_str()].join(gap), ..self }
     }
 
     /// The same with plots of equal width in all columns, whatever room their labels take.
