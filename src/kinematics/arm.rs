@@ -17,6 +17,15 @@ pub struct Arm {
     tool_inverse: Frame,
 }
 
+/// Why a branch has no configuration for a pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Missed {
+    /// The wrist's centre is out of reach.
+    Unreachable,
+    /// A joint would be outside its limits.
+    Limits,
+}
+
 impl Arm {
     /// The arm with this chain and the solver of this name.
     ///
@@ -83,6 +92,16 @@ impl Arm {
     pub fn inverse_on(&self, target: &Frame, branch: Branch, reference: &Joints) -> Option<Joints> {
         let q = self.solver.solve(&self.flange(target), branch, reference)?;
         self.allowed_copy(&q, reference)
+    }
+
+    /// As [`inverse_on`](Self::inverse_on), with the reason if there is none.
+    ///
+    /// # Errors
+    /// [`Missed`].
+    #[inline]
+    pub fn follow(&self, target: &Frame, branch: Branch, reference: &Joints) -> Result<Joints, Missed> {
+        let q = self.solver.solve(&self.flange(target), branch, reference).ok_or(Missed::Unreachable)?;
+        self.allowed_copy(&q, reference).ok_or(Missed::Limits)
     }
 
     #[inline]

@@ -14,7 +14,7 @@ pub mod serial;
 #[cfg(test)]
 mod tests;
 
-pub use arm::Arm;
+pub use arm::{Arm, Missed};
 pub use error::KinematicsError;
 pub use robot::Robot;
 pub use serial::{AXES, Chain, Joint, Joints};

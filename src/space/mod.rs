@@ -2,15 +2,20 @@
 //!
 //! A [`World`] is what a planner plans in. It is built once by a prepared object and shared by all contenders.
 
+pub mod cell;
 mod lattice;
+pub mod roadmap;
 
 pub use lattice::LatticeWorld;
+use roadmap::Roadmap;
 
 /// The kinds of world there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WorldKind {
     /// A lattice of square cells, some of them blocked.
     Lattice,
+    /// Samples of a robot's configurations, joined by local paths.
+    Roadmap,
 }
 
 impl WorldKind {
@@ -18,6 +23,7 @@ impl WorldKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Lattice => "lattice",
+            Self::Roadmap => "roadmap",
         }
     }
 }
@@ -27,6 +33,8 @@ impl WorldKind {
 pub enum World {
     /// A lattice of square cells.
     Lattice(LatticeWorld),
+    /// Samples of a robot's configurations, joined by local paths.
+    Roadmap(Box<Roadmap>),
 }
 
 impl World {
@@ -34,6 +42,7 @@ impl World {
     pub fn kind(&self) -> WorldKind {
         match self {
             Self::Lattice(_) => WorldKind::Lattice,
+            Self::Roadmap(_) => WorldKind::Roadmap,
         }
     }
 
@@ -41,6 +50,15 @@ impl World {
     pub fn as_lattice(&self) -> Option<&LatticeWorld> {
         match self {
             Self::Lattice(lattice) => Some(lattice),
+            Self::Roadmap(_) => None,
+        }
+    }
+
+    /// The roadmap, if it is one.
+    pub fn as_roadmap(&self) -> Option<&Roadmap> {
+        match self {
+            Self::Roadmap(roadmap) => Some(roadmap),
+            Self::Lattice(_) => None,
         }
     }
 }

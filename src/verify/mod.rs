@@ -2,4 +2,6 @@
 //!
 //! It recomputes costs, checks every step of a path, and refuses what is too good as surely as what collides.
 
+pub mod cell;
 pub mod lattice;
+pub mod plane;

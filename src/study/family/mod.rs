@@ -3,6 +3,7 @@
 //! A family poses problems: it draws what is to be prepared from a seed, and names the queries that are asked of
 //! it. Its settings come from the study, with the reading's options laid on top.
 
+mod cell_queries;
 mod grid_map;
 mod random_cells;
 
@@ -62,7 +63,7 @@ pub struct Entry {
 }
 
 /// Every family, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&grid_map::ENTRY, &random_cells::ENTRY];
+pub static REGISTRY: &[&Entry] = &[&cell_queries::ENTRY, &grid_map::ENTRY, &random_cells::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

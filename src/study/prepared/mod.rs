@@ -1,6 +1,7 @@
 //! Prepared objects: what is costly to build and shared by many trials; one a file, all in [`REGISTRY`].
 
 pub mod lattice;
+pub mod nested_roadmap;
 
 use crate::planner::{Counts, Exhibit};
 use crate::space::World;
@@ -28,7 +29,7 @@ pub struct Entry {
 }
 
 /// Every kind, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&lattice::ENTRY];
+pub static REGISTRY: &[&Entry] = &[&lattice::ENTRY, &nested_roadmap::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -93,6 +93,7 @@ impl Trial<'_> {
                 row.values = named(plan.counts.iter().chain(&judged.values));
                 if trace {
                     batch.keep(&row.trial, std::mem::take(&mut plan.exhibits));
+                    batch.keep(&row.trial, judged.exhibits);
                     batch.keep(&row.trial, path_exhibit(&plan));
                 }
             }

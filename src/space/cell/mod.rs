@@ -1,0 +1,170 @@
+//! A robot in its work cell: which configurations are free, and by how much.
+//!
+//! The robot is its body's capsules; the scene is what [`Scene`] holds. Lengths are metres, angles radians. Touching is
+//! contact. Parts that the robot's file marks as self-only are not checked against the scene: base and turret
+//! stand on the floor.
+
+mod line;
+mod scene;
+#[cfg(test)]
+mod tests;
+
+pub use line::{EdgeEnd, LineRules, Lines, Path, Pose, Rejection, Scratch, SpeedRule};
+pub use scene::{Obstacle, Scene};
+
+use crate::geometry::{
+    Aabb, BroadPhase, Capsule, Solid, distance_capsule_capsule, distance_segment_segment,
+    distance_segment_solid,
+};
+use crate::kinematics::robot::Body;
+use crate::kinematics::{Joints, Robot};
+
+/// A robot, its scene, and what of the two can touch.
+#[derive(Debug, Clone)]
+pub struct Cell {
+    robot: Robot,
+    body: Body,
+    scene: Scene,
+    broad: BroadPhase,
+    /// Parts that the scene can touch, those that reach out furthest first.
+    exposed: Vec<usize>,
+    self_pairs: Vec<[usize; 2]>,
+}
+
+/// How a configuration stands in its cell when parts are thickened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standing {
+    /// Free even with every part thickened.
+    Clear,
+    /// Free, but not with every part thickened.
+    Near,
+    /// In contact.
+    Contact,
+}
+
+impl Cell {
+    /// The cell of `robot` (with its first body) in `scene`; without self-collision if `checks_itself` is false.
+    ///
+    /// # Panics
+    /// If the robot has no body, which no robot file allows.
+    pub fn new(robot: Robot, scene: Scene, checks_itself: bool) -> Self {
+        let body = robot.bodies().first().expect("a robot file has a body").clone();
+        let boxes = scene.obstacles().iter().map(|obstacle| obstacle.solid.aabb()).collect();
+        let exposed = (0..body.parts().len()).rev().filter(|part| !body.parts()[*part].is_self_only());
+        let self_pairs = if checks_itself { body.self_pairs().to_vec() } else { Vec::new() };
+        Self { exposed: exposed.collect(), broad: BroadPhase::new(boxes), self_pairs, robot, body, scene }
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The capsules that stand for the robot.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// Pairs of the body's parts that are kept apart.
+    pub fn self_pairs(&self) -> &[[usize; 2]] {
+        &self.self_pairs
+    }
+
+    /// Writes the body at `q` into `placed`; what was in it is dropped.
+    #[inline]
+    pub fn place(&self, q: &Joints, placed: &mut Vec<Capsule>) {
+        self.body.place(&self.robot.arm().chain().frames(q), placed);
+    }
+
+    /// Why the robot cannot be at `q`; `None` if it can.
+    pub fn refusal(&self, q: &Joints) -> Option<String> {
+        for (i, (joint, angle)) in self.robot.arm().chain().joints().iter().zip(q).enumerate() {
+            if !joint.allows(*angle) {
+                return Some(format!(
+                    "joint {} is at {:.2}°; it turns from {:.2}° to {:.2}°",
+                    i + 1,
+                    angle.to_degrees(),
+                    joint.lower_rad.to_degrees(),
+                    joint.upper_rad.to_degrees()
+                ));
+            }
+        }
+        let mut placed = Vec::new();
+        self.place(q, &mut placed);
+        self.contact(&placed)
+    }
+
+    /// Whether the robot can be at `q`.
+    pub fn is_free(&self, q: &Joints) -> bool {
+        self.robot.arm().chain().allows(q) && {
+            let mut placed = Vec::new();
+            self.place(q, &mut placed);
+            self.standing(&placed, |_| 0.0) != Standing::Contact
+        }
+    }
+
+    /// The first contact of the placed body, in words.
+    fn contact(&self, placed: &[Capsule]) -> Option<String> {
+        let name = |part: usize| self.body.parts()[part].name();
+        for &part in &self.exposed {
+            for obstacle in self.scene.obstacles() {
+                let gap = distance_segment_solid(&placed[part].segment, &obstacle.solid);
+                if gap <= placed[part].radius {
+                    return Some(format!("part `{}` is in contact with `{}`", name(part), obstacle.name));
+                }
+            }
+        }
+        let touching =
+            self.self_pairs.iter().find(|[a, b]| distance_capsule_capsule(&placed[*a], &placed[*b]) == 0.0);
+        touching.map(|[a, b]| format!("part `{}` is in contact with part `{}`", name(*a), name(*b)))
+    }
+
+    /// How the placed body stands if part `i` is thickened by `margin_m(i)`.
+    #[inline]
+    pub fn standing(&self, placed: &[Capsule], margin_m: impl Fn(usize) -> f64) -> Standing {
+        let mut standing = Standing::Clear;
+        for &part in &self.exposed {
+            let (capsule, margin) = (&placed[part], margin_m(part));
+            let reach = Aabb::of_capsule(capsule).grown(margin);
+            for index in self.broad.candidates(&reach) {
+                let gap = distance_segment_solid(&capsule.segment, &self.scene.obstacles()[index].solid);
+                if gap <= capsule.radius {
+                    return Standing::Contact;
+                }
+                if gap <= capsule.radius + margin {
+                    standing = Standing::Near;
+                }
+            }
+        }
+        for [a, b] in &self.self_pairs {
+            let gap = distance_segment_segment(&placed[*a].segment, &placed[*b].segment)
+                - placed[*a].radius
+                - placed[*b].radius;
+            if gap <= 0.0 {
+                return Standing::Contact;
+            }
+            if gap <= margin_m(*a) + margin_m(*b) {
+                standing = Standing::Near;
+            }
+        }
+        standing
+    }
+
+    /// The distance from the robot at `q` to the scene and between its parts, metres; 0 in contact, infinite if
+    /// nothing can touch.
+    pub fn clearance_m(&self, q: &Joints) -> f64 {
+        let mut placed = Vec::new();
+        self.place(q, &mut placed);
+        let to_solid =
+            |part: usize, solid: &Solid| distance_segment_solid(&placed[part].segment, solid) - placed[part].radius;
+        let scene = self.scene.obstacles().iter();
+        let outer = scene.flat_map(|o| self.exposed.iter().map(|part| to_solid(*part, &o.solid)).collect::<Vec<_>>());
+        let inner = self.self_pairs.iter().map(|[a, b]| distance_capsule_capsule(&placed[*a], &placed[*b]));
+        outer.chain(inner).fold(f64::INFINITY, f64::min).max(0.0)
+    }
+}

@@ -1,0 +1,77 @@
+//! What a roadmap stands on: configurations, their places, and local paths between them.
+
+use super::plane::PlaneMap;
+use crate::kinematics::{AXES, Joints};
+use crate::space::cell::{Lines, Pose, Rejection, Scratch};
+
+/// The robot of a roadmap and the local paths it can take.
+#[derive(Debug)]
+pub enum Local {
+    /// A six-axis arm; configurations are joint angles in radians.
+    Arm(Box<Lines>),
+    /// A particle in the plane; configurations are [x, y] in millimetres.
+    Plane(PlaneMap),
+}
+
+/// A configuration, ready for local paths.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Node {
+    Arm(Pose),
+    Plane([f64; 2]),
+}
+
+/// The six joint angles in `config`, if it has six numbers.
+pub fn joints(config: &[f64]) -> Option<Joints> {
+    <[f64; AXES]>::try_from(config).ok()
+}
+
+impl Local {
+    /// Why the robot cannot be in `config`; `None` if it can.
+    pub fn refusal(&self, config: &[f64]) -> Option<String> {
+        let width = self.width();
+        let wrong = || format!("it has {} numbers; a configuration has {width}", config.len());
+        if config.len() != width || config.iter().any(|x| !x.is_finite()) {
+            return Some(if config.len() == width { "it has a number that is not finite".to_owned() } else { wrong() });
+        }
+        match self {
+            Self::Arm(lines) => lines.cell().refusal(&joints(config).expect("the length was checked")),
+            Self::Plane(map) => map.refusal([config[0], config[1]]),
+        }
+    }
+
+    /// How many numbers make a configuration.
+    pub fn width(&self) -> usize {
+        match self {
+            Self::Arm(_) => AXES,
+            Self::Plane(_) => 2,
+        }
+    }
+
+    /// The place whose distances are a path's length: the tool's tip or the particle, millimetres.
+    pub fn place_mm(&self, config: &[f64]) -> [f64; 3] {
+        match self {
+            Self::Arm(lines) => {
+                let q = joints(config).expect("a configuration of an arm has six angles");
+                (lines.cell().robot().arm().chain().forward(&q).origin * 1e3).into()
+            }
+            Self::Plane(_) => [config[0], config[1], 0.0],
+        }
+    }
+
+    pub(super) fn node(&self, config: &[f64]) -> Node {
+        match self {
+            Self::Arm(lines) => Node::Arm(lines.pose(&joints(config).expect("six angles"))),
+            Self::Plane(_) => Node::Plane([config[0], config[1]]),
+        }
+    }
+
+    pub(super) fn join(&self, from: &Node, to: &Node, scratch: &mut Scratch) -> Result<(), Rejection> {
+        match (self, from, to) {
+            (Self::Arm(lines), Node::Arm(from), Node::Arm(to)) => lines.join(from, to, scratch),
+            (Self::Plane(map), Node::Plane(from), Node::Plane(to)) => {
+                if map.sees(*from, *to) { Ok(()) } else { Err(Rejection::Contact) }
+            }
+            _ => unreachable!("a roadmap's nodes are of its own kind"),
+        }
+    }
+}

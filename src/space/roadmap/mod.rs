@@ -1,0 +1,277 @@
+//! Probabilistic roadmaps: samples in the order they were drawn, and the local paths between them.
+//!
+//! A roadmap is built once. Its first N samples are a roadmap too, and so are its edges up to any smaller radius; both are
+//! read off, nothing is built again. A query adds its own start and goal and nothing else. What was found out about a
+//! pair of configurations is remembered, so that queries, sizes and contenders share it; it
+//! depends on the pair alone.
+
+mod local;
+mod plane;
+#[cfg(test)]
+mod tests;
+
+pub use local::{Local, joints};
+pub use plane::PlaneMap;
+
+use super::cell::{Rejection, Scratch};
+use local::Node;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard};
+
+/// Neighbours of a node and how far they are, in the order of their numbers.
+pub type Links = Arc<Vec<(u32, f64)>>;
+
+/// A sample as it was drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample {
+    /// The configuration.
+    pub config: Vec<f64>,
+    /// How many draws came before it, refused ones included.
+    pub drawn_after: u32,
+}
+
+/// Which samples belong to a roadmap of N.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Counted {
+    /// The first N that were accepted.
+    Accepted,
+    /// Those accepted among the first N draws.
+    Drawn,
+}
+
+/// Samples, edges, and what was learned about them.
+#[derive(Debug)]
+pub struct Roadmap {
+    local: Local,
+    radius_mm: f64,
+    counted: Counted,
+    samples: Vec<Sample>,
+    nodes: Vec<Node>,
+    places_mm: Vec<[f64; 3]>,
+    numbers: BTreeMap<Vec<u64>, u32>,
+    links: Vec<Links>,
+    tally: Tally,
+    memory: Mutex<Memory>,
+}
+
+/// What became of the pairs of samples within the radius.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Pairs that were tried.
+    pub pairs: u64,
+    /// Those that became edges.
+    pub edges: u64,
+    /// Those that did not, by [`Rejection::ALL`].
+    pub rejected: [u64; Rejection::ALL.len()],
+}
+
+/// Ends of queries and pairs that are no edges of the roadmap itself.
+#[derive(Debug, Default)]
+struct Memory {
+    scratch: Scratch,
+    ends: Vec<End>,
+    numbers: BTreeMap<Vec<u64>, u32>,
+    joins: BTreeMap<(u32, u32), Result<(), Rejection>>,
+    parts: BTreeMap<(u32, u64), Arc<Vec<u32>>>,
+}
+
+#[derive(Debug)]
+struct End {
+    config: Vec<f64>,
+    node: Node,
+    place_mm: [f64; 3],
+    links: Links,
+}
+
+fn bits(config: &[f64]) -> Vec<u64> {
+    config.iter().map(|x| x.to_bits()).collect()
+}
+
+fn distance_mm(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    let [x, y, z] = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    (x * x + y * y + z * z).sqrt()
+}
+
+impl Roadmap {
+    /// Joins every two samples whose places are at most `radius_mm` apart, if there is a local path.
+    ///
+    /// # Panics
+    /// If a sample is not a free configuration.
+    pub fn build(local: Local, samples: Vec<Sample>, radius_mm: f64, counted: Counted) -> Self {
+        let nodes: Vec<Node> = samples.iter().map(|sample| local.node(&sample.config)).collect();
+        let places_mm: Vec<[f64; 3]> = samples.iter().map(|sample| local.place_mm(&sample.config)).collect();
+        let numbers = samples.iter().zip(0..).map(|(sample, i)| (bits(&sample.config), i)).collect();
+        let (mut tally, mut scratch) = (Tally::default(), Scratch::default());
+        let mut links = vec![Vec::new(); samples.len()];
+        for to in 0..samples.len() {
+            for from in 0..to {
+                let gap_mm = distance_mm(&places_mm[from], &places_mm[to]);
+                if gap_mm > radius_mm {
+                    continue;
+                }
+                tally.pairs += 1;
+                match local.join(&nodes[from], &nodes[to], &mut scratch) {
+                    Ok(()) => {
+                        tally.edges += 1;
+                        links[from].push((to as u32, gap_mm));
+                        links[to].push((from as u32, gap_mm));
+                    }
+                    Err(reason) => tally.rejected[reason as usize] += 1,
+                }
+            }
+        }
+        let links = links.into_iter().map(Arc::new).collect();
+        let memory = Mutex::new(Memory { scratch, ..Memory::default() });
+        Self { local, radius_mm, counted, samples, nodes, places_mm, numbers, links, tally, memory }
+    }
+
+    /// The robot and its local paths.
+    pub fn local(&self) -> &Local {
+        &self.local
+    }
+
+    /// The radius up to which pairs were tried.
+    pub fn radius_mm(&self) -> f64 {
+        self.radius_mm
+    }
+
+    /// The samples, in the order they were drawn.
+    pub fn samples(&self) -> &[Sample] {
+        &self.samples
+    }
+
+    /// What became of the pairs.
+    pub fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
+    /// How many of the samples belong to the roadmap of `count`.
+    ///
+    /// # Errors
+    /// A sentence if there are not as many.
+    pub fn prefix(&self, count: u32) -> Result<u32, String> {
+        match self.counted {
+            Counted::Accepted if count as usize > self.samples.len() => {
+                Err(format!("{count} samples are asked for; the roadmap was built with {}", self.samples.len()))
+            }
+            Counted::Accepted => Ok(count),
+            Counted::Drawn => Ok(self.samples.partition_point(|sample| sample.drawn_after < count) as u32),
+        }
+    }
+
+    /// The number of `config`: a sample's, or one that it gets as an end of a query.
+    ///
+    /// # Errors
+    /// A sentence about `what` (start or goal) if the robot cannot be there.
+    pub fn number(&self, what: &str, config: &[f64]) -> Result<u32, String> {
+        let key = bits(config);
+        let mut memory = self.remember();
+        if let Some(number) = self.numbers.get(&key).or_else(|| memory.numbers.get(&key)) {
+            return Ok(*number);
+        }
+        if let Some(refusal) = self.local.refusal(config) {
+            return Err(format!("the {what} cannot be posed: {refusal}"));
+        }
+        let (node, place_mm) = (self.local.node(config), self.local.place_mm(config));
+        let mut links = Vec::new();
+        for (sample, place) in self.places_mm.iter().enumerate() {
+            let gap_mm = distance_mm(place, &place_mm);
+            if gap_mm <= self.radius_mm
+                && self.local.join(&self.nodes[sample], &node, &mut memory.scratch).is_ok()
+            {
+                links.push((sample as u32, gap_mm));
+            }
+        }
+        let number = (self.samples.len() + memory.ends.len()) as u32;
+        memory.ends.push(End { config: config.to_vec(), node, place_mm, links: Arc::new(links) });
+        memory.numbers.insert(key, number);
+        Ok(number)
+    }
+
+    /// A number above every node's.
+    pub fn node_count(&self) -> usize {
+        self.samples.len() + self.remember().ends.len()
+    }
+
+    /// The samples that a node is joined with, up to the radius.
+    pub fn links(&self, node: u32) -> Links {
+        match self.links.get(node as usize) {
+            Some(links) => links.clone(),
+            None => self.remember().ends[node as usize - self.samples.len()].links.clone(),
+        }
+    }
+
+    /// The configuration of a node.
+    pub fn config(&self, node: u32) -> Vec<f64> {
+        match self.samples.get(node as usize) {
+            Some(sample) => sample.config.clone(),
+            None => self.remember().ends[node as usize - self.samples.len()].config.clone(),
+        }
+    }
+
+    /// The place of a node.
+    pub fn place_mm(&self, node: u32) -> [f64; 3] {
+        match self.places_mm.get(node as usize) {
+            Some(place) => *place,
+            None => self.remember().ends[node as usize - self.samples.len()].place_mm,
+        }
+    }
+
+    /// The straight distance between the places of two nodes.
+    pub fn gap_mm(&self, a: u32, b: u32) -> f64 {
+        distance_mm(&self.place_mm(a), &self.place_mm(b))
+    }
+
+    /// Whether there is a local path between two nodes, however far apart.
+    ///
+    /// # Errors
+    /// The first reason against it.
+    pub fn join(&self, a: u32, b: u32) -> Result<(), Rejection> {
+        let key = (a.min(b), a.max(b));
+        let mut guard = self.remember();
+        let memory = &mut *guard;
+        if let Some(known) = memory.joins.get(&key) {
+            return *known;
+        }
+        let ends = &memory.ends;
+        let node = |number: u32| {
+            let sample = self.nodes.get(number as usize);
+            sample.unwrap_or_else(|| &ends[number as usize - self.samples.len()].node)
+        };
+        let found = self.local.join(node(key.0), node(key.1), &mut memory.scratch);
+        memory.joins.insert(key, found);
+        found
+    }
+
+    /// The component of each of the first `prefix` samples under edges up to `radius_mm`, named by its first sample.
+    pub fn components(&self, prefix: u32, radius_mm: f64) -> Arc<Vec<u32>> {
+        let key = (prefix, radius_mm.to_bits());
+        if let Some(known) = self.remember().parts.get(&key) {
+            return known.clone();
+        }
+        let mut first: Vec<u32> = (0..prefix).collect();
+        for from in 0..prefix {
+            let near = self.links[from as usize].iter().take_while(|(to, _)| *to < from);
+            for (to, _) in near.filter(|(_, gap)| *gap <= radius_mm) {
+                let (a, b) = (root(&mut first, from), root(&mut first, *to));
+                first[a.max(b) as usize] = a.min(b);
+            }
+        }
+        let parts: Vec<u32> = (0..prefix).map(|node| root(&mut first, node)).collect();
+        let parts = Arc::new(parts);
+        self.remember().parts.insert(key, parts.clone());
+        parts
+    }
+
+    fn remember(&self) -> MutexGuard<'_, Memory> {
+        self.memory.lock().expect("no thread panics while it remembers")
+    }
+}
+
+fn root(first: &mut [u32], mut node: u32) -> u32 {
+    while first[node as usize] != node {
+        first[node as usize] = first[first[node as usize] as usize];
+        node = first[node as usize];
+    }
+    node
+}

@@ -1,0 +1,295 @@
+//! Queries of an arm in its work cell, answered on roadmaps drawn from a seed.
+
+use super::{Entry, Family, Query};
+use crate::kinematics::ik::Branch;
+use crate::kinematics::{AXES, Joints, Robot};
+use crate::planner::Invalid;
+use crate::seed;
+use crate::settings::{Document, Settings, SettingsError};
+use crate::space::WorldKind;
+use crate::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Scene, SpeedRule};
+use crate::space::roadmap::{Counted, Local, Sample};
+use crate::study::judge::roadmap::ARM_COLUMNS;
+use crate::study::prepared::{Prepared, nested_roadmap};
+use crate::study::{Inputs, StudyError};
+use rand::RngExt as _;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use toml::Spanned;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "cell_queries",
+    about: "queries of a six-axis arm in its cell, on roadmaps of free configurations drawn at random",
+    revision: 1,
+    prepared: nested_roadmap::ENTRY.name,
+    columns: ARM_COLUMNS,
+    build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(Box::new(Posed::new(settings, inputs)?)),
+};
+
+/// Draws per wanted sample after which a cell counts as full.
+const DRAWS_PER_SAMPLE: u32 = 1000;
+/// How far the region around the queries' poses reaches beyond them.
+const AROUND_DEG: f64 = 20.0;
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CellQueries {
+    robot: String,
+    scene: String,
+    /// Whether the scene's obstacles stand there; its floor goes with them.
+    obstacles: bool,
+    self_collision: bool,
+    /// Instead of the robot file's tool.
+    tool_mm: Option<f64>,
+    queries: String,
+    samples: u32,
+    counted: CountedSetting,
+    region: Region,
+    radius_mm: f64,
+    path: PathSetting,
+    step_mm: f64,
+    step_deg: f64,
+    jump_deg: f64,
+    turn_deg: f64,
+    end: EndSetting,
+    speed: Option<SpeedSetting>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum CountedSetting {
+    Accepted,
+    Drawn,
+}
+
+/// Where samples are drawn from, evenly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Region {
+    /// All joint ranges, at most half a turn either way.
+    Full,
+    /// The same with the first joint within a quarter turn.
+    Front,
+    /// All, but only the branch of the first query's start.
+    OneBranch,
+    /// The smallest ranges that hold the queries' poses, and 20° more on either side.
+    AroundPoses,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum PathSetting {
+    Tool,
+    Joints,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum EndSetting {
+    Own,
+    WholeTurns,
+    PoseOnly,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SpeedSetting {
+    tool_mm_s: f64,
+    acceleration_mm_s2: f64,
+}
+
+impl CellQueries {
+    /// The first number that cannot be.
+    fn fault(&self) -> Option<String> {
+        let speed = self.speed.unwrap_or(SpeedSetting { tool_mm_s: 1.0, acceleration_mm_s2: 1.0 });
+        let numbers = [
+            ("radius_mm", self.radius_mm),
+            ("step_mm", self.step_mm),
+            ("step_deg", self.step_deg),
+            ("jump_deg", self.jump_deg),
+            ("turn_deg", self.turn_deg),
+            ("speed.tool_mm_s", speed.tool_mm_s),
+            ("speed.acceleration_mm_s2", speed.acceleration_mm_s2),
+        ];
+        let wrong = numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
+        let wrong = wrong.map(|(key, value)| format!("{key} is {value}; a finite number above 0 is accepted"));
+        wrong.or_else(|| (self.samples == 0).then(|| "samples is 0; at least 1 is accepted".to_owned()))
+    }
+
+    fn rules(&self) -> LineRules {
+        LineRules {
+            path: match self.path {
+                PathSetting::Tool => Path::Tool,
+                PathSetting::Joints => Path::Joints,
+            },
+            step_m: self.step_mm * 1e-3,
+            step_rad: self.step_deg.to_radians(),
+            jump_rad: self.jump_deg.to_radians(),
+            turn_rad: self.turn_deg.to_radians(),
+            speed: self.speed.map(|speed| SpeedRule {
+                speed_m_s: speed.tool_mm_s * 1e-3,
+                acceleration_m_s2: speed.acceleration_mm_s2 * 1e-3,
+            }),
+            end: match self.end {
+                EndSetting::Own => EdgeEnd::Own,
+                EndSetting::WholeTurns => EdgeEnd::WholeTurns,
+                EndSetting::PoseOnly => EdgeEnd::PoseOnly,
+            },
+        }
+    }
+}
+
+/// The file of poses and of groups that join two of them.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GroupsFile {
+    pose_deg: BTreeMap<String, Joints>,
+    #[serde(rename = "group")]
+    groups: Vec<GroupEntry>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GroupEntry {
+    name: String,
+    from: Spanned<String>,
+    to: Spanned<String>,
+}
+
+fn read_queries(document: &Document) -> Result<Vec<Query>, SettingsError> {
+    let file: GroupsFile = document.read()?;
+    let pose = |name: &Spanned<String>| {
+        let found = file.pose_deg.get(name.get_ref()).ok_or_else(|| {
+            let known = file.pose_deg.keys().cloned().collect::<Vec<_>>().join(", ");
+            document.error(name.span(), format!("there is no pose `{}`; the poses are {known}", name.get_ref()))
+        })?;
+        if let Some(number) = found.iter().find(|number| !number.is_finite()) {
+            let message = format!("pose `{}` has the angle {number}; finite angles are accepted", name.get_ref());
+            return Err(document.error(name.span(), message));
+        }
+        Ok(found.map(f64::to_radians).to_vec())
+    };
+    let query = |group: &GroupEntry| {
+        Ok(Query { name: group.name.clone(), start: pose(&group.from)?, goal: pose(&group.to)? })
+    };
+    let queries: Vec<Query> = file.groups.iter().map(query).collect::<Result<_, _>>()?;
+    if queries.is_empty() {
+        return Err(document.error(0..0, "there is no group; at least one is accepted"));
+    }
+    Ok(queries)
+}
+
+struct Posed {
+    read: CellQueries,
+    cell: Cell,
+    bounds_rad: [[f64; 2]; AXES],
+    branch: Option<Branch>,
+    queries: Vec<Query>,
+    inputs: [PathBuf; 3],
+}
+
+impl Posed {
+    fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
+        let read: CellQueries = settings.read()?;
+        if let Some(fault) = read.fault() {
+            return Err(settings.error(fault));
+        }
+        let locate = |name: &str| inputs.locate(name).map_err(|message| settings.error(message));
+        let files = [locate(&read.robot)?, locate(&read.scene)?, locate(&read.queries)?];
+        let robot = Robot::load(&files[0]).map_err(|e| settings.error(e.to_string()))?;
+        let robot = match read.tool_mm {
+            Some(tool_mm) => {
+                robot.with_tool_length(tool_mm * 1e-3).map_err(|e| settings.error(format!("tool_mm: {e}")))?
+            }
+            None => robot,
+        };
+        let scene = Scene::load(&files[1])?;
+        let queries = read_queries(Document::open(&files[2])?.as_ref())?;
+        let scene = if read.obstacles { scene } else { Scene::empty() };
+        let cell = Cell::new(robot, scene, read.self_collision);
+        let bounds_rad = bounds_rad(&cell, read.region, &queries);
+        let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
+        let branch = (read.region == Region::OneBranch).then(|| cell.robot().arm().branch_of(&home));
+        Ok(Self { read, cell, bounds_rad, branch, queries, inputs: files })
+    }
+
+    /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.
+    fn samples(&self, seed: u64) -> (Vec<Sample>, u32) {
+        let mut stream = seed::stream(seed);
+        let (wanted, mut samples, mut draws) = (self.read.samples, Vec::new(), 0);
+        let is_done = |accepted: usize, draws: u32| match self.read.counted {
+            CountedSetting::Accepted => accepted >= wanted as usize || draws / DRAWS_PER_SAMPLE >= wanted,
+            CountedSetting::Drawn => draws >= wanted,
+        };
+        while !is_done(samples.len(), draws) {
+            let q: Joints = self.bounds_rad.map(|[low, high]| low + (high - low) * stream.random::<f64>());
+            let fits = self.branch.is_none_or(|branch| self.cell.robot().arm().branch_of(&q) == branch);
+            if fits && self.cell.is_free(&q) {
+                samples.push(Sample { config: q.to_vec(), drawn_after: draws });
+            }
+            draws += 1;
+        }
+        (samples, draws)
+    }
+}
+
+fn bounds_rad(cell: &Cell, region: Region, queries: &[Query]) -> [[f64; 2]; AXES] {
+    let joints = cell.robot().arm().chain().joints();
+    let half_turn = std::f64::consts::PI;
+    let whole = joints.map(|joint| [joint.lower_rad.max(-half_turn), joint.upper_rad.min(half_turn)]);
+    // A joint that turns beyond half a turn on one side only keeps its own ends.
+    let whole: [[f64; 2]; AXES] = std::array::from_fn(|i| {
+        let span = joints[i].upper_rad - joints[i].lower_rad;
+        if span <= 2.0 * half_turn + 1e-9 { [joints[i].lower_rad, joints[i].upper_rad] } else { whole[i] }
+    });
+    let poses = || queries.iter().flat_map(|query| [&query.start, &query.goal]);
+    match region {
+        Region::Full | Region::OneBranch => whole,
+        Region::Front => {
+            let quarter = half_turn / 2.0;
+            let mut front = whole;
+            front[0] = [front[0][0].max(-quarter), front[0][1].min(quarter)];
+            front
+        }
+        Region::AroundPoses => std::array::from_fn(|i| {
+            let around = AROUND_DEG.to_radians();
+            let low = poses().map(|pose| pose[i]).fold(f64::INFINITY, f64::min) - around;
+            let high = poses().map(|pose| pose[i]).fold(f64::NEG_INFINITY, f64::max) + around;
+            [low.max(whole[i][0]), high.min(whole[i][1])]
+        }),
+    }
+}
+
+impl Family for Posed {
+    fn world(&self) -> WorldKind {
+        WorldKind::Roadmap
+    }
+
+    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        let (samples, draws) = self.samples(seed);
+        let counted = match self.read.counted {
+            CountedSetting::Accepted => Counted::Accepted,
+            CountedSetting::Drawn => Counted::Drawn,
+        };
+        if counted == Counted::Accepted && samples.len() < self.read.samples as usize {
+            let (found, wanted) = (samples.len(), self.read.samples);
+            return Err(Invalid(format!("{found} of {wanted} free configurations were found in {draws} draws")));
+        }
+        let lines = Lines::new(self.cell.clone(), self.read.rules());
+        let local = Local::Arm(Box::new(lines));
+        Ok(nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, counted))
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+
+    fn inputs(&self) -> &[PathBuf] {
+        &self.inputs
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,79 @@
+//! A roadmap whose first N samples are a roadmap too, with what became of every pair it tried.
+
+use super::{Entry, Prepared};
+use crate::planner::{Counts, Exhibit, Value};
+use crate::space::World;
+use crate::space::cell::Rejection;
+use crate::space::roadmap::{Counted, Local, Roadmap, Sample};
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "nested_roadmap",
+    about: "samples in the order they were drawn and the local paths between them; smaller sizes and radii are read off",
+    columns: &[
+        "samples",
+        "draws",
+        "pairs",
+        "edges",
+        "components",
+        "rejected_branch",
+        "rejected_turn",
+        "rejected_unreachable",
+        "rejected_limits",
+        "rejected_jump",
+        "rejected_speed",
+        "rejected_end",
+        "rejected_contact",
+    ],
+};
+
+/// The column that counts pairs rejected for `reason`.
+fn column(reason: Rejection) -> &'static str {
+    match reason {
+        Rejection::Branch => "rejected_branch",
+        Rejection::Turn => "rejected_turn",
+        Rejection::Unreachable => "rejected_unreachable",
+        Rejection::Limits => "rejected_limits",
+        Rejection::Jump => "rejected_jump",
+        Rejection::Speed => "rejected_speed",
+        Rejection::End => "rejected_end",
+        Rejection::Contact => "rejected_contact",
+    }
+}
+
+/// The roadmap of `samples`, joined up to `radius_mm`.
+pub fn prepare(local: Local, samples: Vec<Sample>, draws: u32, radius_mm: f64, counted: Counted) -> Prepared {
+    let roadmap = Roadmap::build(local, samples, radius_mm, counted);
+    let (tally, count) = (*roadmap.tally(), roadmap.samples().len());
+    let parts = roadmap.components(count as u32, radius_mm);
+    let components = parts.iter().zip(0..).filter(|(part, node)| *part == node).count();
+    let mut values = Counts::from([
+        ("samples", Value::Count(count as u64)),
+        ("draws", Value::Count(u64::from(draws))),
+        ("pairs", Value::Count(tally.pairs)),
+        ("edges", Value::Count(tally.edges)),
+        ("components", Value::Count(components as u64)),
+    ]);
+    for (reason, rejected) in Rejection::ALL.into_iter().zip(tally.rejected) {
+        values.insert(column(reason), Value::Count(rejected));
+    }
+    let exhibits = match roadmap.local() {
+        Local::Plane(_) => plane_exhibits(&roadmap),
+        Local::Arm(_) => Vec::new(),
+    };
+    Prepared { world: World::Roadmap(Box::new(roadmap)), values, exhibits }
+}
+
+/// What a picture of a roadmap in the plane needs: samples and edges.
+fn plane_exhibits(roadmap: &Roadmap) -> Vec<Exhibit> {
+    let places = roadmap.samples().iter().flat_map(|sample| sample.config.clone()).collect();
+    let mut edges = Vec::new();
+    for node in 0..roadmap.samples().len() as u32 {
+        let links = roadmap.links(node);
+        edges.extend(links.iter().filter(|(to, _)| *to < node).flat_map(|(to, _)| [f64::from(*to), f64::from(node)]));
+    }
+    vec![
+        Exhibit { name: "samples".to_owned(), width: 2, values: places },
+        Exhibit { name: "edges".to_owned(), width: 2, values: edges },
+    ]
+}
