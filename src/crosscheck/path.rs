@@ -1,0 +1,148 @@
+//! Paths as the judge is asked about them: every configuration at a quarter of our step.
+
+use super::sample::{Kind, Question, drawn};
+use super::subject::Subject;
+use crate::geometry::{Frame, Vec3};
+use crate::seed;
+use nalgebra::Matrix3;
+
+/// Into how many parts each step of a stored path is cut.
+pub const FINER: u32 = 4;
+/// The step of a path that is drawn for want of a stored one: the largest change of a joint.
+const DRAWN_STEP_RAD: f64 = 0.02;
+/// Draws per wanted path.
+const DRAWS: u32 = 200;
+/// How deep a pushed path must be in contact.
+const PUSH_M: f64 = 2e-3;
+/// The step by which it is pushed, the most steps, and how many configurations either side come along.
+const PUSH_STEP_RAD: f64 = 0.01;
+const PUSHES: u32 = 400;
+const PUSH_REACH: usize = 12;
+
+/// A path by name, at our own steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Path {
+    /// The trial it is of, or that it was drawn.
+    pub name: String,
+    /// Its configurations.
+    pub stops_rad: Vec<Vec<f64>>,
+}
+
+impl Path {
+    /// The path with each step cut in [`FINER`] parts.
+    ///
+    /// # Errors
+    /// The number of the step that cannot be followed.
+    pub fn finer(&self, subject: &dyn Subject) -> Result<Self, String> {
+        let mut stops_rad = vec![self.stops_rad[0].clone()];
+        for (step, pair) in self.stops_rad.windows(2).enumerate() {
+            if pair[0] == pair[1] {
+                continue;
+            }
+            for part in 1..FINER {
+                let share = f64::from(part) / f64::from(FINER);
+                let q = subject.between(&pair[0], &pair[1], share).ok_or_else(|| {
+                    format!("step {} of path `{}` cannot be followed", step + 1, self.name)
+                })?;
+                stops_rad.push(q);
+            }
+            stops_rad.push(pair[1].clone());
+        }
+        Ok(Self { name: self.name.clone(), stops_rad })
+    }
+
+    /// The questions about the path, which has this index.
+    pub fn questions(&self, index: usize, kind: Kind) -> Vec<Question> {
+        let one = |q: &Vec<f64>| Question {
+            kind,
+            path: index,
+            q_rad: q.clone(),
+            frames: false,
+            gaps: false,
+            limits: false,
+        };
+        self.stops_rad.iter().map(one).collect()
+    }
+}
+
+fn least(subject: &dyn Subject, q: &[f64]) -> f64 {
+    subject.gaps_m(q).into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// Straight joint lines between drawn configurations that are free by our own code.
+pub fn drawn_paths(subject: &dyn Subject, count: u32, seed: u64) -> Vec<Path> {
+    let mut stream = seed::stream(seed::derive(seed, &["drawn paths"]));
+    let mut paths: Vec<Path> = Vec::new();
+    for _ in 0..count * DRAWS {
+        if paths.len() >= count as usize {
+            break;
+        }
+        let ends = [0, 1].map(|_| drawn(subject.model(), &mut stream));
+        let widest = ends[0].iter().zip(&ends[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let steps = (widest / DRAWN_STEP_RAD).ceil().max(1.0) as u32;
+        let at = |step: u32| {
+            let share = f64::from(step) / f64::from(steps);
+            ends[0].iter().zip(&ends[1]).map(|(a, b)| a + (b - a) * share).collect::<Vec<f64>>()
+        };
+        let stops_rad: Vec<Vec<f64>> = (0..=steps).map(at).collect();
+        if stops_rad.iter().all(|q| least(subject, q) > 0.0) {
+            paths.push(Path { name: format!("drawn {}", paths.len() + 1), stops_rad });
+        }
+    }
+    paths
+}
+
+/// `path` with the configuration that is nearest to contact, and its neighbours less and less, moved downhill in
+/// clearance until it is in contact; `None` if that does not succeed.
+pub fn pushed(subject: &dyn Subject, path: &Path) -> Option<Path> {
+    let gaps: Vec<f64> = path.stops_rad.iter().map(|q| least(subject, q)).collect();
+    let worst = (0..gaps.len()).min_by(|a, b| gaps[*a].total_cmp(&gaps[*b]))?;
+    let start = &path.stops_rad[worst];
+    let mut q = start.clone();
+    for _ in 0..PUSHES {
+        let gap = least(subject, &q);
+        if gap <= -PUSH_M {
+            break;
+        }
+        let slope = |joint: usize| {
+            let mut moved = q.clone();
+            moved[joint] += 1e-6;
+            (least(subject, &moved) - gap) / 1e-6
+        };
+        let slopes: Vec<f64> = (0..q.len()).map(slope).collect();
+        let steepness = slopes.iter().map(|s| s * s).sum::<f64>().sqrt();
+        if steepness == 0.0 {
+            break;
+        }
+        q.iter_mut().zip(&slopes).for_each(|(angle, slope)| *angle -= PUSH_STEP_RAD * slope / steepness);
+    }
+    if least(subject, &q) > 0.0 {
+        return None;
+    }
+    let mut stops_rad = path.stops_rad.clone();
+    for (index, stop) in stops_rad.iter_mut().enumerate() {
+        let share = 1.0 - index.abs_diff(worst) as f64 / PUSH_REACH as f64;
+        let weight = share.max(0.0);
+        stop.iter_mut().zip(q.iter().zip(start)).for_each(|(angle, (to, from))| *angle += weight * (to - from));
+    }
+    Some(Path { name: format!("{}, pushed", path.name), stops_rad })
+}
+
+/// The frame at `share` of the way from one to another: on a straight line, turned evenly about one axis.
+pub fn straight(from: &Frame, to: &Frame, share: f64) -> Frame {
+    let origin = from.origin + (to.origin - from.origin) * share;
+    let turn = to.rotation * from.rotation.transpose();
+    let skew = Vec3::new(
+        turn[(2, 1)] - turn[(1, 2)],
+        turn[(0, 2)] - turn[(2, 0)],
+        turn[(1, 0)] - turn[(0, 1)],
+    );
+    let angle = libm::atan2(skew.norm(), turn.trace() - 1.0);
+    // One step of a path turns by far less than half a turn, so the axis is known wherever it matters.
+    let rotation = if skew.norm() < 1e-12 {
+        Matrix3::identity()
+    } else {
+        Frame::turned(&(skew / skew.norm()), angle * share).rotation
+    };
+    Frame { rotation: rotation * from.rotation, origin }
+}
