@@ -38,11 +38,17 @@ const fn metric(name: &'static str, label: &'static str, unit: &'static str, bet
 pub static METRICS: &[Metric] = &[
     metric("bends", "Bends", "", Better::Lower),
     metric("closed", "Closed nodes", "", Better::Lower),
+    metric("components", "Connected components", "", Better::Neither),
+    metric("connected", "Start and goal connected", "", Better::Neither),
     metric("expansions", "Expansions", "", Better::Lower),
     metric("generated", "Generated successors", "", Better::Lower),
+    metric("joint_peak_deg_s2", "Peak joint acceleration", "°/s²", Better::Lower),
+    metric("joint_travel_deg", "Joint travel", "°", Better::Lower),
+    metric("local_paths", "Local paths", "", Better::Lower),
     metric("opened", "Opened nodes", "", Better::Lower),
     metric("optimal_cost_cells", "Optimal cost", "cells", Better::Neither),
     metric("path_cost_cells", "Path cost", "cells", Better::Lower),
+    metric("path_length_mm", "Path length", "mm", Better::Lower),
     Metric {
         name: "plan_time_us",
         label: "Planning time",
@@ -51,6 +57,7 @@ pub static METRICS: &[Metric] = &[
         column: clock::COLUMN,
         scale: 1e-3,
     },
+    metric("shots", "Shots at the goal", "", Better::Neither),
     metric("turn_exterior_deg", "Turn sum, exterior angles", "°", Better::Lower),
     metric("turn_interior_deg", "Turn sum, interior angles", "°", Better::Lower),
 ];

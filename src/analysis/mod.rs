@@ -6,6 +6,7 @@
 pub mod audit;
 pub mod check;
 pub mod claims;
+pub mod draws;
 pub mod evidence;
 pub mod interval;
 pub mod metric;

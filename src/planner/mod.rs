@@ -7,13 +7,24 @@
 mod astar;
 mod bidirectional;
 mod delete_inflections;
+mod direct;
 mod entry;
 mod lattice;
+mod roadmap;
+mod roadmap_astar;
+mod straighten;
 
 pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
 
 /// Every planner and stage, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&astar::ENTRY, &bidirectional::ENTRY, &delete_inflections::ENTRY];
+pub static REGISTRY: &[&Entry] = &[
+    &astar::ENTRY,
+    &bidirectional::ENTRY,
+    &delete_inflections::ENTRY,
+    &direct::ENTRY,
+    &roadmap_astar::ENTRY,
+    &straighten::ENTRY,
+];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -3,14 +3,21 @@
 //! A check either proves something from the printed numbers alone, and can then only refuse, or compares them
 //! with stored records. What a check compares with is written in the claim, before the first run.
 
+mod all_in_draw;
 mod attained;
 mod compare;
+mod fails_where;
+mod finds_whenever;
 mod largest_saving;
 mod lattice_length;
 mod ordering;
 mod percentage;
 mod point_distance;
+mod saving_per_draw;
+mod share_above;
 mod straight_line;
+mod table_cell;
+mod table_row;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
@@ -49,14 +56,21 @@ pub struct Entry {
 
 /// Every check, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
+    &all_in_draw::ENTRY,
     &attained::ENTRY,
     &compare::ENTRY,
+    &fails_where::ENTRY,
+    &finds_whenever::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
     &ordering::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
+    &saving_per_draw::ENTRY,
+    &share_above::ENTRY,
     &straight_line::ENTRY,
+    &table_cell::ENTRY,
+    &table_row::ENTRY,
 ];
 
 /// The entry called `name`.

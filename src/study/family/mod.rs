@@ -5,6 +5,7 @@
 
 mod cell_queries;
 mod grid_map;
+mod plane_queries;
 mod random_cells;
 
 use super::prepared::Prepared;
@@ -63,7 +64,7 @@ pub struct Entry {
 }
 
 /// Every family, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&cell_queries::ENTRY, &grid_map::ENTRY, &random_cells::ENTRY];
+pub static REGISTRY: &[&Entry] = &[&cell_queries::ENTRY, &grid_map::ENTRY, &plane_queries::ENTRY, &random_cells::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

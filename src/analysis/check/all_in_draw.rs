@@ -1,0 +1,83 @@
+//! In what share of draws one contender is lower than another on every query.
+
+use super::{Check, Entry};
+use crate::analysis::draws::values;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::proportion::{trials_for_margin, wilson};
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "all_in_draw",
+    about: "is one contender lower than another on every query of a draw, in at least a given share of draws?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders = [settings.lower.as_str(), settings.higher.as_str()];
+        let study = context.study(&settings.study, std::slice::from_ref(&settings.problems), &contenders)?;
+        if !(0.0..=1.0).contains(&settings.in_share) {
+            let message = format!("in_share is {}; 0 to 1 is accepted", settings.in_share);
+            return Err(context.settings.error(message));
+        }
+        let metric = context.metric(&settings.metric, study)?;
+        Ok(Box::new(AllInDraw { settings, metric }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: String,
+    metric: String,
+    lower: String,
+    higher: String,
+    /// The claim is kept if it holds in at least this share of draws.
+    in_share: f64,
+}
+
+struct AllInDraw {
+    settings: Settings,
+    metric: &'static Metric,
+}
+
+impl Check for AllInDraw {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let Settings { study, problems, lower, higher, in_share, .. } = &self.settings;
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let Some(run) = evidence.run(study) else { return finding };
+        let draws = values(run, problems, higher, lower, self.metric);
+        let all = draws.iter().filter(|draw| draw.iter().all(|(base, other)| other < base)).count();
+        let Some(interval) = wilson(all, draws.len(), 0.95) else {
+            finding.verdict = Some(Verdict::Undecided);
+            finding.because.push("no draw has a query that both solve".to_owned());
+            return finding;
+        };
+        finding.verdict = Some(if interval.low >= *in_share {
+            Verdict::Reproduced
+        } else if interval.high < *in_share {
+            Verdict::NotReproduced
+        } else {
+            Verdict::Undecided
+        });
+        let share = all as f64 / draws.len() as f64;
+        let queries: Vec<&(f64, f64)> = draws.iter().flatten().collect();
+        let on = queries.iter().filter(|(base, other)| other < base).count();
+        let what = "share of draws in which it is lower on every query, Wilson 95 %";
+        finding.ours = Some(Estimate::new(share, interval, what, draws.len()));
+        finding.because.push(format!(
+            "{lower} against {higher}: {} is lower on every query that both solve in {all} of {} draws, and on {on} of {} \
+             queries; kept if in at least {in_share} of draws",
+            self.metric.label.to_lowercase(),
+            draws.len(),
+            queries.len()
+        ));
+        if finding.verdict == Some(Verdict::Undecided) {
+            let margin = (share - in_share).abs().max(0.005);
+            let needed = trials_for_margin(share, margin, 0.95);
+            finding.because.push(format!("about {needed} draws would settle it"));
+        }
+        finding
+    }
+}

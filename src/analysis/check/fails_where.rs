@@ -1,0 +1,66 @@
+//! Whether a contender fails exactly where a condition of the problem says that it must.
+
+use super::{Check, Entry};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::verdict::{Finding, Verdict};
+use crate::study::record::Status;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "fails_where",
+    about: "does a contender fail on every problem on which a metric is 0, and on no other?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let problems = std::slice::from_ref(&settings.problems);
+        let study = context.study(&settings.study, problems, &[&settings.contender])?;
+        let metric = context.metric(&settings.metric, study)?;
+        Ok(Box::new(FailsWhere { settings, metric }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: String,
+    contender: String,
+    /// The metric that is 0 where it should fail.
+    metric: String,
+}
+
+struct FailsWhere {
+    settings: Settings,
+    metric: &'static Metric,
+}
+
+impl Check for FailsWhere {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let Settings { study, problems, contender, .. } = &self.settings;
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let Some(run) = evidence.run(study) else { return finding };
+        let (mut explained, mut unexplained, mut found, mut against) = (0, 0, 0, None);
+        for row in run.rows(problems, contender) {
+            let Some(value) = run.value(row, self.metric) else { continue };
+            match (row.status == Status::Solved, value == 0.0) {
+                (false, true) => explained += 1,
+                (false, false) => unexplained += 1,
+                (true, false) => found += 1,
+                (true, true) => against = against.or(Some(format!("{}/{}", run.study.name, row.trial))),
+            }
+        }
+        finding.verdict = Some(match (explained + found, unexplained, &against) {
+            (0, 0, None) => Verdict::Undecided,
+            (_, 0, None) => Verdict::Reproduced,
+            _ => Verdict::NotReproduced,
+        });
+        finding.trial = against;
+        finding.because.push(format!(
+            "of {} failures of {contender}, {explained} are where {} is 0; it is never 0 on the {found} that it solves",
+            explained + unexplained,
+            self.metric.label.to_lowercase()
+        ));
+        finding
+    }
+}

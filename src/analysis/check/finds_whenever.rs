@@ -1,0 +1,58 @@
+//! Whether one contender finds a path wherever another does: a theorem to be asserted, or a share to be counted.
+
+use super::{Check, Entry};
+use crate::analysis::draws::both;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::{Finding, Verdict};
+use crate::study::record::Status;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "finds_whenever",
+    about: "does one contender find a path on every problem on which another finds one?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders = [settings.contender.as_str(), settings.whenever.as_str()];
+        context.study(&settings.study, std::slice::from_ref(&settings.problems), &contenders)?;
+        Ok(Box::new(settings))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: String,
+    contender: String,
+    whenever: String,
+}
+
+impl Check for Settings {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let Some(run) = evidence.run(&self.study) else { return finding };
+        let (mut both_find, mut only_other, mut more) = (0, Vec::new(), 0);
+        for [base, own] in both(run, &self.problems, &self.whenever, &self.contender).values().flatten() {
+            match (base.status == Status::Solved, own.status == Status::Solved) {
+                (true, true) => both_find += 1,
+                (true, false) => only_other.push(own.trial.clone()),
+                (false, true) => more += 1,
+                (false, false) => {}
+            }
+        }
+        finding.verdict = Some(match (only_other.is_empty(), both_find) {
+            (true, 0) => Verdict::Undecided,
+            (true, _) => Verdict::Reproduced,
+            (false, _) => Verdict::NotReproduced,
+        });
+        finding.trial = only_other.first().map(|trial| format!("{}/{trial}", run.study.name));
+        finding.because.push(format!(
+            "{} finds a path on {both_find} of the {} problems on which {} does, and on {more} others",
+            self.contender,
+            both_find + only_other.len(),
+            self.whenever
+        ));
+        finding
+    }
+}

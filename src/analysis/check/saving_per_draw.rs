@@ -1,0 +1,113 @@
+//! Whether a printed saving, the least or greatest over a draw's queries, could be that of one more draw.
+
+use super::{Check, Entry};
+use crate::analysis::audit::printed::Printed;
+use crate::analysis::draws::values;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::proportion::predictive;
+use crate::analysis::stats::summary::mean;
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::study::Study;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "saving_per_draw",
+    about: "does the printed least, greatest or mean saving over a draw's queries lie where one more draw of ours would?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders = [settings.contender.as_str(), settings.against.as_str()];
+        let study = context.study(&settings.study, std::slice::from_ref(&settings.problems), &contenders)?;
+        let metric = context.metric(&settings.metric, study)?;
+        let is_fitted = study.fitted_to.contains(&context.claim.id);
+        Ok(Box::new(SavingPerDraw { settings, study, metric, printed: context.printed()?, is_fitted }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: String,
+    metric: String,
+    contender: String,
+    against: String,
+    of_queries: Statistic,
+}
+
+/// What is taken of the savings on one draw's queries.
+#[derive(Deserialize, Clone, Copy)]
+#[serde(rename_all = "snake_case")]
+enum Statistic {
+    Least,
+    Mean,
+    Greatest,
+}
+
+impl Statistic {
+    fn of(self, savings: &[f64]) -> f64 {
+        match self {
+            Self::Least => savings.iter().copied().fold(f64::INFINITY, f64::min),
+            Self::Greatest => savings.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            Self::Mean => savings.iter().sum::<f64>() / savings.len() as f64,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Least => "least",
+            Self::Mean => "mean",
+            Self::Greatest => "greatest",
+        }
+    }
+}
+
+struct SavingPerDraw<'a> {
+    settings: Settings,
+    study: &'a Study,
+    metric: &'static Metric,
+    printed: Printed,
+    is_fitted: bool,
+}
+
+impl Check for SavingPerDraw<'_> {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let Settings { study, problems, contender, against, of_queries, .. } = &self.settings;
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let Some(run) = evidence.run(study) else { return finding };
+        let savings = |draw: &Vec<(f64, f64)>| -> Vec<f64> {
+            draw.iter().map(|(base, other)| 100.0 * (1.0 - other / base)).collect()
+        };
+        let drawn = values(run, problems, against, contender, self.metric);
+        let draws: Vec<f64> = drawn.iter().map(|draw| of_queries.of(&savings(draw))).collect();
+        let (Some(interval), Some(mean)) = (predictive(&draws, 0.95), mean(&draws)) else {
+            finding.verdict = Some(Verdict::Undecided);
+            finding.because.push(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
+            return finding;
+        };
+        let printed = self.printed.value();
+        finding.verdict = Some(match interval.contains(printed) {
+            true if self.is_fitted => Verdict::Fitted,
+            true if self.study.searched => Verdict::Attainable,
+            true => Verdict::Reproduced,
+            // Both are savings, or both are losses.
+            false if mean * printed > 0.0 => Verdict::DirectionOnly,
+            false => Verdict::NotReproduced,
+        });
+        let name = of_queries.name();
+        let what = format!("{name} saving over a draw's queries in %, mean and 95 % predictive interval");
+        finding.ours = Some(Estimate::new(mean, interval, what, draws.len()));
+        let pairs: usize = drawn.iter().map(Vec::len).sum();
+        finding.because.push(format!(
+            "{contender} against {against}: the {name} saving in {} over the queries that both solve ({pairs} on {} draws) is \
+             {mean:.1} % on average and lies in [{:.1}, {:.1}] % for one more draw; printed {} %",
+            self.metric.label.to_lowercase(),
+            draws.len(),
+            interval.low,
+            interval.high,
+            self.printed
+        ));
+        finding
+    }
+}

@@ -1,0 +1,79 @@
+//! Whether a printed share of solved queries could be that of one more of our draws.
+
+use super::{Check, Entry};
+use crate::analysis::audit::printed::Printed;
+use crate::analysis::draws::solved_percents;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::stats::proportion::predictive;
+use crate::analysis::stats::summary::mean;
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::study::Study;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "table_cell",
+    about: "does the printed share of solved queries lie where one more draw of ours would, with 95 % probability?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let problems = std::slice::from_ref(&settings.problems);
+        let study = context.study(&settings.study, problems, &[&settings.contender])?;
+        if !study.sweep_points().iter().any(|point| point.name == settings.sweep) {
+            let known: Vec<String> = study.sweep_points().into_iter().map(|point| point.name).collect();
+            let message =
+                format!("study `{}` has no sweep `{}`; it has {}", study.name, settings.sweep, known.join(", "));
+            return Err(context.settings.error(message));
+        }
+        let is_fitted = study.fitted_to.contains(&context.claim.id);
+        Ok(Box::new(TableCell { settings, study, printed: context.printed()?, is_fitted }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: String,
+    contender: String,
+    sweep: String,
+}
+
+struct TableCell<'a> {
+    settings: Settings,
+    study: &'a Study,
+    printed: Printed,
+    is_fitted: bool,
+}
+
+impl Check for TableCell<'_> {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let Settings { study, problems, contender, sweep } = &self.settings;
+        let run = evidence.run(study);
+        let draws = run.map(|run| solved_percents(run, problems, contender, sweep)).unwrap_or_default();
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let (Some(interval), Some(mean)) = (predictive(&draws, 0.95), mean(&draws)) else {
+            finding.verdict = Some(Verdict::Undecided);
+            finding.because.push(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
+            return finding;
+        };
+        let printed = self.printed.value();
+        finding.verdict = Some(match interval.contains(printed) {
+            true if self.is_fitted => Verdict::Fitted,
+            true if self.study.searched => Verdict::Attainable,
+            true => Verdict::Reproduced,
+            false => Verdict::NotReproduced,
+        });
+        let at_most = draws.iter().filter(|draw| **draw <= printed).count();
+        let what = "mean share solved in %, 95 % predictive interval of one draw";
+        finding.ours = Some(Estimate::new(mean, interval, what, draws.len()));
+        finding.because.push(format!(
+            "{contender} at {sweep}: mean {mean:.1} %; one more draw lies in [{:.0}, {:.0}] % with 95 % probability; \
+             printed {} %, at or above {at_most} of {} draws",
+            interval.low,
+            interval.high,
+            self.printed,
+            draws.len()
+        ));
+        finding
+    }
+}

@@ -1,0 +1,41 @@
+//! One local path from start to goal and nothing else: what a roadmap has to beat.
+
+use super::roadmap::{Posed, solved, unsolved};
+use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request};
+use crate::space::WorldKind;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "direct",
+    about: "one local path from start to goal, however long, and no search",
+    revision: 1,
+    needs: WorldKind::Roadmap,
+    columns: &[],
+    build: Build::Planner(|settings| {
+        let read: Direct = settings.read()?;
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Direct {}
+
+impl Planner for Direct {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let Posed { map, start, goal } = Posed::new(request)?;
+        Ok(match map.join(start, goal) {
+            Ok(()) => solved(map, &[start, goal], Counts::new()),
+            Err(_) => unsolved(Ending::NoPath, Counts::new()),
+        })
+    }
+
+    fn is_optimal(&self) -> bool {
+        true
+    }
+
+    fn is_complete(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,63 @@
+//! Fu's post-processing as a stage: each node is joined with the furthest later one that a local path reaches.
+
+use super::roadmap::{roadmap, solved};
+use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use crate::shorten::{LastNode, straightening};
+use crate::space::WorldKind;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "straighten",
+    about: "from the start on, joins each node of a roadmap's path with the furthest one that a local path reaches",
+    revision: 1,
+    needs: WorldKind::Roadmap,
+    columns: &["joins"],
+    build: Build::Stage(|settings| {
+        let read: Straighten = settings.read()?;
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Straighten {
+    /// Which nodes may be joined to an earlier one.
+    last: LastSetting,
+}
+
+#[derive(Deserialize, Clone, Copy)]
+#[serde(rename_all = "snake_case")]
+enum LastSetting {
+    AsPrinted,
+    Goal,
+}
+
+impl Stage for Straighten {
+    fn refine(&self, request: &Request<'_>, plan: Plan) -> Plan {
+        if plan.ending != Ending::Solved {
+            return plan;
+        }
+        let map = roadmap(request.world);
+        let number = |config: &Vec<f64>| map.number("node", config).expect("a path's nodes are free");
+        let nodes: Vec<u32> = plan.path.iter().map(number).collect();
+        let last = match self.last {
+            LastSetting::AsPrinted => LastNode::BeforePrinted,
+            LastSetting::Goal => LastNode::Goal,
+        };
+        let mut joins = 0;
+        let kept = straightening(nodes.len(), last, |i, j| {
+            joins += 1;
+            map.join(nodes[i], nodes[j]).is_ok()
+        });
+        let kept: Vec<u32> = kept.into_iter().map(|index| nodes[index]).collect();
+        let mut counts = plan.counts;
+        counts.insert("joins", Value::Count(joins));
+        let mut exhibits = plan.exhibits;
+        if request.trace {
+            let values = plan.path.concat();
+            exhibits.push(super::Exhibit { name: "raw_path".to_owned(), width: map.local().width(), values });
+        }
+        Plan { exhibits, ..solved(map, &kept, counts) }
+    }
+}

@@ -1,0 +1,140 @@
+//! A particle among polygons, with one start and one goal, on roadmaps drawn from a seed.
+
+use super::{Entry, Family, Query};
+use crate::geometry::Vec2;
+use crate::geometry::planar::ConvexPolygon;
+use crate::planner::{Exhibit, Invalid};
+use crate::seed;
+use crate::settings::{Document, SettingsError};
+use crate::space::WorldKind;
+use crate::space::roadmap::{Counted, Local, PlaneMap, Sample};
+use crate::study::StudyError;
+use crate::study::judge::roadmap::PLANE_COLUMNS;
+use crate::study::prepared::{Prepared, nested_roadmap};
+use rand::RngExt as _;
+use serde::Deserialize;
+use std::path::PathBuf;
+use toml::Spanned;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "plane_queries",
+    about: "a particle among polygons, one start and one goal, on roadmaps of free points drawn at random",
+    revision: 1,
+    prepared: nested_roadmap::ENTRY.name,
+    columns: PLANE_COLUMNS,
+    build: |settings, inputs| {
+        let read: PlaneQueries = settings.read()?;
+        if read.samples == 0 || !read.radius_mm.is_finite() || read.radius_mm <= 0.0 {
+            let message = format!(
+                "samples is {} and radius_mm {}; at least 1 and a length above 0 are accepted",
+                read.samples, read.radius_mm
+            );
+            return Err(settings.error(message).into());
+        }
+        let file = inputs.locate(&read.map).map_err(|message| settings.error(message))?;
+        let document = Document::open(&file)?;
+        let map: MapFile = document.read()?;
+        let plane = map.plane(&document)?;
+        let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.to_vec());
+        let queries = [Query { name: String::new(), start, goal }];
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, inputs: [file] }))
+    },
+};
+
+/// Samples lie on this raster, on which the verifier is exact.
+const RASTER_MM: f64 = 1.0 / 16.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PlaneQueries {
+    map: String,
+    samples: u32,
+    radius_mm: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MapFile {
+    #[expect(dead_code, reason = "a map says its name to readers")]
+    name: String,
+    size_mm: [f64; 2],
+    start_mm: [f64; 2],
+    goal_mm: [f64; 2],
+    #[serde(rename = "obstacle")]
+    obstacles: Vec<Spanned<ObstacleEntry>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ObstacleEntry {
+    corners_mm: Vec<[f64; 2]>,
+}
+
+impl MapFile {
+    fn plane(&self, document: &Document) -> Result<PlaneMap, SettingsError> {
+        let polygon = |entry: &Spanned<ObstacleEntry>| {
+            let corners = &entry.get_ref().corners_mm;
+            let is_fine = |x: &f64| (x / RASTER_MM).fract() == 0.0;
+            if !corners.iter().flatten().all(is_fine) {
+                let message = "a corner is no multiple of 1/16 mm; such corners are accepted".to_owned();
+                return Err(document.error(entry.span(), message));
+            }
+            let vertices = corners.iter().map(|corner| Vec2::from(*corner)).collect();
+            ConvexPolygon::new(vertices).map_err(|e| document.error(entry.span(), e.to_string()))
+        };
+        if !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
+            let message = format!("size_mm is {:?}; two lengths above 0 are accepted", self.size_mm);
+            return Err(document.error(0..0, message));
+        }
+        Ok(PlaneMap::new(self.size_mm, self.obstacles.iter().map(polygon).collect::<Result<_, _>>()?))
+    }
+}
+
+struct Drawn {
+    read: PlaneQueries,
+    plane: PlaneMap,
+    queries: [Query; 1],
+    inputs: [PathBuf; 1],
+}
+
+impl Family for Drawn {
+    fn world(&self) -> WorldKind {
+        WorldKind::Roadmap
+    }
+
+    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        let mut stream = seed::stream(seed);
+        let (mut samples, mut draws) = (Vec::new(), 0);
+        let [columns, rows] = self.plane.size_mm().map(|side| (side / RASTER_MM) as u32);
+        while samples.len() < self.read.samples as usize {
+            if draws / 1000 > self.read.samples {
+                return Err(Invalid(format!("{} free points were found in {draws} draws", samples.len())));
+            }
+            let cell = [stream.random_range(0..=columns), stream.random_range(0..=rows)];
+            let point = cell.map(|count| f64::from(count) * RASTER_MM);
+            if self.plane.refusal(point).is_none() {
+                samples.push(Sample { config: point.to_vec(), drawn_after: draws });
+            }
+            draws += 1;
+        }
+        let [width, height] = self.plane.size_mm();
+        let polygons = self.plane.polygons().iter().enumerate();
+        let corners =
+            polygons.flat_map(|(i, p)| p.vertices().iter().flat_map(move |v| [i as f64, v.x, v.y])).collect();
+        let local = Local::Plane(self.plane.clone());
+        let mut prepared =
+            nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, Counted::Accepted);
+        prepared.exhibits.push(Exhibit { name: "size_mm".to_owned(), width: 2, values: vec![width, height] });
+        prepared.exhibits.push(Exhibit { name: "obstacles".to_owned(), width: 3, values: corners });
+        Ok(prepared)
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+
+    fn inputs(&self) -> &[PathBuf] {
+        &self.inputs
+    }
+}
