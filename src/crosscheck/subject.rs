@@ -8,7 +8,7 @@ use crate::kinematics::robot::Body;
 use crate::kinematics::{AXES, Chain, Joints, Robot};
 
 /// A robot among obstacles that answers with our code.
-pub trait Subject: Sync {
+pub trait Subject: Send + Sync {
     /// The same in the judge's terms.
     fn model(&self) -> &Model;
 

@@ -104,6 +104,6 @@ impl Table {
     pub fn truths(&self, name: &str) -> Result<Vec<bool>, CrosscheckError> {
         let cells = self.column(name)?.bool().ok().filter(|cells| cells.null_count() == 0);
         let cells = cells.ok_or_else(|| self.wrong(format!("column `{name}` does not say yes or no in every row")))?;
-        Ok(cells.into_no_null_iter().collect())
+        Ok(cells.iter().flatten().collect())
     }
 }

@@ -1,0 +1,174 @@
+//! `replan crosscheck`: robots, scenes and stored paths before an independent judge.
+
+mod python;
+
+use super::places::{Places, papers};
+use super::progress::Bar;
+use super::{Failure, Which};
+use crate::crosscheck::{self, Case, CrosscheckError, Outcome, Picture, Spec};
+use crate::render::report;
+use crate::study::runner::Progress as _;
+use crate::study::store::write_whole;
+use clap::Args;
+use python::{Judge, Snapshot};
+use rayon::prelude::*;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Has MuJoCo judge kinematics, contacts and paths.
+///
+/// Makes its own Python environment below target/replan/ at the first run, which needs Python 3.11 or later and
+/// the network once. Exit code 3: something differs, or an error made on purpose was not noticed. Exit code 4:
+/// Python or the network is missing; nothing else depends on them.
+#[derive(Args)]
+pub struct Crosscheck {
+    /// A paper's name or folder; every paper with a crosscheck.toml if none is given
+    paper: Option<String>,
+    /// Write below this folder instead of the committed places
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The Python that the environment is made with
+    #[arg(long, value_name = "PROGRAM", default_value = "python3")]
+    python: String,
+    /// Judge the answers that are already there; ask nothing
+    #[arg(long)]
+    answered: bool,
+}
+
+/// Where models, questions and answers lie, below the root of outputs.
+const FOLDER: &str = "target/replan/crosscheck";
+
+impl Crosscheck {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        let names = self.paper.clone().map_or_else(papers, |paper| vec![paper]);
+        let mut posed = Vec::new();
+        for name in &names {
+            let places = Places::find(&Which { paper: name.clone(), out: None }, "")?;
+            match Spec::load(&places.folder)? {
+                Some(spec) => posed.push((places, spec)),
+                None if self.paper.is_some() => return Err(nothing_posed(&places)),
+                None => {}
+            }
+        }
+        if posed.is_empty() {
+            return Err(Failure::input("no paper here has a crosscheck.toml; run replan from the project's own folder"));
+        }
+        let judge = if self.answered { None } else { Some(Judge::ready(&self.python, Path::new(FOLDER))?) };
+        let mut differences = 0;
+        for (places, spec) in &posed {
+            differences += self.paper(places, spec, judge.as_ref())?;
+        }
+        if differences > 0 {
+            return Err(Failure::stale(format!("{differences} answers differ or controls went unnoticed")));
+        }
+        Ok(())
+    }
+
+    /// Cross-checks one paper and gives the number of differences.
+    fn paper(&self, places: &Places, spec: &Spec, judge: Option<&Judge>) -> Result<usize, Failure> {
+        let id = places.runs.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let root = self.out.clone().unwrap_or_default();
+        let folder = root.join(FOLDER).join(&id);
+        let bar = Bar::default();
+        bar.begin(&format!("{id}: posing the questions"), 1);
+        let cases = spec.cases(&places.inputs, &places.runs)?;
+        bar.end();
+        let picture = spec.picture();
+        let drawn = match judge {
+            Some(judge) => self.ask(judge, &cases, &folder, &id, &picture)?,
+            None => Err("the answers were there already".to_owned()),
+        };
+        let outcomes: Vec<Outcome> =
+            cases.par_iter().map(|case| case.judge(&folder)).collect::<Result<_, CrosscheckError>>()?;
+        print!("{}", crosscheck::verdict_table(&outcomes));
+        let all = crosscheck::list(&outcomes);
+        let listed = if all.is_empty() { String::new() } else { all.join("\n") + "\n" };
+        write_whole(&folder.join("disagreements.txt"), listed.as_bytes())?;
+        eprint!("{listed}");
+        let scene = cases.iter().find(|case| case.name() == picture.case).map(|case| case.folder(&folder));
+        self.report(&id, &outcomes, &scene.unwrap_or_default(), drawn)?;
+        Ok(all.len())
+    }
+
+    /// Writes the cases, has them answered, and draws the picture: where it is, or why it is not.
+    fn ask(
+        &self,
+        judge: &Judge,
+        cases: &[Case],
+        folder: &Path,
+        id: &str,
+        picture: &Picture,
+    ) -> Result<Result<PathBuf, String>, Failure> {
+        if folder.exists() {
+            fs::remove_dir_all(folder)?;
+        }
+        cases.par_iter().try_for_each(|case| case.write(folder))?;
+        let bar = Bar::default();
+        bar.begin(&format!("{id}: MuJoCo"), judge.models(folder)?);
+        let answered = judge.answer(folder, || bar.step());
+        bar.end();
+        answered?;
+        let to = self.out.clone().unwrap_or_default().join("plots").join(id).join("scene_mujoco.png");
+        let shown = Snapshot {
+            model: folder.join(&picture.case).join("scene.xml"),
+            key: picture.key.clone(),
+            camera_deg: picture.camera_deg,
+            to: to.clone(),
+        };
+        Ok(match judge.draw(&shown) {
+            Ok(()) => Ok(to),
+            Err(why) => {
+                eprintln!("{id}: no picture: {why}");
+                Err(why)
+            }
+        })
+    }
+
+    /// Writes the chapter; a picture that could not be drawn now stays as it is.
+    fn report(
+        &self,
+        id: &str,
+        outcomes: &[Outcome],
+        scene: &Path,
+        drawn: Result<PathBuf, String>,
+    ) -> Result<(), Failure> {
+        let root = self.out.clone().unwrap_or_default();
+        let link = format!("plots/{id}/scene_mujoco.png");
+        let picture = match &drawn {
+            Ok(_) => Ok(link.as_str()),
+            Err(_) if root.join(&link).is_file() => Ok(link.as_str()),
+            Err(why) => Err(why.as_str()),
+        };
+        let view = format!(
+            "{FOLDER}/venv/bin/python -m mujoco.viewer --mjcf={}",
+            scene.join("scene.xml").display()
+        );
+        let command = format!("replan crosscheck {id}");
+        let chapter = crosscheck::chapter(id, outcomes, &command, &view, picture);
+        let path = root.join("paper_repro.md");
+        let before = fs::read_to_string(&path).unwrap_or_default();
+        let text = report::with_chapter(&before, &format!("{id} crosscheck"), &chapter);
+        write_whole(&path, text.as_bytes())?;
+        println!("the chapter is in {}; to look around the scene: {view}", path.display());
+        Ok(())
+    }
+}
+
+fn nothing_posed(places: &Places) -> Failure {
+    Failure::input(format!(
+        "{}: there is no such file; it says which robots, scenes and stored paths are judged",
+        places.folder.join(crosscheck::SPEC).display()
+    ))
+}
+
+impl From<CrosscheckError> for Failure {
+    fn from(error: CrosscheckError) -> Self {
+        match error {
+            CrosscheckError::Study(error) => error.into(),
+            CrosscheckError::Io { .. } => Self { code: 1, message: error.to_string() },
+            CrosscheckError::Settings(_) => Self::input(error.to_string()),
+            CrosscheckError::Answer { .. } => Self::stale(error.to_string()),
+        }
+    }
+}

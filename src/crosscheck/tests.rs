@@ -1,0 +1,1 @@
+//! Questions, models and comparison without Python.
