@@ -31,7 +31,9 @@ def main() -> None:
 def answer_all(folder: Path, jobs: int) -> None:
     """Answer every model below `folder`, the ones with most questions first; one line when one is done."""
     models = sorted(folder.glob("*/*.xml"))
-    models.sort(key=lambda model: model.with_name(f"{model.stem}.questions.parquet").stat().st_size, reverse=True)
+    models.sort(
+        key=lambda model: model.with_name(f"{model.stem}.questions.parquet").stat().st_size, reverse=True
+    )
     with Pool(jobs) as pool:
         for name in pool.imap_unordered(answer_model, models):
             print(name, flush=True)

@@ -121,7 +121,7 @@ def by_column(names: list[str], cells: npt.NDArray) -> dict[str, npt.NDArray]:
 
 
 def answer_model(path: Path) -> str:
-    """Answer the questions beside the model at `path`, write the answers there, and say which model it was."""
+    """Answer the questions beside the model at `path` with files there, and say which model it was."""
     judged = load(path)
     q_rad, asked = read_questions(path, len(judged.joints))
     answers = answer(judged, Questions(q_rad, asked["frames"], asked["gaps"], asked["limits"]))

@@ -43,11 +43,9 @@ def is_moving_link(name: str) -> bool:
 
 
 def pairs(model: mujoco.MjModel) -> tuple[Pair, ...]:
-    """Every pair that MuJoCo tests: by masks between bodies that are not welded together, and by explicit pairs."""
+    """Every pair that MuJoCo tests: by masks between bodies that are not welded, and explicit ones."""
     found = [masked for one in range(model.ngeom) for masked in partners(model, one)]
-    found += [
-        (int(model.pair_geom1[index]), int(model.pair_geom2[index])) for index in range(model.npair)
-    ]
+    found += [(int(model.pair_geom1[index]), int(model.pair_geom2[index])) for index in range(model.npair)]
     return tuple(Pair(pair_name(model, geoms), geoms) for geoms in found)
 
 
@@ -60,6 +58,6 @@ def partners(model: mujoco.MjModel, one: int) -> list[tuple[int, int]]:
 
 
 def pair_name(model: mujoco.MjModel, geoms: tuple[int, int]) -> str:
-    """The pair's name, without the prefixes that keep parts and still things apart."""
-    names = [model.geom(geom).name.removeprefix(PART).removeprefix(STILL) for geom in geoms]
-    return "|".join(names)
+    """The pair's name: a part before a still thing, parts in alphabetical order, without prefixes."""
+    names = sorted(model.geom(geom).name for geom in geoms)
+    return "|".join(name.removeprefix(PART).removeprefix(STILL) for name in names)

@@ -13,7 +13,9 @@ def beside(model: Path, part: str) -> Path:
     return model.with_name(f"{model.stem}.{part}.parquet")
 
 
-def read_questions(model: Path, joints: int) -> tuple[npt.NDArray[np.float64], dict[str, npt.NDArray[np.bool_]]]:
+def read_questions(
+    model: Path, joints: int
+) -> tuple[npt.NDArray[np.float64], dict[str, npt.NDArray[np.bool_]]]:
     """Read the configurations, one a row, and by name what is asked besides contact."""
     table = pq.read_table(beside(model, "questions"))
     angles = [table.column(f"q{joint + 1}").to_numpy() for joint in range(joints)]

@@ -90,8 +90,11 @@ impl Case {
         let of = subject.as_ref();
         let mut questions = Sampler::new(of, seed).questions(sizes);
         let are_stored = !given.paths.is_empty();
-        let coarse = if are_stored { given.paths } else { drawn_paths(of, sizes.drawn_paths, seed) };
-        let paths = coarse.iter().map(|path| path.finer(of)).collect::<Result<Vec<_>, _>>()?;
+        let paths = if are_stored {
+            given.paths.iter().map(|path| path.finer(of)).collect::<Result<Vec<_>, _>>()?
+        } else {
+            drawn_paths(of, sizes.drawn_paths, seed)
+        };
         for (index, path) in paths.iter().enumerate() {
             questions.extend(path.questions(index, Kind::Path));
         }

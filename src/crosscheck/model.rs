@@ -85,11 +85,14 @@ impl Model {
         outer.chain(self.self_pairs.iter().map(|[a, b]| Pair::Parts(*a, *b))).collect()
     }
 
-    /// A pair in words, as the judge answers for it.
+    /// A pair in words, as the judge answers for it; parts stand in alphabetical order.
     pub fn pair_name(&self, pair: Pair) -> String {
         match pair {
             Pair::Still(part, still) => format!("{}|{}", self.parts[part].name, self.stills[still].name),
-            Pair::Parts(a, b) => format!("{}|{}", self.parts[a].name, self.parts[b].name),
+            Pair::Parts(a, b) => {
+                let (a, b) = (&self.parts[a].name, &self.parts[b].name);
+                format!("{}|{}", a.min(b), a.max(b))
+            }
         }
     }
 

@@ -28,13 +28,6 @@ pub fn place(folder: &Path, model: &str, part: &str) -> PathBuf {
     folder.join(format!("{model}.{part}.parquet"))
 }
 
-/// Writes named columns of numbers, all equally long.
-pub fn write_numbers(path: &Path, columns: Vec<(String, Vec<f64>)>) -> Result<(), CrosscheckError> {
-    let height = columns.first().map_or(0, |(_, cells)| cells.len());
-    let series = columns.into_iter().map(|(name, cells)| Series::new(name.into(), cells).into());
-    write(path, height, series.collect())
-}
-
 /// Writes the questions about a model with this many joints.
 pub fn write_questions(path: &Path, joints: usize, questions: &[Question]) -> Result<(), CrosscheckError> {
     let flag = |name: &str, get: fn(&Question) -> bool| -> Column {
