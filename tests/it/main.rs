@@ -3,6 +3,7 @@
 mod cli_input;
 mod cli_run;
 mod cli_stop;
+mod crosscheck;
 mod floors;
 mod paper;
 mod registries;
