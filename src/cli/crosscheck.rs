@@ -33,6 +33,9 @@ pub struct Crosscheck {
     /// Judge the answers that are already there; ask nothing
     #[arg(long)]
     answered: bool,
+    /// Leave report and picture as they are; say whether the report's chapter is what would be written
+    #[arg(long)]
+    check: bool,
 }
 
 /// Where models, questions and answers lie, below the root of outputs.
@@ -86,8 +89,7 @@ impl Crosscheck {
         let listed = if all.is_empty() { String::new() } else { all.join("\n") + "\n" };
         write_whole(&folder.join("disagreements.txt"), listed.as_bytes())?;
         eprint!("{listed}");
-        let scene = cases.iter().find(|case| case.name() == picture.case).map(|case| case.folder(&folder));
-        self.report(&id, &outcomes, &scene.unwrap_or_default(), drawn)?;
+        self.report(&id, &outcomes, &picture.case, drawn)?;
         Ok(all.len())
     }
 
@@ -109,7 +111,8 @@ impl Crosscheck {
         let answered = judge.answer(folder, || bar.step());
         bar.end();
         answered?;
-        let to = self.out.clone().unwrap_or_default().join("plots").join(id).join("scene_mujoco.png");
+        let committed = self.out.clone().unwrap_or_default().join("plots").join(id).join("scene_mujoco.png");
+        let to = if self.check { folder.join("scene_mujoco.png") } else { committed };
         let shown = Snapshot {
             model: folder.join(&picture.case).join("scene.xml"),
             key: picture.key.clone(),
@@ -125,12 +128,13 @@ impl Crosscheck {
         })
     }
 
-    /// Writes the chapter; a picture that could not be drawn now stays as it is.
+    /// Writes or checks the chapter; a picture that could not be drawn now stays as it is. `scene` is the case to look
+    /// around in.
     fn report(
         &self,
         id: &str,
         outcomes: &[Outcome],
-        scene: &Path,
+        scene: &str,
         drawn: Result<PathBuf, String>,
     ) -> Result<(), Failure> {
         let root = self.out.clone().unwrap_or_default();
@@ -140,15 +144,20 @@ impl Crosscheck {
             Err(_) if root.join(&link).is_file() => Ok(link.as_str()),
             Err(why) => Err(why.as_str()),
         };
-        let view = format!(
-            "{FOLDER}/venv/bin/python -m mujoco.viewer --mjcf={}",
-            scene.join("scene.xml").display()
-        );
+        let place = Path::new(FOLDER).join(id).join(scene).join("scene.xml");
+        let view = format!("{FOLDER}/venv/bin/python -m mujoco.viewer --mjcf={}", place.display());
         let command = format!("replan crosscheck {id}");
         let chapter = crosscheck::chapter(id, outcomes, &command, &view, picture);
         let path = root.join("paper_repro.md");
         let before = fs::read_to_string(&path).unwrap_or_default();
         let text = report::with_chapter(&before, &format!("{id} crosscheck"), &chapter);
+        if self.check && text != before {
+            return Err(Failure::stale(format!("not current: the chapter `{id} crosscheck` of {}", path.display())));
+        }
+        if self.check {
+            println!("the chapter in {} is current", path.display());
+            return Ok(());
+        }
         write_whole(&path, text.as_bytes())?;
         println!("the chapter is in {}; to look around the scene: {view}", path.display());
         Ok(())

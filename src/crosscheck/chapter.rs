@@ -19,13 +19,13 @@ fn verdict(is_agreed: bool) -> &'static str {
     if is_agreed { "agree" } else { "DIFFER" }
 }
 
-/// A bound that does not change with the last bits of a processor's sine.
+/// The power of ten above a difference, at least the twelfth of 1: what is below changes with the processor.
 fn bound(largest: Option<f64>) -> String {
-    match largest {
-        None => "–".to_owned(),
-        Some(0.0) => "0".to_owned(),
-        Some(value) => format!("< 1e{}", libm::floor(libm::log10(value)) as i32 + 1),
-    }
+    const LEAST: i32 = -12;
+    largest.map_or_else(
+        || "–".to_owned(),
+        |value| format!("< 1e{}", (libm::floor(libm::log10(value)) as i32).saturating_add(1).max(LEAST)),
+    )
 }
 
 /// The verdict table for the terminal.

@@ -193,7 +193,7 @@ impl Asked<'_> {
             for (index, frame) in self.subject.frames(&question.q_rad).iter().enumerate() {
                 let (ours, theirs) = (numbers(frame), columns[index].iter().map(|cells| cells[place]));
                 let theirs: Vec<f64> = theirs.collect();
-                let largest = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                let largest = largest_difference(&ours, &theirs);
                 let found = || Disagreement {
                     ours: format!("{:?} m", &ours[..3]),
                     theirs: format!("{:?} m", &theirs[..3]),
@@ -237,6 +237,12 @@ impl Asked<'_> {
 fn numbers(frame: &Frame) -> Vec<f64> {
     let rotation = frame.rotation.transpose();
     frame.origin.iter().chain(rotation.iter()).copied().collect()
+}
+
+/// The largest difference of two rows; NaN if a difference is.
+fn largest_difference(ours: &[f64], theirs: &[f64]) -> f64 {
+    let differences = ours.iter().zip(theirs).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
 }
 
 impl Compared {
