@@ -217,7 +217,7 @@ impl Asked<'_> {
             for (place, &row) in rows.iter().enumerate() {
                 let question = &self.questions[row];
                 compared.line("limit", question.kind).asked += usize::from(joint == 0);
-                let ours = self.subject.is_beyond(joint, question.q_rad[joint]);
+                let ours = self.subject.is_beyond(joint, question.q_rad[joint]) == Some(true);
                 if ours != beyond[place] {
                     let word = |is: bool| (if is { "beyond" } else { "within" }).to_owned();
                     let found = Disagreement {

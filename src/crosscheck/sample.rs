@@ -211,6 +211,9 @@ impl<'a> Sampler<'a> {
         let mut stream = self.stream(Kind::Limit);
         let model = self.subject.model();
         let mut questions = Vec::new();
+        if self.subject.is_beyond(0, 0.0).is_none() {
+            return questions;
+        }
         for joint in 0..model.rows.len() {
             let [low, high] = model.rows[joint].limits_rad;
             let [near, far] = BEYOND_RAD;

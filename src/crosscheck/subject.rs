@@ -18,8 +18,8 @@ pub trait Subject: Send + Sync {
     /// The gap of each of the model's pairs, metres: above 0 the distance, at most 0 in contact.
     fn gaps_m(&self, q_rad: &[f64]) -> Vec<f64>;
 
-    /// Whether a joint, counted from 0, may not be at this angle.
-    fn is_beyond(&self, joint: usize, angle_rad: f64) -> bool;
+    /// Whether a joint, counted from 0, may not be at this angle; `None` if the robot has no limits.
+    fn is_beyond(&self, joint: usize, angle_rad: f64) -> Option<bool>;
 
     /// The same robot with one still thing of the model elsewhere.
     fn shifted(&self, still: usize, by_m: &Vec3) -> Box<dyn Subject>;
@@ -131,8 +131,8 @@ impl Subject for SerialArm {
         self.pairs.iter().map(gap).collect()
     }
 
-    fn is_beyond(&self, joint: usize, angle_rad: f64) -> bool {
-        !self.chain().joints()[joint].allows(angle_rad)
+    fn is_beyond(&self, joint: usize, angle_rad: f64) -> Option<bool> {
+        Some(!self.chain().joints()[joint].allows(angle_rad))
     }
 
     fn shifted(&self, still: usize, by_m: &Vec3) -> Box<dyn Subject> {

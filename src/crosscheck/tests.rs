@@ -62,7 +62,7 @@ fn questions_are_what_their_kind_says() {
     assert!(usual > 100, "a determinant of 1e-9 would say nothing: {usual}");
     assert_eq!(of(Kind::Piercing).len(), 10);
     assert!(of(Kind::Piercing).iter().all(|question| arm.pierces(&question.q_rad)));
-    let beyond = |q: &[f64]| (0..6).filter(|joint| arm.is_beyond(*joint, q[*joint])).count();
+    let beyond = |q: &[f64]| (0..6).filter(|joint| arm.is_beyond(*joint, q[*joint]) == Some(true)).count();
     let limits: Vec<usize> = of(Kind::Limit).iter().map(|question| beyond(&question.q_rad)).collect();
     assert_eq!((limits.len(), limits.iter().filter(|count| **count == 1).count()), (36, 24));
     assert!(of(Kind::Random).iter().all(|question| beyond(&question.q_rad) == 0));
