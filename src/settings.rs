@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
-use toml::{Spanned, Table, Value};
+use toml::{Spanned, Table};
 
 /// What is wrong with a document or a table in it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -44,6 +44,16 @@ pub enum SettingsError {
         /// What was found and what is accepted.
         message: String,
     },
+}
+
+impl SettingsError {
+    /// What is wrong, without the place.
+    fn message(self) -> String {
+        match self {
+            Self::Unreadable { reason, .. } => reason,
+            Self::At { message, .. } | Self::Composed { message, .. } => message,
+        }
+    }
 }
 
 /// A TOML file held in memory with its path.
@@ -91,7 +101,13 @@ impl Document {
         if self.text.trim().is_empty() {
             return Err(self.error(0..0, "the file is empty; a TOML table is expected"));
         }
-        toml::from_str(&self.text).map_err(|e| self.toml_error(&e, None))
+        self.deserialize()
+    }
+
+    fn deserialize<T: DeserializeOwned>(&self) -> Result<T, SettingsError> {
+        let whole = DeTable::parse(&self.text).map_err(|e| self.toml_error(&e, None))?;
+        let value = Spanned::new(whole.span(), DeValue::Table(whole.into_inner()));
+        T::deserialize(value.into_deserializer()).map_err(|e| self.toml_error(&e, None))
     }
 
     /// An error at the byte range `span` of this document.
@@ -104,7 +120,7 @@ impl Document {
             line: before.matches('\n').count() + 1,
             column: self.text[line_start..start].chars().count() + 1,
             message: message.into(),
-            excerpt: self.text[line_start..].lines().next().unwrap_or_default().trim_end().to_owned(),
+            excerpt: printable(self.text[line_start..].lines().next().unwrap_or_default().trim_end()),
         }
     }
 
@@ -112,6 +128,11 @@ impl Document {
         let span = error.span().or(fallback).unwrap_or(0..0);
         self.error(span, error.message().trim().replace('\n', "; "))
     }
+}
+
+/// `line` with control characters replaced, so that a binary file taken for TOML cannot steer a terminal.
+fn printable(line: &str) -> String {
+    line.chars().map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
 /// A table of settings and where it was written.
@@ -161,9 +182,13 @@ impl Settings {
     /// [`SettingsError::At`] or [`SettingsError::Composed`] with the key or value found and what is accepted.
     pub fn read<T: DeserializeOwned>(&self) -> Result<T, SettingsError> {
         match &self.origin {
-            Origin::Composed(origin) => T::deserialize(Value::Table(self.table.clone())).map_err(|e| {
-                SettingsError::Composed { origin: origin.clone(), message: e.message().trim().to_owned() }
-            }),
+            Origin::Composed(origin) => {
+                // Through text, so that every type is deserialized from one kind of value only: half the code.
+                let text = toml::to_string(&self.table).expect("a table that was read can be written");
+                Document::new(Path::new(""), text)
+                    .deserialize()
+                    .map_err(|e| SettingsError::Composed { origin: origin.clone(), message: e.message() })
+            }
             Origin::Written { document, span } => {
                 let whole = DeTable::parse(&document.text).map_err(|e| document.toml_error(&e, None))?;
                 let value = find(Spanned::new(whole.span(), DeValue::Table(whole.into_inner())), span);
@@ -265,6 +290,17 @@ mod tests {
         assert_eq!(settings.overlaid(&same, "reading weight"), settings);
         let error = settings.overlaid(&other, "reading weight").read::<Inner>().unwrap_err().to_string();
         assert!(error.starts_with("a.toml:4 with reading weight: "), "{error}");
+    }
+
+    #[test]
+    fn settings_put_together_may_be_empty_and_read_as_they_were_put_together() {
+        #[derive(Debug, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Nothing {}
+        let Nothing {} = Settings::composed("a task without settings", Table::new()).read().unwrap();
+        let text = "share = 0.1\nsize = [3, 4]\nname = \"a\\\"b\"\n[inner]\nleast = 5e-324\n";
+        let table: Table = toml::from_str(text).unwrap();
+        assert_eq!(Settings::composed("a sweep", table.clone()).read::<Table>().unwrap(), table);
     }
 
     #[test]

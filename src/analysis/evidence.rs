@@ -10,6 +10,7 @@ use crate::study::store::{Records, read_records};
 use crate::study::{Point, Study, StudyError};
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A paper with the stored runs of its studies.
 pub struct Evidence<'a> {
@@ -20,15 +21,24 @@ pub struct Evidence<'a> {
     runs: BTreeMap<&'a str, Run<'a>>,
 }
 
-/// The stored run of one study.
+/// The stored run of one study, as seen under one reading.
 pub struct Run<'a> {
     /// The study.
     pub study: &'a Study,
     /// What the records depend on.
-    pub manifest: Manifest,
+    pub manifest: Arc<Manifest>,
     /// The records.
-    pub records: Records,
+    pub records: Arc<Records>,
     reading: String,
+    index: Arc<Index>,
+}
+
+/// Where things are in the records.
+#[derive(Default)]
+struct Index {
+    /// Rows by group, contender and reading, in the order of records.
+    rows: BTreeMap<[String; 3], Vec<usize>>,
+    /// The median clock reading of each timed trial.
     median_ns: BTreeMap<String, f64>,
 }
 
@@ -81,6 +91,13 @@ impl<'a> Evidence<'a> {
         Ok(Self { paper, point, runs })
     }
 
+    /// The same records, to be judged under another reading.
+    #[must_use]
+    pub fn under(&self, point: Point) -> Self {
+        let runs = self.runs.iter().map(|(name, run)| (*name, run.under(&point))).collect();
+        Self { paper: self.paper, point, runs }
+    }
+
     /// The run of the study called `name`.
     pub fn run(&self, name: &str) -> Option<&Run<'a>> {
         self.runs.get(name)
@@ -112,22 +129,30 @@ impl<'a> Run<'a> {
             return Err(StudyError::stored(path, reason));
         }
         let records = read_records(folder, &study.name, &manifest.files)?;
-        let mut readings: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-        for time in &records.times {
-            readings.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
+        let index = Arc::new(Index::of(&records));
+        let reading = point.for_trials(&study.readings).name().to_owned();
+        Ok(Self { study, manifest: Arc::new(manifest), records: Arc::new(records), reading, index })
+    }
+
+    fn under(&self, point: &Point) -> Self {
+        Self {
+            study: self.study,
+            manifest: self.manifest.clone(),
+            records: self.records.clone(),
+            reading: point.for_trials(&self.study.readings).name().to_owned(),
+            index: self.index.clone(),
         }
-        let reading = point.within(&study.readings).name().to_owned();
-        let median_ns = readings
-            .into_iter()
-            .map(|(trial, times)| (trial, summary::median(&times).expect("a timed trial has a reading")))
-            .collect();
-        Ok(Self { study, manifest, records, reading, median_ns })
+    }
+
+    /// Whether its trials ran under the reading.
+    pub fn is_covered(&self) -> bool {
+        self.manifest.readings.contains(&self.reading)
     }
 
     /// What `metric` is for `row`; `None` if it was not measured.
     pub fn value(&self, row: &Row, metric: &Metric) -> Option<f64> {
         let raw = if metric.is_clock() {
-            self.median_ns.get(&row.trial).copied()
+            self.index.median_ns.get(&row.trial).copied()
         } else {
             row.value(metric.column)
         };
@@ -136,9 +161,9 @@ impl<'a> Run<'a> {
 
     /// The trials of `contender` in the problem group `group` under the reading, in the order of draws.
     pub fn rows(&self, group: &str, contender: &str) -> Vec<&Row> {
-        let is_wanted =
-            |row: &&Row| row.group == group && row.contender == contender && row.reading == self.reading;
-        self.records.batch.rows.iter().filter(is_wanted).collect()
+        let key = [group, contender, self.reading.as_str()].map(str::to_owned);
+        let found = self.index.rows.get(&key).into_iter().flatten();
+        found.map(|row| &self.records.batch.rows[*row]).collect()
     }
 
     /// The trials of two contenders on the same problems, solved by both.
@@ -154,6 +179,21 @@ impl<'a> Run<'a> {
             .collect()
     }
 
+    /// `metric` of `contender` on every problem of `group` that it solved or, with `against`, the reduction in per
+    /// cent from that contender's, where both solved it and the base is not 0.
+    pub fn changes(&self, group: &str, contender: &str, against: Option<&str>, metric: &Metric) -> Vec<f64> {
+        let pairs = self.pairs(group, against.unwrap_or(contender), contender);
+        let change = |pair: &Pair<'_>| {
+            let other = self.value(pair.other, metric)?;
+            if against.is_none() {
+                return Some(other);
+            }
+            let base = self.value(pair.base, metric)?;
+            (base > 0.0).then(|| 100.0 * (base - other) / base)
+        };
+        pairs.iter().filter_map(change).collect()
+    }
+
     /// The prepared object that the trial `row` was run on.
     pub fn prepared_of(&self, row: &Row) -> Option<&PreparedRow> {
         self.records.batch.prepared.iter().find(|prepared| {
@@ -167,5 +207,24 @@ impl<'a> Run<'a> {
     pub fn exhibit(&self, of: &str, name: &str) -> Option<&Exhibit> {
         let kept = &self.records.batch.kept;
         kept.iter().find(|kept| kept.of == of && kept.exhibit.name == name).map(|kept| &kept.exhibit)
+    }
+}
+
+impl Index {
+    fn of(records: &Records) -> Self {
+        let mut index = Self::default();
+        for (place, row) in records.batch.rows.iter().enumerate() {
+            let key = [&row.group, &row.contender, &row.reading].map(String::clone);
+            index.rows.entry(key).or_default().push(place);
+        }
+        let mut readings: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        for time in &records.times {
+            readings.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
+        }
+        let medians = readings
+            .into_iter()
+            .map(|(trial, times)| (trial, summary::median(&times).expect("a timed trial has a reading")));
+        index.median_ns = medians.collect();
+        index
     }
 }

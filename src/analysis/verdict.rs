@@ -131,15 +131,17 @@ impl Judged {
     }
 }
 
-/// Claims that hold together on one problem under one reading.
+/// Claims that hold together under one reading.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Together {
     /// The study.
     pub study: String,
-    /// The problem.
+    /// The problems: one for each group of claims that share one.
     pub problem: String,
-    /// The reading, and the contenders that stand for the paper's.
+    /// The reading.
+    pub reading: String,
+    /// The contenders that stand for the paper's.
     pub under: String,
     /// The claims that hold there.
     pub hold: Vec<String>,

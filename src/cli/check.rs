@@ -35,7 +35,7 @@ impl Check {
             let how = How { quick: false, seed: None, readings: None, threads: None };
             let places = Places::find(&which, "")?;
             let paper = load(&places, &how)?;
-            println!(
+            say!(
                 "{}: {} studies, {} claims, {} ledger rows are in order",
                 paper.id,
                 paper.studies.len(),
@@ -63,7 +63,7 @@ fn rerun(paper: &Paper, places: &Places, count: usize, threads: usize) -> Result
                 study.name
             )));
         }
-        println!("  {}: {} trials run again on {threads} threads equal their rows", study.name, done.trials);
+        say!("  {}: {} trials run again on {threads} threads equal their rows", study.name, done.trials);
     }
     Ok(())
 }

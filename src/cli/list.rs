@@ -38,9 +38,9 @@ impl List {
         for what in What::value_variants() {
             if self.what.is_none_or(|wanted| wanted == *what) {
                 let name = what.to_possible_value().expect("no variant is hidden");
-                println!("{}", name.get_name());
+                say!("{}", name.get_name());
                 for (name, about) in rows(*what)? {
-                    println!("  {name:<26} {about}");
+                    say!("  {name:<26} {about}");
                 }
             }
         }

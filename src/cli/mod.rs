@@ -4,6 +4,14 @@
 //! wrong input files; 3 done, but what was checked is not as stored, or an independent judge disagrees; 4 `crosscheck`
 //! lacks Python or the network; 130 interrupted, and what was done is kept.
 
+/// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
+macro_rules! say {
+    ($($arguments:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stdout(), $($arguments)*);
+    }};
+}
+
 mod check;
 mod crosscheck;
 mod judge;

@@ -118,8 +118,9 @@ impl How {
     /// An unknown reading or option.
     pub fn points(&self, study: &Study) -> Result<Vec<Point>, Failure> {
         match self.readings.as_deref() {
-            Some("all") => Ok(study.single_options()?),
-            _ => Ok(vec![self.point(&study.readings)?]),
+            None if study.explore.is_none() => Ok(vec![self.point(&study.readings)?]),
+            None | Some("all") => Ok(study.trial_points()?),
+            Some(_) => Ok(vec![self.point(&study.readings)?.for_trials(&study.readings)]),
         }
     }
 

@@ -34,7 +34,7 @@ impl Render {
             return check(&places, &drawn);
         }
         put(&places, &drawn)?;
-        println!("{} files are in {}", drawn.outputs.len(), places.plots.display());
+        say!("{} files are in {}", drawn.outputs.len(), places.plots.display());
         Ok(())
     }
 }
@@ -78,7 +78,7 @@ fn check(places: &Places, drawn: &Drawn) -> Result<(), Failure> {
         stale.push(places.report.clone());
     }
     if stale.is_empty() {
-        println!("{} files are current", drawn.outputs.len() + usize::from(drawn.report.is_some()));
+        say!("{} files are current", drawn.outputs.len() + usize::from(drawn.report.is_some()));
         return Ok(());
     }
     let listed: Vec<String> = stale.iter().map(|path| path.display().to_string()).collect();

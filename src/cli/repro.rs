@@ -27,13 +27,13 @@ impl Repro {
             return trial::run(&paper, &places, &self.how, name);
         }
         for report in run_studies(&paper, &places, &self.how, true)? {
-            println!("{}", summary(&report, false));
+            say!("{}", summary(&report, false));
         }
         let point = self.how.point(&paper.readings())?;
         let judged = judge::judge(&paper, point, &places)?;
         render::write(&paper, &places)?;
         verdicts::print(&judged);
-        println!(
+        say!(
             "records and verdicts are in {}, figures and tables in {}, the report in {}",
             places.runs.display(),
             places.plots.display(),

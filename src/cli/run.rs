@@ -29,9 +29,9 @@ impl Run {
         let places = Places::find(&self.which, &self.how.variant())?;
         let paper = load(&places, &self.how)?;
         for report in run_studies(&paper, &places, &self.how, self.fresh)? {
-            println!("{}", summary(&report, self.why));
+            say!("{}", summary(&report, self.why));
         }
-        println!("records are in {}", places.runs.display());
+        say!("records are in {}", places.runs.display());
         Ok(())
     }
 }
@@ -42,6 +42,7 @@ pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
     how.check_readings(&paper)?;
     claims::validate(&paper)?;
     crate::render::figure::validate(&paper)?;
+    crate::render::results::validate(&paper)?;
     Ok(paper)
 }
 

@@ -24,15 +24,15 @@ pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), 
     for kept in &batch.kept {
         let points = kept.exhibit.values.chunks(kept.exhibit.width);
         let listed: Vec<String> = points.map(|point| format!("{point:?}")).collect();
-        println!("{:<22} {}", kept.exhibit.name, listed.join(" "));
+        say!("{:<22} {}", kept.exhibit.name, listed.join(" "));
     }
     match (batch.rows.first(), stored) {
         (_, None) => {
-            println!("no stored run has this trial");
+            say!("no stored run has this trial");
             Ok(())
         }
         (Some(row), Some(stored)) if *row == stored => {
-            println!("equals the stored row");
+            say!("equals the stored row");
             Ok(())
         }
         (_, Some(stored)) => {
@@ -43,7 +43,7 @@ pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), 
 }
 
 fn print_row(row: &Row) {
-    let text = |name: &str, value: &str| println!("{name:<22} {value}");
+    let text = |name: &str, value: &str| say!("{name:<22} {value}");
     text("trial", &row.trial);
     text("problem", &row.problem);
     text("contender", &row.contender);

@@ -1,29 +1,30 @@
 //! The verdict table on the terminal.
 
-use crate::analysis::verdict::{Estimate, Verdict, Verdicts};
+use crate::analysis::verdict::{Estimate, Judged, Verdict, Verdicts};
 use std::collections::BTreeMap;
 use std::io::IsTerminal as _;
 
 /// Prints every claim's verdict, and how many there are of each.
 pub fn print(verdicts: &Verdicts) {
     let is_coloured = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    print!("{}", table(verdicts, is_coloured));
+    say!("{}", table(verdicts, is_coloured).trim_end());
 }
 
 /// The table as text.
 fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
     let width = verdicts.claims.iter().map(|judged| judged.claim.len()).max().unwrap_or(0).max(5);
-    let mut text = format!("{:<width$}  {:>9}  {:<28}  verdict\n", "claim", "printed", "ours");
-    for judged in &verdicts.claims {
+    let ours: Vec<String> = verdicts.claims.iter().map(ours).collect();
+    let wide = ours.iter().map(|text| text.chars().count()).max().unwrap_or(0).max(4);
+    let mut text = format!("{:<width$}  {:>9}  {:<wide$}  verdict\n", "claim", "printed", "ours");
+    for (judged, ours) in verdicts.claims.iter().zip(ours) {
         let printed = judged.printed.as_deref().unwrap_or("–");
-        let ours = judged.ours().map_or_else(|| "–".to_owned(), estimate);
         let name = judged.verdict.name();
         let verdict = if is_coloured {
             format!("\x1b[{}m{name}\x1b[0m", colour(judged.verdict))
         } else {
             name.to_owned()
         };
-        text += &format!("{:<width$}  {printed:>9}  {ours:<28}  {verdict}\n", judged.claim);
+        text += &format!("{:<width$}  {printed:>9}  {ours:<wide$}  {verdict}\n", judged.claim);
     }
     let mut counts: BTreeMap<Verdict, usize> = BTreeMap::new();
     for judged in &verdicts.claims {
@@ -40,6 +41,10 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
         text += &format!("claims or margins changed after the run of {studies}; run it again\n");
     }
     text
+}
+
+fn ours(judged: &Judged) -> String {
+    judged.ours().map_or_else(|| "–".to_owned(), estimate)
 }
 
 fn estimate(estimate: &Estimate) -> String {

@@ -19,7 +19,8 @@ pub enum CornerRule {
 }
 
 impl CornerRule {
-    fn permits(self, flanks_free: [bool; 2]) -> bool {
+    /// Whether a diagonal move between two cells that flank it is legal, given which of them are free.
+    pub fn permits(self, flanks_free: [bool; 2]) -> bool {
         match self {
             CornerRule::Allow => true,
             CornerRule::ForbidBoth => flanks_free[0] || flanks_free[1],
@@ -40,6 +41,23 @@ impl Moves {
     pub fn new(grid: &Grid2, corners: CornerRule) -> Self {
         let masks = (0..grid.cell_count()).map(|cell| mask(grid, corners, cell)).collect();
         Self { width: grid.width(), masks }
+    }
+
+    /// Moves that something besides cells and corners decides, a mask a cell, row by row.
+    ///
+    /// # Panics
+    /// If the masks do not fill whole rows, or a move has no reverse.
+    pub fn from_masks(width: u32, masks: Vec<u8>) -> Self {
+        assert!(masks.len().is_multiple_of(width as usize), "{} masks in rows of {width}", masks.len());
+        let moves = Self { width, masks };
+        for cell in 0..moves.cell_count() {
+            let has_reverse = |to: u32| moves.from_cell(to).any(|(back, _)| back == cell);
+            assert!(
+                moves.from_cell(cell).all(|(to, _)| has_reverse(to)),
+                "a move from {cell} has no reverse"
+            );
+        }
+        moves
     }
 
     /// Number of columns of the grid.

@@ -19,6 +19,13 @@ impl Offsets {
         Self::within(radius_cells, |dx, dy| dx * dx + dy * dy <= reach * reach)
     }
 
+    /// The steps in the regular octagon with sides at `radius_cells`: 4, 12, 36, 56, 96 … of them.
+    pub fn octagon(radius_cells: u8) -> Self {
+        let reach = i32::from(radius_cells);
+        // |dx| + |dy| <= √2 · reach, in squares.
+        Self::within(radius_cells, |dx, dy| (dx.abs() + dy.abs()).pow(2) <= 2 * reach * reach)
+    }
+
     fn within(radius_cells: u8, keep: impl Fn(i32, i32) -> bool) -> Self {
         let reach = i32::from(radius_cells);
         let falling = || (-reach..=reach).rev();
@@ -45,6 +52,7 @@ mod tests {
         assert_eq!(Offsets::square(1).steps(), DIRECTIONS);
         assert_eq!([1, 2, 3, 4].map(|k| Offsets::square(k).steps().len()), [8, 24, 48, 80]);
         // Lattice points in a circle less its centre: OEIS A000328.
+        assert_eq!([1, 2, 3, 4, 5].map(|r| Offsets::octagon(r).steps().len()), [4, 12, 36, 56, 96]);
         assert_eq!([1, 2, 3, 4, 5, 6].map(|r| Offsets::disc(r).steps().len()), [4, 12, 28, 48, 80, 112]);
     }
 

@@ -2,6 +2,7 @@
 
 use super::{
     KinematicsError,
+    angle::wrapped,
     ik::{self, Branch, Solutions, Solver},
     serial::{Chain, Joints},
 };
@@ -56,6 +57,15 @@ impl Arm {
     #[inline]
     pub fn branch_of(&self, q: &Joints) -> Branch {
         self.solver.branch_of(q)
+    }
+
+    /// The least distance, in the space of joint angles, from `reference` to a configuration that has the elbow or the
+    /// wrist of `q` the other way round. What is nearer to `reference` than this is nearer than they are.
+    #[inline]
+    pub fn nearest_flip_rad(&self, q: &Joints, reference: &Joints) -> f64 {
+        let (own, other) = (self.solver.folds_rad(q), self.solver.folds_rad(reference));
+        let apart = |i: usize| wrapped(own[i] + other[i]).abs();
+        apart(0).min(apart(1))
     }
 
     /// Every configuration within limits that puts the tool at `target`, at most one a branch: of those that

@@ -11,7 +11,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "delete_inflections",
     about: "from the goal backwards, drops bends while the line of sight to the bend before is free",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Lattice,
     columns: &[],
     build: Build::Stage(|settings| {
@@ -54,10 +54,22 @@ impl Stage for DeleteInflections {
         let corners: Vec<[i32; 2]> =
             bends(&plan.path).into_iter().map(|i| [plan.path[i][0] as i32, plan.path[i][1] as i32]).collect();
         let sight = Sight::from(self.line_of_sight);
-        let kept = inflection_deletion(corners.len(), |i, j| sees(world, sight, corners[i], corners[j]));
+        let mut refused = Vec::new();
+        let kept = inflection_deletion(corners.len(), |i, j| {
+            let is_free = sees(world, sight, corners[i], corners[j]);
+            if !is_free && request.trace {
+                refused.extend([corners[i], corners[j]].concat().into_iter().map(f64::from));
+            }
+            is_free
+        });
         if request.trace {
             let values = plan.path.concat();
             plan.exhibits.push(super::Exhibit { name: "raw_path".to_owned(), width: 2, values });
+            plan.exhibits.push(super::Exhibit {
+                name: "refused_sight".to_owned(),
+                width: 4,
+                values: refused,
+            });
         }
         plan.path = kept.into_iter().map(|i| corners[i].map(f64::from).to_vec()).collect();
         plan.cost = Some(path_length(&plan.path));

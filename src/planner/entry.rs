@@ -100,6 +100,12 @@ pub trait Planner: Send + Sync {
 
     /// Whether [`Ending::NoPath`] proves that the world's graph has no path.
     fn is_complete(&self) -> bool;
+
+    /// The steps, in columns and rows, that its graph may have, if it moves over a lattice by steps of its own; the
+    /// verifier holds its path to them.
+    fn steps(&self) -> Option<&[[i32; 2]]> {
+        None
+    }
 }
 
 /// A stage that tidies a solved plan.

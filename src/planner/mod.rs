@@ -5,23 +5,30 @@
 //! here knows studies or records; nothing outside an entry's file knows its settings.
 
 mod astar;
+mod astar_octile;
 mod bidirectional;
+mod chaos_astar;
 mod delete_inflections;
 mod direct;
 mod entry;
 mod lattice;
+mod lattice_astar;
 mod roadmap;
 mod roadmap_astar;
 mod straighten;
+mod tips;
 
 pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
 
 /// Every planner and stage, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &astar::ENTRY,
+    &astar_octile::ENTRY,
     &bidirectional::ENTRY,
+    &chaos_astar::ENTRY,
     &delete_inflections::ENTRY,
     &direct::ENTRY,
+    &lattice_astar::ENTRY,
     &roadmap_astar::ENTRY,
     &straighten::ENTRY,
 ];

@@ -26,13 +26,13 @@ pub(super) fn roadmap(world: &World) -> &Roadmap {
     world.as_roadmap().expect("a checked study gives a planner the kind of world it needs")
 }
 
-/// A plan through `nodes`, whose length its planner claims.
+/// A plan through `nodes`; its planner claims a length where local paths are straight.
 pub(super) fn solved(map: &Roadmap, nodes: &[u32], counts: Counts) -> Plan {
     let length_mm: f64 = nodes.windows(2).map(|pair| map.gap_mm(pair[0], pair[1])).sum();
     Plan {
         ending: Ending::Solved,
         path: nodes.iter().map(|node| map.config(*node)).collect(),
-        cost: Some(length_mm),
+        cost: map.local().is_straight().then_some(length_mm),
         counts,
         exhibits: Vec::new(),
     }
@@ -67,7 +67,13 @@ pub(super) struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    pub(super) fn new(posed: &Posed<'a>, prefix: u32, radius_mm: f64, nearest: Option<usize>, cost: EdgeCost) -> Self {
+    pub(super) fn new(
+        posed: &Posed<'a>,
+        prefix: u32,
+        radius_mm: f64,
+        nearest: Option<usize>,
+        cost: EdgeCost,
+    ) -> Self {
         let Posed { map, start, goal } = *posed;
         let (start_links, goal_links) = (map.links(start), map.links(goal));
         Self { map, prefix, radius_mm, nearest, cost, start, goal, start_links, goal_links }
@@ -88,7 +94,8 @@ impl<'a> Part<'a> {
     }
 
     fn has_direct_edge(&self) -> bool {
-        self.map.gap_mm(self.start, self.goal) <= self.radius_mm && self.map.join(self.start, self.goal).is_ok()
+        self.map.gap_mm(self.start, self.goal) <= self.radius_mm
+            && self.map.join(self.start, self.goal).is_ok()
     }
 
     /// The distance beyond which samples are not among the nearest of `node`; none if all are.

@@ -150,7 +150,8 @@ impl Planner for RoadmapAstar {
             observer: &mut lists,
             update: Update { lower_open: true, reopen_closed: false },
         };
-        let report = Search::new(Heap::new(Ties::Fifo)).run(terms, start, |node| node == goal, rules, &mut shoot);
+        let report =
+            Search::new(Heap::new(Ties::Fifo)).run(terms, start, |node| node == goal, rules, &mut shoot);
         let counts = self.counts(&part, &report.counters, shots);
         let mut plan = match report.outcome {
             Outcome::NoPath => unsolved(Ending::NoPath, counts),

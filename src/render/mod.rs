@@ -11,6 +11,7 @@ pub mod font;
 pub mod latex;
 pub mod output;
 pub mod report;
+pub mod results;
 pub mod scene3;
 pub mod style;
 pub mod tables;

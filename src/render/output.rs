@@ -3,11 +3,13 @@
 use super::RenderError;
 use super::figure::{self, Scene};
 use super::report;
+use super::results;
 use super::tables;
 use super::vector::{Figure, Provenance};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::study::StudyError;
+use crate::study::spec::FigureSpec;
 use crate::study::store::write_whole;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,23 +38,17 @@ pub fn outputs(
     let mut outputs = Vec::new();
     for run in evidence.runs() {
         for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
-            let id = spec.id.get_ref();
-            let kind = figure::build(spec, run.study, paper)?;
-            let sheet = kind.draw(&Scene { evidence, run, verdicts })?;
-            let sheet = if run.manifest.quick { sheet.noted(QUICK) } else { sheet };
-            let drawn = sheet.draw(&Provenance {
-                command: format!("replan render {} --only {id}", paper.id),
-                spec_hash: run.manifest.spec.clone(),
-                title: spec.caption.clone(),
-            })?;
-            let drawn = fit_to_print(id, drawn)?;
-            outputs.push(Output { name: format!("{id}.svg"), bytes: drawn.svg.into_bytes() });
-            outputs.push(Output { name: format!("{id}.png"), bytes: drawn.png });
+            outputs.extend(figure_outputs(&Scene { evidence, run, verdicts }, spec)?);
         }
     }
     for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
         let text = tables::table(paper, table, verdicts)?;
         outputs.push(Output { name: format!("{}.tex", table.id), bytes: text.into_bytes() });
+    }
+    let quick = evidence.runs().any(|run| run.manifest.quick);
+    for table in paper.results.iter().filter(|table| is_wanted(table.id.get_ref())) {
+        let text = results::latex(evidence, table, quick)?;
+        outputs.push(Output { name: format!("{}.tex", table.id.get_ref()), bytes: text.into_bytes() });
     }
     if is_wanted("numbers") {
         let text = tables::numbers(paper, verdicts)?;
@@ -72,6 +68,29 @@ fn fit_to_print(id: &str, drawn: Figure) -> Result<Figure, RenderError> {
         return Ok(drawn);
     }
     Err(RenderError::Flawed { figure: id.to_owned(), flaws: drawn.flaws.join("; ") })
+}
+
+/// The files of one figure: SVG, PNG and, where it has one, its table.
+fn figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, RenderError> {
+    let (paper, run, id) = (scene.evidence.paper, scene.run, spec.id.get_ref());
+    let kind = figure::build(spec, run.study, paper)?;
+    let sheet = kind.draw(scene)?;
+    let sheet = if run.manifest.quick { sheet.noted(QUICK) } else { sheet };
+    let drawn = sheet.draw(&Provenance {
+        command: format!("replan render {} --only {id}", paper.id),
+        spec_hash: run.manifest.spec.clone(),
+        title: spec.caption.clone(),
+    })?;
+    let drawn = fit_to_print(id, drawn)?;
+    let mut outputs = vec![
+        Output { name: format!("{id}.svg"), bytes: drawn.svg.into_bytes() },
+        Output { name: format!("{id}.png"), bytes: drawn.png },
+    ];
+    if let Some(table) = kind.table(scene, &format!("{}:{id}", paper.id), &spec.caption)? {
+        let text = table.latex(&tables::made(paper, id, scene.verdicts))?;
+        outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
+    }
+    Ok(outputs)
 }
 
 /// What every quick figure says.

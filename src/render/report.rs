@@ -48,6 +48,7 @@ pub fn chapter(evidence: &Evidence<'_>, verdicts: &Verdicts, plots: &Path) -> St
     claims(&mut text, verdicts);
     together(&mut text, verdicts);
     reasons(&mut text, verdicts);
+    results(&mut text, evidence);
     figures(&mut text, paper, plots);
     readings(&mut text, paper);
     studies(&mut text, evidence);
@@ -122,16 +123,17 @@ fn together(text: &mut String, verdicts: &Verdicts) {
     line!(text, "\n### What holds together\n");
     line!(
         text,
-        "Claims met exactly on one problem by the same contenders, the largest sets first; reading: {}.\n",
-        verdicts.claims.first().map_or("default", |judged| judged.reading.as_str())
+        "Claims met exactly under one reading by one choice of contenders, each environment on the map of ours that serves \
+         it best; sets within no other, the largest first.\n"
     );
-    line!(text, "| study | problem | contenders | hold | fail |");
+    line!(text, "| reading | study and maps | contenders | hold | fail |");
     line!(text, "|---|---|---|---|---|");
     for set in &verdicts.together {
         let listed =
             |claims: &[String]| claims.iter().map(|c| format!("`{c}`")).collect::<Vec<_>>().join(", ");
         let (hold, fail) = (listed(&set.hold), listed(&set.fail));
-        line!(text, "| {} | {} | {} | {hold} | {fail} |", set.study, set.problem, set.under);
+        let readings = set.reading.replace(',', ", ");
+        line!(text, "| {readings} | {}: {} | {} | {hold} | {fail} |", set.study, set.problem, set.under);
     }
 }
 
@@ -142,11 +144,20 @@ fn reasons(text: &mut String, verdicts: &Verdicts) {
     }
 }
 
+/// Reasons longer than this stand one below another.
+const LONG: usize = 200;
+
 fn reason(text: &mut String, judged: &Judged) {
     line!(text, "**`{}`** ({}): {}\n", judged.claim, judged.at, judged.verdict.name());
     for finding in &judged.findings {
-        let because = finding.because.join("; ");
-        line!(text, "- {}: {because}.{}", finding.check, aside(finding));
+        if let [first, .., last] = &finding.because[..]
+            && first.len() + last.len() > LONG
+        {
+            line!(text, "- {}:{}", finding.check, aside(finding));
+            finding.because.iter().for_each(|reason| line!(text, "  - {reason}"));
+        } else {
+            line!(text, "- {}: {}.{}", finding.check, finding.because.join("; "), aside(finding));
+        }
         for premise in &finding.premises {
             line!(text, "  - premise: {premise}");
         }
@@ -160,6 +171,15 @@ fn aside(finding: &Finding) -> String {
     verdict + &trial
 }
 
+fn results(text: &mut String, evidence: &Evidence<'_>) {
+    for table in &evidence.paper.results {
+        match super::results::markdown(evidence, table) {
+            Ok(table) => line!(text, "{table}"),
+            Err(error) => line!(text, "{}: {error}.\n", table.id.get_ref()),
+        }
+    }
+}
+
 fn figures(text: &mut String, paper: &Paper, plots: &Path) {
     line!(text, "### Figures and tables\n");
     for study in &paper.studies {
@@ -169,8 +189,7 @@ fn figures(text: &mut String, paper: &Paper, plots: &Path) {
             line!(text, "*{id}: {}*\n", figure.caption);
         }
     }
-    let tables: Vec<String> =
-        paper.tables.iter().map(|table| format!("`{}/{}.tex`", plots.display(), table.id)).collect();
+    let tables: Vec<String> = paper.table_ids().map(|id| format!("`{}/{id}.tex`", plots.display())).collect();
     line!(
         text,
         "Tables in LaTeX: {}; every number as a macro: `{}/numbers.tex`.",

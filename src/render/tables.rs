@@ -18,6 +18,11 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
     head.extend(table.columns.iter().map(Cell::from));
     latex.head(head);
     for row in &table.rows {
+        if row.claims.is_empty() {
+            let cells = [row.label.as_str(), ""].into_iter().chain(row.cells.iter().map(String::as_str));
+            latex.row(cells.map(Cell::from).collect());
+            continue;
+        }
         let judged: Vec<Option<&Judged>> =
             row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
         let line = |first: &str, second: &str, text: &dyn Fn(&Judged) -> String| {
@@ -35,7 +40,7 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
     if verdicts.quick {
         latex.note(super::output::QUICK);
     }
-    latex.latex(&made(paper, &table.id))
+    latex.latex(&made(paper, &table.id, verdicts))
 }
 
 /// One macro for each printed number, each of ours and each verdict.
@@ -55,11 +60,12 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
         }
         numbers.add(&key("verdict"), judged.verdict.name())?;
     }
-    Ok(numbers.latex(&paper.id, &made(paper, "numbers")))
+    Ok(numbers.latex(&paper.id, &made(paper, "numbers", verdicts)))
 }
 
-fn made(paper: &Paper, id: &str) -> String {
-    format!("made by `replan render {} --only {id}`", paper.id)
+pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
+    let made = format!("made by `replan render {} --only {id}`", paper.id);
+    if verdicts.quick { format!("{made}. {}", super::output::QUICK) } else { made }
 }
 
 fn dash() -> String {

@@ -4,10 +4,11 @@ mod load;
 
 use super::error::StudyError;
 use super::family::{self, Family};
-use super::reading::{Point, Reading};
-use super::spec::{BudgetSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
+use super::reading::{self, Point, Reading};
+use super::spec::{BudgetSpec, ExploreSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::{Inputs, task};
 use crate::planner::{self, Build, Planner, Stage};
+use crate::seed;
 use crate::settings::{Document, Settings, SettingsError};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -40,6 +41,8 @@ pub struct Study {
     pub sweeps: Vec<Sweep>,
     /// The readings.
     pub readings: Vec<Reading>,
+    /// Makes a plain run cover other readings than the defaults.
+    pub explore: Option<ExploreSpec>,
     /// Limits on each trial.
     pub budget: BudgetSpec,
     /// How clocks are read.
@@ -170,17 +173,37 @@ impl Study {
     /// # Errors
     /// A reading whose default is not among its options.
     pub fn single_options(&self) -> Result<Vec<Point>, StudyError> {
-        let point = |other: BTreeMap<String, String>| {
-            Point::new(&self.readings, &other)
-                .map_err(|message| StudyError::from(self.document.error(self.key_span("reading"), message)))
-        };
-        let mut points = vec![point(BTreeMap::new())?];
-        for reading in &self.readings {
-            for option in reading.options.keys().filter(|option| **option != reading.default) {
-                points.push(point([(reading.id.clone(), option.clone())].into())?);
+        self.points(0)
+    }
+
+    /// Every point that the study explores if it is asked to: [`single_options`](Self::single_options) and the
+    /// sample of their product that the spec asks for.
+    ///
+    /// # Errors
+    /// As [`single_options`](Self::single_options).
+    pub fn explored(&self) -> Result<Vec<Point>, StudyError> {
+        self.points(self.explore.map_or(0, |explore| explore.sample))
+    }
+
+    /// The points of [`explored`](Self::explored) as trials see them: those that run the same trials appear once.
+    ///
+    /// # Errors
+    /// As [`single_options`](Self::single_options).
+    pub fn trial_points(&self) -> Result<Vec<Point>, StudyError> {
+        let mut points: Vec<Point> = Vec::new();
+        for point in self.explored()? {
+            let point = point.for_trials(&self.readings);
+            if !points.contains(&point) {
+                points.push(point);
             }
         }
         Ok(points)
+    }
+
+    fn points(&self, sample: u32) -> Result<Vec<Point>, StudyError> {
+        let seed = seed::derive(self.seed, &[&self.paper, &self.name, "explore"]);
+        reading::explored(&self.readings, sample, seed)
+            .map_err(|message| StudyError::from(self.document.error(self.key_span("reading"), message)))
     }
 
     /// Every combination of the sweeps' values, the first sweep varying slowest; one empty point without sweeps.

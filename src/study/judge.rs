@@ -3,7 +3,10 @@
 //! The verifier shares no code with planners; this module only takes worlds apart for it and turns its answer
 //! into the trial's status and measured values.
 
+mod arm;
 pub mod roadmap;
+
+pub use arm::ARM_COLUMNS;
 
 use super::checked::Pipeline;
 use super::family::Query;
@@ -24,6 +27,19 @@ pub enum Truth {
     Lattice(Option<f64>),
     /// On a roadmap: its robot and surroundings.
     Roadmap(roadmap::Case),
+    /// For a planar arm nothing is known beforehand.
+    Arm,
+}
+
+#[cfg(test)]
+impl Truth {
+    /// The least cost in a lattice's graph.
+    pub fn optimal(&self) -> Option<f64> {
+        match self {
+            Self::Lattice(optimal) => *optimal,
+            Self::Roadmap(_) | Self::Arm => panic!("a lattice is tested"),
+        }
+    }
 }
 
 /// The verifier's answer about one plan.
@@ -40,6 +56,8 @@ pub struct Judged {
 /// The truth about `query` in `world`.
 pub fn truth(world: &World, query: &Query) -> Truth {
     match world {
+        // Its optimum depends on the planner's neighbourhood and is found when a plan is judged.
+        World::Arm(_) => Truth::Arm,
         World::Lattice(lattice) => Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost()),
         World::Roadmap(roadmap) => Truth::Roadmap(roadmap::Case::new(roadmap)),
     }
@@ -48,11 +66,12 @@ pub fn truth(world: &World, query: &Query) -> Truth {
 /// Judges `plan`, which `pipeline` returned for `request`.
 pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Judged {
     match (request.world, truth) {
+        (World::Arm(world), _) => arm::judge(world, request, plan, pipeline),
         (World::Lattice(lattice), Truth::Lattice(optimal)) => {
             judge_lattice(lattice, request, plan, pipeline, *optimal)
         }
         (_, Truth::Roadmap(case)) => case.judge(request, plan),
-        (World::Roadmap(_), Truth::Lattice(_)) => unreachable!("the truth is about the request's world"),
+        _ => unreachable!("the truth is about the request's world"),
     }
 }
 
@@ -79,27 +98,31 @@ fn judge_lattice(
         in_graph: untouched,
         optimal: untouched && pipeline.planner.is_optimal(),
     };
-    let refusal = match plan.ending {
+    let refusal = refuse_ending(request, plan).or_else(|| match plan.ending {
         Ending::Solved => case.refuse_path(&answer, optimal),
         Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(optimal),
         Ending::NoPath | Ending::BudgetSpent => None,
-    };
+    });
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
     }
-    let outcome = match (refusal, plan.ending) {
+    Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+}
+
+/// The status of a trial that ended as `plan` did and was refused for `refusal`, if it was, and the reason.
+fn outcome(request: &Request<'_>, plan: &Plan, refusal: Option<String>) -> (Status, Option<String>) {
+    match (refusal, plan.ending) {
         (Some(refusal), _) => (Status::Rejected, Some(refusal)),
         (None, Ending::Solved) => (Status::Solved, None),
         (None, Ending::NoPath) => (Status::NoPath, Some("the planner found no path".to_owned())),
         (None, Ending::BudgetSpent) => {
             (Status::BudgetSpent, Some(format!("budget of {} expansions spent", request.expansions)))
         }
-    };
-    Judged { outcome, values, exhibits: Vec::new() }
+    }
 }
 
 /// What is measured of an accepted path on a lattice.
-fn measured(path: &[Vec<f64>]) -> Counts {
+pub fn measured(path: &[Vec<f64>]) -> Counts {
     let inner = bends(path).len().saturating_sub(2);
     Counts::from([
         ("path_cost_cells", Value::Real(path_length(path))),
@@ -108,3 +131,17 @@ fn measured(path: &[Vec<f64>]) -> Counts {
         ("bends", Value::Count(inner as u64)),
     ])
 }
+
+/// Why `plan` contradicts its own ending; `None` if it does not, or counts no expansions.
+fn refuse_ending(request: &Request<'_>, plan: &Plan) -> Option<String> {
+    if plan.ending != Ending::Solved && (!plan.path.is_empty() || plan.cost.is_some()) {
+        return Some("a path or a cost is given although none is claimed".to_owned());
+    }
+    let expansions = plan.counts.get("expansions")?.as_f64();
+    (plan.ending == Ending::BudgetSpent && expansions < request.expansions as f64).then(|| {
+        format!("the budget is said to be spent after {expansions} of {} expansions", request.expansions)
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -7,6 +7,7 @@
 mod checked;
 pub mod clock;
 pub mod column;
+pub mod endpoints;
 mod error;
 pub mod family;
 pub mod judge;

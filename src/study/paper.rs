@@ -2,6 +2,9 @@
 //!
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
+pub mod results;
+
+use self::results::ResultsSpec;
 use super::{Inputs, Reading, Study, StudyError};
 use crate::settings::{Document, Settings, SettingsError};
 use serde::Deserialize;
@@ -23,6 +26,8 @@ struct PaperSpec {
     claims: Vec<ClaimSpec>,
     #[serde(default, rename = "table")]
     tables: Vec<TableSpec>,
+    #[serde(default)]
+    results: Vec<ResultsSpec>,
 }
 
 /// Where the paper was published, as far as its text says.
@@ -112,8 +117,8 @@ pub struct Claim {
     pub printed: Option<String>,
     /// The number's unit; absent if the paper gives none.
     pub unit: Option<String>,
-    /// How the number's digits end.
-    pub digits: Digits,
+    /// How the number's digits end, where the claim says so; otherwise the reading decides.
+    pub digits: Option<Digits>,
     /// What the paper leaves out, if that makes it untestable.
     pub untestable: Option<String>,
     /// How it is judged: checks by name.
@@ -142,7 +147,11 @@ pub struct TableRow {
     /// Its head.
     pub label: String,
     /// The claim in each column.
+    #[serde(default)]
     pub claims: Vec<Spanned<String>>,
+    /// What stands in each column where the table holds no claims.
+    #[serde(default)]
+    pub cells: Vec<String>,
 }
 
 /// A checked paper with its studies.
@@ -162,6 +171,8 @@ pub struct Paper {
     pub claims: Vec<Claim>,
     /// Its tables.
     pub tables: Vec<TableSpec>,
+    /// Tables of our own results.
+    pub results: Vec<ResultsSpec>,
     /// Its studies, in the order of their names.
     pub studies: Vec<Study>,
     /// The file it was read from.
@@ -196,6 +207,7 @@ impl Paper {
             ledger: spec.ledger,
             claims: spec.claims.iter().map(|c| claim(&document, c)).collect::<Result<_, _>>()?,
             tables: spec.tables,
+            results: spec.results,
             studies,
             document,
         };
@@ -221,6 +233,12 @@ impl Paper {
         readings
     }
 
+    /// The names of all its tables, the paper's own and those of our results.
+    pub fn table_ids(&self) -> impl Iterator<Item = &str> {
+        let own = self.tables.iter().map(|table| table.id.as_str());
+        own.chain(self.results.iter().map(|table| table.id.get_ref().as_str()))
+    }
+
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.id == id)
@@ -238,8 +256,7 @@ impl Paper {
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
         let drawn =
             self.studies.iter().flat_map(|study| study.figures.iter().map(|f| f.id.get_ref().as_str()));
-        let figures: BTreeSet<&str> =
-            drawn.chain(self.tables.iter().map(|table| table.id.as_str())).collect();
+        let figures: BTreeSet<&str> = drawn.chain(self.table_ids()).collect();
         for row in &self.ledger {
             self.known("claim", &row.claims, &claims)?;
             self.known("figure or table", &row.figures, &figures)?;
@@ -258,6 +275,7 @@ impl Paper {
             self.known("claim", &row.claims, &claims)?;
         }
         self.check_tables()?;
+        self.check_results()?;
         self.check_readings()?;
         self.check_numbering()
     }
@@ -282,12 +300,13 @@ impl Paper {
     fn check_tables(&self) -> Result<(), SettingsError> {
         for table in &self.tables {
             for row in &table.rows {
-                if row.claims.len() != table.columns.len() {
+                let (claims, cells) = (row.claims.len(), row.cells.len());
+                if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
                     let message = format!(
-                        "row `{}` of table `{}` names {} claims; the table has {} columns",
+                        "row `{}` of table `{}` has {claims} claims and {cells} cells; either are accepted, one for each of \
+                         the {} columns",
                         row.label,
                         table.id,
-                        row.claims.len(),
                         table.columns.len()
                     );
                     let span = row.claims.first().map_or(0..0, Spanned::span);
@@ -371,7 +390,7 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         says: spec.says.clone(),
         printed: spec.printed.as_ref().map(|printed| printed.get_ref().clone()),
         unit: spec.unit.clone(),
-        digits: spec.digits.unwrap_or(Digits::Unknown),
+        digits: spec.digits,
         untestable: spec.untestable.clone(),
         checks: checks.collect(),
     })

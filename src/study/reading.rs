@@ -1,7 +1,10 @@
 //! Readings: ways to fill in what a paper leaves open, and points in their product.
 
+use super::paper::Digits;
 use super::spec::OptionSpec;
-use std::collections::BTreeMap;
+use crate::seed::{self, Stream};
+use rand::RngExt as _;
+use std::collections::{BTreeMap, BTreeSet};
 use toml::Table;
 
 /// One axis of readings.
@@ -15,6 +18,13 @@ pub struct Reading {
     pub default: String,
     /// What each option changes.
     pub options: BTreeMap<String, OptionSpec>,
+}
+
+impl Reading {
+    /// Whether any option changes a problem or a contender; otherwise no trial depends on it.
+    pub fn touches_trials(&self) -> bool {
+        self.options.values().any(|option| !option.problem.is_empty() || !option.stage.is_empty())
+    }
 }
 
 /// One option of every reading.
@@ -77,6 +87,22 @@ impl Point {
         &self.choices
     }
 
+    /// The point of `readings` under which the same trials run: readings that touch no trial are at their defaults.
+    ///
+    /// # Panics
+    /// As [`within`](Self::within).
+    #[must_use]
+    pub fn for_trials(&self, readings: &[Reading]) -> Self {
+        let mut moving = self.within(readings).choices;
+        moving.retain(|id, _| readings.iter().any(|reading| reading.id == *id && reading.touches_trials()));
+        Self::new(readings, &moving).expect("the options were just found")
+    }
+
+    /// How printed digits end under this point, if a reading says so.
+    pub fn digits(&self) -> Option<Digits> {
+        self.changes.iter().find_map(|(_, change)| change.digits)
+    }
+
     /// What is laid over every problem's settings, with who says so.
     pub fn over_problem(&self) -> impl Iterator<Item = (&Table, &str)> {
         self.changes.iter().map(|(origin, change)| (&change.problem, origin.as_str()))
@@ -96,9 +122,86 @@ impl Point {
     }
 }
 
+/// The default point, every point that differs from it in one option, and `sample` further points of the product.
+///
+/// The further points are drawn from `seed`, every reading's option with equal chance, without repetition; there are
+/// fewer if the product is exhausted.
+///
+/// # Errors
+/// A reading whose default is not among its options.
+pub fn explored(readings: &[Reading], sample: u32, seed: u64) -> Result<Vec<Point>, String> {
+    let mut points = vec![Point::new(readings, &BTreeMap::new())?];
+    for reading in readings {
+        for option in reading.options.keys().filter(|option| **option != reading.default) {
+            points.push(Point::new(readings, &[(reading.id.clone(), option.clone())].into())?);
+        }
+    }
+    let product = readings.iter().fold(1_usize, |all, reading| all.saturating_mul(reading.options.len()));
+    let wanted = points.len().saturating_add(sample as usize).min(product);
+    let mut known: BTreeSet<String> = points.iter().map(|point| point.name.clone()).collect();
+    let mut stream = seed::stream(seed);
+    while points.len() < wanted {
+        let point = drawn(readings, &mut stream)?;
+        if known.insert(point.name.clone()) {
+            points.push(point);
+        }
+    }
+    Ok(points)
+}
+
+fn drawn(readings: &[Reading], stream: &mut Stream) -> Result<Point, String> {
+    let pick = |reading: &Reading, stream: &mut Stream| {
+        let index = stream.random_range(0..reading.options.len());
+        (
+            reading.id.clone(),
+            reading.options.keys().nth(index).expect("the index is below the length").clone(),
+        )
+    };
+    let choices = readings.iter().map(|reading| pick(reading, stream)).collect();
+    Point::new(readings, &choices)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_sample_of_the_product_repeats_nothing_and_stops_where_the_product_does() {
+        let reading = |id: &str, count: usize, moves: bool| Reading {
+            id: id.to_owned(),
+            why: String::new(),
+            default: "0".to_owned(),
+            options: (0..count)
+                .map(|i| {
+                    let problem = if moves {
+                        toml::toml! { key = 1 }
+                    } else {
+                        Table::new()
+                    };
+                    (i.to_string(), OptionSpec { problem, ..OptionSpec::default() })
+                })
+                .collect(),
+        };
+        let readings = [reading("a", 3, true), reading("b", 4, false), reading("c", 2, true)];
+        let names = |sample, seed| {
+            let points = explored(&readings, sample, seed).unwrap();
+            points.iter().map(|point| point.name().to_owned()).collect::<Vec<_>>()
+        };
+        let seven = names(0, 9);
+        assert_eq!(seven, ["default", "a=1", "a=2", "b=1", "b=2", "b=3", "c=1"]);
+        for seed in 0..20 {
+            let some = names(5, seed);
+            assert_eq!((&some[..7], some.len()), (&seven[..], 12), "seed {seed}");
+            assert_eq!(some.iter().collect::<BTreeSet<_>>().len(), 12, "seed {seed}: {some:?}");
+            assert_eq!(names(1000, seed).len(), 24, "seed {seed}");
+        }
+        assert_ne!(names(5, 1), names(5, 2));
+        let point =
+            Point::new(&readings, &[("b", "2"), ("c", "1")].map(|(a, b)| (a.into(), b.into())).into());
+        let point = point.unwrap();
+        assert_eq!(point.for_trials(&readings).name(), "c=1");
+        assert_eq!(point.within(&readings[..2]).name(), "b=2");
+    }
 
     fn readings() -> Vec<Reading> {
         let option = |metric: &str| OptionSpec {

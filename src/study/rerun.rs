@@ -36,7 +36,7 @@ pub fn rerun(
     let manifest = Manifest::read(folder, &study.name)?;
     let records = read_records(folder, &study.name, &manifest.files)?;
     let points: Vec<Point> = study
-        .single_options()?
+        .trial_points()?
         .into_iter()
         .filter(|p| manifest.readings.iter().any(|r| r == p.name()))
         .collect();

@@ -8,6 +8,7 @@ use super::checked::{Contender, Group, Pipeline, Study, SweepPoint, slug};
 use super::family::{Family, Query};
 use super::reading::Point;
 use super::record::{Batch, Timing};
+use super::spec::TimingSpec;
 use super::store::Journal;
 use super::task::Task;
 use super::{Inputs, StudyError, clock};
@@ -85,14 +86,15 @@ impl Unit<'_> {
         name + &reading_suffix(self.point)
     }
 
-    /// Whether exhibits of this unit (of `contender`, if given) are kept.
-    pub fn is_kept(&self, study: &Study, contender: Option<&str>) -> bool {
+    /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
+    pub fn is_kept(&self, study: &Study, contender: Option<&str>, repeat: u32) -> bool {
         study.kept(&self.group.label).any(|trials| {
             let named = match (contender, &trials.contender) {
                 (Some(contender), Some(wanted)) => contender == wanted,
                 _ => true,
             };
-            named && self.replicate < trials.replicates
+            let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
+            named && is_early && self.replicate < trials.replicates
         })
     }
 }
@@ -244,32 +246,36 @@ impl<'a> Field<'a> {
                 progress.end();
                 return Err(StudyError::Interrupted { study: self.study.name.clone(), kept: total, total });
             }
-            self.time_unit(unit, timing.repeats, &mut readings);
+            self.time_unit(unit, timing, &mut readings);
             progress.step();
         }
         progress.end();
         Ok(readings)
     }
 
-    fn time_unit(&self, unit: &Unit<'_>, repeats: u32, readings: &mut Vec<Timing>) {
+    fn time_unit(&self, unit: &Unit<'_>, timing: TimingSpec, readings: &mut Vec<Timing>) {
         let Ok(prepared) = unit.family.prepare(unit.seed) else { return };
         for query in unit.family.queries() {
-            for racer in unit.racers {
+            let runs = unit.racers.iter().flat_map(|racer| {
+                let seeds = racer.contender.repeats.min(timing.seeds.unwrap_or(1));
+                (0..seeds).map(move |seed| (racer, seed))
+            });
+            for (racer, seed) in runs {
                 let request = Request {
                     world: &prepared.world,
                     start: &query.start,
                     goal: &query.goal,
                     expansions: self.study.budget.expansions,
-                    seed: racer.seed(self.study, &unit.problem(query), 0),
+                    seed: racer.seed(self.study, &unit.problem(query), seed),
                     trace: false,
                 };
                 if racer.pipeline.plan(&request).is_err() {
                     continue;
                 }
-                for repeat in 0..repeats {
+                for repeat in 0..timing.repeats {
                     let (plan_wall_ns, _) = clock::timed(|| racer.pipeline.plan(&request));
                     readings.push(Timing {
-                        trial: unit.trial(query, racer, 0),
+                        trial: unit.trial(query, racer, seed),
                         group: unit.group.label.clone(),
                         contender: racer.contender.label.clone(),
                         replicate: unit.replicate,

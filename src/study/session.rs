@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// How to run.
 pub struct Options<'a> {
@@ -87,11 +87,6 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         Some((before, records)) if reused == units && before.spec == manifest.spec => records.times.clone(),
         _ => field.time(options.stop, options.progress)?,
     };
-    if options.stop.load(Ordering::Relaxed) {
-        // Every trial is in the journal; half a timed pass is of no use.
-        let study = study.name.clone();
-        return Err(StudyError::Interrupted { study, kept: units, total: units });
-    }
     let moved = stored.map_or_else(Vec::new, |(before, records)| moved(&manifest, &before, &records, &batch));
     let records = Records { batch, times };
     write(study, options.folder, &mut manifest, &records)?;

@@ -2,6 +2,7 @@
 //!
 //! Unknown keys are refused everywhere; settings stay tables and are read by the entry they name.
 
+use super::paper::Digits;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::{Spanned, Table};
@@ -38,6 +39,8 @@ pub struct StudySpec {
     /// Ways to fill in what the paper leaves open.
     #[serde(default, rename = "reading")]
     pub readings: Vec<ReadingSpec>,
+    /// Makes a plain run cover other readings than the defaults.
+    pub explore: Option<ExploreSpec>,
     /// Limits on each trial.
     pub budget: BudgetSpec,
     /// How clocks are read.
@@ -132,6 +135,16 @@ pub struct OptionSpec {
     /// What a metric's name stands for under this option: no trial is rerun.
     #[serde(default)]
     pub metric: BTreeMap<String, String>,
+    /// How printed digits end, for claims that do not say so themselves: no trial is rerun.
+    pub digits: Option<Digits>,
+}
+
+/// Which readings a study explores: the defaults, every other option by itself, and a sample of their product.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExploreSpec {
+    /// How many points of the product are drawn, without repetition, besides those that differ in one option.
+    pub sample: u32,
 }
 
 /// Limits on each trial.
@@ -150,6 +163,8 @@ pub struct TimingSpec {
     pub problems: u32,
     /// How many timed runs of each.
     pub repeats: u32,
+    /// How many of a contender's seeds are timed; the first one if absent.
+    pub seeds: Option<u32>,
 }
 
 /// Which trials.
@@ -162,6 +177,8 @@ pub struct TrialsSpec {
     pub contender: Option<String>,
     /// Replicates below this number.
     pub replicates: u32,
+    /// Seeds of a contender below this number; all of them if absent.
+    pub repeats: Option<u32>,
 }
 
 /// What `--quick` cuts down to.

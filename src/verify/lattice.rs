@@ -203,3 +203,6 @@ fn distance(a: [i32; 2], b: [i32; 2]) -> f64 {
 fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,6 +2,7 @@
 //!
 //! It recomputes costs, checks every step of a path, and refuses what is too good as surely as what collides.
 
+pub mod arm;
 pub mod cell;
 pub mod lattice;
 pub mod plane;

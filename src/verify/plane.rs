@@ -30,7 +30,8 @@ impl Case {
     /// If a corner is no multiple of a sixteenth of a millimetre.
     pub fn new(polygons_mm: &[Vec<[f64; 2]>]) -> Result<Self, String> {
         let corner = |point: &[f64; 2]| {
-            exact(point).ok_or_else(|| format!("corner {point:?} is no multiple of a sixteenth of a millimetre"))
+            exact(point)
+                .ok_or_else(|| format!("corner {point:?} is no multiple of a sixteenth of a millimetre"))
         };
         let polygon = |corners: &Vec<[f64; 2]>| corners.iter().map(corner).collect::<Result<_, _>>();
         Ok(Self { obstacles: polygons_mm.iter().map(polygon).collect::<Result<_, _>>()? })

@@ -96,7 +96,7 @@ fn violations(files: &[File]) -> Vec<String> {
                 _ if other == own => {}
                 None => found.push(format!("{place}, which is no module of lib.rs")),
                 Some(below) if below >= floor => {
-                    found.push(format!("{place}, which is not on a lower floor"))
+                    found.push(format!("{place}, which is not on a lower floor"));
                 }
                 Some(_) if own == "verify" && BANNED_FROM_VERIFY.contains(&other.as_str()) => {
                     found.push(format!("{place}, but the verifier judges with code of its own"));

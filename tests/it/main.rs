@@ -1,10 +1,15 @@
 //! Tests of the crate from outside: its source, its registries, its planners, its command line.
 
+mod arm;
 mod cli_input;
 mod cli_run;
 mod cli_stop;
+mod conformance;
 mod crosscheck;
 mod floors;
+mod laws;
 mod paper;
 mod registries;
+mod snapshots;
 mod source;
+mod worlds;

@@ -10,6 +10,7 @@ pub mod fvalues;
 pub mod lattice;
 pub mod percent;
 pub mod printed;
+pub mod sight;
 pub mod turns;
 
 /// A lattice cell `[x, y]`.

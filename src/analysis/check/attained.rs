@@ -103,7 +103,7 @@ impl<'a> Attained<'a> {
             let settings = claim.checks.get(ENTRY.name).ok_or_else(|| {
                 context.settings.error(format!("claim `{id}` cannot be given: it has no `attained` check"))
             })?;
-            given.push(Attained::new(&Context { claim, settings, paper: context.paper })?);
+            given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
         let printed = context.printed()?;
         Ok(Self { settings, metric, printed, digits: context.digits(), given, claim: &context.claim.id })

@@ -92,7 +92,7 @@ impl Check for Compare<'_> {
             "{} against {} on {} of {}: {:.2} % (95 % interval {:.2} to {:.2}, {} pairs); printed {} %, margin {} points",
             self.settings.contender,
             self.settings.against,
-            self.settings.problems.join(", "),
+            super::listed(&self.settings.problems),
             self.settings.study,
             percent(ratio.value),
             reduction.low,

@@ -40,26 +40,38 @@ impl Check for FailsWhere {
         let Settings { study, problems, contender, .. } = &self.settings;
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let Some(run) = evidence.run(study) else { return finding };
-        let (mut explained, mut unexplained, mut found, mut against) = (0, 0, 0, None);
-        for row in run.rows(problems, contender) {
+        let (mut explained, mut unexplained, mut found, mut refused, mut against) = (0, 0, 0, 0, None);
+        let rows = run.rows(problems, contender);
+        let measured = rows.iter().filter(|row| run.value(row, self.metric).is_some()).count();
+        for row in rows {
             let Some(value) = run.value(row, self.metric) else { continue };
-            match (row.status == Status::Solved, value == 0.0) {
+            // A path that the verifier refused was found by the search.
+            let is_refused = row.status == Status::Rejected;
+            refused += u32::from(is_refused);
+            let is_found = row.status == Status::Solved || is_refused;
+            match (is_found, value == 0.0) {
                 (false, true) => explained += 1,
-                (false, false) => unexplained += 1,
                 (true, false) => found += 1,
-                (true, true) => against = against.or(Some(format!("{}/{}", run.study.name, row.trial))),
+                (false, false) => unexplained += 1,
+                (true, true) => {}
+            }
+            if is_found == (value == 0.0) || is_refused {
+                against = against.or(Some(format!("{}/{}", run.study.name, row.trial)));
             }
         }
-        finding.verdict = Some(match (explained + found, unexplained, &against) {
-            (0, 0, None) => Verdict::Undecided,
-            (_, 0, None) => Verdict::Reproduced,
+        let wrongly_found = measured - explained - unexplained - found;
+        finding.verdict = Some(match (explained + found, unexplained + wrongly_found) {
+            (0, 0) => Verdict::Undecided,
+            (_, 0) => Verdict::Reproduced,
             _ => Verdict::NotReproduced,
         });
         finding.trial = against;
         finding.because.push(format!(
-            "of {} failures of {contender}, {explained} are where {} is 0; it is never 0 on the {found} that it solves",
+            "of {} searches of {contender} that fail, {explained} are where {} is 0; of {} that find a path, {found} are where it \
+             is not ({refused} of these paths the verifier refuses)",
             explained + unexplained,
-            self.metric.label.to_lowercase()
+            self.metric.label.to_lowercase(),
+            found + wrongly_found
         ));
         finding
     }

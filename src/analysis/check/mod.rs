@@ -3,29 +3,40 @@
 //! A check either proves something from the printed numbers alone, and can then only refuse, or compares them
 //! with stored records. What a check compares with is written in the claim, before the first run.
 
+mod across_readings;
 mod all_in_draw;
+mod as_printed;
 mod attained;
+mod clock_ticks;
 mod compare;
+mod count_bound;
 mod fails_where;
 mod finds_whenever;
+mod joint_length_turn;
 mod largest_saving;
 mod lattice_length;
+mod lower_by_draw;
+mod lowest_median;
+mod oracle;
 mod ordering;
 mod percentage;
 mod point_distance;
+mod row_among_draws;
 mod saving_per_draw;
 mod share_above;
+mod sight_bound;
 mod straight_line;
 mod table_cell;
 mod table_row;
+mod text_contradiction;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
 use super::metric::Metric;
 use super::verdict::Finding;
 use crate::settings::{Settings, SettingsError};
-use crate::study::Study;
 use crate::study::paper::{self, Claim, Paper};
+use crate::study::{Point, Study};
 
 /// A check with its settings.
 pub trait Check {
@@ -42,6 +53,8 @@ pub struct Context<'a> {
     pub settings: &'a Settings,
     /// The paper.
     pub paper: &'a Paper,
+    /// The reading that the claim is judged under.
+    pub point: &'a Point,
 }
 
 /// A registered check.
@@ -56,21 +69,32 @@ pub struct Entry {
 
 /// Every check, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
+    &across_readings::ENTRY,
     &all_in_draw::ENTRY,
+    &as_printed::ENTRY,
     &attained::ENTRY,
+    &clock_ticks::ENTRY,
     &compare::ENTRY,
+    &count_bound::ENTRY,
     &fails_where::ENTRY,
     &finds_whenever::ENTRY,
+    &joint_length_turn::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
+    &lower_by_draw::ENTRY,
+    &lowest_median::ENTRY,
+    &oracle::ENTRY,
     &ordering::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
+    &row_among_draws::ENTRY,
     &saving_per_draw::ENTRY,
     &share_above::ENTRY,
+    &sight_bound::ENTRY,
     &straight_line::ENTRY,
     &table_cell::ENTRY,
     &table_row::ENTRY,
+    &text_contradiction::ENTRY,
 ];
 
 /// The entry called `name`.
@@ -78,7 +102,43 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     REGISTRY.iter().copied().find(|entry| entry.name == name)
 }
 
+#[cfg(test)]
+mod tests;
+
+pub use across_readings::Outcome;
 pub use attained::problems as attained_problems;
+pub use row_among_draws::Draws;
+
+/// The draws that the claim called `id` is ranked among, as its check `row_among_draws` says.
+///
+/// # Errors
+/// There is no such claim or it has no such check.
+pub fn draws(evidence: &Evidence<'_>, asker: &Settings, id: &str) -> Result<Vec<Draws>, SettingsError> {
+    row_among_draws::draws(&context(evidence, asker, id, row_among_draws::ENTRY.name)?, evidence)
+}
+
+/// What is found about the claim called `id` under every reading, as its check `across_readings` says.
+///
+/// # Errors
+/// There is no such claim or it has no such check.
+pub fn outcomes(evidence: &Evidence<'_>, asker: &Settings, id: &str) -> Result<Vec<Outcome>, SettingsError> {
+    across_readings::outcomes(&context(evidence, asker, id, across_readings::ENTRY.name)?, evidence)
+}
+
+/// The claim called `id` with its check called `check`, asked for by settings `asker`.
+fn context<'a>(
+    evidence: &'a Evidence<'_>,
+    asker: &Settings,
+    id: &str,
+    check: &str,
+) -> Result<Context<'a>, SettingsError> {
+    let (paper, point) = (evidence.paper, &evidence.point);
+    let claim = paper.claim(id).ok_or_else(|| asker.error(format!("there is no claim `{id}`")))?;
+    let settings = claim.checks.get(check).ok_or_else(|| {
+        asker.error(format!("claim `{id}` has no check `{check}`, which says what is to be shown"))
+    })?;
+    Ok(Context { claim, settings, paper, point })
+}
 
 impl From<paper::Digits> for Digits {
     fn from(digits: paper::Digits) -> Self {
@@ -88,6 +148,11 @@ impl From<paper::Digits> for Digits {
             paper::Digits::Unknown => Self::Unknown,
         }
     }
+}
+
+/// Problem groups in a sentence: their names, or how many there are.
+fn listed(problems: &[String]) -> String {
+    if problems.len() > 3 { format!("{} problem groups", problems.len()) } else { problems.join(", ") }
 }
 
 impl<'a> Context<'a> {
@@ -102,7 +167,7 @@ impl<'a> Context<'a> {
     fn printed_of(&self, id: &str) -> Result<(Printed, Digits), SettingsError> {
         let other = self.claim_called(id)?;
         let context = Context { claim: other, ..*self };
-        Ok((context.printed()?, other.digits.into()))
+        Ok((context.printed()?, context.digits()))
     }
 
     fn claim_called(&self, id: &str) -> Result<&'a Claim, SettingsError> {
@@ -113,7 +178,8 @@ impl<'a> Context<'a> {
     }
 
     fn digits(&self) -> Digits {
-        self.claim.digits.into()
+        let digits = self.claim.digits.or_else(|| self.point.digits());
+        digits.unwrap_or(paper::Digits::Unknown).into()
     }
 
     /// The study called `name`, which must have the problem groups and contenders named.
@@ -146,17 +212,21 @@ impl<'a> Context<'a> {
         Ok(study)
     }
 
-    /// The metric that `name` stands for under the default reading; `study` must produce it.
-    fn metric(&self, name: &str, study: &Study) -> Result<&'static Metric, SettingsError> {
-        let point = super::evidence::default_point(self.paper);
-        let metric = super::metric::find(point.metric(name)).ok_or_else(|| {
+    /// The metric that `name` stands for under the reading.
+    fn known_metric(&self, name: &str) -> Result<&'static Metric, SettingsError> {
+        super::metric::find(self.point.metric(name)).ok_or_else(|| {
             let known: Vec<&str> = super::metric::METRICS.iter().map(|metric| metric.name).collect();
             let message = format!(
                 "there is no metric `{name}`, nor a reading that gives the name a meaning; the metrics are {}",
                 known.join(", ")
             );
             self.settings.error(message)
-        })?;
+        })
+    }
+
+    /// The metric that `name` stands for under the reading; `study` must produce it.
+    fn metric(&self, name: &str, study: &Study) -> Result<&'static Metric, SettingsError> {
+        let metric = self.known_metric(name)?;
         let columns = study.columns();
         if !columns.contains(metric.column) {
             let produced: Vec<&str> = super::metric::METRICS

@@ -109,7 +109,7 @@ impl Check for Ordering<'_> {
             "{} against {} on {} of {}: {} lower on {}, equal on {}, higher on {} of {} problems",
             self.settings.lower,
             self.settings.higher,
-            self.settings.problems.join(", "),
+            super::listed(&self.settings.problems),
             self.settings.study,
             self.metric.label.to_lowercase(),
             signs.lower,

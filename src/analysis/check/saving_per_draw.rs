@@ -83,7 +83,9 @@ impl Check for SavingPerDraw<'_> {
         let draws: Vec<f64> = drawn.iter().map(|draw| of_queries.of(&savings(draw))).collect();
         let (Some(interval), Some(mean)) = (predictive(&draws, 0.95), mean(&draws)) else {
             finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
+            finding
+                .because
+                .push(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
             return finding;
         };
         let printed = self.printed.value();

@@ -70,7 +70,9 @@ impl Check for ShareAbove<'_> {
             (false, ..) => Verdict::NotReproduced,
         });
         if is_contradicted {
-            finding.because.push(format!("the paper's own table contradicts the sentence: {}", printed.join("; ")));
+            finding
+                .because
+                .push(format!("the paper's own table contradicts the sentence: {}", printed.join("; ")));
             finding.premises.push("“always higher” means higher at every printed point".to_owned());
         }
         finding

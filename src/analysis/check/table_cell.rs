@@ -20,8 +20,12 @@ pub static ENTRY: Entry = Entry {
         let study = context.study(&settings.study, problems, &[&settings.contender])?;
         if !study.sweep_points().iter().any(|point| point.name == settings.sweep) {
             let known: Vec<String> = study.sweep_points().into_iter().map(|point| point.name).collect();
-            let message =
-                format!("study `{}` has no sweep `{}`; it has {}", study.name, settings.sweep, known.join(", "));
+            let message = format!(
+                "study `{}` has no sweep `{}`; it has {}",
+                study.name,
+                settings.sweep,
+                known.join(", ")
+            );
             return Err(context.settings.error(message));
         }
         let is_fitted = study.fitted_to.contains(&context.claim.id);
@@ -53,7 +57,9 @@ impl Check for TableCell<'_> {
         let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
         let (Some(interval), Some(mean)) = (predictive(&draws, 0.95), mean(&draws)) else {
             finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
+            finding
+                .because
+                .push(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
             return finding;
         };
         let printed = self.printed.value();

@@ -23,7 +23,8 @@ pub static ENTRY: Entry = Entry {
         let printed: Vec<Printed> = printed.collect::<Result<_, _>>()?;
         if printed.len() != study.sweep_points().len() {
             let (cells, points) = (printed.len(), study.sweep_points().len());
-            let message = format!("the row has {cells} claims; study `{}` sweeps {points} points", study.name);
+            let message =
+                format!("the row has {cells} claims; study `{}` sweeps {points} points", study.name);
             return Err(context.settings.error(message));
         }
         let is_fitted = study.fitted_to.contains(&context.claim.id);
@@ -69,7 +70,8 @@ pub(super) fn place(row: &[f64], cells: &[Vec<f64>]) -> Option<Place> {
         let means = kept.iter().map(|cell| mean(cell)).collect::<Option<_>>()?;
         // A cell at which all draws agree is given the spread of one query in ten of one draw in all.
         let least = 10.0 / (draws as f64).sqrt();
-        let spreads = kept.iter().map(|cell| Some(standard_deviation(cell)?.max(least))).collect::<Option<_>>()?;
+        let spreads =
+            kept.iter().map(|cell| Some(standard_deviation(cell)?.max(least))).collect::<Option<_>>()?;
         Some((means, spreads))
     };
     let (means, spreads) = curve(None)?;

@@ -82,6 +82,11 @@ pub trait Solver: Debug + Send + Sync {
     /// The branch that a configuration is on; a sign that is zero counts as positive.
     fn branch_of(&self, q: &Joints) -> Branch;
 
+    /// The bend of the elbow and the turn of the wrist: the angles whose signs name the branch. On the branch of the other
+    /// sign the angle is the opposite one, so the two are apart by at least the sum of their sizes (or what is left of
+    /// a turn).
+    fn folds_rad(&self, q: &Joints) -> [f64; 2];
+
     /// The configuration on one branch that puts the flange at `flange`, given in the base.
     fn solve(&self, flange: &Frame, branch: Branch, reference: &Joints) -> Option<Joints>;
 

@@ -144,6 +144,10 @@ impl Solver for OffsetWrist {
         Branch::new(behind <= 0.0, libm::sin(q[2]) >= 0.0, libm::sin(q[4]) >= 0.0)
     }
 
+    fn folds_rad(&self, q: &Joints) -> [f64; 2] {
+        [q[2] + self.from_upright[2], q[4] + self.from_upright[4]]
+    }
+
     fn solve(&self, flange: &Frame, branch: Branch, reference: &Joints) -> Option<Joints> {
         let ahead = self.ahead(flange, branch.shoulder())?;
         let hand = self.hand(flange, &ahead, branch.wrist(), reference)?;

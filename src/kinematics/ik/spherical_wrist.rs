@@ -162,6 +162,10 @@ impl Solver for SphericalWrist {
         Branch::new(ahead >= 0.0, libm::sin(bend) >= 0.0, libm::sin(theta[4]) >= 0.0)
     }
 
+    fn folds_rad(&self, q: &Joints) -> [f64; 2] {
+        [q[2] + self.offsets[2] - self.forearm_angle, q[4] + self.offsets[4]]
+    }
+
     fn solve(&self, flange: &Frame, branch: Branch, reference: &Joints) -> Option<Joints> {
         let plane = self.plane(&self.wrist_center(flange), branch.shoulder(), reference)?;
         let reached = self.reached(&plane, branch.elbow());

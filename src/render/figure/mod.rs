@@ -2,17 +2,41 @@
 //!
 //! A kind turns stored records and exhibits into a [`Sheet`]; it runs no trial and draws no statistics of its own.
 
+mod arm_plane;
+mod arm_postures;
+mod ask;
+mod cell_paths;
+mod cell_poses;
+mod draws;
+mod endpoint_pairs;
 mod grid_search;
+mod identification;
+mod joint_curves;
+mod length_against_work;
+mod neighbourhoods;
+mod paired_boxes;
+mod plane_search;
+mod reductions;
+mod rejections;
+mod row_draws;
+mod search_flow;
+mod share_bars;
+mod specification_curve;
+mod success_bands;
+mod tidying;
+mod tip_path_joints;
+mod tradeoff;
 
 use super::RenderError;
 use super::chart::Sheet;
+use super::latex::Table;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
 use crate::settings::{Settings, SettingsError};
 use crate::study::Study;
 use crate::study::paper::Paper;
 use crate::study::spec::FigureSpec;
-use toml::Table;
+use toml::Table as Toml;
 
 /// What a figure is drawn from.
 pub struct Scene<'a> {
@@ -31,6 +55,14 @@ pub trait Kind {
     /// # Errors
     /// [`RenderError::NotStored`] if the run lacks what it shows; axes that cannot be drawn.
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError>;
+
+    /// The numbers behind the figure as a table under its own name, where they are worth one.
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw).
+    fn table(&self, _scene: &Scene<'_>, _label: &str, _caption: &str) -> Result<Option<Table>, RenderError> {
+        Ok(None)
+    }
 }
 
 /// A registered kind of figure.
@@ -44,7 +76,68 @@ pub struct Entry {
 }
 
 /// Every kind, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&grid_search::ENTRY];
+pub static REGISTRY: &[&Entry] = &[
+    &arm_plane::ENTRY,
+    &arm_postures::ENTRY,
+    &cell_paths::ENTRY,
+    &cell_poses::ENTRY,
+    &draws::ENTRY,
+    &endpoint_pairs::ENTRY,
+    &grid_search::ENTRY,
+    &identification::ENTRY,
+    &joint_curves::ENTRY,
+    &length_against_work::ENTRY,
+    &neighbourhoods::ENTRY,
+    &paired_boxes::ENTRY,
+    &plane_search::ENTRY,
+    &reductions::ENTRY,
+    &rejections::ENTRY,
+    &row_draws::ENTRY,
+    &search_flow::ENTRY,
+    &share_bars::ENTRY,
+    &specification_curve::ENTRY,
+    &success_bands::ENTRY,
+    &tidying::ENTRY,
+    &tip_path_joints::ENTRY,
+    &tradeoff::ENTRY,
+];
+
+/// Refuses contenders and problem groups that `study` does not have.
+fn check_labels<'a>(
+    settings: &Settings,
+    study: &Study,
+    contenders: impl IntoIterator<Item = &'a String>,
+    problems: impl IntoIterator<Item = &'a String>,
+) -> Result<(), SettingsError> {
+    let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
+    if let Some(label) = contenders.into_iter().find(|label| !known.contains(&label.as_str())) {
+        let message = format!("no contender is called `{label}`; they are {}", known.join(", "));
+        return Err(settings.error(message));
+    }
+    let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
+    if let Some(label) = problems.into_iter().find(|label| !groups.contains(&label.as_str())) {
+        let message = format!("no problem group is called `{label}`; they are {}", groups.join(", "));
+        return Err(settings.error(message));
+    }
+    Ok(())
+}
+
+/// The claim called `id`, whose checks say what is to be shown.
+fn check_claim(settings: &Settings, paper: &Paper, id: &str, check: &str) -> Result<(), SettingsError> {
+    let Some(claim) = paper.claim(id) else {
+        return Err(settings.error(format!("there is no claim `{id}`")));
+    };
+    if claim.checks.contains_key(check) {
+        return Ok(());
+    }
+    let message = format!("claim `{id}` has no check `{check}`, which says what is to be shown");
+    Err(settings.error(message))
+}
+
+/// The number that the claim called `id` prints.
+fn printed_value(evidence: &Evidence<'_>, id: &str) -> Option<f64> {
+    evidence.paper.claim(id)?.printed.as_ref()?.parse().ok()
+}
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
@@ -81,7 +174,7 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
     })?;
     let settings = match &figure.settings {
         Some(settings) => Settings::written(&study.document, settings),
-        None => Settings::composed(format!("figure `{}`", figure.id.get_ref()), Table::new()),
+        None => Settings::composed(format!("figure `{}`", figure.id.get_ref()), Toml::new()),
     };
     (entry.build)(&settings, study, paper)
 }

@@ -146,6 +146,14 @@ pub struct Scratch {
     states: Vec<Joints>,
     placed: Vec<Capsule>,
     ways: Vec<f64>,
+    checked: u64,
+}
+
+impl Scratch {
+    /// How many configurations were checked for contact.
+    pub fn checked(&self) -> u64 {
+        self.checked
+    }
 }
 
 /// The local path planner of a cell.
@@ -271,6 +279,9 @@ impl Lines {
                 Missed::Unreachable => Rejection::Unreachable,
                 Missed::Limits => Rejection::Limits,
             })?;
+            if self.leaves_branch(&q, &last, from.branch, &way.at(share)) {
+                return Err(Rejection::Branch);
+            }
             let change = largest_change(&q, &last);
             if change > rules.jump_rad {
                 // Only a joint that ran into a limit goes back by a turn.
@@ -288,6 +299,18 @@ impl Lines {
             last = q;
         }
         Ok(())
+    }
+
+    /// Whether another branch offers a smaller change than `q`, of `branch`, does from `last`.
+    ///
+    /// All branches are asked only where the elbow or the wrist the other way round could be as near.
+    #[inline]
+    fn leaves_branch(&self, q: &Joints, last: &Joints, branch: Branch, target: &Frame) -> bool {
+        let arm = self.cell.robot().arm();
+        let change: f64 = q.iter().zip(last).map(|(a, b)| (a - b) * (a - b)).sum();
+        let flip_rad = arm.nearest_flip_rad(q, last);
+        change >= flip_rad * flip_rad
+            && arm.inverse_nearest(target, last).is_none_or(|(nearest, _)| nearest != branch)
     }
 
     fn arrives(&self, end: &Joints, wanted: &Joints) -> Result<(), Rejection> {
@@ -314,7 +337,7 @@ impl Lines {
     fn clear(&self, way: Option<&Way>, branch: Branch, scratch: &mut Scratch) -> Result<(), Rejection> {
         let chain = self.cell.robot().arm().chain();
         let parts = self.cell.body().parts();
-        let Scratch { states, placed, ways } = scratch;
+        let Scratch { states, placed, ways, checked } = scratch;
         placed.clear();
         for q in states.iter() {
             let frames = chain.frames(q);
@@ -333,6 +356,7 @@ impl Lines {
         let mut near = Vec::new();
         for state in middle_outwards(states.len()) {
             let reach = |part| HALF_WAY * way_m(state, part);
+            *checked += 1;
             match self.cell.standing(at(state), reach) {
                 Standing::Contact => return Err(Rejection::Contact),
                 Standing::Near => near.push(state),
@@ -375,8 +399,9 @@ impl Doubt<'_> {
         };
         let mut placed = Vec::with_capacity(a.2.len());
         cell.place(&q, &mut placed);
-        let reach =
-            |part: usize| 2.0 * HALF_WAY * axis_way_m(&a.2[part], &placed[part]).max(axis_way_m(&placed[part], &b.2[part]));
+        let reach = |part: usize| {
+            2.0 * HALF_WAY * axis_way_m(&a.2[part], &placed[part]).max(axis_way_m(&placed[part], &b.2[part]))
+        };
         match cell.standing(&placed, reach) {
             Standing::Contact => Err(Rejection::Contact),
             Standing::Near if halvings > 1 => {
@@ -428,9 +453,12 @@ mod tests {
     #[test]
     fn the_way_ends_where_it_should_and_turns_evenly_even_by_half_a_turn() {
         let axes = [Vec3::x(), Vec3::new(1.0, 2.0, -2.0) / 3.0, Vec3::new(0.0, 0.6, -0.8)];
-        for (axis, angle) in axes.iter().flat_map(|axis| [0.0, 1e-8, 0.3, 2.9, std::f64::consts::PI].map(|a| (axis, a))) {
+        for (axis, angle) in
+            axes.iter().flat_map(|axis| [0.0, 1e-8, 0.3, 2.9, std::f64::consts::PI].map(|a| (axis, a)))
+        {
             let from = Frame::at(Vec3::new(1.0, 2.0, 3.0)) * Frame::turned(&Vec3::y(), 0.7);
-            let to = Frame { rotation: Frame::turned(axis, angle).rotation * from.rotation, origin: Vec3::z() };
+            let to =
+                Frame { rotation: Frame::turned(axis, angle).rotation * from.rotation, origin: Vec3::z() };
             let way = Way::between(&from, &to);
             assert!((way.turn_rad - angle).abs() < 1e-6, "{axis:?} {angle}: {}", way.turn_rad);
             for (share, end) in [(0.0, &from), (1.0, &to)] {

@@ -163,10 +163,12 @@ impl Cell {
     pub fn clearance_m(&self, q: &Joints) -> f64 {
         let mut placed = Vec::new();
         self.place(q, &mut placed);
-        let to_solid =
-            |part: usize, solid: &Solid| distance_segment_solid(&placed[part].segment, solid) - placed[part].radius;
+        let to_solid = |part: usize, solid: &Solid| {
+            distance_segment_solid(&placed[part].segment, solid) - placed[part].radius
+        };
         let scene = self.scene.obstacles().iter();
-        let outer = scene.flat_map(|o| self.exposed.iter().map(|part| to_solid(*part, &o.solid)).collect::<Vec<_>>());
+        let outer =
+            scene.flat_map(|o| self.exposed.iter().map(|part| to_solid(*part, &o.solid)).collect::<Vec<_>>());
         let inner = self.self_pairs.iter().map(|[a, b]| distance_capsule_capsule(&placed[*a], &placed[*b]));
         outer.chain(inner).fold(f64::INFINITY, f64::min).max(0.0)
     }

@@ -1,8 +1,6 @@
 //! Scenes from files: still obstacles by name, in millimetres as drawings give them.
 
-use crate::geometry::{
-    Capsule, Convex, Frame, GeometryError, HalfSpace, OrientedBox, Solid, Sphere, Vec3,
-};
+use crate::geometry::{Capsule, Convex, Frame, GeometryError, HalfSpace, OrientedBox, Solid, Sphere, Vec3};
 use crate::settings::{Document, SettingsError};
 use serde::Deserialize;
 use std::path::Path;
@@ -214,7 +212,10 @@ mod tests {
                 "[[sphere]]\nname = 'k'\ncenter_mm = [0, nan, 0]\nradius_mm = 1\n",
                 ["s.toml:2:1", "`k`", "finite"],
             ),
-            ("[[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 0]\nradius_mm = -1\n", ["s.toml:2:1", "radius", "0"]),
+            (
+                "[[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 0]\nradius_mm = -1\n",
+                ["s.toml:2:1", "radius", "0"],
+            ),
             ("[floor]\nheight_mm = 0\nwidth_mm = 3\n", ["s.toml:4:1", "width_mm", "height_mm"]),
             (
                 "[[convex]]\nname = 'p'\nvertices_mm = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]\n",

@@ -2,7 +2,7 @@
 
 use super::plane::PlaneMap;
 use crate::kinematics::{AXES, Joints};
-use crate::space::cell::{Lines, Pose, Rejection, Scratch};
+use crate::space::cell::{Lines, Path, Pose, Rejection, Scratch};
 
 /// The robot of a roadmap and the local paths it can take.
 #[derive(Debug)]
@@ -31,7 +31,11 @@ impl Local {
         let width = self.width();
         let wrong = || format!("it has {} numbers; a configuration has {width}", config.len());
         if config.len() != width || config.iter().any(|x| !x.is_finite()) {
-            return Some(if config.len() == width { "it has a number that is not finite".to_owned() } else { wrong() });
+            return Some(if config.len() == width {
+                "it has a number that is not finite".to_owned()
+            } else {
+                wrong()
+            });
         }
         match self {
             Self::Arm(lines) => lines.cell().refusal(&joints(config).expect("the length was checked")),
@@ -58,6 +62,14 @@ impl Local {
         }
     }
 
+    /// Whether the place goes straight on local paths, so that the distance of their ends is their length.
+    pub fn is_straight(&self) -> bool {
+        match self {
+            Self::Arm(lines) => lines.rules().path == Path::Tool,
+            Self::Plane(_) => true,
+        }
+    }
+
     pub(super) fn node(&self, config: &[f64]) -> Node {
         match self {
             Self::Arm(lines) => Node::Arm(lines.pose(&joints(config).expect("six angles"))),
@@ -69,7 +81,11 @@ impl Local {
         match (self, from, to) {
             (Self::Arm(lines), Node::Arm(from), Node::Arm(to)) => lines.join(from, to, scratch),
             (Self::Plane(map), Node::Plane(from), Node::Plane(to)) => {
-                if map.sees(*from, *to) { Ok(()) } else { Err(Rejection::Contact) }
+                if map.sees(*from, *to) {
+                    Ok(())
+                } else {
+                    Err(Rejection::Contact)
+                }
             }
             _ => unreachable!("a roadmap's nodes are of its own kind"),
         }

@@ -63,6 +63,8 @@ pub struct Tally {
     pub edges: u64,
     /// Those that did not, by [`Rejection::ALL`].
     pub rejected: [u64; Rejection::ALL.len()],
+    /// Configurations that were checked for contact on the way.
+    pub checked: u64,
 }
 
 /// Ends of queries and pairs that are no edges of the roadmap itself.
@@ -120,6 +122,7 @@ impl Roadmap {
                 }
             }
         }
+        tally.checked = scratch.checked();
         let links = links.into_iter().map(Arc::new).collect();
         let memory = Mutex::new(Memory { scratch, ..Memory::default() });
         Self { local, radius_mm, counted, samples, nodes, places_mm, numbers, links, tally, memory }
@@ -151,9 +154,10 @@ impl Roadmap {
     /// A sentence if there are not as many.
     pub fn prefix(&self, count: u32) -> Result<u32, String> {
         match self.counted {
-            Counted::Accepted if count as usize > self.samples.len() => {
-                Err(format!("{count} samples are asked for; the roadmap was built with {}", self.samples.len()))
-            }
+            Counted::Accepted if count as usize > self.samples.len() => Err(format!(
+                "{count} samples are asked for; the roadmap was built with {}",
+                self.samples.len()
+            )),
             Counted::Accepted => Ok(count),
             Counted::Drawn => Ok(self.samples.partition_point(|sample| sample.drawn_after < count) as u32),
         }

@@ -49,6 +49,7 @@ impl Study {
             contenders: spec.contenders.iter().map(|c| contender(document, c)).collect::<Result<_, _>>()?,
             sweeps: spec.sweeps.into_iter().map(sweep).collect(),
             readings: spec.readings.into_iter().map(reading).collect(),
+            explore: spec.explore,
             budget: spec.budget,
             timing: spec.timing,
             keeps: spec.keeps,

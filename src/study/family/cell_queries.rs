@@ -1,5 +1,7 @@
 //! Queries of an arm in its work cell, answered on roadmaps drawn from a seed.
 
+mod picture;
+
 use super::{Entry, Family, Query};
 use crate::kinematics::ik::Branch;
 use crate::kinematics::{AXES, Joints, Robot};
@@ -114,7 +116,8 @@ impl CellQueries {
             ("speed.acceleration_mm_s2", speed.acceleration_mm_s2),
         ];
         let wrong = numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
-        let wrong = wrong.map(|(key, value)| format!("{key} is {value}; a finite number above 0 is accepted"));
+        let wrong =
+            wrong.map(|(key, value)| format!("{key} is {value}; a finite number above 0 is accepted"));
         wrong.or_else(|| (self.samples == 0).then(|| "samples is 0; at least 1 is accepted".to_owned()))
     }
 
@@ -163,10 +166,12 @@ fn read_queries(document: &Document) -> Result<Vec<Query>, SettingsError> {
     let pose = |name: &Spanned<String>| {
         let found = file.pose_deg.get(name.get_ref()).ok_or_else(|| {
             let known = file.pose_deg.keys().cloned().collect::<Vec<_>>().join(", ");
-            document.error(name.span(), format!("there is no pose `{}`; the poses are {known}", name.get_ref()))
+            document
+                .error(name.span(), format!("there is no pose `{}`; the poses are {known}", name.get_ref()))
         })?;
         if let Some(number) = found.iter().find(|number| !number.is_finite()) {
-            let message = format!("pose `{}` has the angle {number}; finite angles are accepted", name.get_ref());
+            let message =
+                format!("pose `{}` has the angle {number}; finite angles are accepted", name.get_ref());
             return Err(document.error(name.span(), message));
         }
         Ok(found.map(f64::to_radians).to_vec())
@@ -275,11 +280,15 @@ impl Family for Posed {
         };
         if counted == Counted::Accepted && samples.len() < self.read.samples as usize {
             let (found, wanted) = (samples.len(), self.read.samples);
-            return Err(Invalid(format!("{found} of {wanted} free configurations were found in {draws} draws")));
+            return Err(Invalid(format!(
+                "{found} of {wanted} free configurations were found in {draws} draws"
+            )));
         }
         let lines = Lines::new(self.cell.clone(), self.read.rules());
         let local = Local::Arm(Box::new(lines));
-        Ok(nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, counted))
+        let mut prepared = nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, counted);
+        prepared.exhibits = picture::exhibits(&self.cell, &self.queries);
+        Ok(prepared)
     }
 
     fn queries(&self) -> &[Query] {

@@ -3,16 +3,21 @@
 //! A family poses problems: it draws what is to be prepared from a seed, and names the queries that are asked of
 //! it. Its settings come from the study, with the reading's options laid on top.
 
+mod arm_workspace;
 mod cell_queries;
+mod conditioned;
 mod grid_map;
+mod movingai;
 mod plane_queries;
+mod random_bars;
 mod random_cells;
+mod random_rectangles;
 
 use super::prepared::Prepared;
 use super::{Inputs, StudyError};
-use crate::planner::Invalid;
+use crate::planner::{Counts, Invalid};
 use crate::settings::Settings;
-use crate::space::WorldKind;
+use crate::space::{World, WorldKind};
 use std::path::PathBuf;
 
 /// One question asked of a prepared object.
@@ -37,8 +42,22 @@ pub trait Family: Send + Sync {
     /// [`Invalid`] if this draw cannot be posed; its trials are then rows with that status.
     fn prepare(&self, seed: u64) -> Result<Prepared, Invalid>;
 
+    /// The world of [`prepare`](Self::prepare) alone, for those who draw many and keep few.
+    ///
+    /// # Errors
+    /// As [`prepare`](Self::prepare).
+    fn draw(&self, seed: u64) -> Result<World, Invalid> {
+        self.prepare(seed).map(|prepared| prepared.world)
+    }
+
     /// The queries asked of every draw.
     fn queries(&self) -> &[Query];
+
+    /// What the problem itself says about its query number `query`, for every trial's row: an optimum printed with
+    /// it, say.
+    fn known(&self, _query: usize) -> Counts {
+        Counts::new()
+    }
 
     /// The files that were read for it.
     fn inputs(&self) -> &[PathBuf] {
@@ -64,7 +83,17 @@ pub struct Entry {
 }
 
 /// Every family, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&cell_queries::ENTRY, &grid_map::ENTRY, &plane_queries::ENTRY, &random_cells::ENTRY];
+pub static REGISTRY: &[&Entry] = &[
+    &arm_workspace::ENTRY,
+    &cell_queries::ENTRY,
+    &conditioned::ENTRY,
+    &grid_map::ENTRY,
+    &movingai::ENTRY,
+    &plane_queries::ENTRY,
+    &random_bars::ENTRY,
+    &random_cells::ENTRY,
+    &random_rectangles::ENTRY,
+];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -1,11 +1,11 @@
 //! Random maps whose cells are blocked independently, with one start and one goal that are always free.
 
 use super::{Entry, Family, Query};
-use crate::grid::{Grid2, independent_cells};
+use crate::grid::{Grid2, GridError, independent_cells};
 use crate::planner::Invalid;
-use crate::seed;
+use crate::seed::{self, Stream};
 use crate::settings::{Settings, SettingsError};
-use crate::space::WorldKind;
+use crate::space::{LatticeWorld, World, WorldKind};
 use crate::study::StudyError;
 use crate::study::judge::LATTICE_COLUMNS;
 use crate::study::prepared::{Prepared, lattice};
@@ -20,10 +20,15 @@ pub static ENTRY: Entry = Entry {
     columns: LATTICE_COLUMNS,
     build: |settings, _inputs| {
         let read: RandomCells = settings.read()?;
-        let keep_free = read.check(settings)?;
-        let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());
-        let queries = [Query { name: String::new(), start, goal }];
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, keep_free, queries }))
+        let share = read.blocked_share;
+        if !(0.0..1.0).contains(&share) {
+            let message = format!("blocked_share is {share}; 0 to below 1 is accepted");
+            return Err(settings.error(message).into());
+        }
+        let draw =
+            move |stream: &mut Stream, size, free: &[u32]| independent_cells(stream, size, share, free);
+        let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, draw)?))
     },
 };
 
@@ -37,43 +42,75 @@ struct RandomCells {
     blocked_share: f64,
 }
 
-impl RandomCells {
-    fn check(&self, settings: &Settings) -> Result<[u32; 2], SettingsError> {
-        if !(0.0..1.0).contains(&self.blocked_share) {
-            let message = format!("blocked_share is {}; 0 to below 1 is accepted", self.blocked_share);
-            return Err(settings.error(message));
-        }
-        let empty = Grid2::new(self.size_cells[0], self.size_cells[1])
-            .map_err(|e| settings.error(format!("size_cells: {e}")))?;
+/// What random maps share: size, start, goal and corner rule.
+pub(super) type Frame = ([u32; 2], [u32; 2], [u32; 2], lattice::CornerSetting);
+
+/// A family of random maps of one size with one start and one goal.
+pub(super) struct Drawn<D> {
+    frame: Frame,
+    keep_free: [u32; 2],
+    queries: [Query; 1],
+    draw: D,
+}
+
+impl<D> Drawn<D>
+where
+    D: Fn(&mut Stream, [u32; 2], &[u32]) -> Result<Grid2, GridError> + Send + Sync,
+{
+    /// The family whose maps `draw` makes of a stream, the size and the cells that are kept free.
+    ///
+    /// # Errors
+    /// A size that no grid has, or a start or goal outside.
+    pub(super) fn new(settings: &Settings, frame: Frame, draw: D) -> Result<Self, SettingsError> {
+        let ([width, height], start, goal, _) = frame;
+        let empty = Grid2::new(width, height).map_err(|e| settings.error(format!("size_cells: {e}")))?;
         let cell = |what: &str, [x, y]: [u32; 2]| {
             empty.cell(x as i32, y as i32).ok_or_else(|| {
-                let [width, height] = self.size_cells;
                 let message =
                     format!("{what} is [{x}, {y}], outside the map; cells are 0..{width} by 0..{height}");
                 settings.error(message)
             })
         };
-        Ok([cell("start", self.start)?, cell("goal", self.goal)?])
+        let keep_free = [cell("start", start)?, cell("goal", goal)?];
+        let [from, to] = [start, goal].map(|cell| cell.map(f64::from).to_vec());
+        Ok(Self { frame, keep_free, queries: [Query { name: String::new(), start: from, goal: to }], draw })
+    }
+
+    fn map(&self, seed: u64) -> Grid2 {
+        (self.draw)(&mut seed::stream(seed), self.frame.0, &self.keep_free)
+            .expect("the size was checked when the settings were read")
     }
 }
 
-struct Drawn {
-    read: RandomCells,
-    keep_free: [u32; 2],
-    queries: [Query; 1],
+/// Refuses a range of whole numbers of cells that is empty or starts at 0.
+pub(super) fn check_range(
+    settings: &Settings,
+    key: &str,
+    [least, most]: [u32; 2],
+) -> Result<(), SettingsError> {
+    if 0 < least && least <= most {
+        return Ok(());
+    }
+    let message = format!("{key} is [{least}, {most}]; [least, most] with 1 ≤ least ≤ most is accepted");
+    Err(settings.error(message))
 }
 
-impl Family for Drawn {
+impl<D> Family for Drawn<D>
+where
+    D: Fn(&mut Stream, [u32; 2], &[u32]) -> Result<Grid2, GridError> + Send + Sync,
+{
     fn world(&self) -> WorldKind {
         WorldKind::Lattice
     }
 
     fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
-        let mut stream = seed::stream(seed);
-        let grid =
-            independent_cells(&mut stream, self.read.size_cells, self.read.blocked_share, &self.keep_free)
-                .expect("the size was checked when the settings were read");
-        lattice::prepare(grid, self.read.corner_rule, self.read.start, self.read.goal)
+        let (_, start, goal, corners) = self.frame;
+        lattice::prepare(self.map(seed), corners, start, goal)
+    }
+
+    fn draw(&self, seed: u64) -> Result<World, Invalid> {
+        // Start and goal are freed, so that no draw is invalid.
+        Ok(World::Lattice(LatticeWorld::new(self.map(seed), self.frame.3.into())))
     }
 
     fn queries(&self) -> &[Query] {

@@ -10,7 +10,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "lattice",
     about: "a map, the moves its corner rule leaves, and its connected components",
-    columns: &["free_cells", "components", "octile_distance_cells"],
+    columns: &["free_cells", "components", "octile_distance_cells", "tries"],
 };
 
 /// The corner rule as settings write it.
@@ -45,21 +45,28 @@ pub fn prepare(
     start: [u32; 2],
     goal: [u32; 2],
 ) -> Result<Prepared, Invalid> {
-    let world = LatticeWorld::new(grid, corners.into());
+    let mut prepared = prepare_map(grid, corners);
+    let world = prepared.world.as_lattice().expect("it was just made of a lattice");
     for (what, cell) in [("start", start), ("goal", goal)] {
         world.free_cell(what, &cell.map(f64::from)).map_err(Invalid)?;
     }
-    let grid = world.grid();
-    let parts = components(grid, world.moves()).sizes().len();
     let [dx, dy] = [0, 1].map(|axis: usize| start[axis].abs_diff(goal[axis]));
     let octile = f64::from(dx.abs_diff(dy)) + f64::from(dx.min(dy)) * std::f64::consts::SQRT_2;
+    prepared.values.insert("octile_distance_cells", Value::Real(octile));
+    Ok(prepared)
+}
+
+/// The lattice of `grid`, for any number of queries.
+pub fn prepare_map(grid: Grid2, corners: CornerSetting) -> Prepared {
+    let world = LatticeWorld::new(grid, corners.into());
+    let grid = world.grid();
+    let parts = components(grid, world.moves()).sizes().len();
     let values = Counts::from([
         ("free_cells", Value::Count(u64::from(grid.free_count()))),
         ("components", Value::Count(parts as u64)),
-        ("octile_distance_cells", Value::Real(octile)),
     ]);
     let exhibits = vec![size(grid), blocked(grid)];
-    Ok(Prepared { world: World::Lattice(world), values, exhibits })
+    Prepared { world: World::Lattice(world), values, exhibits }
 }
 
 fn size(grid: &Grid2) -> Exhibit {

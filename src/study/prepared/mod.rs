@@ -2,6 +2,7 @@
 
 pub mod lattice;
 pub mod nested_roadmap;
+pub mod workspace_map;
 
 use crate::planner::{Counts, Exhibit};
 use crate::space::World;
@@ -29,7 +30,7 @@ pub struct Entry {
 }
 
 /// Every kind, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&lattice::ENTRY, &nested_roadmap::ENTRY];
+pub static REGISTRY: &[&Entry] = &[&lattice::ENTRY, &nested_roadmap::ENTRY, &workspace_map::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

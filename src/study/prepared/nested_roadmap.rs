@@ -16,6 +16,7 @@ pub static ENTRY: Entry = Entry {
         "pairs",
         "edges",
         "components",
+        "checked_states",
         "rejected_branch",
         "rejected_turn",
         "rejected_unreachable",
@@ -53,6 +54,7 @@ pub fn prepare(local: Local, samples: Vec<Sample>, draws: u32, radius_mm: f64, c
         ("pairs", Value::Count(tally.pairs)),
         ("edges", Value::Count(tally.edges)),
         ("components", Value::Count(components as u64)),
+        ("checked_states", Value::Count(tally.checked)),
     ]);
     for (reason, rejected) in Rejection::ALL.into_iter().zip(tally.rejected) {
         values.insert(column(reason), Value::Count(rejected));
@@ -70,7 +72,9 @@ fn plane_exhibits(roadmap: &Roadmap) -> Vec<Exhibit> {
     let mut edges = Vec::new();
     for node in 0..roadmap.samples().len() as u32 {
         let links = roadmap.links(node);
-        edges.extend(links.iter().filter(|(to, _)| *to < node).flat_map(|(to, _)| [f64::from(*to), f64::from(node)]));
+        edges.extend(
+            links.iter().filter(|(to, _)| *to < node).flat_map(|(to, _)| [f64::from(*to), f64::from(node)]),
+        );
     }
     vec![
         Exhibit { name: "samples".to_owned(), width: 2, values: places },

@@ -141,4 +141,11 @@ mod tests {
         assert_eq!(Journal::open(&path, "key").unwrap().1.keys().collect::<Vec<_>>(), [&0]);
         assert!(Journal::open(&path, "another").unwrap().1.is_empty());
     }
+    #[test]
+    fn a_full_disk_is_told_with_the_journals_place() {
+        let file = OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let mut journal = Journal { path: PathBuf::from("runs/a.journal"), file };
+        let error = journal.append(0, &batch(0)).unwrap_err().to_string();
+        assert!(error.starts_with("runs/a.journal: writing the journal: No space left on device"), "{error}");
+    }
 }

@@ -1,10 +1,14 @@
 //! Tasks: what a study does with its problems and contenders; one a file, all in [`REGISTRY`].
 
+mod identify_endpoints;
+mod null_rate;
 mod plan;
 
-use super::checked::Study;
-use super::record::Batch;
+use super::checked::{Study, slug};
+use super::prepared::Prepared;
+use super::record::{Batch, PreparedRow, Row, Status, Values};
 use super::runner::Unit;
+use crate::planner::{Invalid, Value};
 use crate::settings::{Settings, SettingsError};
 
 /// A task with its settings.
@@ -29,7 +33,7 @@ pub struct Entry {
 }
 
 /// Every task, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&plan::ENTRY];
+pub static REGISTRY: &[&Entry] = &[&identify_endpoints::ENTRY, &null_rate::ENTRY, &plan::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
@@ -39,4 +43,47 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 /// The task of a study that names none.
 pub fn default() -> &'static Entry {
     &plan::ENTRY
+}
+
+/// The row of a unit's prepared object.
+fn prepared_row(unit: &Unit<'_>, prepared: Result<&Prepared, &Invalid>) -> PreparedRow {
+    PreparedRow {
+        prepared: unit.name.clone(),
+        kind: unit.group.family.prepared.to_owned(),
+        group: unit.group.label.clone(),
+        replicate: unit.replicate,
+        reading: unit.point.name().to_owned(),
+        seed: unit.seed,
+        reason: prepared.err().map(|invalid| invalid.0.clone()),
+        values: prepared.map(|p| named(&p.values)).unwrap_or_default(),
+    }
+}
+
+fn named<'a>(values: impl IntoIterator<Item = (&'a &'static str, &'a Value)>) -> Values {
+    values.into_iter().map(|(name, value)| ((*name).to_owned(), *value)).collect()
+}
+
+/// The name of what a unit gives for the variant called `label`.
+fn variant_name(unit: &Unit<'_>, label: &str) -> String {
+    format!("{}/{}", unit.name, slug(label))
+}
+
+/// A row without values about the variant called `label`, which stands where a contender does; `part` tells rows
+/// of one variant apart.
+fn variant_row(unit: &Unit<'_>, label: &str, part: &str) -> Row {
+    let name = variant_name(unit, label);
+    Row {
+        trial: if part.is_empty() { name.clone() } else { format!("{name}/{part}") },
+        problem: name,
+        group: unit.group.label.clone(),
+        replicate: unit.replicate,
+        contender: label.to_owned(),
+        sweep: String::new(),
+        reading: unit.point.name().to_owned(),
+        repeat: 0,
+        seed: unit.seed,
+        status: Status::Crashed,
+        reason: None,
+        values: Values::new(),
+    }
 }

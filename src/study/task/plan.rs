@@ -1,13 +1,13 @@
 //! Every contender plans on every problem; the verifier judges what comes back.
 
 use super::{Entry, Task};
-use crate::planner::{Exhibit, Invalid, Plan, Request, Value};
+use crate::planner::{Counts, Exhibit, Invalid, Plan, Request};
 use crate::seed;
 use crate::study::checked::{Pipeline, Study};
 use crate::study::family::Query;
 use crate::study::judge::{self, Truth};
 use crate::study::prepared::Prepared;
-use crate::study::record::{Batch, Kept, PreparedRow, Row, Status, Values};
+use crate::study::record::{Batch, Kept, Row, Status};
 use crate::study::runner::{Racer, Unit};
 use serde::Deserialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -34,17 +34,18 @@ impl Task for PlanTask {
     fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch {
         let prepared = unit.family.prepare(unit.seed);
         let mut batch = Batch::default();
-        batch.prepared.push(prepared_row(unit, prepared.as_ref()));
+        batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
         if let Ok(prepared) = &prepared
-            && unit.is_kept(study, None)
+            && unit.is_kept(study, None, 0)
         {
             batch.keep(&unit.name, prepared.exhibits.clone());
         }
-        for query in unit.family.queries() {
+        for (index, query) in unit.family.queries().iter().enumerate() {
+            let known = unit.family.known(index);
             let truth = prepared.as_ref().ok().map(|p| judge::truth(&p.world, query));
             for racer in unit.racers {
                 for repeat in 0..racer.contender.repeats {
-                    let trial = Trial { study, unit, query, racer, repeat };
+                    let trial = Trial { study, unit, query, racer, repeat, known: &known };
                     match (&prepared, &truth) {
                         (Ok(prepared), Some(truth)) => trial.run(prepared, truth, &mut batch),
                         (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
@@ -69,12 +70,13 @@ struct Trial<'a> {
     query: &'a Query,
     racer: &'a Racer<'a>,
     repeat: u32,
+    known: &'a Counts,
 }
 
 impl Trial<'_> {
     fn run(&self, prepared: &Prepared, truth: &Truth, batch: &mut Batch) {
         let seed = self.racer.seed(self.study, &self.problem(), self.repeat);
-        let trace = self.unit.is_kept(self.study, Some(&self.racer.contender.label));
+        let trace = self.unit.is_kept(self.study, Some(&self.racer.contender.label), self.repeat);
         let request = Request {
             world: &prepared.world,
             start: &self.query.start,
@@ -90,7 +92,7 @@ impl Trial<'_> {
             Ok(Ok(mut plan)) => {
                 let judged = judge::judge(&request, &plan, &self.racer.pipeline, truth);
                 (row.status, row.reason) = judged.outcome;
-                row.values = named(plan.counts.iter().chain(&judged.values));
+                row.values.extend(super::named(plan.counts.iter().chain(&judged.values)));
                 if trace {
                     batch.keep(&row.trial, std::mem::take(&mut plan.exhibits));
                     batch.keep(&row.trial, judged.exhibits);
@@ -126,7 +128,7 @@ impl Trial<'_> {
             seed,
             status: Status::Crashed,
             reason: None,
-            values: Values::new(),
+            values: super::named(self.known),
         }
     }
 }
@@ -149,23 +151,6 @@ impl Racer<'_> {
         let names = [&study.paper, &study.name, "contender", problem, label, &repeat.to_string()];
         seed::derive(study.seed, &names)
     }
-}
-
-fn prepared_row(unit: &Unit<'_>, prepared: Result<&Prepared, &Invalid>) -> PreparedRow {
-    PreparedRow {
-        prepared: unit.name.clone(),
-        kind: unit.group.family.prepared.to_owned(),
-        group: unit.group.label.clone(),
-        replicate: unit.replicate,
-        reading: unit.point.name().to_owned(),
-        seed: unit.seed,
-        reason: prepared.err().map(|invalid| invalid.0.clone()),
-        values: prepared.map(|p| named(&p.values)).unwrap_or_default(),
-    }
-}
-
-fn named<'a>(values: impl IntoIterator<Item = (&'a &'static str, &'a Value)>) -> Values {
-    values.into_iter().map(|(name, value)| ((*name).to_owned(), *value)).collect()
 }
 
 fn path_exhibit(plan: &Plan) -> Vec<Exhibit> {

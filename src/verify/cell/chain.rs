@@ -83,7 +83,8 @@ impl Chain {
         for _ in 0..STEPS {
             let frames = self.frames(&q);
             let (rotation, place) = apart(&frames[7]);
-            let turned = (0..3).map(|i| rotation.column(i).cross(&wanted.0.column(i))).sum::<Vector3<f64>>() * 0.5;
+            let turned =
+                (0..3).map(|i| rotation.column(i).cross(&wanted.0.column(i))).sum::<Vector3<f64>>() * 0.5;
             let moved = wanted.1 - place;
             if moved.norm() < CLOSE && turned.norm() < CLOSE {
                 return Some(q);
@@ -104,9 +105,9 @@ fn apart(frame: &Matrix4<f64>) -> (Matrix3<f64>, Vector3<f64>) {
 
 fn jacobian(frames: &[Matrix4<f64>; 8], place: &Vector3<f64>) -> Matrix6<f64> {
     let mut jacobian = Matrix6::zeros();
-    for joint in 0..6 {
-        let axis: Vector3<f64> = frames[joint].fixed_view::<3, 1>(0, 2).into_owned();
-        let origin: Vector3<f64> = frames[joint].fixed_view::<3, 1>(0, 3).into_owned();
+    for (joint, frame) in frames.iter().take(6).enumerate() {
+        let axis: Vector3<f64> = frame.fixed_view::<3, 1>(0, 2).into_owned();
+        let origin: Vector3<f64> = frame.fixed_view::<3, 1>(0, 3).into_owned();
         jacobian.fixed_view_mut::<3, 1>(0, joint).copy_from(&axis.cross(&(place - origin)));
         jacobian.fixed_view_mut::<3, 1>(3, joint).copy_from(&axis);
     }

@@ -144,7 +144,8 @@ fn is_within(axis: &Segment, still: &Still, reach_m: f64) -> bool {
         }
         Still::Round(other, radius_m) => segments_m(axis, other) < reach_m + radius_m,
         Still::Solid(at, shape, bounds) => {
-            let gap_m = || query::distance(&Pose::IDENTITY, axis, at, &**shape).expect("parry knows these shapes");
+            let gap_m =
+                || query::distance(&Pose::IDENTITY, axis, at, &**shape).expect("parry knows these shapes");
             bounds.loosened(reach_m.max(0.0)).intersects(&axis.local_aabb()) && gap_m().distance < reach_m
         }
     }

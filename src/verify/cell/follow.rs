@@ -89,7 +89,8 @@ pub(super) fn leg(case: &Case, from: &Angles, to: &Angles) -> Result<Leg, String
             std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share)
         } else {
             let guess = guess(&states);
-            let found = chain.near(&guess, &ends.at(share)).filter(|q| widest_change(q, last) < rules.jump_rad);
+            let found =
+                chain.near(&guess, &ends.at(share)).filter(|q| widest_change(q, last) < rules.jump_rad);
             found
                 .or_else(|| chain.near(last, &ends.at(share)))
                 .ok_or_else(|| format!("the joints cannot follow the line at {:.1} %", share * 100.0))?
@@ -129,8 +130,9 @@ fn refuse_motion(case: &Case, states: &[Angles], law_m: f64) -> Result<(), Strin
         let Some(law) = rules.speed else { continue };
         let time = |step: usize| time_s(step as f64 / count * law_m, law_m, law);
         let duration_s = time(index + 1) - time(index);
-        let too_fast = (0..6)
-            .find(|&i| (pair[1][i] - pair[0][i]).abs() > case.chain.rows[i].speed_rad_s * duration_s * (1.0 + 1e-6));
+        let too_fast = (0..6).find(|&i| {
+            (pair[1][i] - pair[0][i]).abs() > case.chain.rows[i].speed_rad_s * duration_s * (1.0 + 1e-6)
+        });
         if let Some(joint) = too_fast {
             return Err(format!("joint {} is faster than it can be", joint + 1));
         }
@@ -148,7 +150,11 @@ fn refuse_end(end: LegEnd, arrived: &Angles, wanted: &Angles) -> Result<(), Stri
             LegEnd::PoseOnly => 0.0,
         };
         if left.abs() > SAME_RAD {
-            return Err(format!("joint {} arrives {:.3}° from where the path says", i + 1, left.to_degrees()));
+            return Err(format!(
+                "joint {} arrives {:.3}° from where the path says",
+                i + 1,
+                left.to_degrees()
+            ));
         }
     }
     Ok(())
@@ -158,14 +164,15 @@ fn measure(case: &Case, states: &[Angles], length_m: f64, turn_rad: f64) -> Leg 
     // A turn without a way takes as long as the way that counts as much as it in the planner's step.
     let law_m = length_m.max(turn_rad / case.rules.step_rad * case.rules.step_m).max(1e-9);
     let count = (states.len() - 1) as f64;
-    let travel_rad = states.windows(2).map(|w| w[0].iter().zip(&w[1]).map(|(a, b)| (a - b).abs()).sum::<f64>());
+    let travel_rad =
+        states.windows(2).map(|w| w[0].iter().zip(&w[1]).map(|(a, b)| (a - b).abs()).sum::<f64>());
     let step_m = law_m / count;
     let mut peak_rad_s2 = 0.0_f64;
     for (index, w) in states.windows(3).enumerate() {
         let (speed2, push) = speed2_and_push((index + 1) as f64 * step_m, law_m);
-        for i in 0..6 {
-            let slope = (w[2][i] - w[0][i]) / (2.0 * step_m);
-            let bend = (w[2][i] - 2.0 * w[1][i] + w[0][i]) / (step_m * step_m);
+        for ((before, at), after) in w[0].iter().zip(&w[1]).zip(&w[2]) {
+            let slope = (after - before) / (2.0 * step_m);
+            let bend = (after - 2.0 * at + before) / (step_m * step_m);
             peak_rad_s2 = peak_rad_s2.max((bend * speed2 + slope * push).abs());
         }
     }
@@ -216,7 +223,12 @@ fn speed2_and_push(way_m: f64, length_m: f64) -> (f64, f64) {
 /// The unit quaternion of a rotation, by the largest of its four squares.
 fn quaternion(r: &Matrix3<f64>) -> Quaternion<f64> {
     let trace = r.trace();
-    let squares = [1.0 + trace, 1.0 + 2.0 * r[(0, 0)] - trace, 1.0 + 2.0 * r[(1, 1)] - trace, 1.0 + 2.0 * r[(2, 2)] - trace];
+    let squares = [
+        1.0 + trace,
+        1.0 + 2.0 * r[(0, 0)] - trace,
+        1.0 + 2.0 * r[(1, 1)] - trace,
+        1.0 + 2.0 * r[(2, 2)] - trace,
+    ];
     let largest = (0..4).max_by(|a, b| squares[*a].total_cmp(&squares[*b])).unwrap_or(0);
     let twice = squares[largest].sqrt();
     let (scale, half) = (0.5 / twice, twice / 2.0);

@@ -1,6 +1,6 @@
 use super::*;
-use crate::space::World;
-use std::path::Path as FilePath;
+use crate::planner::{self, Build, Ending, Planner, Request};
+use crate::study::judge;
 
 fn settings(over: &str) -> Settings {
     let text = r#"
@@ -25,19 +25,135 @@ end = "own"
     Settings::composed("a test", table)
 }
 
-fn inputs() -> Inputs {
-    Inputs { roots: vec![PathBuf::from(env!("CARGO_MANIFEST_DIR"))] }
+fn inputs(more: Option<&std::path::Path>) -> Inputs {
+    let own = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    Inputs { roots: more.map(PathBuf::from).into_iter().chain([own]).collect() }
 }
 
-fn refusal(over: &str) -> String {
-    Posed::new(&settings(over), &inputs()).err().expect("refused").to_string()
+fn planner(over: &str) -> Box<dyn Planner> {
+    let text = "samples = 60\nneighbour_mm = 500\ncost = 'hops'\ngoal_shot = 'never'\npath = 'parents'\n";
+    let mut table: toml::Table = toml::from_str(text).unwrap();
+    table.extend(toml::from_str::<toml::Table>(over).unwrap());
+    let Build::Planner(build) = planner::find("roadmap_astar").unwrap().build else { panic!("a planner") };
+    build(&Settings::composed("a test", table)).unwrap()
 }
 
 #[test]
-fn probe() {
-    let posed = Posed::new(&settings("samples = 1500"), &inputs()).unwrap();
-    for seed in 0..3 {
-        let (ns, prepared) = crate::study::clock::timed(|| posed.prepare(seed).unwrap());
-        println!("{} ms {:?}", ns / 1_000_000, prepared.values);
+fn numbers_that_cannot_be_are_refused_by_name() {
+    for (over, parts) in [
+        ("samples = 0", ["samples is 0", "at least 1"]),
+        ("radius_mm = 0", ["radius_mm is 0", "above 0"]),
+        ("step_deg = nan", ["step_deg is NaN", "finite"]),
+        ("speed = { tool_mm_s = -1, acceleration_mm_s2 = 1 }", ["speed.tool_mm_s is -1", "above 0"]),
+        ("tool_mm = 0", ["tool_mm", "capsule"]),
+        ("scene = 'data/none.toml'", ["data/none.toml", "does not exist"]),
+        ("radius = 3", ["radius", "radius_mm"]),
+        ("region = 'half'", ["half", "around_poses"]),
+    ] {
+        let message = Posed::new(&settings(over), &inputs(None)).err().expect(over).to_string();
+        assert!(parts.iter().all(|part| message.contains(part)), "{over}: {message}");
     }
+}
+
+#[test]
+fn a_group_that_names_a_missing_pose_is_refused_with_the_poses_there_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[pose_deg]\nA = [0, 0, 0, 0, 0, 0]\n[[group]]\nname = '1'\nfrom = 'A'\nto = 'B'\n";
+    std::fs::write(folder.path().join("groups.toml"), text).unwrap();
+    let refused = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path())));
+    let message = refused.err().unwrap().to_string();
+    assert!(
+        message.contains("groups.toml:6:6") && message.contains("no pose `B`; the poses are A"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_start_in_collision_is_an_invalid_problem_and_the_other_groups_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[pose_deg]\nfloor = [0, 0, 60, 0, 0, 0]\nbeyond = [171, -90, 0, 0, 90, 0]\nH = [0, -90, 0, 0, 90, 0]\n\
+                P6 = [10, -49, -53, -7, 102, 10]\n[[group]]\nname = '1'\nfrom = 'floor'\nto = 'H'\n[[group]]\nname = '2'\n\
+                from = 'H'\nto = 'beyond'\n[[group]]\nname = '3'\nfrom = 'H'\nto = 'P6'\n";
+    std::fs::write(folder.path().join("groups.toml"), text).unwrap();
+    let posed = Posed::new(&settings("queries = 'groups.toml'"), &inputs(Some(folder.path()))).unwrap();
+    let prepared = posed.prepare(1).unwrap();
+    let plan = |index: usize| {
+        let Query { start, goal, .. } = &posed.queries()[index];
+        let request =
+            Request { world: &prepared.world, start, goal, expansions: 1000, seed: 0, trace: false };
+        planner("goal_shot = 'before_expansion'").plan(&request).map_err(|invalid| invalid.0)
+    };
+    assert!(plan(0).unwrap_err().starts_with("the start cannot be posed: part `"));
+    let beyond = plan(1).unwrap_err();
+    assert_eq!(beyond, "the goal cannot be posed: joint 1 is at 171.00°; it turns from -170.00° to 170.00°");
+    assert_eq!(plan(2).unwrap().ending, Ending::Solved);
+}
+
+#[test]
+fn regions_hold_what_they_say() {
+    let home = [0.0, -90.0, 0.0, 0.0, 90.0, 0.0_f64].map(f64::to_radians);
+    for (region, seed) in [("full", 1), ("front", 2), ("one_branch", 3), ("around_poses", 4)] {
+        let posed = Posed::new(&settings(&format!("region = '{region}'")), &inputs(None)).unwrap();
+        let (samples, draws) = posed.samples(seed);
+        assert_eq!(samples.len(), 60);
+        assert!(samples.windows(2).all(|pair| pair[0].drawn_after < pair[1].drawn_after));
+        assert_eq!(samples[59].drawn_after + 1, draws);
+        let arm = posed.cell.robot().arm();
+        let q = |sample: &Sample| -> Joints { sample.config.as_slice().try_into().unwrap() };
+        assert!(samples.iter().all(|sample| posed.cell.refusal(&q(sample)).is_none()));
+        let behind = samples.iter().filter(|s| s.config[0].abs() > std::f64::consts::FRAC_PI_2).count();
+        let others = samples.iter().filter(|s| arm.branch_of(&q(s)) != arm.branch_of(&home)).count();
+        match region {
+            "front" => assert_eq!(behind, 0),
+            "one_branch" => assert!(others == 0 && behind > 0),
+            "around_poses" => assert!(samples.iter().all(|s| s.config[1] < -18_f64.to_radians())),
+            _ => assert!(behind > 10 && others > 20, "{behind} {others}"),
+        }
+    }
+}
+
+#[test]
+fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
+    let posed = Posed::new(&settings("samples = 900\nregion = 'front'"), &inputs(None)).unwrap();
+    let prepared = posed.prepare(7).unwrap();
+    let (original, improved) =
+        (planner("samples = 900"), planner("samples = 900\ngoal_shot = 'before_expansion'"));
+    let (mut solved, mut refused) = ([0, 0], 0);
+    for query in posed.queries() {
+        let judge::Truth::Roadmap(case) = judge::truth(&prepared.world, query) else { panic!("a roadmap") };
+        let request = Request {
+            world: &prepared.world,
+            start: &query.start,
+            goal: &query.goal,
+            expansions: 10_000,
+            seed: 0,
+            trace: false,
+        };
+        let plans = [&original, &improved].map(|planner| planner.plan(&request).unwrap());
+        assert!(
+            plans[0].ending != Ending::Solved || plans[1].ending == Ending::Solved,
+            "group {}",
+            query.name
+        );
+        for (index, plan) in plans.into_iter().enumerate().filter(|(_, plan)| plan.ending == Ending::Solved) {
+            let judged = case.judge(&request, &plan);
+            assert_eq!(judged.outcome.1, None, "group {}", query.name);
+            solved[index] += 1;
+            let mut mutants = vec![plan.clone(), plan.clone(), plan.clone()];
+            mutants[0].cost = plan.cost.map(|cost| cost * 0.999);
+            mutants[1].path.pop();
+            mutants[2].path.insert(1, vec![0.3, -2.0, 0.4, 1.0, 1.2, 0.5]);
+            if plan.path.len() > 2 {
+                let mut nudged = plan.clone();
+                nudged.path[1][0] += 0.3;
+                mutants.push(nudged);
+            }
+            for (which, mutant) in mutants.iter().enumerate() {
+                let judged = case.judge(&request, mutant);
+                assert_eq!(judged.outcome.0, crate::study::record::Status::Rejected, "mutant {which}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(solved[0] > 0 && solved[1] >= 8 && refused > 30, "{solved:?} {refused}");
 }

@@ -1,0 +1,160 @@
+//! The planar arm: workspace analysis, the enumeration of end points, and A* over tip positions against the crate
+//! `pathfinding`.
+//!
+//! The workspace is that of the study (101 × 51 points, 4 discs). In group `astar/<neighbourhood>` both solve the
+//! study's query, over the same free points and steps with Euclidean costs and heuristic, and are held to equal
+//! costs before anything is timed. `ours` is the planner that studies call; it also counts what plain lists would
+//! compare. The crate gets `u32` nodes, totally ordered `f64` costs and successors from an unallocated iterator.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use pathfinding::{num_traits::Zero, prelude::astar};
+use replan::geometry::planar::Touch;
+use replan::grid::{CornerRule, Offsets};
+use replan::kinematics::planar_2r::{ElbowRule, Planar2r};
+use replan::planner::{self, Build, Planner, Request};
+use replan::search::OctileAstar;
+use replan::settings::Settings;
+use replan::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
+use replan::study::prepared::workspace_map::ShapeSetting;
+use std::{cmp::Ordering, hint::black_box, ops::Add, time::Duration};
+
+/// An `f64` in total order, as the crate asks of costs.
+#[derive(Clone, Copy, PartialEq)]
+struct Total(f64);
+
+impl Eq for Total {}
+
+impl PartialOrd for Total {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Total {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl Add for Total {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+}
+
+impl Zero for Total {
+    fn zero() -> Self {
+        Self(0.0)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.0 == 0.0
+    }
+}
+
+const ENDS: [[f64; 2]; 2] = [[49.0, 3.0], [0.0, 45.0]];
+
+fn workspace(hop: HopRule) -> ArmWorld {
+    let rules = ArmRules {
+        arm: Planar2r::new(30.0, 20.0).expect("links have lengths"),
+        elbow: ElbowRule::NegativeQ2,
+        lattice: TipLattice::new([-50.0, 50.0], [0.0, 50.0], 1.0).expect("1 divides 100 and 50"),
+        inner_radius_cm: 20.0,
+        touch: Touch::Contact,
+        corner_rule: CornerRule::Allow,
+        hop,
+    };
+    let discs = [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]];
+    let obstacles = discs.map(|at| ShapeSetting::Circle.obstacle(at, 10.0).expect("a disc has a size"));
+    ArmWorld::new(rules, obstacles.to_vec())
+}
+
+fn planner(shape: &str, radius: u8) -> Box<dyn Planner> {
+    let text = format!(
+        "neighbourhood = {{ shape = '{shape}', radius_cells = {radius} }}\nopen_node = 'lowered'\nties = 'fifo'"
+    );
+    let settings = Settings::composed("a bench", toml::from_str(&text).expect("the text is TOML"));
+    let Build::Planner(build) = planner::find("lattice_astar").expect("it is registered").build else {
+        panic!("lattice_astar is a planner");
+    };
+    build(&settings).expect("the settings are right")
+}
+
+fn crate_cost(world: &ArmWorld, offsets: &Offsets) -> f64 {
+    let grid = world.grid();
+    let [start, goal] = ENDS.map(|at| world.rules().lattice.cell(&at).expect("a point of the lattice"));
+    let [gx, gy] = grid.xy(goal);
+    let length = |dx: i32, dy: i32| Total(f64::from(dx * dx + dy * dy).sqrt());
+    let successors = |&cell: &u32| {
+        let [x, y] = grid.xy(cell);
+        offsets.steps().iter().filter_map(move |&[dx, dy]| {
+            let to = grid.cell(x + dx, y + dy)?;
+            (grid.is_free(to) && world.may_hop(cell, to)).then(|| (to, length(dx, dy)))
+        })
+    };
+    let heuristic = |&cell: &u32| {
+        let [x, y] = grid.xy(cell);
+        length(gx - x, gy - y)
+    };
+    astar(&start, successors, heuristic, |cell| *cell == goal).expect("the goal can be reached").1.0
+}
+
+fn against_the_crate(criterion: &mut Criterion) {
+    let arm = workspace(HopRule::EndPoints);
+    let world = World::Arm(workspace(HopRule::EndPoints));
+    let [start, goal] = ENDS;
+    for (name, shape, radius) in [
+        ("8", "square", 1),
+        ("24", "square", 2),
+        ("48", "square", 3),
+        ("chs_4", "disc", 4),
+        ("chs_6", "disc", 6),
+    ] {
+        let offsets = if shape == "disc" { Offsets::disc(radius) } else { Offsets::square(radius) };
+        let planner = planner(shape, radius);
+        let request = Request {
+            world: &world,
+            start: &start,
+            goal: &goal,
+            expansions: u64::MAX,
+            seed: 0,
+            trace: false,
+        };
+        let plan = planner.plan(&request).expect("start and goal are free");
+        let ours = plan.cost.expect("the goal can be reached");
+        let theirs = crate_cost(&arm, &offsets);
+        assert!((ours - theirs).abs() < 1e-9, "{name}: {ours}, not {theirs}");
+        println!("astar/{name}: {} expansions a query", plan.counts["expansions"].as_f64());
+        let mut group = criterion.benchmark_group(format!("astar/{name}"));
+        group
+            .sample_size(20)
+            .measurement_time(Duration::from_secs(2))
+            .warm_up_time(Duration::from_millis(500));
+        group.bench_function("ours", |b| b.iter(|| planner.plan(black_box(&request))));
+        group.bench_function("pathfinding", |b| b.iter(|| crate_cost(black_box(&arm), black_box(&offsets))));
+        group.finish();
+    }
+}
+
+fn analysis(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("workspace");
+    group.sample_size(20).measurement_time(Duration::from_secs(2)).warm_up_time(Duration::from_millis(500));
+    group.bench_function("end_points", |b| b.iter(|| workspace(black_box(HopRule::EndPoints))));
+    group.bench_function("continuous", |b| b.iter(|| workspace(black_box(HopRule::Continuous))));
+    let moves = workspace(HopRule::EndPoints).eight_moves();
+    let mut search = OctileAstar::new(&moves).expect("a workspace is small");
+    let start = workspace(HopRule::EndPoints).rules().lattice.cell(&ENDS[0]).expect("a point of the lattice");
+    group.bench_function("flood", |b| {
+        b.iter(|| {
+            let mut sum = 0_u64;
+            search.flood(black_box(start), u32::MAX, |_, cost| sum += u64::from(cost));
+            sum
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, analysis, against_the_crate);
+criterion_main!(benches);

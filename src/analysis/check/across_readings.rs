@@ -1,0 +1,141 @@
+//! Under which readings a printed number is like our draws, and under which it is met exactly.
+//!
+//! The check gives no verdict; the verdict stands under the default reading. It says whether another reading would
+//! have carried the claim.
+
+use super::{Check, Context, Entry};
+use crate::analysis::audit::printed::Printed;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::interval::Interval;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::proportion::predictive;
+use crate::analysis::stats::summary::median;
+use crate::analysis::verdict::Finding;
+use crate::settings::SettingsError;
+use crate::study::{Point, Study};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "across_readings",
+    about: "under which readings does the printed number lie among our draws, or is it met exactly?",
+    build: |context| Ok(Box::new(Across::new(context)?)),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// A study that explores readings.
+    study: String,
+    /// Its random maps.
+    problems: Vec<String>,
+    /// Maps of it that were searched for.
+    #[serde(default)]
+    searched: Vec<String>,
+    metric: String,
+    contender: String,
+    /// The contender that the reduction is from; without it the printed number is the metric itself.
+    against: Option<String>,
+}
+
+/// What is found under one reading.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The reading.
+    pub point: Point,
+    /// Median over the random maps.
+    pub median: f64,
+    /// Where 95 % of further maps would lie, at least.
+    pub central: Interval,
+    /// Random maps that both contenders solved.
+    pub maps: usize,
+    /// Whether the printed number lies where 95 % of the maps do.
+    pub is_among: bool,
+    /// Maps, searched ones included, on which the printed number is met exactly.
+    pub met: usize,
+}
+
+struct Across<'a> {
+    settings: Settings,
+    study: &'a Study,
+    context: Context<'a>,
+    printed: Printed,
+}
+
+/// What the check in `context` finds under every reading that its study explores, in the order of the study's points.
+///
+/// # Errors
+/// A settings error of the check.
+pub fn outcomes(context: &Context<'_>, evidence: &Evidence<'_>) -> Result<Vec<Outcome>, SettingsError> {
+    Ok(Across::new(context)?.outcomes(evidence))
+}
+
+impl<'a> Across<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let mut contenders = vec![settings.contender.as_str()];
+        contenders.extend(settings.against.as_deref());
+        let groups: Vec<String> = settings.problems.iter().chain(&settings.searched).cloned().collect();
+        let study = context.study(&settings.study, &groups, &contenders)?;
+        if study.explore.is_none() {
+            let message = format!("study `{}` explores no readings; it needs a table `explore`", study.name);
+            return Err(context.settings.error(message));
+        }
+        context.metric(&settings.metric, study)?;
+        Ok(Self { settings, study, context: *context, printed: context.printed()? })
+    }
+
+    fn outcomes(&self, evidence: &Evidence<'_>) -> Vec<Outcome> {
+        let points = self.study.explored().expect("a checked study's readings are in order");
+        points.into_iter().filter_map(|point| self.under(point, evidence)).collect()
+    }
+
+    fn under(&self, point: Point, evidence: &Evidence<'_>) -> Option<Outcome> {
+        let view = evidence.under(point.clone());
+        let context = Context { point: &point, ..self.context };
+        let metric = context.metric(&self.settings.metric, self.study).ok()?;
+        let draws = self.values(&view, &self.settings.problems, metric);
+        let searched = self.values(&view, &self.settings.searched, metric);
+        let agrees = |value: &&f64| self.printed.agrees(**value, context.digits());
+        let central = predictive(&draws, 0.95)?;
+        let printed = self.printed.interval(context.digits());
+        Some(Outcome {
+            median: median(&draws)?,
+            central,
+            maps: draws.len(),
+            is_among: central.meets(printed),
+            met: draws.iter().chain(&searched).filter(agrees).count(),
+            point,
+        })
+    }
+
+    fn values(&self, view: &Evidence<'_>, groups: &[String], metric: &Metric) -> Vec<f64> {
+        let Some(run) = view.run(&self.settings.study) else { return Vec::new() };
+        let against = self.settings.against.as_deref();
+        groups
+            .iter()
+            .flat_map(|group| run.changes(group, &self.settings.contender, against, metric))
+            .collect()
+    }
+}
+
+impl Check for Across<'_> {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let outcomes = self.outcomes(evidence);
+        let count = |is: fn(&Outcome) -> bool| outcomes.iter().filter(|outcome| is(outcome)).count();
+        let medians = outcomes.iter().map(|outcome| outcome.median);
+        let (low, high) = medians.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), m| (a.min(m), b.max(m)));
+        let explored = self.study.explored().map_or(0, |points| points.len());
+        let mut because = vec![format!(
+            "{explored} readings were explored; of the {} under which enough maps were solved to say, the printed number \
+             lies among the central 95 % of maps under {}, and is met exactly on some map under {}",
+            outcomes.len(),
+            count(|outcome| outcome.is_among),
+            count(|outcome| outcome.met > 0)
+        )];
+        if low <= high {
+            because.push(format!("the median over maps goes from {low:.2} to {high:.2}"));
+        }
+        Finding { check: ENTRY.name.to_owned(), because, ..Finding::default() }
+    }
+}

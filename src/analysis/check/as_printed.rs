@@ -1,0 +1,84 @@
+//! Whether a contender's metric on one problem prints as the paper prints it.
+
+use super::{Check, Entry};
+use crate::analysis::audit::printed::{Digits, Printed};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::summary::median;
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::settings::SettingsError;
+use crate::study::Study;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "as_printed",
+    about: "does a contender's metric on one problem, the median over its trials, print as the paper prints it?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let study = context.study(
+            &settings.study,
+            std::slice::from_ref(&settings.problems),
+            &[settings.contender.as_str()],
+        )?;
+        let metric = context.metric(&settings.metric, study)?;
+        let is_fitted = study.fitted_to.contains(&context.claim.id);
+        let (printed, digits) = (context.printed()?, context.digits());
+        Ok::<_, SettingsError>(Box::new(AsPrinted { settings, study, metric, printed, digits, is_fitted }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: String,
+    contender: String,
+    metric: String,
+}
+
+struct AsPrinted<'a> {
+    settings: Settings,
+    study: &'a Study,
+    metric: &'static Metric,
+    printed: Printed,
+    digits: Digits,
+    is_fitted: bool,
+}
+
+impl Check for AsPrinted<'_> {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let Settings { study, problems, contender, .. } = &self.settings;
+        let rows = evidence.run(study).map(|run| (run, run.rows(problems, contender)));
+        let values: Vec<f64> = rows
+            .iter()
+            .flat_map(|(run, rows)| rows.iter().filter_map(|row| run.value(row, self.metric)))
+            .collect();
+        let Some(value) = median(&values) else {
+            finding.verdict = Some(Verdict::Undecided);
+            finding.because.push(format!("`{contender}` was not measured on `{problems}` of {study}"));
+            return finding;
+        };
+        let agrees = self.printed.agrees(value, self.digits);
+        finding.verdict = Some(match (agrees, self.is_fitted, self.study.searched) {
+            (false, ..) => Verdict::NotReproduced,
+            (true, true, _) => Verdict::Fitted,
+            (true, false, true) => Verdict::Attainable,
+            (true, false, false) => Verdict::Reproduced,
+        });
+        finding.trial = rows.and_then(|(_, rows)| Some(format!("{study}/{}", rows.first()?.trial)));
+        let what = format!("{} of {contender}", self.metric.label.to_lowercase());
+        finding.ours = Some(Estimate { value, interval: None, what, n: values.len() });
+        let verb = if agrees { "prints as" } else { "does not print as" };
+        finding
+            .because
+            .push(format!("{contender} on {problems} of {study}: {value:.6}, which {verb} {}", self.printed));
+        if agrees && self.is_fitted {
+            finding
+                .because
+                .push("the study was fitted to this number, so that agreement says little".to_owned());
+        }
+        finding
+    }
+}

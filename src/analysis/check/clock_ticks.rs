@@ -1,0 +1,78 @@
+//! Whether a printed time is a whole number of ticks of a coarse clock. A time of an unknown program on an unknown
+//! machine stays untestable; this says what can be said of its digits.
+
+use super::{Check, Entry};
+use crate::analysis::audit::clock::Tick;
+use crate::analysis::audit::printed::{Digits, Printed};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::{Finding, Verdict};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "clock_ticks",
+    about: "is a printed time a whole number of ticks of a clock, and how likely is that by chance?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let [numerator, denominator] = settings.tick_s;
+        if numerator == 0 || denominator == 0 {
+            let message = format!("tick_s is {numerator}/{denominator}; two numbers above 0 are accepted");
+            return Err(context.settings.error(message));
+        }
+        let printed = context.printed()?;
+        if printed.decimals() > 6 {
+            return Err(context.settings.error("the time has more than 6 decimals; at most 6 are accepted"));
+        }
+        let with = settings.with.iter().map(|id| Ok(context.printed_of(id)?.0));
+        let all = with.chain([Ok(printed)]).collect::<Result<Vec<_>, _>>()?;
+        let tick = Tick { numerator, denominator };
+        Ok(Box::new(ClockTicks { tick, left_out: settings.left_out, printed, all, digits: context.digits() }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The tick, as numerator and denominator of a fraction of a second.
+    tick_s: [u32; 2],
+    /// What the paper leaves out, without which a time is not comparable.
+    left_out: String,
+    /// Other claims whose times should be ticks of the same clock.
+    #[serde(default)]
+    with: Vec<String>,
+}
+
+struct ClockTicks {
+    tick: Tick,
+    left_out: String,
+    printed: Printed,
+    all: Vec<Printed>,
+    digits: Digits,
+}
+
+impl Check for ClockTicks {
+    fn judge(&self, _evidence: &Evidence<'_>) -> Finding {
+        let Tick { numerator, denominator } = self.tick;
+        let verdict = Some(Verdict::Untestable);
+        let mut finding = Finding { check: ENTRY.name.to_owned(), verdict, ..Finding::default() };
+        let count = self.tick.count(self.printed, self.digits);
+        let spelled = format!("{numerator}/{denominator} s");
+        match count {
+            Some(ticks) => {
+                finding.because.push(format!("{} s prints {ticks} ticks of {spelled}", self.printed));
+            }
+            None => {
+                finding.because.push(format!("{} s is no whole number of ticks of {spelled}", self.printed));
+            }
+        }
+        let both = self.all.iter().filter(|time| self.tick.count(**time, self.digits).is_some()).count();
+        finding.because.push(format!(
+            "{both} of {} printed times are; random digits would all be with probability {:.6}",
+            self.all.len(),
+            self.tick.chance(&self.all, self.digits)
+        ));
+        finding.because.push(format!("{}, so that the time itself cannot be met", self.left_out));
+        finding.premises.push(format!("the tick of {spelled} was named before the times were looked at"));
+        finding
+    }
+}

@@ -1,0 +1,108 @@
+//! Whether one contender is lower than another on average over queries, with whole draws as the units of the interval.
+
+use super::{Check, Entry};
+use crate::analysis::draws::values;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::bootstrap::{Plan, percentile};
+use crate::analysis::stats::proportion::units_for_margin;
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::seed;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "lower_by_draw",
+    about: "is one contender lower than another on average over queries, with whole draws as the units of the interval?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders = [settings.lower.as_str(), settings.higher.as_str()];
+        let study = context.study(&settings.study, std::slice::from_ref(&settings.problems), &contenders)?;
+        let metric = context.metric(&settings.metric, study)?;
+        let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);
+        Ok(Box::new(LowerByDraw { settings, metric, seed }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: String,
+    metric: String,
+    lower: String,
+    higher: String,
+}
+
+struct LowerByDraw {
+    settings: Settings,
+    metric: &'static Metric,
+    seed: u64,
+}
+
+/// The ratio of the sums over all queries of the draws, less one, in percent.
+fn change_percent(draws: &[&Vec<(f64, f64)>]) -> Option<f64> {
+    let sum = |get: fn(&(f64, f64)) -> f64| draws.iter().flat_map(|draw| draw.iter()).map(get).sum::<f64>();
+    let (base, other) = (sum(|pair| pair.0), sum(|pair| pair.1));
+    (base > 0.0).then(|| 100.0 * (other / base - 1.0))
+}
+
+impl Check for LowerByDraw {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let Settings { study, problems, lower, higher, .. } = &self.settings;
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let draws = evidence
+            .run(study)
+            .map(|run| values(run, problems, higher, lower, self.metric))
+            .unwrap_or_default();
+        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let Some(found) = percentile(&draws, change_percent, plan) else {
+            finding.verdict = Some(Verdict::Undecided);
+            finding.because.push(format!("{} draws have a query that both solve; 2 are needed", draws.len()));
+            return finding;
+        };
+        finding.verdict = Some(if found.interval.high < 0.0 {
+            Verdict::Reproduced
+        } else if found.interval.low > 0.0 {
+            Verdict::NotReproduced
+        } else {
+            Verdict::Undecided
+        });
+        let pairs: Vec<&(f64, f64)> = draws.iter().flatten().collect();
+        let count = |is: fn(&(f64, f64)) -> bool| pairs.iter().filter(|pair| is(pair)).count();
+        finding.because.push(format!(
+            "{lower} against {higher}: {} changes by {:.1} % in all (95 % interval {:.1} to {:.1}, bootstrap over {} draws); lower \
+             on {}, equal on {}, higher on {} of {} queries that both solve",
+            self.metric.label.to_lowercase(),
+            found.value,
+            found.interval.low,
+            found.interval.high,
+            draws.len(),
+            count(|(a, b)| b < a),
+            count(|(a, b)| b == a),
+            count(|(a, b)| b > a),
+            pairs.len()
+        ));
+        if finding.verdict == Some(Verdict::Undecided) {
+            let margin = found.value.abs().max(0.1);
+            let needed = units_for_margin(found.interval.half_width(), draws.len(), margin);
+            finding.because.push(format!("about {needed} draws would settle a change of this size"));
+        }
+        let what = format!("change of {} in %, bootstrap over draws, 95 %", self.metric.label.to_lowercase());
+        finding.ours = Some(Estimate::new(found.value, found.interval, what, draws.len()));
+        finding
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_queries_weigh_more_than_short_ones() {
+        let draws = [vec![(100.0, 50.0), (10.0, 20.0)], vec![(90.0, 90.0)]];
+        let all: Vec<&Vec<(f64, f64)>> = draws.iter().collect();
+        assert!((change_percent(&all).unwrap() + 20.0).abs() < 1e-12);
+        assert_eq!(change_percent(&[]), None);
+    }
+}

@@ -1,0 +1,83 @@
+//! Whether every trial's number equals the one that stands beside it as known, both ways.
+
+use super::{Check, Entry};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "oracle",
+    about: "is a metric within a tolerance of a known one on every trial, neither above nor below?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders: Vec<&str> = settings.contenders.iter().map(String::as_str).collect();
+        let study = context.study(&settings.study, &settings.problems, &contenders)?;
+        let (metric, truth) =
+            (context.metric(&settings.metric, study)?, context.metric(&settings.truth, study)?);
+        if settings.within.is_nan() || settings.within < 0.0 {
+            let message = format!("within is {}; 0 or more is accepted", settings.within);
+            return Err(context.settings.error(message));
+        }
+        Ok(Box::new(Oracle { settings, metric, truth }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: Vec<String>,
+    contenders: Vec<String>,
+    metric: String,
+    truth: String,
+    within: f64,
+}
+
+struct Oracle {
+    settings: Settings,
+    metric: &'static Metric,
+    truth: &'static Metric,
+}
+
+impl Check for Oracle {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let (mut trials, mut worst, mut off) = (0, 0.0_f64, 0);
+        let run = evidence.run(&self.settings.study);
+        for (run, group) in
+            run.iter().flat_map(|run| self.settings.problems.iter().map(move |group| (run, group)))
+        {
+            for row in self.settings.contenders.iter().flat_map(|contender| run.rows(group, contender)) {
+                trials += 1;
+                let pair = run.value(row, self.metric).zip(run.value(row, self.truth));
+                // What was not measured is as wrong as what is far off.
+                let apart = pair.map_or(f64::INFINITY, |(ours, truth)| (ours - truth).abs());
+                worst = worst.max(apart);
+                if apart > self.settings.within {
+                    off += 1;
+                    finding.trial.get_or_insert_with(|| format!("{}/{}", run.study.name, row.trial));
+                }
+            }
+        }
+        finding.verdict = Some(match (trials, off) {
+            (0, _) => Verdict::Undecided,
+            (_, 0) => Verdict::Reproduced,
+            _ => Verdict::NotReproduced,
+        });
+        let (metric, truth) = (self.metric.label.to_lowercase(), self.truth.label.to_lowercase());
+        if worst.is_finite() && trials > 0 {
+            let what = format!("largest distance between {metric} and {truth}");
+            finding.ours = Some(Estimate { value: worst, interval: None, what, n: trials });
+        }
+        finding.because.push(format!(
+            "{metric} of {} against {truth} on {}: {} of {trials} trials within {}, {off} not",
+            self.settings.contenders.join(", "),
+            self.settings.problems.join(", "),
+            trials - off,
+            self.settings.within
+        ));
+        finding
+    }
+}

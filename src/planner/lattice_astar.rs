@@ -1,0 +1,67 @@
+//! A* over the tip positions of a planar arm, with a neighbourhood of any size.
+
+use super::lattice::TiesSetting;
+use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting};
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::grid::Offsets;
+use crate::search::LatticeGraph;
+use crate::space::WorldKind;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "lattice_astar",
+    about: "A* over an arm's tip positions; neighbours are all points of a square, disc or octagon",
+    revision: 1,
+    needs: WorldKind::Arm,
+    columns: COLUMNS,
+    build: Build::Planner(|settings| {
+        let read: LatticeAstar = settings.read()?;
+        let offsets = read.neighbourhood.offsets(settings)?;
+        Ok(Box::new(Ready { read, offsets }))
+    }),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LatticeAstar {
+    /// Which points are neighbours.
+    neighbourhood: RegionSetting,
+    /// Whether a better way to an open node is taken.
+    open_node: OpenSetting,
+    /// The order among equal f.
+    ties: TiesSetting,
+}
+
+struct Ready {
+    read: LatticeAstar,
+    offsets: Offsets,
+}
+
+impl Planner for Ready {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let posed = Posed::new(request)?;
+        let (world, step_cm) = (posed.world, posed.world.rules().lattice.step_cm());
+        let mut graph =
+            LatticeGraph::new(world.grid(), &self.offsets, step_cm, |from, to| world.may_hop(from, to));
+        let LatticeAstar { ties, open_node, .. } = self.read;
+        let (report, scans) = posed.search(&mut graph, ties, open_node.into(), request.expansions);
+        let mut plan = posed.plan(&report, scans, request.trace);
+        if request.trace {
+            plan.exhibits.push(tips::steps("region", self.offsets.steps()));
+        }
+        Ok(plan)
+    }
+
+    fn is_optimal(&self) -> bool {
+        self.read.open_node == OpenSetting::Lowered
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+
+    fn steps(&self) -> Option<&[[i32; 2]]> {
+        Some(self.offsets.steps())
+    }
+}

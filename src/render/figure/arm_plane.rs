@@ -1,0 +1,158 @@
+//! A planar arm among obstacles: what each tip position is, paths of the tip, the arm at stations along them.
+
+use super::{Entry, Kind, Scene, ask};
+use crate::planner::Exhibit;
+use crate::render::RenderError;
+use crate::render::chart::legend::cell_key;
+use crate::render::chart::marks::{Cells, Line, Points, Shape};
+use crate::render::chart::{Axis, Panel, Sheet, Trim};
+use crate::render::style::{
+    BLACK, BLUE, Fill, GREEN, GREY, INK, Marker, ORANGE, Rgb, SKY, Stroke, WHITE, Width, YELLOW,
+    series_stroke,
+};
+use crate::study::record::Row;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "arm_plane",
+    about: "a planar arm among obstacles: zones, paths of the tip, the arm at stations along them",
+    build: |settings, study, _paper| {
+        let read: ArmPlane = settings.read()?;
+        for panel in &read.panels {
+            ask::known(settings, study, std::slice::from_ref(&panel.problem), &panel.contenders)?;
+        }
+        Ok(Box::new(read))
+    },
+};
+
+/// Height of a panel's plot, in points.
+const PLOT_PT: f64 = 150.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ArmPlane {
+    /// Whether points are coloured by what they are.
+    zones: bool,
+    /// At how many points of the first path the arm is drawn.
+    stations: usize,
+    panels: Vec<PanelSetting>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PanelSetting {
+    /// The problem group; its first draw is shown.
+    problem: String,
+    /// Whose paths, of the first seed.
+    contenders: Vec<String>,
+}
+
+impl Kind for ArmPlane {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let mut sheet = Sheet::new(Width::Double, self.panels.len().min(2), PLOT_PT);
+        for panel in &self.panels {
+            sheet.add(self.panel(scene, panel)?);
+        }
+        Ok(sheet)
+    }
+}
+
+impl ArmPlane {
+    fn panel(&self, scene: &Scene<'_>, setting: &PanelSetting) -> Result<Panel, RenderError> {
+        let rows = setting.contenders.iter().map(|label| ask::trial(scene, &setting.problem, 0, None, label));
+        let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
+        let map = rows.first().and_then(|row| scene.run.prepared_of(row)).map_or("", |map| &map.prepared);
+        let lattice = &ask::exhibit(scene, map, "lattice")?.values;
+        let (low, step, size) = ([lattice[0], lattice[1]], lattice[2], [lattice[3], lattice[4]]);
+        let axis =
+            |label: &str, axis: usize| Axis::linear(label, low[axis] - step, low[axis] + step * size[axis]);
+        let mut panel = Panel::new(title(&setting.problem, &rows), axis("x (cm)", 0)?, axis("y (cm)", 1)?)
+            .trimmed(Trim::Frame)
+            .with_equal_scales();
+        if self.zones {
+            let zones = ask::exhibit(scene, map, "zones")?;
+            panel.add(zone_cells(zones, [low[0] - step / 2.0, low[1] - step / 2.0], step, size[0] as usize));
+        }
+        for index in 1.. {
+            let Some(outline) = scene.run.exhibit(map, &format!("obstacle_{index}")) else { break };
+            panel.add(obstacle(outline));
+        }
+        for (index, row) in rows.iter().enumerate() {
+            self.add_path(scene, row, index, &mut panel);
+        }
+        Ok(panel)
+    }
+
+    fn add_path(&self, scene: &Scene<'_>, row: &Row, index: usize, panel: &mut Panel) {
+        let Some(stations) = scene.run.exhibit(&row.trial, "stations") else { return };
+        let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
+        if index == 0 {
+            for station in spread(&stations, self.stations) {
+                let joints = vec![[0.0, 0.0], [station[2], station[3]], [station[4], station[5]]];
+                panel.add(Line::through(joints.clone(), Stroke::solid(GREY, 1.4)).labelled("arm"));
+                let (marker, label) = (Marker::Circle, String::new());
+                panel.add(Points { points: joints[..2].to_vec(), marker, radius_pt: 1.6, color: INK, label });
+            }
+        }
+        let path: Vec<[f64; 2]> = stations.iter().map(|station| [station[4], station[5]]).collect();
+        let ends = [("start", Marker::Circle, path.first()), ("goal", Marker::Diamond, path.last())];
+        for (label, marker, at) in ends {
+            let points = at.into_iter().copied().collect();
+            panel.add(Points { points, marker, radius_pt: 3.0, color: GREEN, label: label.to_owned() });
+        }
+        panel.add(Line::through(path, series_stroke(index)).labelled(row.contender.clone()));
+    }
+}
+
+/// `count` of the stations, the ends among them.
+fn spread<'a>(stations: &[&'a [f64]], count: usize) -> Vec<&'a [f64]> {
+    match (stations, count) {
+        ([], _) | (_, 0) => Vec::new(),
+        (_, 1) => vec![stations[stations.len() / 2]],
+        _ => (0..count).map(|k| stations[k * (stations.len() - 1) / (count - 1)]).collect(),
+    }
+}
+
+fn title(problem: &str, rows: &[&Row]) -> String {
+    match rows {
+        [row] => {
+            let length =
+                row.value("path_length_cm").map_or_else(|| "no path".to_owned(), |l| format!("{l:.4} cm"));
+            format!("{problem}, {}: {length}", row.contender)
+        }
+        _ => problem.to_owned(),
+    }
+}
+
+fn zone_color(code: f64) -> Rgb {
+    match code as u8 {
+        1 => GREY.mixed(WHITE, 0.55),
+        2 => YELLOW.mixed(WHITE, 0.35),
+        3 => BLACK.mixed(WHITE, 0.35),
+        4 => ORANGE.mixed(WHITE, 0.35),
+        _ => SKY.mixed(WHITE, 0.65),
+    }
+}
+
+fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> Cells {
+    let names = ["free", "out of reach", "inner radius", "in an obstacle", "a link would hit"];
+    let keys = names.iter().enumerate().map(|(code, name)| cell_key(*name, zone_color(code as f64)));
+    Cells {
+        corner,
+        cell: [step, step],
+        columns,
+        colors: zones.values.iter().map(|code| Some(zone_color(*code))).collect(),
+        lines: None,
+        keys: keys.collect(),
+    }
+}
+
+fn obstacle(outline: &Exhibit) -> Shape {
+    Shape {
+        corners: outline.values.chunks(2).map(|point| [point[0], point[1]]).collect(),
+        fill: Some(Fill::sheer(BLUE.mixed(BLACK, 0.3), 0.45)),
+        stroke: Some(Stroke::solid(INK, 0.7)),
+        label: "obstacle".to_owned(),
+    }
+}

@@ -1,0 +1,95 @@
+//! What several kinds of figure ask of a study and of its stored run.
+
+use super::Scene;
+use crate::planner::Exhibit;
+use crate::render::RenderError;
+use crate::settings::{Settings, SettingsError};
+use crate::study::Study;
+use crate::study::paper::Paper;
+use crate::study::record::Row;
+
+/// Refuses problem groups and contenders that `study` does not have.
+pub(super) fn known(
+    settings: &Settings,
+    study: &Study,
+    problems: &[String],
+    contenders: &[String],
+) -> Result<(), SettingsError> {
+    let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
+    let labels: Vec<&str> = study.contenders.iter().map(|contender| contender.label.as_str()).collect();
+    for (what, wanted, known) in [("problem group", problems, groups), ("contender", contenders, labels)] {
+        if let Some(name) = wanted.iter().find(|name| !known.contains(&name.as_str())) {
+            let message =
+                format!("study `{}` has no {what} `{name}`; it has {}", study.name, known.join(", "));
+            return Err(settings.error(message));
+        }
+    }
+    Ok(())
+}
+
+/// The printed number of the claim `id`.
+pub(super) fn printed(settings: &Settings, paper: &Paper, id: &str) -> Result<f64, SettingsError> {
+    let number = paper.claim(id).and_then(|claim| claim.printed.as_ref()?.parse().ok());
+    number.ok_or_else(|| settings.error(format!("there is no claim `{id}` with a printed number")))
+}
+
+/// The name of the query that a trial answers: the last part of its problem's name.
+pub(super) fn query(row: &Row) -> &str {
+    row.problem.rsplit('/').next().unwrap_or_default()
+}
+
+/// The exhibit `name` of a trial or a prepared object.
+///
+/// # Errors
+/// [`RenderError::NotStored`] if it was not kept.
+pub(super) fn exhibit<'s>(scene: &Scene<'s>, of: &str, name: &str) -> Result<&'s Exhibit, RenderError> {
+    scene
+        .run
+        .exhibit(of, name)
+        .ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
+}
+
+/// The first trial of `contender` on the draw `replicate` of `problems`, for the query called `of_query`.
+///
+/// # Errors
+/// [`RenderError::NotStored`] if there is none.
+pub(super) fn trial<'s>(
+    scene: &Scene<'s>,
+    problems: &str,
+    replicate: u32,
+    of_query: Option<&str>,
+    contender: &str,
+) -> Result<&'s Row, RenderError> {
+    let rows = scene.run.rows(problems, contender).into_iter();
+    let mut wanted =
+        rows.filter(|row| row.replicate == replicate && of_query.is_none_or(|name| query(row) == name));
+    wanted.next().ok_or_else(|| RenderError::NotStored {
+        what: format!("a trial of `{contender}` on draw {replicate} of `{problems}`"),
+    })
+}
+
+/// The first draw on which every contender has a trial with the exhibit `name` for the query called `of_query`.
+///
+/// # Errors
+/// [`RenderError::NotStored`] if there is none.
+pub(super) fn shared_draw(
+    scene: &Scene<'_>,
+    problems: &str,
+    of_query: &str,
+    contenders: &[String],
+    name: &str,
+) -> Result<u32, RenderError> {
+    let has_it = |replicate: u32, contender: &String| {
+        trial(scene, problems, replicate, Some(of_query), contender)
+            .is_ok_and(|row| scene.run.exhibit(&row.trial, name).is_some())
+    };
+    let group = scene.run.study.groups.iter().find(|group| group.label == problems);
+    let mut draws = 0..group.map_or(0, |group| group.replicates);
+    let found = draws.find(|draw| contenders.iter().all(|contender| has_it(*draw, contender)));
+    found.ok_or_else(|| RenderError::NotStored {
+        what: format!(
+            "the exhibit `{name}` of {} for query {of_query} on one draw",
+            contenders.join(" and ")
+        ),
+    })
+}

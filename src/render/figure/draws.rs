@@ -1,0 +1,85 @@
+//! Distributions of our draws, with the printed number marked: one panel a claim.
+//!
+//! What is drawn stands in each claim's check `row_among_draws`.
+
+use super::{Entry, Kind, Scene, check_claim, printed_value};
+use crate::analysis::check;
+use crate::analysis::stats::summary::quantile_type7;
+use crate::render::RenderError;
+use crate::render::chart::marks::Line;
+use crate::render::chart::rules::Rules;
+use crate::render::chart::{Axis, Panel, Sheet};
+use crate::render::style::{INK, Stroke, Width, series_stroke};
+use crate::settings::Settings;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "draws",
+    about: "cumulative distributions of our draws with the printed number marked, one panel a claim",
+    build: |settings, _study, paper| {
+        let read: Draws = settings.read()?;
+        for panel in &read.panels {
+            check_claim(settings, paper, &panel.claim, "row_among_draws")?;
+        }
+        Ok(Box::new(Asked { read, settings: settings.clone() }))
+    },
+};
+
+/// Height of a panel's plot, in points.
+const PLOT_PT: f64 = 118.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Draws {
+    panels: Vec<PanelSpec>,
+    columns: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PanelSpec {
+    claim: String,
+    title: String,
+    axis: String,
+}
+
+struct Asked {
+    read: Draws,
+    settings: Settings,
+}
+
+impl Kind for Asked {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let mut sheet = Sheet::new(Width::Double, self.read.columns, PLOT_PT);
+        for panel in &self.read.panels {
+            sheet.add(self.panel(scene, panel)?);
+        }
+        Ok(sheet)
+    }
+}
+
+impl Asked {
+    fn panel(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Result<Panel, RenderError> {
+        let sets = check::draws(scene.evidence, &self.settings, &spec.claim)?;
+        let printed = printed_value(scene.evidence, &spec.claim);
+        // The outermost hundredth on either side would squeeze all the rest.
+        let ends = sets.iter().flat_map(|set| [0.01, 0.99].map(|share| quantile_type7(&set.values, share)));
+        let x = Axis::over(&spec.axis, ends.flatten().chain(printed));
+        let mut panel = Panel::new(&spec.title, x, Axis::linear("share of maps", 0.0, 1.0)?);
+        for (index, set) in sets.iter().enumerate() {
+            panel.add(Line::through(cumulative(&set.values), series_stroke(index)).labelled(&set.label));
+        }
+        if let Some(printed) = printed {
+            let marks = vec![(printed, format!("printed {printed}"))];
+            panel.add(Rules { marks, stroke: Stroke::solid(INK, 1.0) });
+        }
+        Ok(panel)
+    }
+}
+
+/// Quantiles at every half per cent: as good as every step to the eye, and a tenth of the bytes.
+fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
+    let shares = (0..=200).map(|step| f64::from(step) / 200.0);
+    shares.filter_map(|share| Some([quantile_type7(values, share)?, share])).collect()
+}

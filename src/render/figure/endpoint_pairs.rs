@@ -1,0 +1,86 @@
+//! Where pairs of end points lie that have printed lengths.
+
+use super::{Entry, Kind, Scene, ask};
+use crate::render::RenderError;
+use crate::render::chart::marks::{Line, Points};
+use crate::render::chart::{Axis, Panel, Sheet, Trim};
+use crate::render::style::{Stroke, WHITE, Width, series_color, series_marker};
+use crate::study::slug;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "endpoint_pairs",
+    about: "where pairs of end points lie that have the printed lengths, one series a variant",
+    build: |settings, study, _paper| {
+        let read: EndpointPairs = settings.read()?;
+        ask::known(settings, study, std::slice::from_ref(&read.problem), &[])?;
+        Ok(Box::new(read))
+    },
+};
+
+/// Starts with their goals.
+type Pairs = Vec<[[f64; 2]; 2]>;
+
+/// Height of a panel's plot, in points.
+const PLOT_PT: f64 = 190.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EndpointPairs {
+    /// The problem group.
+    problem: String,
+    panels: Vec<PanelSetting>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PanelSetting {
+    title: String,
+    /// Labels of the variants shown.
+    variants: Vec<String>,
+}
+
+impl Kind for EndpointPairs {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let map = scene.run.records.batch.prepared.iter().find(|map| map.group == self.problem);
+        let map = map.map_or("", |map| map.prepared.as_str());
+        let mut sheet = Sheet::new(Width::Double, self.panels.len(), PLOT_PT);
+        let mut first = 0;
+        for setting in &self.panels {
+            let mut series = Vec::new();
+            for label in &setting.variants {
+                let found = ask::exhibit(scene, &format!("{map}/{}", slug(label)), "pairs")?;
+                let pairs = found.values.chunks(4).map(|p| [[p[0], p[1]], [p[2], p[3]]]);
+                series.push((label, pairs.collect::<Pairs>()));
+            }
+            sheet.add(panel(&setting.title, first, &series)?);
+            first += series.len();
+        }
+        Ok(sheet)
+    }
+}
+
+/// One panel, its series coloured from number `first` on.
+fn panel(title: &str, first: usize, series: &[(&String, Pairs)]) -> Result<Panel, RenderError> {
+    let count: usize = series.iter().map(|(_, pairs)| pairs.len()).sum();
+    let (x, y) = (Axis::linear("x (cm)", -10.0, 55.0)?, Axis::linear("y (cm)", 0.0, 52.0)?);
+    let mut panel =
+        Panel::new(format!("{title}: {count} pairs"), x, y).trimmed(Trim::Grid).with_equal_scales();
+    for (index, (_, pairs)) in (first..).zip(series) {
+        for pair in pairs {
+            let pale = Stroke::solid(series_color(index).mixed(WHITE, 0.6), 0.5);
+            panel.add(Line::through(pair.to_vec(), pale));
+        }
+    }
+    for (index, (label, pairs)) in (first..).zip(series) {
+        panel.add(Points {
+            points: pairs.iter().flatten().copied().collect(),
+            marker: series_marker(index),
+            radius_pt: 2.6,
+            color: series_color(index),
+            label: format!("{label} ({})", pairs.len()),
+        });
+    }
+    Ok(panel)
+}

@@ -1,0 +1,100 @@
+//! Path length against work: every seed of every contender, one panel a problem.
+
+use super::{Entry, Kind, Scene, ask};
+use crate::analysis::metric::{self, Metric};
+use crate::analysis::stats::summary::median;
+use crate::render::RenderError;
+use crate::render::chart::marks::Points;
+use crate::render::chart::{Axis, Panel, Sheet};
+use crate::render::style::{SERIES, WHITE, Width, series_color, series_marker};
+use crate::study::record::{Row, Status};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "length_against_work",
+    about: "path length against work: every seed as a point, medians (failures infinite) as markers",
+    build: |settings, study, _paper| {
+        let read: LengthAgainstWork = settings.read()?;
+        ask::known(settings, study, &read.problems, &read.contenders)?;
+        let find = |name: &str| {
+            metric::find(name).ok_or_else(|| settings.error(format!("there is no metric `{name}`")))
+        };
+        let (work, length) = (find(&read.metric)?, find(&read.length)?);
+        Ok(Box::new(Ready { read, work, length }))
+    },
+};
+
+/// Height of a panel's plot, in points.
+const PLOT_PT: f64 = 190.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LengthAgainstWork {
+    /// The metric of work.
+    metric: String,
+    /// The metric of length.
+    length: String,
+    /// One panel each.
+    problems: Vec<String>,
+    /// Who is shown.
+    contenders: Vec<String>,
+}
+
+struct Ready {
+    read: LengthAgainstWork,
+    work: &'static Metric,
+    length: &'static Metric,
+}
+
+impl Kind for Ready {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let mut sheet = Sheet::new(Width::Double, self.read.problems.len(), PLOT_PT);
+        for problem in &self.read.problems {
+            sheet.add(self.panel(scene, problem)?);
+        }
+        Ok(sheet)
+    }
+}
+
+impl Ready {
+    fn panel(&self, scene: &Scene<'_>, problem: &str) -> Result<Panel, RenderError> {
+        let both = |row: &&Row| {
+            let solved = row.status == Status::Solved;
+            let value = |metric| if solved { scene.run.value(row, metric) } else { Some(f64::INFINITY) };
+            Some([value(self.work)?, value(self.length)?])
+        };
+        let series: Vec<(&String, Vec<[f64; 2]>)> = self
+            .read
+            .contenders
+            .iter()
+            .map(|label| (label, scene.run.rows(problem, label).iter().filter_map(both).collect()))
+            .collect();
+        let shown = |axis: usize| {
+            let values = series.iter().flat_map(|(_, points)| points).map(move |point| point[axis]);
+            values.filter(|value| value.is_finite()).collect::<Vec<f64>>()
+        };
+        let (works, lengths) = (shown(0), shown(1));
+        let low = works.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
+        let high = works.iter().copied().fold(low, f64::max);
+        let x = Axis::log(self.work.title(), low / 1.3, high * 1.3)?;
+        let mut panel = Panel::new(problem, x, Axis::over(self.length.title(), lengths));
+        let points = |points, radius_pt, index: usize, pale: f64, label: String| Points {
+            points,
+            // Colours come round after seven; the marker moves on by one more each time.
+            marker: series_marker(index + index / SERIES.len()),
+            radius_pt,
+            color: series_color(index).mixed(WHITE, pale),
+            label,
+        };
+        for (index, (_, all)) in series.iter().enumerate().filter(|(_, (_, all))| all.len() > 1) {
+            panel.add(points(all.clone(), 0.9, index, 0.45, String::new()));
+        }
+        for (index, (label, all)) in series.iter().enumerate() {
+            let middle = [0, 1].map(|axis| median(&all.iter().map(|point| point[axis]).collect::<Vec<_>>()));
+            let at = middle[0].zip(middle[1]).map(|(x, y)| [x, y]);
+            panel.add(points(at.into_iter().collect(), 3.6, index, 0.0, (*label).clone()));
+        }
+        Ok(panel)
+    }
+}

@@ -1,0 +1,196 @@
+//! A particle's searches on one roadmap in the plane: the first searches of each contender, one panel each.
+
+use super::{Entry, Kind, Scene, ask};
+use crate::planner::Exhibit;
+use crate::render::RenderError;
+use crate::render::chart::marks::{Line, Note, Points, Shape};
+use crate::render::chart::{Axis, Panel, Sheet, Trim};
+use crate::render::style::{
+    BLACK, BLUE, Dash, Fill, GREEN, GREY, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
+};
+use crate::study::record::Row;
+use crate::study::slug;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "plane_search",
+    about: "a particle's searches on one roadmap in the plane: nodes closed so far, shots at the goal, paths",
+    build: |settings, study, _paper| {
+        let read: PlaneSearch = settings.read()?;
+        let contenders: Vec<String> = read.panels.iter().map(|panel| panel.contender.clone()).collect();
+        ask::known(settings, study, std::slice::from_ref(&read.problems), &contenders)?;
+        Ok(Box::new(read))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PlaneSearch {
+    problems: String,
+    /// Which draw of the group.
+    draw: u32,
+    /// The radius of a neighbourhood.
+    radius_mm: f64,
+    panels: Vec<PanelOf>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PanelOf {
+    contender: String,
+    title: String,
+    /// How many searches are shown; all and the path if absent.
+    searches: Option<usize>,
+    /// Whether each search shoots at the goal first.
+    #[serde(default)]
+    shoots: bool,
+    /// Whether the path before it was straightened is shown, and how many nodes of the straightened one.
+    #[serde(default)]
+    straightened: Option<usize>,
+    /// Whether there is nothing to see but the map.
+    #[serde(default)]
+    bare: bool,
+}
+
+fn points(exhibit: &Exhibit) -> Vec<[f64; 2]> {
+    exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1]]).collect()
+}
+
+impl Kind for PlaneSearch {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let mut sheet = Sheet::new(Width::Double, self.panels.len().min(2), 200.0);
+        for of in &self.panels {
+            let mut panel = self.map(scene, &of.title)?;
+            let row = ask::trial(scene, &self.problems, self.draw, None, &of.contender)?;
+            let path = points(ask::exhibit(scene, &row.trial, "path")?);
+            if !of.bare {
+                match of.straightened {
+                    Some(kept) => straightened(&mut panel, scene, row, &path, kept)?,
+                    None => self.searches(&mut panel, scene, row, &path, of)?,
+                }
+            }
+            ends(&mut panel, &path);
+            sheet.add(panel);
+        }
+        Ok(sheet)
+    }
+}
+
+impl PlaneSearch {
+    fn map(&self, scene: &Scene<'_>, title: &str) -> Result<Panel, RenderError> {
+        let draw = format!("{}/{}", slug(&self.problems), self.draw);
+        let size = ask::exhibit(scene, &draw, "size_mm")?;
+        let x = Axis::linear("x (mm)", 0.0, size.values[0])?;
+        let mut panel = Panel::new(title, x, Axis::linear("y (mm)", 0.0, size.values[1])?)
+            .trimmed(Trim::Frame)
+            .with_equal_scales();
+        let corners = ask::exhibit(scene, &draw, "obstacles")?;
+        let numbered: Vec<[f64; 3]> = corners.values.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
+        for obstacle in numbered.chunk_by(|a, b| a[0] == b[0]) {
+            let fill = Some(Fill::solid(BLUE.mixed(BLACK, 0.45)));
+            let corners = obstacle.iter().map(|c| [c[1], c[2]]).collect();
+            panel.add(Shape { corners, fill, stroke: None, label: "obstacle".to_owned() });
+        }
+        panel.add(Points {
+            points: points(ask::exhibit(scene, &draw, "samples")?),
+            marker: Marker::Circle,
+            radius_pt: 1.2,
+            color: GREY.mixed(WHITE, 0.35),
+            label: "sample".to_owned(),
+        });
+        Ok(panel)
+    }
+
+    fn searches(
+        &self,
+        panel: &mut Panel,
+        scene: &Scene<'_>,
+        row: &Row,
+        path: &[[f64; 2]],
+        of: &PanelOf,
+    ) -> Result<(), RenderError> {
+        let closed = points(ask::exhibit(scene, &row.trial, "closed")?);
+        let all = of.searches.is_none();
+        let shown = of.searches.unwrap_or(closed.len()).min(closed.len());
+        let Some(goal) = path.last() else { return Ok(()) };
+        let dotted = Stroke::solid(BLACK, 0.8).dashed(Dash::Dotted);
+        let missed = if all { shown.saturating_sub(1) } else { shown };
+        for at in closed.iter().take(if of.shoots { missed } else { 0 }) {
+            panel.add(Line::through(vec![*at, *goal], dotted).labelled("local path to the goal, not free"));
+        }
+        if !all && let Some(at) = closed.get(shown.saturating_sub(1)) {
+            panel.add(circle(*at, self.radius_mm));
+        }
+        let until = if all { closed.len() } else { (shown + 1).min(closed.len()) };
+        if all {
+            panel.add(Line::through(path.to_vec(), Stroke::solid(BLACK, 1.5)).labelled("path"));
+        } else {
+            let chain = closed[..until].to_vec();
+            panel.add(Line::through(chain, Stroke::solid(BLACK, 1.2)).labelled("way so far"));
+        }
+        let picked = closed[1..until].to_vec();
+        for (number, at) in picked.iter().enumerate() {
+            panel.add(Note::beside(*at, (number + 1).to_string()));
+        }
+        panel.add(Points {
+            points: picked,
+            marker: Marker::Circle,
+            radius_pt: 2.6,
+            color: SKY,
+            label: "searched".to_owned(),
+        });
+        Ok(())
+    }
+}
+
+fn circle(middle: [f64; 2], radius: f64) -> Line {
+    let point = |step: i32| {
+        let (s, c) = libm::sincos(std::f64::consts::TAU * f64::from(step) / 72.0);
+        [middle[0] + radius * c, middle[1] + radius * s]
+    };
+    let stroke = Stroke::solid(VERMILLION, 0.8).dashed(Dash::Dashed);
+    Line::through((0..=72).map(point).collect(), stroke).labelled("neighbourhood of the current node")
+}
+
+/// The path before straightening, and the first `kept` nodes of the straightened one.
+fn straightened(
+    panel: &mut Panel,
+    scene: &Scene<'_>,
+    row: &Row,
+    path: &[[f64; 2]],
+    kept: usize,
+) -> Result<(), RenderError> {
+    let raw = points(ask::exhibit(scene, &row.trial, "raw_path")?);
+    let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
+    panel.add(Line::through(raw.clone(), stroke).labelled("path as searched"));
+    let inner = raw[1..raw.len() - 1].to_vec();
+    panel.add(Points {
+        points: inner,
+        marker: Marker::Circle,
+        radius_pt: 2.4,
+        color: SKY,
+        label: "searched".to_owned(),
+    });
+    let shown = path[..kept.min(path.len())].to_vec();
+    if kept > 0 {
+        panel.add(Line::through(shown.clone(), Stroke::solid(BLACK, 1.5)).labelled("straightened"));
+        let label = "retained".to_owned();
+        panel.add(Points {
+            points: shown,
+            marker: Marker::Diamond,
+            radius_pt: 2.8,
+            color: VERMILLION,
+            label,
+        });
+    }
+    Ok(())
+}
+
+fn ends(panel: &mut Panel, path: &[[f64; 2]]) {
+    let ends = [("start", GREEN, path.first()), ("goal", ORANGE, path.last())];
+    for (label, color, at) in ends {
+        let points = at.into_iter().copied().collect();
+        panel.add(Points { points, marker: Marker::Square, radius_pt: 3.4, color, label: label.to_owned() });
+    }
+}

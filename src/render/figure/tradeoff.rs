@@ -1,0 +1,94 @@
+//! One metric against another, a point a contender: means over the same problems with intervals both ways.
+
+use super::{Entry, Kind, Scene, check_labels};
+use crate::analysis::effect::mean;
+use crate::analysis::metric::{self, Metric};
+use crate::render::RenderError;
+use crate::render::chart::marks::{Line, Points};
+use crate::render::chart::{Axis, Panel, Sheet};
+use crate::render::style::{SERIES, Stroke, Width, series_color, series_marker};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "tradeoff",
+    about: "one metric against another, a point a contender, with intervals both ways; one panel a list of problems",
+    build: |settings, study, _paper| {
+        let read: Tradeoff = settings.read()?;
+        check_labels(
+            settings,
+            study,
+            &read.contenders,
+            read.panels.iter().flat_map(|panel| &panel.problems),
+        )?;
+        for name in [&read.x, &read.y] {
+            if !metric::find(name).is_some_and(|metric| study.columns().contains(metric.column)) {
+                let message = format!("study `{}` does not produce the metric `{name}`", study.name);
+                return Err(settings.error(message));
+            }
+        }
+        Ok(Box::new(read))
+    },
+};
+
+/// Height of a panel's plot, in points.
+const PLOT_PT: f64 = 150.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Tradeoff {
+    x: String,
+    y: String,
+    contenders: Vec<String>,
+    panels: Vec<PanelSpec>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PanelSpec {
+    title: String,
+    problems: Vec<String>,
+}
+
+impl Tradeoff {
+    fn panel(&self, scene: &Scene<'_>, spec: &PanelSpec, [x, y]: [&Metric; 2]) -> Panel {
+        let both = |contender: &String| {
+            let of = |metric| mean(scene.run, &spec.problems, contender, metric);
+            of(x).zip(of(y))
+        };
+        let points: Vec<_> = self.contenders.iter().map(both).collect();
+        let found = || points.iter().flatten();
+        let across = found().flat_map(|(a, _)| [a.interval.low, a.interval.high]);
+        let up = found().flat_map(|(_, b)| [b.interval.low, b.interval.high]);
+        let mut panel = Panel::new(&spec.title, Axis::over(x.title(), across), Axis::over(y.title(), up));
+        for (index, (contender, point)) in self.contenders.iter().zip(&points).enumerate() {
+            let Some((a, b)) = point else { continue };
+            let stroke = Stroke::solid(series_color(index), 0.9);
+            let cross = vec![
+                [a.interval.low, b.value],
+                [a.interval.high, b.value],
+                [f64::NAN, f64::NAN],
+                [a.value, b.interval.low],
+                [a.value, b.interval.high],
+            ];
+            panel.add(Line::through(cross, stroke));
+            // One marker on for each round of the colours, so that no two are alike.
+            let (marker, color) = (series_marker(index + index / SERIES.len()), series_color(index));
+            let points = vec![[a.value, b.value]];
+            panel.add(Points { points, marker, radius_pt: 3.0, color, label: contender.clone() });
+        }
+        panel
+    }
+}
+
+impl Kind for Tradeoff {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let metrics = [&self.x, &self.y]
+            .map(|name| metric::find(name).expect("the metric was found when the settings were read"));
+        let mut sheet = Sheet::new(Width::Double, self.panels.len(), PLOT_PT);
+        for panel in &self.panels {
+            sheet.add(self.panel(scene, panel, metrics));
+        }
+        Ok(sheet.noted("Means over maps that the contender solved, with 95 % bootstrap intervals over maps."))
+    }
+}

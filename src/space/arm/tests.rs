@@ -1,0 +1,192 @@
+use super::*;
+use crate::geometry::planar::{Circle, ConvexPolygon};
+use crate::seed;
+use rand::RngExt as _;
+
+pub(super) fn rules(hop: HopRule) -> ArmRules {
+    ArmRules {
+        arm: Planar2r::new(30.0, 20.0).unwrap(),
+        elbow: ElbowRule::NegativeQ2,
+        lattice: TipLattice::new([-50.0, 50.0], [0.0, 50.0], 1.0).unwrap(),
+        inner_radius_cm: 20.0,
+        touch: Touch::Contact,
+        corner_rule: CornerRule::Allow,
+        hop,
+    }
+}
+
+fn circle(x: f64, y: f64) -> Obstacle {
+    Obstacle::Circle(Circle::new(Vec2::new(x, y), 5.0).unwrap())
+}
+
+fn square(x: f64, y: f64) -> Obstacle {
+    let (low, high) = (Vec2::new(x - 5.0, y - 5.0), Vec2::new(x + 5.0, y + 5.0));
+    Obstacle::Polygon(ConvexPolygon::rectangle(low, high).unwrap())
+}
+
+fn case_1(hop: HopRule) -> ArmWorld {
+    let at = [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]];
+    ArmWorld::new(rules(hop), at.into_iter().map(|[x, y]| circle(x, y)).collect())
+}
+
+#[test]
+fn without_obstacles_the_free_points_are_the_upper_half_of_the_ring() {
+    let world = ArmWorld::new(rules(HopRule::EndPoints), Vec::new());
+    let mut counts = [0; 3];
+    for x in -50_i64..=50 {
+        for y in 0_i64..=50 {
+            let cell = world.rules().lattice.cell(&[x as f64, y as f64]).unwrap();
+            let (truth, slot) = match x * x + y * y {
+                d if d > 2500 => (Zone::OuterReach, 0),
+                d if d < 400 => (Zone::InnerReach, 1),
+                _ => (Zone::Free, 2),
+            };
+            assert_eq!(world.zones()[cell as usize], truth, "({x}, {y})");
+            counts[slot] += 1;
+        }
+    }
+    assert_eq!(counts.iter().sum::<i32>(), 101 * 51);
+    assert_eq!(world.grid().free_count(), counts[2] as u32);
+}
+
+#[test]
+fn every_free_posture_puts_the_tip_on_its_point_and_keeps_sampled_link_points_clear() {
+    let world = case_1(HopRule::EndPoints);
+    let (mut free, mut hit) = (0, 0);
+    for cell in 0..world.grid().cell_count() {
+        let zone = world.zones()[cell as usize];
+        if !matches!(zone, Zone::Free | Zone::Link) {
+            continue;
+        }
+        let (arm, posture) = (world.rules().arm, world.posture(cell));
+        let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
+        assert!((tip - world.rules().lattice.point(cell)).norm() < 1e-9);
+        // Points every 0.05 cm of the links, against the circles' own equation.
+        let nearest = (0..=1000).map(|k| {
+            let s = f64::from(k) / 20.0;
+            let at = if s <= 30.0 { elbow * (s / 30.0) } else { elbow + (tip - elbow) * ((s - 30.0) / 20.0) };
+            [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]]
+                .map(|c| (at - Vec2::from(c)).norm())
+                .into_iter()
+                .fold(f64::INFINITY, f64::min)
+        });
+        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        if zone == Zone::Free {
+            assert!(nearest > 5.0, "{cell}: {nearest}");
+            free += 1;
+        } else {
+            assert!(nearest < 5.001, "{cell}: {nearest}");
+            hit += 1;
+        }
+    }
+    assert!(free > 500 && hit > 500, "one-sided workspace: {free} free, {hit} hit");
+}
+
+#[test]
+fn a_swept_hop_is_free_iff_postures_sampled_along_it_are() {
+    let world = case_1(HopRule::Continuous);
+    let grid = world.grid();
+    let free: Vec<u32> = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).collect();
+    let seed = 41;
+    let mut stream = seed::stream(seed);
+    let (mut clear, mut jumped, mut undecided) = (0, 0, 0);
+    for draw in 0..12_000 {
+        let from = free[stream.random_range(0..free.len())];
+        let [x, y] = grid.xy(from);
+        let to = grid.cell(x + stream.random_range(-6..=6), y + stream.random_range(-6..=6));
+        let Some(to) = to.filter(|&to| to != from && grid.is_free(to)) else { continue };
+        let (a, b) = (world.posture(from), world.posture(to));
+        let links = |share: f64| {
+            let posture = [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
+            let arm = world.rules().arm;
+            let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
+            [Segment2::new(Vec2::zeros(), elbow), Segment2::new(elbow, tip)]
+        };
+        let least = (0..=300)
+            .flat_map(|k| links(f64::from(k) / 300.0))
+            .flat_map(|link| world.obstacles().iter().map(move |o| o.distance(&link)))
+            .fold(f64::INFINITY, f64::min);
+        match (world.may_hop(from, to), least) {
+            (true, least) => {
+                assert!(least > 0.0, "seed {seed} draw {draw}: a hit on the way from {from} to {to}");
+                clear += 1;
+            }
+            (false, 0.0) => jumped += 1,
+            // Between two samples no point moves 0.1 cm: a hit may hide there, and nothing else may.
+            (false, least) => {
+                assert!(least < 0.1, "seed {seed} draw {draw}: refused with {least} cm to spare");
+                undecided += 1;
+            }
+        }
+    }
+    assert!(clear > 3_000 && jumped > 20 && undecided < 10, "{clear} {jumped} {undecided}");
+}
+
+#[test]
+fn touching_decides_for_points_on_a_rim() {
+    // (30, 18) is on the rim of the disc about (35, 18), and the arm comes to it from the other side.
+    for (touch, free) in [(Touch::Contact, false), (Touch::Free, true)] {
+        let world = ArmWorld::new(ArmRules { touch, ..rules(HopRule::EndPoints) }, vec![circle(35.0, 18.0)]);
+        let cell = world.rules().lattice.cell(&[30.0, 18.0]).unwrap();
+        assert_eq!(world.grid().is_free(cell), free, "{touch:?}");
+    }
+}
+
+#[test]
+fn a_corner_rule_binds_diagonal_hops_of_one_cell_only() {
+    let world = |corner_rule| {
+        ArmWorld::new(ArmRules { corner_rule, ..rules(HopRule::EndPoints) }, vec![square(30.0, 20.0)])
+    };
+    let allowed = |corner_rule| {
+        let world = world(corner_rule);
+        let grid = world.grid();
+        let hops = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).flat_map(|cell| {
+            let [x, y] = grid.xy(cell);
+            let to = |by: i32| grid.cell(x + by, y - by).filter(|&to| grid.is_free(to));
+            [to(1), to(2)].map(|to| to.is_some_and(|to| world.may_hop(cell, to)))
+        });
+        let hops: Vec<bool> = hops.collect();
+        [0, 1].map(|kind| hops.iter().skip(kind).step_by(2).filter(|allowed| **allowed).count())
+    };
+    let [any, both, all] = [CornerRule::ForbidAny, CornerRule::ForbidBoth, CornerRule::Allow].map(allowed);
+    assert!(any[0] < all[0] && both[0] <= all[0] && any[0] < both[0], "{any:?} {both:?} {all:?}");
+    assert_eq!([any[1], both[1]], [all[1]; 2]);
+}
+
+#[test]
+fn eight_moves_are_the_hops_to_the_nearest_points() {
+    for hop in [HopRule::EndPoints, HopRule::Continuous] {
+        let world = case_1(hop);
+        let (moves, grid) = (world.eight_moves(), world.grid());
+        let plain = Moves::new(grid, CornerRule::Allow);
+        let count =
+            |moves: &Moves| -> u32 { (0..grid.cell_count()).map(|c| moves.mask(c).count_ones()).sum() };
+        match hop {
+            HopRule::EndPoints => assert_eq!(count(&moves), count(&plain)),
+            HopRule::Continuous => assert!(count(&moves) < count(&plain)),
+        }
+    }
+}
+
+#[test]
+fn a_lattice_and_a_query_that_do_not_fit_say_why() {
+    let lattice = |x: [f64; 2], step| TipLattice::new(x, [0.0, 50.0], step).unwrap_err();
+    assert_eq!(
+        lattice([-50.0, 50.0], 0.3),
+        "step_cm is 0.3, which does not divide x_cm of 100 cm; a whole number of steps is accepted"
+    );
+    assert_eq!(lattice([-50.0, 50.0], 0.0), "step_cm is 0; a step above 0 is accepted");
+    assert!(lattice([50.0, -50.0], 1.0).starts_with("x_cm runs from 50 to -50; "));
+    assert!(lattice([-50.0, 50.0], 0.001).contains("65535"));
+    let world = case_1(HopRule::EndPoints);
+    let refused = |point: &[f64]| world.free_cell("goal", point).unwrap_err();
+    assert_eq!(refused(&[35.0, 18.0]), "the goal [35.0, 18.0] lies in obstacle 1");
+    assert!(refused(&[0.0, 5.0]).ends_with("is 5.0000 cm from the base; the arm may stand from 20 to 50 cm"));
+    assert!(refused(&[50.0, 50.0]).contains("70.7107 cm"));
+    assert!(refused(&[0.5, 30.0]).ends_with("x -50 to 50 and y 0 to 50 in steps of 1 cm"));
+    assert!(refused(&[0.0]).contains("is not a point of the workspace"));
+    let zones = world.zones();
+    let behind = zones.iter().position(|zone| *zone == Zone::Link).unwrap() as u32;
+    let at = world.rules().lattice.point(behind);
+    assert!(refused(&[at.x, at.y]).starts_with("with the tip on the goal"));
+}

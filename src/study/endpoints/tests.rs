@@ -1,0 +1,89 @@
+use super::*;
+use crate::geometry::planar::Touch;
+use crate::kinematics::planar_2r::{ElbowRule, Planar2r};
+use crate::space::{HopRule, TipLattice};
+
+pub(super) fn base() -> ArmRules {
+    ArmRules {
+        arm: Planar2r::new(30.0, 20.0).unwrap(),
+        elbow: ElbowRule::NegativeQ2,
+        lattice: TipLattice::new([-50.0, 50.0], [0.0, 50.0], 1.0).unwrap(),
+        inner_radius_cm: 20.0,
+        touch: Touch::Contact,
+        corner_rule: CornerRule::Allow,
+        hop: HopRule::EndPoints,
+    }
+}
+
+pub(super) fn cases() -> [Case; 2] {
+    [
+        Case { obstacles_cm: vec![[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]], hops: [29, 31] },
+        Case { obstacles_cm: vec![[41.0, 10.0], [7.0, 40.0], [-16.0, 33.0]], hops: [17, 38] },
+    ]
+}
+
+fn variant(text: &str) -> Variant {
+    toml::from_str(&format!("label = 'v'\ndiameter_cm = 10\n{text}")).unwrap()
+}
+
+fn moves(variant: &Variant) -> [Moves; 2] {
+    cases().map(|case| variant.world(&base(), &case, ShapeSetting::Circle).unwrap().eight_moves())
+}
+
+fn points(pairs: &[Pair]) -> Vec<[[f64; 2]; 2]> {
+    let point = |cell: &u32| -> [f64; 2] { base().lattice.point(*cell).into() };
+    pairs.iter().map(|[a, b]| [point(a), point(b)]).collect()
+}
+
+#[test]
+fn circles_with_contact_forbidden_leave_the_two_pairs_that_two_other_programs_found() {
+    let moves = moves(&variant("shape = 'circle'"));
+    let found = pairs(&moves, &cases());
+    assert_eq!(points(&found), [[[49.0, 3.0], [0.0, 45.0]], [[49.0, 3.0], [2.0, 45.0]]]);
+}
+
+#[test]
+fn every_target_that_is_hit_has_a_pair_and_the_printed_one_is_among_them() {
+    let moves = moves(&variant("shape = 'circle'"));
+    let targets = Targets::new(&cases(), 1.0);
+    let hits = targets.hits(&moves);
+    let (mut checked, mut met) = (0, 0);
+    for (a, first) in targets.lengths[0].iter().enumerate().step_by(7) {
+        for (b, second) in targets.lengths[1].iter().enumerate().step_by(11) {
+            let mut asked = cases();
+            asked[0].hops = [first.straight, first.diagonal];
+            asked[1].hops = [second.straight, second.diagonal];
+            let is_hit = hits[a * targets.lengths[1].len() + b];
+            assert_eq!(!pairs(&moves, &asked).is_empty(), is_hit, "{first:?} and {second:?}");
+            (checked, met) = (checked + 1, met + usize::from(is_hit));
+        }
+    }
+    assert!(checked > 20 && met < checked, "{met} of {checked}");
+    let printed = targets.place(0, cases()[0].target()).zip(targets.place(1, cases()[1].target()));
+    let (a, b) = printed.unwrap();
+    assert!(hits[a * targets.lengths[1].len() + b]);
+    assert!(hits.iter().filter(|hit| **hit).count() < targets.count());
+}
+
+#[test]
+fn targets_have_hops_of_equal_parity() {
+    let targets = Targets::new(&cases(), 2.0);
+    let all = targets.lengths[0].iter().flat_map(|a| targets.lengths[1].iter().map(move |b| (a, b)));
+    let consistent = all.filter(|(a, b)| a.straight % 2 == b.straight % 2).count();
+    assert_eq!(targets.count(), consistent);
+    assert!(consistent > 1_000);
+}
+
+#[test]
+fn free_shapes_include_what_uniform_shapes_give() {
+    let free = FreeShapes::find(&variant("shape = 'free'"), &base(), &cases()).unwrap();
+    for shape in ShapeSetting::ALL {
+        let variant = variant("shape = 'circle'");
+        let moves = cases().map(|case| variant.world(&base(), &case, shape).unwrap().eight_moves());
+        for pair in pairs(&moves, &cases()) {
+            assert!(free.pairs.contains(&pair), "{shape:?}: {:?}", points(&[pair]));
+        }
+    }
+    println!("{} candidates, {:?}", free.candidates, points(&free.pairs));
+    assert!(free.pairs.len() > 2);
+}

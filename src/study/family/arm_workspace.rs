@@ -1,0 +1,187 @@
+//! A planar arm among obstacles, its tip on a lattice, from one start to one goal.
+
+use super::{Entry, Family, Query};
+use crate::kinematics::planar_2r::Planar2r;
+use crate::planner::Invalid;
+use crate::settings::{Settings, SettingsError};
+use crate::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
+use crate::study::StudyError;
+use crate::study::judge::ARM_COLUMNS;
+use crate::study::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
+use crate::study::prepared::{Prepared, lattice};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "arm_workspace",
+    about: "a planar arm among obstacles, its tip on a lattice, from one start to one goal",
+    revision: 1,
+    prepared: workspace_map::ENTRY.name,
+    columns: ARM_COLUMNS,
+    build: |settings, _inputs| {
+        let read: ArmWorkspace = settings.read()?;
+        let posed = read.posed(settings)?;
+        Ok::<Box<dyn Family>, StudyError>(Box::new(posed))
+    },
+};
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ArmWorkspace {
+    links_cm: [f64; 2],
+    x_cm: [f64; 2],
+    y_cm: [f64; 2],
+    step_cm: f64,
+    inner_radius_cm: f64,
+    elbow: ElbowSetting,
+    touching: TouchSetting,
+    hop_check: HopSetting,
+    corner_rule: lattice::CornerSetting,
+    obstacle_diameter_cm: f64,
+    /// One shape for all obstacles, or one for each.
+    obstacle_shapes: Vec<ShapeSetting>,
+    obstacles_cm: Vec<[f64; 2]>,
+    /// Absent, as the goal, where the study looks for both.
+    start_cm: Option<[f64; 2]>,
+    goal_cm: Option<[f64; 2]>,
+}
+
+impl ArmWorkspace {
+    fn posed(&self, settings: &Settings) -> Result<Posed, SettingsError> {
+        let refuse = |message: String| settings.error(message);
+        if !(self.inner_radius_cm.is_finite() && self.inner_radius_cm >= 0.0) {
+            return Err(refuse(format!(
+                "inner_radius_cm is {}; 0 or more is accepted",
+                self.inner_radius_cm
+            )));
+        }
+        let rules = ArmRules {
+            arm: Planar2r::new(self.links_cm[0], self.links_cm[1])
+                .map_err(|e| refuse(format!("links_cm: {e}")))?,
+            elbow: self.elbow.into(),
+            lattice: TipLattice::new(self.x_cm, self.y_cm, self.step_cm).map_err(refuse)?,
+            inner_radius_cm: self.inner_radius_cm,
+            touch: self.touching.into(),
+            corner_rule: self.corner_rule.into(),
+            hop: self.hop_check.into(),
+        };
+        let queries = match (self.start_cm, self.goal_cm) {
+            (Some(start), Some(goal)) => {
+                vec![Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() }]
+            }
+            (None, None) => Vec::new(),
+            (start, _) => {
+                let missing = if start.is_some() { "goal_cm" } else { "start_cm" };
+                return Err(refuse(format!(
+                    "{missing} is missing; start and goal are given together or not at all"
+                )));
+            }
+        };
+        let obstacles = self.obstacles().map_err(refuse)?;
+        let world = ArmWorld::new(rules, obstacles.clone());
+        for query in &queries {
+            for (what, point) in [("start", &query.start), ("goal", &query.goal)] {
+                world.free_cell(what, point).map_err(refuse)?;
+            }
+        }
+        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
+    }
+
+    fn obstacles(&self) -> Result<Vec<Obstacle>, String> {
+        let (count, shapes) = (self.obstacles_cm.len(), &self.obstacle_shapes);
+        if shapes.len() != 1 && shapes.len() != count {
+            return Err(format!(
+                "obstacle_shapes names {} shapes for {count} obstacles; one for all or one for each is accepted",
+                shapes.len()
+            ));
+        }
+        let shaped = self.obstacles_cm.iter().enumerate().map(|(index, center)| {
+            shapes[index.min(shapes.len() - 1)]
+                .obstacle(*center, self.obstacle_diameter_cm)
+                .map_err(|e| format!("obstacle {}: {e}", index + 1))
+        });
+        shaped.collect()
+    }
+}
+
+struct Posed {
+    rules: ArmRules,
+    obstacles: Vec<Obstacle>,
+    queries: Vec<Query>,
+    goal_cm: Option<[f64; 2]>,
+}
+
+impl Family for Posed {
+    fn world(&self) -> WorldKind {
+        WorldKind::Arm
+    }
+
+    fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
+        let world = ArmWorld::new(self.rules, self.obstacles.clone());
+        Ok(workspace_map::prepare(world, self.goal_cm))
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Inputs;
+    use toml::Table;
+
+    const PLAIN: &str = "links_cm = [30, 20]\nx_cm = [-50, 50]\ny_cm = [0, 50]\nstep_cm = 1\ninner_radius_cm = 20\n\
+        elbow = 'negative_theta2'\ntouching = 'collides'\nhop_check = 'end_points'\ncorner_rule = 'allow'\n\
+        obstacle_diameter_cm = 10\nobstacle_shapes = ['circle']\nobstacles_cm = [[35, 18], [7, 35]]\n\
+        start_cm = [49, 3]\ngoal_cm = [0, 45]\n";
+
+    fn build(changes: &str) -> Result<Box<dyn Family>, String> {
+        let plain = Settings::composed("plain", PLAIN.parse::<Table>().unwrap());
+        let changed = plain.overlaid(&changes.parse::<Table>().unwrap(), "a change");
+        (ENTRY.build)(&changed, &Inputs::default()).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn wrong_input_says_what_is_wrong_and_what_is_accepted() {
+        assert!(build("").is_ok());
+        for (changes, parts) in [
+            ("start_cm = [35, 18]", ["the start [35.0, 18.0]", "lies in obstacle 1"]),
+            ("goal_cm = [8, 36]", ["the goal [8.0, 36.0]", "lies in obstacle 2"]),
+            (
+                "goal_cm = [50, 50]",
+                ["the goal", "is 70.7107 cm from the base; the arm may stand from 20 to 50 cm"],
+            ),
+            ("goal_cm = [0.5, 45]", ["the goal", "in steps of 1 cm"]),
+            ("links_cm = [30, 0]", ["links_cm", "link 2 is 0 long; a link must be longer than 0"]),
+            ("step_cm = 3", ["step_cm is 3", "does not divide x_cm of 100 cm"]),
+            ("step_cm = 0", ["step_cm is 0", "a step above 0 is accepted"]),
+            ("inner_radius_cm = -1", ["inner_radius_cm is -1", "0 or more is accepted"]),
+            ("obstacle_diameter_cm = 0", ["obstacle 1", "must be greater than 0"]),
+            (
+                "obstacle_shapes = ['circle', 'square', 'square']",
+                ["3 shapes for 2 obstacles", "one for all or one"],
+            ),
+            ("obstacle_shapes = []", ["0 shapes for 2 obstacles", "one for all or one"]),
+            ("obstacle_shapes = ['star']", ["star", "triangle"]),
+            ("elbows = 'higher'", ["elbows", "elbow"]),
+        ] {
+            let refused = build(changes).err().unwrap_or_else(|| panic!("{changes} was accepted"));
+            assert!(parts.iter().all(|part| refused.contains(part)), "{changes}: {refused}");
+        }
+    }
+
+    #[test]
+    fn an_end_alone_is_refused_and_none_poses_no_query() {
+        let without = |keys: &[&str]| {
+            let mut table = PLAIN.parse::<Table>().unwrap();
+            for key in keys {
+                table.remove(*key);
+            }
+            (ENTRY.build)(&Settings::composed("plain", table), &Inputs::default())
+        };
+        assert!(without(&["goal_cm"]).err().unwrap().to_string().contains("goal_cm is missing"));
+        assert!(without(&["start_cm", "goal_cm"]).unwrap().queries().is_empty());
+    }
+}

@@ -1,0 +1,59 @@
+//! What pictures of a cell need: obstacles and the robot at the queries' ends, millimetres.
+
+use super::Query;
+use crate::geometry::{Solid, Vec3};
+use crate::planner::Exhibit;
+use crate::space::cell::Cell;
+use crate::space::roadmap::joints;
+
+fn mm(point: &Vec3) -> [f64; 3] {
+    (point * 1e3).into()
+}
+
+/// Boxes by their eight corners, round obstacles by ends and radius, and the robot's capsules at each query's ends.
+pub(super) fn exhibits(cell: &Cell, queries: &[Query]) -> Vec<Exhibit> {
+    let (mut boxes, mut rounds) = (Vec::new(), Vec::new());
+    for obstacle in cell.scene().obstacles() {
+        match &obstacle.solid {
+            Solid::Box(solid) => boxes.extend(solid.corners().iter().flat_map(mm)),
+            Solid::Sphere(ball) => rounds.extend(round(&ball.center, &ball.center, ball.radius)),
+            Solid::Capsule(capsule) => {
+                rounds.extend(round(&capsule.segment.a, &capsule.segment.b, capsule.radius));
+            }
+            // A floor is drawn by whoever draws a cell; polyhedra are drawn as the boxes about them.
+            Solid::HalfSpace(_) => {}
+            Solid::Convex(solid) => {
+                let bounds = solid.aabb();
+                let corner = |i: usize| {
+                    Vec3::from_fn(
+                        |axis, _| if i >> axis & 1 == 1 { bounds.max[axis] } else { bounds.min[axis] },
+                    )
+                };
+                boxes.extend((0..8).flat_map(|i| mm(&corner(i))));
+            }
+        }
+    }
+    let mut exhibits = vec![
+        Exhibit { name: "boxes".to_owned(), width: 24, values: boxes },
+        Exhibit { name: "rounds".to_owned(), width: 7, values: rounds },
+    ];
+    for query in queries {
+        for (end, config) in [("start", &query.start), ("goal", &query.goal)] {
+            exhibits.push(body(cell, format!("body {}/{end}", query.name), config));
+        }
+    }
+    exhibits
+}
+
+fn body(cell: &Cell, name: String, config: &[f64]) -> Exhibit {
+    let mut placed = Vec::new();
+    let q = joints(config).expect("a query of an arm has six angles");
+    cell.place(&q, &mut placed);
+    let capsules = placed.iter().flat_map(|c| round(&c.segment.a, &c.segment.b, c.radius));
+    Exhibit { name, width: 7, values: capsules.collect() }
+}
+
+fn round(a: &Vec3, b: &Vec3, radius_m: f64) -> [f64; 7] {
+    let ([ax, ay, az], [bx, by, bz]) = (mm(a), mm(b));
+    [ax, ay, az, bx, by, bz, radius_m * 1e3]
+}

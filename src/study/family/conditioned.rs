@@ -1,0 +1,187 @@
+//! Draws of other families on which one planner's record lies in given bands, found by rejection.
+//!
+//! One draw tries maps in a written order until one is accepted: try `i` takes its family and its seed from the
+//! draw's seed and `i`. Accepted draws are therefore independent and distributed as the mixture of the families,
+//! given the bands. How many tries each took is recorded, so that acceptance rates are known.
+
+use super::{Entry, Family, Query};
+use crate::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
+use crate::seed;
+use crate::settings::{Settings, SettingsError};
+use crate::space::{World, WorldKind};
+use crate::study::judge::{LATTICE_COLUMNS, measured};
+use crate::study::prepared::{Prepared, lattice};
+use crate::study::{Inputs, StudyError, column};
+use rand::RngExt as _;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use toml::{Table, Value as Toml};
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "conditioned",
+    about: "draws of other families, each with equal chance, on which one planner's record lies in given bands",
+    revision: 1,
+    prepared: lattice::ENTRY.name,
+    columns: LATTICE_COLUMNS,
+    build: |settings, inputs| {
+        let read: Conditioned = settings.read()?;
+        read.check(settings)?;
+        let families = read.families(settings, inputs)?;
+        let planner = read.planner(settings)?;
+        let queries = families[0].queries().to_vec();
+        if queries.len() != 1 || families.iter().any(|family| family.queries() != queries) {
+            return Err(settings.error("`of` has families with different queries, or more than one").into());
+        }
+        let files = families.iter().flat_map(|family| family.inputs().to_vec()).collect();
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Rejection { read, families, planner, queries, files }))
+    },
+};
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Conditioned {
+    /// The families that are drawn from.
+    of: Vec<Of>,
+    /// Settings that all of them share.
+    shared: Table,
+    /// The corner rule of all of them.
+    corner_rule: String,
+    /// The planner whose record is asked for.
+    planner: String,
+    /// Its settings.
+    planner_settings: Table,
+    /// Columns of the record with the least and the greatest value that are accepted.
+    given: BTreeMap<String, [f64; 2]>,
+    /// At most this many expansions a try.
+    expansions: u64,
+    /// At most this many tries a draw; a draw that is not accepted is an invalid problem.
+    tries: u64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Of {
+    family: String,
+    settings: Table,
+}
+
+impl Conditioned {
+    fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
+        for (name, [low, high]) in &self.given {
+            if column::find(name).is_none() {
+                let known: Vec<&str> = column::COLUMNS.iter().map(|column| column.name).collect();
+                let message = format!("`given` names the column `{name}`; there are {}", known.join(", "));
+                return Err(settings.error(message));
+            }
+            if low.is_nan() || high.is_nan() || low > high {
+                let message = format!("`given.{name}` is [{low}, {high}]; [least, greatest] is accepted");
+                return Err(settings.error(message));
+            }
+        }
+        if self.of.is_empty() || self.tries == 0 {
+            return Err(settings.error("at least one family in `of` and one try are needed"));
+        }
+        Ok(())
+    }
+
+    fn families(&self, settings: &Settings, inputs: &Inputs) -> Result<Vec<Box<dyn Family>>, StudyError> {
+        let build = |of: &Of| {
+            let entry = super::find(&of.family).ok_or_else(|| {
+                let known: Vec<&str> = super::REGISTRY.iter().map(|entry| entry.name).collect();
+                settings.error(format!(
+                    "there is no problem family `{}`; there are {}",
+                    of.family,
+                    known.join(", ")
+                ))
+            })?;
+            let mut table = self.shared.clone();
+            table.extend(of.settings.clone());
+            table.insert("corner_rule".to_owned(), Toml::String(self.corner_rule.clone()));
+            let family = (entry.build)(&Settings::composed(format!("`of` {}", of.family), table), inputs)?;
+            if family.world() == WorldKind::Lattice {
+                Ok(family)
+            } else {
+                Err(settings.error(format!("family `{}` poses no problems on a lattice", of.family)).into())
+            }
+        };
+        self.of.iter().map(build).collect()
+    }
+
+    fn planner(&self, settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
+        let table = Settings::composed(
+            format!("planner_settings of `{}`", self.planner),
+            self.planner_settings.clone(),
+        );
+        let entry = planner::find(&self.planner).filter(|entry| entry.needs == WorldKind::Lattice);
+        match entry.map(|entry| entry.build) {
+            Some(Build::Planner(build)) => build(&table),
+            _ => Err(settings.error(format!("there is no planner `{}` for a lattice", self.planner))),
+        }
+    }
+}
+
+struct Rejection {
+    read: Conditioned,
+    families: Vec<Box<dyn Family>>,
+    planner: Box<dyn Planner>,
+    queries: Vec<Query>,
+    files: Vec<PathBuf>,
+}
+
+impl Rejection {
+    fn accepts(&self, world: &World) -> bool {
+        let [query] = &self.queries[..] else { unreachable!("one query was asked for") };
+        let request = Request {
+            world,
+            start: &query.start,
+            goal: &query.goal,
+            expansions: self.read.expansions,
+            seed: 0,
+            trace: false,
+        };
+        let Ok(plan) = self.planner.plan(&request) else { return false };
+        if plan.ending != Ending::Solved {
+            return false;
+        }
+        let mut values = measured(&plan.path);
+        values.extend(plan.counts);
+        let is_inside = |(name, [low, high]): (&String, &[f64; 2])| {
+            values.get(name.as_str()).is_some_and(|value| (*low..=*high).contains(&value.as_f64()))
+        };
+        self.read.given.iter().all(is_inside)
+    }
+}
+
+impl Family for Rejection {
+    fn world(&self) -> WorldKind {
+        WorldKind::Lattice
+    }
+
+    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        let mut stream = seed::stream(seed);
+        for tries in 1..=self.read.tries {
+            let family = stream.random_range(0..self.families.len());
+            // Half of the range of u64, as all seeds are.
+            let seed = stream.random_range(0..=u64::MAX >> 1);
+            if self.families[family].draw(seed).is_ok_and(|world| self.accepts(&world)) {
+                let mut prepared = self.families[family].prepare(seed)?;
+                prepared.values.insert("tries", Value::Count(tries));
+                return Ok(prepared);
+            }
+        }
+        Err(Invalid(format!("none of {} maps was accepted", self.read.tries)))
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+
+    fn inputs(&self) -> &[PathBuf] {
+        &self.files
+    }
+}
+
+#[cfg(test)]
+mod tests;

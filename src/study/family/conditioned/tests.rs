@@ -1,0 +1,81 @@
+use super::*;
+
+const SETTINGS: &str = "
+corner_rule = 'allow'
+planner = 'astar'
+planner_settings = { weight = 1, ties = 'fifo' }
+expansions = 10_000
+tries = 300
+[shared]
+size_cells = [12, 12]
+start = [1, 2]
+goal = [10, 5]
+[[of]]
+family = 'random_cells'
+settings = { blocked_share = 0.3 }
+[[of]]
+family = 'random_bars'
+settings = { count = 12, length_cells = [2, 5] }
+[given]
+";
+
+fn family(given: &str) -> Result<Box<dyn Family>, String> {
+    let table = toml::from_str(&(SETTINGS.to_owned() + given)).unwrap();
+    (ENTRY.build)(&Settings::composed("a test", table), &Inputs::default()).map_err(|e| e.to_string())
+}
+
+fn tries(prepared: &Prepared) -> f64 {
+    prepared.values["tries"].as_f64()
+}
+
+#[test]
+fn accepted_maps_lie_in_the_band_and_rejection_leaves_the_distribution_alone() {
+    // The oracle counts how often plain draws of the mixture fall into the band by the verifier's optimum.
+    let (any, band) = (family("bends = [0, 1e9]").unwrap(), family("path_cost_cells = [11, 12]").unwrap());
+    let optimum = |prepared: &Prepared| {
+        let query = &any.queries()[0];
+        crate::study::judge::truth(&prepared.world, query).optimal().unwrap()
+    };
+    let (mut inside, mut looked_at, mut tried) = (0, 0, 0.0);
+    for seed in 0..400 {
+        let accepted = band.prepare(seed).unwrap();
+        assert!((11.0..=12.0).contains(&optimum(&accepted)), "seed {seed}");
+        tried += tries(&accepted);
+        let plain = any.prepare(seed + 1_000_000).unwrap();
+        looked_at += tries(&plain) as usize;
+        inside += usize::from((11.0..=12.0).contains(&optimum(&plain)));
+    }
+    let (rate, expected) = (400.0 / tried, inside as f64 / looked_at as f64);
+    assert!((0.1..0.9).contains(&expected), "the band is no condition: {expected}");
+    assert!((rate - expected).abs() < 0.1, "accepted {rate} of the tries, {expected} of plain draws fit");
+}
+
+#[test]
+fn equal_seeds_give_equal_maps_and_a_hopeless_band_an_invalid_problem() {
+    let band = family("path_cost_cells = [11, 12]").unwrap();
+    let map = |seed| format!("{:?}", band.prepare(seed).unwrap().exhibits);
+    assert_eq!(map(5), map(5));
+    assert_ne!(map(5), map(6));
+    let message = family("path_cost_cells = [1, 2]").unwrap().prepare(3).unwrap_err().to_string();
+    assert_eq!(message, "none of 300 maps was accepted");
+}
+
+#[test]
+fn wrong_settings_are_refused_with_what_is_accepted() {
+    for (given, message) in [
+        ("length = [1, 2]", "`given` names the column `length`; there are path_cost_cells"),
+        ("bends = [2, 1]", "`given.bends` is [2, 1]; [least, greatest] is accepted"),
+    ] {
+        let error = family(given).err().unwrap();
+        assert!(error.contains(message), "{error}");
+    }
+    let with = |from: &str, to: &str| {
+        let table = toml::from_str(&(SETTINGS.replace(from, to) + "bends = [0, 9]")).unwrap();
+        let built = (ENTRY.build)(&Settings::composed("a test", table), &Inputs::default());
+        built.err().unwrap().to_string()
+    };
+    assert!(with("'random_bars'", "'bars'").contains("there is no problem family `bars`"));
+    assert!(with("'astar'", "'delete_inflections'").contains("there is no planner `delete_inflections`"));
+    assert!(with("blocked_share = 0.3", "share = 1").contains("`of` random_cells"));
+    assert!(with("start = [1, 2]", "start = [12, 2]").contains("start is [12, 2], outside the map"));
+}

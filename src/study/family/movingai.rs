@@ -1,0 +1,174 @@
+//! A `MovingAI` map with the queries of a scenario file.
+//!
+//! Queries are named after their line in the file. The optimal length that the file prints for each stands in every
+//! trial's row, so that a check can hold both the verifier and the planners to it. A query whose start or goal is
+//! blocked (water, say) is an invalid problem, and its trials are rows with that status.
+
+use super::{Entry, Family, Query};
+use crate::grid::{Grid2, Scenario, read_movingai_map, read_scenarios};
+use crate::planner::{Counts, Invalid, Value};
+use crate::space::WorldKind;
+use crate::study::StudyError;
+use crate::study::prepared::{Prepared, lattice};
+use serde::Deserialize;
+use std::path::PathBuf;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "movingai",
+    about: "a MovingAI map (.map) with the queries of a scenario file (.scen) and their printed optimal lengths",
+    revision: 1,
+    prepared: lattice::ENTRY.name,
+    columns: &[
+        "path_cost_cells",
+        "turn_exterior_deg",
+        "turn_interior_deg",
+        "bends",
+        "optimal_cost_cells",
+        "printed_optimal_cells",
+    ],
+    build: |settings, inputs| {
+        let read: MovingAi = settings.read()?;
+        let file = |name: &str| inputs.locate(name).map_err(|message| settings.error(message));
+        let files = [file(&read.map)?, file(&read.scenarios)?];
+        let refused = |e: crate::grid::GridError| settings.error(e.to_string());
+        let grid = read_movingai_map(&files[0]).map_err(refused)?;
+        let all = read_scenarios(&files[1], &grid).map_err(refused)?;
+        let scenarios = read.picked(all).map_err(|message| settings.error(message))?;
+        let point = |cell: u32| grid.xy(cell).map(f64::from).to_vec();
+        let query = |s: &Scenario| Query {
+            name: format!("line-{}", s.line),
+            start: point(s.start),
+            goal: point(s.goal),
+        };
+        let queries = scenarios.iter().map(query).collect();
+        let corners = read.corner_rule;
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { corners, grid, scenarios, queries, files }))
+    },
+};
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MovingAi {
+    map: String,
+    scenarios: String,
+    /// The benchmark's lengths hold for `forbid_any`.
+    #[serde(default = "no_corner_is_cut")]
+    corner_rule: lattice::CornerSetting,
+    /// Only every so many-th query, from the first on.
+    #[serde(default = "every_query")]
+    every: usize,
+}
+
+fn no_corner_is_cut() -> lattice::CornerSetting {
+    lattice::CornerSetting::ForbidAny
+}
+
+fn every_query() -> usize {
+    1
+}
+
+impl MovingAi {
+    fn picked(&self, all: Vec<Scenario>) -> Result<Vec<Scenario>, String> {
+        if self.every == 0 {
+            return Err("every is 0; 1 or more is accepted".to_owned());
+        }
+        let picked: Vec<Scenario> = all.into_iter().step_by(self.every).collect();
+        if picked.is_empty() { Err(format!("{} holds no query", self.scenarios)) } else { Ok(picked) }
+    }
+}
+
+struct Posed {
+    corners: lattice::CornerSetting,
+    grid: Grid2,
+    scenarios: Vec<Scenario>,
+    queries: Vec<Query>,
+    files: [PathBuf; 2],
+}
+
+impl Family for Posed {
+    fn world(&self) -> WorldKind {
+        WorldKind::Lattice
+    }
+
+    fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
+        Ok(lattice::prepare_map(self.grid.clone(), self.corners))
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+
+    fn known(&self, query: usize) -> Counts {
+        Counts::from([("printed_optimal_cells", Value::Real(self.scenarios[query].optimal_length_cells))])
+    }
+
+    fn inputs(&self) -> &[PathBuf] {
+        &self.files
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::Settings;
+    use crate::study::Inputs;
+
+    const MAP: &str = "type octile\nheight 3\nwidth 4\nmap\n.@..\n.@..\n....\n";
+    const SCENARIOS: &str = "version 1\n0\tm.map\t4\t3\t0\t0\t2\t0\t6\n0\tm.map\t4\t3\t0\t0\t1\t0\t1\n";
+
+    fn build(map: &str, scenarios: &str, extra: &str) -> Result<Box<dyn Family>, String> {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("m.map"), map).unwrap();
+        std::fs::write(folder.path().join("m.scen"), scenarios).unwrap();
+        let table = toml::from_str(&format!("map = 'm.map'\nscenarios = 'm.scen'\n{extra}")).unwrap();
+        let inputs = Inputs { roots: vec![folder.path().to_owned()] };
+        (ENTRY.build)(&Settings::composed("a test", table), &inputs).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn queries_are_named_by_line_and_carry_the_printed_length() {
+        let family = build(MAP, SCENARIOS, "").unwrap();
+        let names: Vec<&str> = family.queries().iter().map(|query| query.name.as_str()).collect();
+        assert_eq!(names, ["line-2", "line-3"]);
+        assert_eq!(family.queries()[0].goal, [2.0, 2.0], "y is up");
+        assert_eq!(family.known(0)["printed_optimal_cells"], Value::Real(6.0));
+        let world = family.prepare(1).unwrap().world;
+        let lattice = world.as_lattice().unwrap();
+        assert_eq!(
+            lattice.corner_rule(),
+            crate::grid::CornerRule::ForbidAny,
+            "no corner is cut unless asked for"
+        );
+        assert_eq!(build(MAP, SCENARIOS, "every = 2").unwrap().queries().len(), 1);
+    }
+
+    #[test]
+    fn bad_files_are_refused_by_name_and_line() {
+        for (map, scenarios, extra, message) in [
+            (&MAP[5..], SCENARIOS, "", "m.map: line 1: found"),
+            (&MAP.replace('@', "?")[..], SCENARIOS, "", "m.map: line 5, column 2: found `?`"),
+            (
+                &MAP.replace("height 3", "height 4")[..],
+                SCENARIOS,
+                "",
+                "found 3 rows of cells; the header promises 4",
+            ),
+            (MAP, &SCENARIOS.replace("\t4\t3", "\t5\t3")[..], "", "m.scen: line 2: found `5 3`"),
+            (MAP, "version 1\n", "", "m.scen holds no query"),
+            (MAP, SCENARIOS, "every = 0", "every is 0; 1 or more is accepted"),
+            (MAP, SCENARIOS, "corner = 1", "unknown field `corner`"),
+        ] {
+            let error = build(map, scenarios, extra).err().unwrap();
+            assert!(error.contains(message), "{error}\nlacks\n{message}");
+        }
+        let table = toml::from_str("map = 'none.map'\nscenarios = 'none.scen'").unwrap();
+        let error =
+            (ENTRY.build)(&Settings::composed("a test", table), &Inputs { roots: vec!["nowhere".into()] });
+        let error = error.err().unwrap().to_string();
+        assert!(
+            error.contains("input file `none.map` does not exist; looked for nowhere/none.map"),
+            "{error}"
+        );
+    }
+}

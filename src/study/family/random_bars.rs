@@ -1,0 +1,40 @@
+//! Random maps of bars one cell thick, with one start and one goal that are always free.
+
+use super::random_cells::{Drawn, check_range};
+use super::{Entry, Family};
+use crate::grid::bars;
+use crate::seed::Stream;
+use crate::study::StudyError;
+use crate::study::judge::LATTICE_COLUMNS;
+use crate::study::prepared::lattice;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "random_bars",
+    about: "random maps of lying and standing bars one cell thick; start and goal are freed",
+    revision: 1,
+    prepared: lattice::ENTRY.name,
+    columns: LATTICE_COLUMNS,
+    build: |settings, _inputs| {
+        let read: RandomBars = settings.read()?;
+        let (count, range) = (read.count, read.length_cells);
+        check_range(settings, "length_cells", range)?;
+        let draw = move |stream: &mut Stream, size, free: &[u32]| bars(stream, size, count, range, free);
+        let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, draw)?))
+    },
+};
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RandomBars {
+    size_cells: [u32; 2],
+    start: [u32; 2],
+    goal: [u32; 2],
+    corner_rule: lattice::CornerSetting,
+    /// How many are drawn.
+    count: u32,
+    /// Least and most length.
+    length_cells: [u32; 2],
+}

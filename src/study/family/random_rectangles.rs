@@ -1,0 +1,41 @@
+//! Random maps of filled rectangles, with one start and one goal that are always free.
+
+use super::random_cells::{Drawn, check_range};
+use super::{Entry, Family};
+use crate::grid::rectangles;
+use crate::seed::Stream;
+use crate::study::StudyError;
+use crate::study::judge::LATTICE_COLUMNS;
+use crate::study::prepared::lattice;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "random_rectangles",
+    about: "random maps of filled rectangles that may overlap; start and goal are freed",
+    revision: 1,
+    prepared: lattice::ENTRY.name,
+    columns: LATTICE_COLUMNS,
+    build: |settings, _inputs| {
+        let read: RandomRectangles = settings.read()?;
+        let (count, range) = (read.count, read.side_cells);
+        check_range(settings, "side_cells", range)?;
+        let draw =
+            move |stream: &mut Stream, size, free: &[u32]| rectangles(stream, size, count, range, free);
+        let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, draw)?))
+    },
+};
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RandomRectangles {
+    size_cells: [u32; 2],
+    start: [u32; 2],
+    goal: [u32; 2],
+    corner_rule: lattice::CornerSetting,
+    /// How many are drawn.
+    count: u32,
+    /// Least and most side.
+    side_cells: [u32; 2],
+}

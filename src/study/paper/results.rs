@@ -1,0 +1,92 @@
+//! Tables of our own results: rows of contenders, blocks of problems, cells of metrics.
+
+use super::Paper;
+use crate::settings::SettingsError;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A table of results.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultsSpec {
+    /// Its file name.
+    pub id: Spanned<String>,
+    /// What it shows.
+    pub caption: String,
+    /// The study whose records it shows.
+    pub study: Spanned<String>,
+    /// One row each: labels of contenders, or of what else stands in their place.
+    pub rows: Vec<String>,
+    /// What each row shows of every block.
+    pub cells: Vec<CellSpec>,
+    /// Blocks of rows, one below the other.
+    #[serde(rename = "block")]
+    pub blocks: Vec<BlockSpec>,
+}
+
+/// A block: all rows on one group of problems.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BlockSpec {
+    /// Its heading.
+    pub title: String,
+    /// The problem group.
+    pub problems: Spanned<String>,
+}
+
+/// One column.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellSpec {
+    /// The metric.
+    pub metric: Spanned<String>,
+    /// What is shown of it.
+    pub show: Show,
+    /// Its head, if the metric's own title does not say it.
+    pub label: Option<String>,
+    /// How many decimals it is shown with.
+    pub decimals: usize,
+}
+
+/// What is shown of a metric over the trials of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Show {
+    /// The median, failed trials counted as infinite.
+    Median,
+    /// The median and, with several trials, both quartiles, failed trials counted as infinite.
+    Quartiles,
+    /// The mean over solved trials, in percent: of a metric that is 0 or 1.
+    Percent,
+    /// The share of trials that were solved, in percent.
+    Solved,
+    /// The value of the first trial that has one, whatever its status.
+    Value,
+}
+
+impl Paper {
+    /// Every study and problem group that a table of results names exists.
+    pub(super) fn check_results(&self) -> Result<(), SettingsError> {
+        for table in &self.results {
+            let Some(study) = self.study(table.study.get_ref()) else {
+                let known: Vec<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
+                let message =
+                    format!("there is no study `{}`; there are {}", table.study.get_ref(), known.join(", "));
+                return Err(self.document.error(table.study.span(), message));
+            };
+            for block in &table.blocks {
+                if !study.groups.iter().any(|group| group.label == *block.problems.get_ref()) {
+                    let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
+                    let message = format!(
+                        "study `{}` has no problem group `{}`; it has {}",
+                        study.name,
+                        block.problems.get_ref(),
+                        known.join(", ")
+                    );
+                    return Err(self.document.error(block.problems.span(), message));
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,168 @@
+//! A planar arm's workspace, analysed point by point as the reproduced paper does before it plans.
+
+use super::{Entry, Prepared};
+use crate::geometry::Vec2;
+use crate::geometry::planar::{Circle, ConvexPolygon, Touch};
+use crate::kinematics::planar_2r::ElbowRule;
+use crate::planner::{Counts, Exhibit, Value};
+use crate::space::{ArmWorld, HopRule, Obstacle, World, Zone};
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "workspace_map",
+    about: "a planar arm's workspace: which tip positions are free, and why others are not",
+    columns: &["free_cells", "outer_cells", "inner_cells", "obstacle_cells", "link_cells"],
+};
+
+/// The elbow rule as settings write it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ElbowSetting {
+    /// θ2 is negative: the elbow is to the left of the line from base to tip.
+    NegativeTheta2,
+    /// The elbow is the higher of the two.
+    Higher,
+}
+
+impl From<ElbowSetting> for ElbowRule {
+    fn from(setting: ElbowSetting) -> Self {
+        match setting {
+            ElbowSetting::NegativeTheta2 => Self::NegativeQ2,
+            ElbowSetting::Higher => Self::HigherElbow,
+        }
+    }
+}
+
+/// Whether touching is contact, as settings write it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TouchSetting {
+    /// Touching an obstacle is a collision.
+    Collides,
+    /// Only the inside of an obstacle is forbidden.
+    Free,
+}
+
+impl From<TouchSetting> for Touch {
+    fn from(setting: TouchSetting) -> Self {
+        match setting {
+            TouchSetting::Collides => Self::Contact,
+            TouchSetting::Free => Self::Free,
+        }
+    }
+}
+
+/// The hop rule as settings write it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HopSetting {
+    /// Free end points make a free hop.
+    EndPoints,
+    /// Both links are swept, the joints moving evenly.
+    Continuous,
+}
+
+impl From<HopSetting> for HopRule {
+    fn from(setting: HopSetting) -> Self {
+        match setting {
+            HopSetting::EndPoints => Self::EndPoints,
+            HopSetting::Continuous => Self::Continuous,
+        }
+    }
+}
+
+/// The shape of an obstacle whose size is one number, its diameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ShapeSetting {
+    /// A disc.
+    Circle,
+    /// A square whose sides are as long as the diameter and parallel to the axes.
+    Square,
+    /// A regular hexagon with its corners on the circle of the diameter, two of them level with its centre.
+    Hexagon,
+    /// A regular triangle with its corners on the circle of the diameter, one of them on top.
+    Triangle,
+}
+
+impl ShapeSetting {
+    /// Every shape.
+    pub const ALL: [Self; 4] = [Self::Circle, Self::Square, Self::Hexagon, Self::Triangle];
+
+    /// The obstacle of this shape about `center`.
+    ///
+    /// # Errors
+    /// A sentence if a number is not finite or the diameter is not above 0.
+    pub fn obstacle(self, center_cm: [f64; 2], diameter_cm: f64) -> Result<Obstacle, String> {
+        let (center, radius) = (Vec2::from(center_cm), diameter_cm / 2.0);
+        // Sizes are refused in one place, by the disc around the shape.
+        let circle = Circle::new(center, radius).map_err(|e| e.to_string())?;
+        let regular = |sides, turn_rad| ConvexPolygon::regular(center, radius, sides, turn_rad);
+        let polygon = match self {
+            Self::Circle => return Ok(Obstacle::Circle(circle)),
+            Self::Square => {
+                let half = Vec2::new(radius, radius);
+                ConvexPolygon::rectangle(center - half, center + half)
+            }
+            Self::Hexagon => regular(6, 0.0),
+            Self::Triangle => regular(3, PI / 2.0),
+        };
+        polygon.map(Obstacle::Polygon).map_err(|e| e.to_string())
+    }
+}
+
+/// The analysed `world`; with `branches_at`, also both postures that reach this point.
+pub fn prepare(world: ArmWorld, branches_at: Option<[f64; 2]>) -> Prepared {
+    let counted = |zone: Zone| {
+        let count = world.zones().iter().filter(|found| **found == zone).count();
+        Value::Count(count as u64)
+    };
+    let values = Counts::from([
+        ("free_cells", counted(Zone::Free)),
+        ("outer_cells", counted(Zone::OuterReach)),
+        ("inner_cells", counted(Zone::InnerReach)),
+        ("obstacle_cells", counted(Zone::Obstacle)),
+        ("link_cells", counted(Zone::Link)),
+    ]);
+    let mut exhibits = vec![lattice(&world), zones(&world)];
+    exhibits.extend(world.obstacles().iter().enumerate().map(|(index, obstacle)| Exhibit {
+        name: format!("obstacle_{}", index + 1),
+        width: 2,
+        values: obstacle.outline().concat(),
+    }));
+    exhibits.extend(branches_at.and_then(|target| branches(&world, target)));
+    Prepared { world: World::Arm(world), values, exhibits }
+}
+
+/// Lower left point, step, columns and rows.
+fn lattice(world: &ArmWorld) -> Exhibit {
+    let lattice = world.rules().lattice;
+    let ([x, y], [columns, rows]) = (lattice.low_cm(), lattice.size().map(f64::from));
+    Exhibit { name: "lattice".to_owned(), width: 5, values: vec![x, y, lattice.step_cm(), columns, rows] }
+}
+
+/// One number a point, row by row: 0 free, 1 out of reach, 2 too near, 3 in an obstacle, 4 a link hits one.
+fn zones(world: &ArmWorld) -> Exhibit {
+    let code = |zone: &Zone| match zone {
+        Zone::Free => 0.0,
+        Zone::OuterReach => 1.0,
+        Zone::InnerReach => 2.0,
+        Zone::Obstacle => 3.0,
+        Zone::Link => 4.0,
+    };
+    Exhibit { name: "zones".to_owned(), width: 1, values: world.zones().iter().map(code).collect() }
+}
+
+/// Both postures at `target`, θ2 negative first: joint angles in degrees, elbow, tip.
+fn branches(world: &ArmWorld, target: [f64; 2]) -> Option<Exhibit> {
+    let arm = world.rules().arm;
+    let both = arm.inverse(&target.into()).ok()?;
+    let station = |posture: [f64; 2]| {
+        let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
+        [posture[0].to_degrees(), posture[1].to_degrees(), elbow.x, elbow.y, tip.x, tip.y]
+    };
+    let values = [both.negative, both.positive].into_iter().flat_map(station).collect();
+    Some(Exhibit { name: "branches".to_owned(), width: 6, values })
+}

@@ -1,0 +1,105 @@
+//! How often lengths that were not printed would have been met by some pair of lattice points just as well.
+
+use super::{Entry, Task};
+use crate::planner::Value;
+use crate::space::{ArmRules, ArmWorld};
+use crate::study::checked::Study;
+use crate::study::endpoints::{Case, ShapeChoice, Targets, Variant};
+use crate::study::record::{Batch, Row, Status, Values};
+use crate::study::runner::Unit;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "null_rate",
+    about: "the share of targets of equal parity near two printed lengths that some pair of points meets",
+    revision: 1,
+    columns: &["targets", "targets_hit", "hit_share_percent"],
+    build: |settings| {
+        let read: NullRate = settings.read()?;
+        if !(read.window_cm > 0.0 && read.window_cm < 50.0) {
+            let message = format!("window_cm is {}; above 0 and below 50 is accepted", read.window_cm);
+            return Err(settings.error(message));
+        }
+        if let Some(variant) = read.variants.iter().find(|v| uniform(v).is_none() || v.open_node.is_some()) {
+            let message = format!(
+                "variant `{}` is not one shape with shortest lengths; only such are counted here",
+                variant.label
+            );
+            return Err(settings.error(message));
+        }
+        Ok(Box::new(read))
+    },
+};
+
+/// The label of the row over all variants.
+const ANY: &str = "any of them";
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NullRate {
+    /// Obstacles and printed length of both cases.
+    cases: [Case; 2],
+    /// What is varied.
+    variants: Vec<Variant>,
+    /// How far from the printed length a target may be.
+    window_cm: f64,
+}
+
+fn uniform(variant: &Variant) -> Option<crate::study::prepared::workspace_map::ShapeSetting> {
+    match variant.shape {
+        ShapeChoice::Uniform(shape) => Some(shape),
+        ShapeChoice::Free(_) => None,
+    }
+}
+
+impl Task for NullRate {
+    fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
+        let mut batch = Batch::default();
+        let prepared = unit.family.prepare(unit.seed);
+        batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
+        let Some(base) = prepared.ok().and_then(|prepared| prepared.world.as_arm().map(|arm| *arm.rules()))
+        else {
+            return batch;
+        };
+        let targets = Targets::new(&self.cases, self.window_cm / base.lattice.step_cm());
+        let mut any: Vec<bool> = Vec::new();
+        for variant in &self.variants {
+            match self.hits(&targets, &base, variant) {
+                Ok(hits) => {
+                    batch.rows.push(row(unit, &variant.label, &targets, &hits));
+                    any.resize(hits.len(), false);
+                    any.iter_mut().zip(hits).for_each(|(any, hit)| *any |= hit);
+                }
+                Err(reason) => {
+                    let mut row = super::variant_row(unit, &variant.label, "");
+                    (row.status, row.reason) = (Status::InvalidProblem, Some(reason));
+                    batch.rows.push(row);
+                }
+            }
+        }
+        batch.rows.push(row(unit, ANY, &targets, &any));
+        batch
+    }
+}
+
+impl NullRate {
+    fn hits(&self, targets: &Targets, base: &ArmRules, variant: &Variant) -> Result<Vec<bool>, String> {
+        let shape = uniform(variant).expect("variants were checked when the settings were read");
+        let [one, two] = self.cases.each_ref().map(|case| variant.world(base, case, shape));
+        let worlds = [one?, two?];
+        Ok(targets.hits(&worlds.each_ref().map(ArmWorld::eight_moves)))
+    }
+}
+
+fn row(unit: &Unit<'_>, label: &str, targets: &Targets, hits: &[bool]) -> Row {
+    let mut row = super::variant_row(unit, label, "");
+    let (count, hit) = (targets.count(), hits.iter().filter(|hit| **hit).count());
+    row.status = Status::Solved;
+    row.values = Values::from([
+        ("targets".to_owned(), Value::Count(count as u64)),
+        ("targets_hit".to_owned(), Value::Count(hit as u64)),
+        ("hit_share_percent".to_owned(), Value::Real(100.0 * hit as f64 / count as f64)),
+    ]);
+    row
+}

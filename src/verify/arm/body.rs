@@ -1,0 +1,167 @@
+//! Postures and obstacles as the verifier sees them.
+
+use super::{Case, RESOLUTION_CM, turned};
+use parry2d::math::{Pose, Vector};
+use parry2d::query;
+use parry2d::shape::{Ball, ConvexPolygon, Segment, Shape};
+
+/// An obstacle.
+#[derive(Debug, Clone)]
+pub struct Body(Outline);
+
+#[derive(Debug, Clone)]
+enum Outline {
+    Disc { center_cm: [f64; 2], shape: Ball },
+    Polygon { corners_cm: Vec<[f64; 2]>, shape: ConvexPolygon },
+}
+
+/// Base, elbow and tip.
+type Joints = [[f64; 2]; 3];
+
+impl Body {
+    /// A disc.
+    pub fn disc(center_cm: [f64; 2], radius_cm: f64) -> Self {
+        Self(Outline::Disc { center_cm, shape: Ball::new(radius_cm) })
+    }
+
+    /// A convex polygon, its corners counter-clockwise.
+    ///
+    /// # Panics
+    /// If the corners are not those of a convex polygon.
+    pub fn polygon(corners_cm: Vec<[f64; 2]>) -> Self {
+        let corners = corners_cm.iter().copied().map(vector).collect();
+        let shape = ConvexPolygon::from_convex_polyline(corners).expect("the corners are in convex order");
+        Self(Outline::Polygon { corners_cm, shape })
+    }
+
+    /// The distance from a segment, 0 in contact.
+    fn distance(&self, [a, b]: [[f64; 2]; 2]) -> f64 {
+        let link = Segment::new(vector(a), vector(b));
+        let (at, shape): (Pose, &dyn Shape) = match &self.0 {
+            Outline::Disc { center_cm: [x, y], shape } => (Pose::translation(*x, *y), shape),
+            Outline::Polygon { shape, .. } => (Pose::IDENTITY, shape),
+        };
+        query::distance(&at, shape, &Pose::IDENTITY, &link)
+            .expect("parry2d measures segments against balls and polygons")
+            .distance
+    }
+
+    /// How far outside of the body a point is: negative inside, exactly 0 on the rim of a body with whole numbers.
+    fn outside(&self, [x, y]: [f64; 2]) -> f64 {
+        match &self.0 {
+            Outline::Disc { center_cm: [cx, cy], shape } => {
+                let d = [x - cx, y - cy];
+                d[0] * d[0] + d[1] * d[1] - shape.radius * shape.radius
+            }
+            Outline::Polygon { corners_cm, .. } => (0..corners_cm.len())
+                .map(|i| {
+                    let ([ax, ay], [bx, by]) = (corners_cm[i], corners_cm[(i + 1) % corners_cm.len()]);
+                    (by - ay) * (x - ax) - (bx - ax) * (y - ay)
+                })
+                .fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}
+
+impl Case<'_> {
+    /// The posture at a lattice point, if the arm may stand there.
+    pub(super) fn free_posture(&self, point: [i32; 2]) -> Option<[f64; 2]> {
+        let [x, y] = self.at(point);
+        if x * x + y * y < self.inner_radius_cm * self.inner_radius_cm {
+            return None;
+        }
+        let posture = self.posture([x, y])?;
+        let contact = |gap: f64| if self.touching_is_contact { gap <= 0.0 } else { gap < 0.0 };
+        if self.bodies.iter().any(|body| contact(body.outside([x, y]))) {
+            return None;
+        }
+        (self.gap(posture) > 0.0 || self.grazes(posture)).then_some(posture)
+    }
+
+    /// Whether the arm only touches: with touching allowed, its links shortened by a hair are clear.
+    fn grazes(&self, posture: [f64; 2]) -> bool {
+        let [base, elbow, tip] = self.joints(posture);
+        let shorter = |a: [f64; 2], b: [f64; 2]| [a, [0, 1].map(|axis| b[axis] - 1e-9 * (b[axis] - a[axis]))];
+        let clear = |link| self.bodies.iter().all(|body| body.distance(link) > 0.0);
+        !self.touching_is_contact && clear(shorter(base, elbow)) && clear(shorter(elbow, tip))
+    }
+
+    /// Joint angles that put the tip at `target`: the elbow lies on a circle about the base and on one about the tip.
+    pub(super) fn posture(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+        let ([l1, l2], d2) = (self.links_cm, x * x + y * y);
+        let (least, most) = ((l1 - l2) * (l1 - l2), (l1 + l2) * (l1 + l2));
+        if d2 < least || d2 > most || d2 == 0.0 {
+            return None;
+        }
+        // The foot of the elbow on the way to the tip, and how far beside it the elbow is.
+        let along = (d2 + l1 * l1 - l2 * l2) / (2.0 * d2);
+        let beside = (l1 * l1 / d2 - along * along).max(0.0).sqrt();
+        let elbow = |side: f64| [x * along - side * beside * y, y * along + side * beside * x];
+        let (left, right) = (elbow(1.0), elbow(-1.0));
+        let [ex, ey] = if self.higher_elbow && right[1] > left[1] { right } else { left };
+        let q1 = libm::atan2(ey, ex);
+        Some([q1, libm::atan2(y - ey, x - ex) - q1])
+    }
+
+    /// Whether both links stay clear while the joints move evenly from one posture to the other.
+    pub(super) fn is_clear(&self, from: [f64; 2], to: [f64; 2]) -> bool {
+        let by = turned(from, to);
+        let [l1, l2] = self.links_cm;
+        let most = l1 * by[0].abs() + l2 * (by[0] + by[1]).abs();
+        // An explicit stack: intervals [low, high] of the motion that are still to be proved.
+        let mut open = vec![[0.0_f64, 1.0]];
+        while let Some([low, high]) = open.pop() {
+            let (middle, half_cm) = (low.midpoint(high), (high - low) / 2.0 * most);
+            let posture = [from[0] + middle * by[0], from[1] + middle * by[1]];
+            let least = self.gap(posture);
+            if least > half_cm {
+                continue;
+            }
+            let resolved = half_cm < RESOLUTION_CM;
+            let is_touching = least <= 0.0 || resolved;
+            if is_touching && (self.touching_is_contact || (least <= 0.0 && !self.grazes(posture))) {
+                return false;
+            }
+            if resolved {
+                continue;
+            }
+            open.push([low, middle]);
+            open.push([middle, high]);
+        }
+        true
+    }
+
+    /// The distance of either link from the nearest obstacle.
+    fn gap(&self, posture: [f64; 2]) -> f64 {
+        let [base, elbow, tip] = self.joints(posture);
+        let gaps =
+            self.bodies.iter().flat_map(|body| [[base, elbow], [elbow, tip]].map(|link| body.distance(link)));
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Base, elbow and tip, by products of homogeneous matrices.
+    pub(super) fn joints(&self, posture: [f64; 2]) -> Joints {
+        let one = product(&IDENTITY, &link(posture[0], self.links_cm[0]));
+        let two = product(&one, &link(posture[1], self.links_cm[1]));
+        [[0.0, 0.0], [one[0][2], one[1][2]], [two[0][2], two[1][2]]]
+    }
+}
+
+type Matrix = [[f64; 3]; 3];
+
+const IDENTITY: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// A turn by `angle`, then a move by `length` along the turned x axis.
+fn link(angle: f64, length: f64) -> Matrix {
+    let (s, c) = libm::sincos(angle);
+    [[c, -s, length * c], [s, c, length * s], [0.0, 0.0, 1.0]]
+}
+
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    let cell = |row: usize, column: usize| (0..3).map(|k| a[row][k] * b[k][column]).sum();
+    [0, 1, 2].map(|row| [0, 1, 2].map(|column| cell(row, column)))
+}
+
+fn vector([x, y]: [f64; 2]) -> Vector {
+    Vector::new(x, y)
+}
