@@ -1,6 +1,6 @@
 //! Studies: from a spec to what happened.
 //!
-//! [`Study::load`] turns a spec into checked types; [`run`](runner::run) turns these into records that
+//! [`Study::load`] turns a spec into checked types; [`run`](session::run) turns these into records that
 //! [`store`] keeps; [`manifest`] says what the records depend on. Families pose problems, prepared objects are
 //! what many trials share, tasks say what is done with both. Nothing here judges a claim or draws a figure.
 

@@ -3,7 +3,7 @@
 //! Kinematics is written here once more, as products of rotation matrices, and the inverse by intersecting the
 //! circles that the elbow lies on; distances are parry2d's. A hop is judged by the joints moving evenly between its
 //! postures: an interval of the motion is clear if no point of a link can reach what it is nearest to; otherwise it
-//! is halved, down to [`RESOLUTION_CM`], below which contact is assumed.
+//! is halved, down to `RESOLUTION_CM`, below which contact is assumed.
 
 mod body;
 mod optimum;

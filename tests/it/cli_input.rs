@@ -24,7 +24,7 @@ const WRONG: &[Wrong] = &[
         "draws",
         "planner = \"astar\"",
         "planner = \"a-star\"",
-        "mini/draws.toml:24:11: contender `A*` asks for planner `a-star`, which does not exist; the planners are ",
+        "mini/draws.toml:23:11: contender `A*` asks for planner `a-star`, which does not exist; the planners are ",
     ),
     wrong(
         "draws",
@@ -54,7 +54,7 @@ const WRONG: &[Wrong] = &[
         "draws",
         "\"random_cells\"",
         "\"random_cell\"",
-        "mini/draws.toml:18:10: there is no problem family `random_cell`; the known ones are ",
+        "mini/draws.toml:17:10: there is no problem family `random_cell`; the known ones are ",
     ),
     wrong("draws", "seed = 7", "seed = 7\ntask = \"plna\"", "there is no task `plna`; the known ones are"),
     wrong(
@@ -178,7 +178,7 @@ const WRONG: &[Wrong] = &[
         "paper",
         "claims = [\"cost\", \"nodes\"]",
         "claims = [\"cost\"]",
-        "row `A*` of table `table1` names 1 claims; the",
+        "row `A*` of table `table1` has 1 claims and 0 cells; either are accepted",
     ),
 ];
 

@@ -36,6 +36,20 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("delete_inflections", &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'"]),
 ];
 
+/// Entries that these lattices cannot hold, and what does.
+const ELSEWHERE: &[(&str, &str)] = &[
+    ("astar_octile", "search: held to the general kernel in cost and every counter; it keeps no trace"),
+    ("chaos_astar", "arm: held to the verifier on the planar arm"),
+    ("direct", "space::roadmap and verify::cell: no sample of roadmaps stands here yet"),
+    ("lattice_astar", "arm: held to the verifier on the planar arm"),
+    ("roadmap_astar", "space::roadmap and verify::cell: no sample of roadmaps stands here yet"),
+    ("straighten", "space::roadmap and verify::cell: no sample of roadmaps stands here yet"),
+];
+
+fn is_held_here(entry: &planner::Entry) -> bool {
+    ELSEWHERE.iter().all(|(name, _)| *name != entry.name)
+}
+
 const PLENTY: u64 = 1_000_000;
 
 fn settings(name: &str) -> Vec<Settings> {
@@ -50,7 +64,7 @@ fn settings(name: &str) -> Vec<Settings> {
 /// Every planner with each of its settings, named, with the kind of world it needs.
 fn planners() -> Vec<(String, WorldKind, Box<dyn Planner>)> {
     let mut built = Vec::new();
-    for entry in planner::REGISTRY {
+    for entry in planner::REGISTRY.iter().filter(|entry| is_held_here(entry)) {
         let Build::Planner(build) = entry.build else { continue };
         for settings in settings(entry.name) {
             let name = format!("{} {:?}", entry.name, settings.table());
@@ -62,7 +76,7 @@ fn planners() -> Vec<(String, WorldKind, Box<dyn Planner>)> {
 
 fn stages() -> Vec<(String, WorldKind, Box<dyn Stage>)> {
     let mut built = Vec::new();
-    for entry in planner::REGISTRY {
+    for entry in planner::REGISTRY.iter().filter(|entry| is_held_here(entry)) {
         let Build::Stage(build) = entry.build else { continue };
         for settings in settings(entry.name) {
             let name = format!("{} {:?}", entry.name, settings.table());
@@ -87,7 +101,8 @@ fn count(plan: &Plan, column: &str) -> u64 {
 #[test]
 fn every_line_of_settings_belongs_to_an_entry() {
     let names: BTreeSet<&str> = planner::REGISTRY.iter().map(|entry| entry.name).collect();
-    let lines: BTreeSet<&str> = SETTINGS.iter().map(|(name, _)| *name).collect();
+    let lines: BTreeSet<&str> =
+        SETTINGS.iter().map(|(name, _)| *name).chain(ELSEWHERE.iter().map(|(name, _)| *name)).collect();
     assert_eq!(lines, names);
 }
 

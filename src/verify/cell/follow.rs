@@ -1,6 +1,6 @@
 //! One leg of a path, followed at a quarter of the planner's step.
 //!
-//! The time law of every leg is rest to rest with [`LAW`]: it lets paths be compared, the paper prints none.
+//! The time law of every leg is rest to rest with `LAW`: it lets paths be compared, the paper prints none.
 
 use super::{Angles, Case, FINER, LegEnd};
 use nalgebra::{Matrix3, Quaternion, Vector3};
@@ -19,9 +19,9 @@ pub struct Leg {
     pub length_m: f64,
     /// The sum of all joints' changes.
     pub travel_rad: f64,
-    /// The greatest acceleration of a joint under [`LAW`].
+    /// The greatest acceleration of a joint under `LAW`.
     pub peak_rad_s2: f64,
-    /// How long it takes under [`LAW`].
+    /// How long it takes under `LAW`.
     pub duration_s: f64,
     /// The configuration in which the arm arrives.
     pub end: Angles,
@@ -207,7 +207,7 @@ fn time_s(way_m: f64, length_m: f64, [speed, acceleration]: [f64; 2]) -> f64 {
     }
 }
 
-/// The square of the tool's speed and its acceleration at `way_m` under [`LAW`].
+/// The square of the tool's speed and its acceleration at `way_m` under `LAW`.
 fn speed2_and_push(way_m: f64, length_m: f64) -> (f64, f64) {
     let [speed, acceleration] = LAW;
     let from_rest = 2.0 * acceleration * way_m.min(length_m - way_m);

@@ -68,7 +68,7 @@ pub struct Motion {
     pub length_m: f64,
     /// The sum of all joints' changes, there and back.
     pub travel_rad: f64,
-    /// The greatest acceleration of a joint under the time law of [`follow`].
+    /// The greatest acceleration of a joint under the time law of `follow`.
     pub peak_rad_s2: f64,
     /// Where the arm is when, from leg to leg.
     pub stops: Vec<Stop>,
