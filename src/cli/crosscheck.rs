@@ -5,7 +5,7 @@ mod python;
 use super::places::{Places, papers};
 use super::progress::Bar;
 use super::{Failure, Which};
-use crate::crosscheck::{self, Case, CrosscheckError, Outcome, Picture, Spec};
+use crate::crosscheck::{self, Case, CrosscheckError, Outcome, Picture, Sources, Spec};
 use crate::render::report;
 use crate::study::runner::Progress as _;
 use crate::study::store::write_whole;
@@ -55,7 +55,9 @@ impl Crosscheck {
             }
         }
         if posed.is_empty() {
-            return Err(Failure::input("no paper here has a crosscheck.toml; run replan from the project's own folder"));
+            return Err(Failure::input(
+                "no paper here has a crosscheck.toml; run replan from the project's own folder",
+            ));
         }
         let judge = if self.answered { None } else { Some(Judge::ready(&self.python, Path::new(FOLDER))?) };
         let mut differences = 0;
@@ -75,7 +77,8 @@ impl Crosscheck {
         let folder = root.join(FOLDER).join(&id);
         let bar = Bar::default();
         bar.begin(&format!("{id}: posing the questions"), 1);
-        let cases = spec.cases(&places.inputs, &places.runs)?;
+        let sources = Sources { folder: &places.folder, inputs: &places.inputs, runs: &places.runs };
+        let cases = spec.cases(sources)?;
         bar.end();
         let picture = spec.picture();
         let drawn = match judge {
@@ -152,7 +155,10 @@ impl Crosscheck {
         let before = fs::read_to_string(&path).unwrap_or_default();
         let text = report::with_chapter(&before, &format!("{id} crosscheck"), &chapter);
         if self.check && text != before {
-            return Err(Failure::stale(format!("not current: the chapter `{id} crosscheck` of {}", path.display())));
+            return Err(Failure::stale(format!(
+                "not current: the chapter `{id} crosscheck` of {}",
+                path.display()
+            )));
         }
         if self.check {
             println!("the chapter in {} is current", path.display());

@@ -108,7 +108,18 @@ impl Case {
         let (stretched, shifted) = (Wrong::stretched(of, &questions), Wrong::shifted(of, &questions));
         let keys = keys(of.model(), &questions, &paths);
         let must_be_free = given.must_be_free || !are_stored;
-        Ok(Self { name, subject, paths, are_stored, must_be_free, pushed, questions, stretched, shifted, keys })
+        Ok(Self {
+            name,
+            subject,
+            paths,
+            are_stored,
+            must_be_free,
+            pushed,
+            questions,
+            stretched,
+            shifted,
+            keys,
+        })
     }
 
     /// Its name.
@@ -155,12 +166,15 @@ impl Case {
     /// [`CrosscheckError::Answer`] for answers that are missing or do not fit the questions.
     pub fn judge(&self, folder: &FilePath) -> Result<Outcome, CrosscheckError> {
         let folder = self.folder(folder);
-        let asked = |name, questions| Asked { subject: self.subject.as_ref(), folder: &folder, name, questions };
+        let asked =
+            |name, questions| Asked { subject: self.subject.as_ref(), folder: &folder, name, questions };
         let right = asked(RIGHT, &self.questions);
         let compared = right.compare()?;
         let of_wrong = |name, wrong: &Wrong| -> Result<Control, CrosscheckError> {
             let questions: &[Question] = &wrong.questions;
-            Ok(wrong.control(&Asked { subject: self.subject.as_ref(), folder: &folder, name, questions }.compare()?))
+            Ok(wrong.control(
+                &Asked { subject: self.subject.as_ref(), folder: &folder, name, questions }.compare()?,
+            ))
         };
         let controls = vec![
             of_wrong(STRETCHED, &self.stretched)?,

@@ -95,7 +95,10 @@ pub fn chapter(
 ) -> String {
     let mut text = String::new();
     line!(text, "## {paper}: the same robots, scenes and paths judged by MuJoCo\n");
-    line!(text, "Made by `{command}`. MuJoCo 4.0.0 was given the numbers of the robot and scene files and the");
+    line!(
+        text,
+        "Made by `{command}`. MuJoCo 4.0.0 was given the numbers of the robot and scene files and the"
+    );
     line!(text, "configurations below; it shares no code with us.\n");
     match picture {
         Ok(path) => line!(text, "![the scene as MuJoCo sees it]({path})\n"),
@@ -117,7 +120,10 @@ pub fn chapter(
 }
 
 fn results(text: &mut String, outcomes: &[Outcome]) {
-    line!(text, "| case | question | configurations | asked | in contact | ties | largest difference | differ |");
+    line!(
+        text,
+        "| case | question | configurations | asked | in contact | ties | largest difference | differ |"
+    );
     line!(text, "|---|---|---|---|---|---|---|---|");
     for outcome in outcomes {
         for Line { question, kind, asked, in_contact, ties, largest, disagreements } in &outcome.lines {

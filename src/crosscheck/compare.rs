@@ -1,10 +1,10 @@
 //! Our answers beside the judge's.
 
+use super::CrosscheckError;
 use super::model::{Model, Pair};
 use super::sample::{Kind, Question};
 use super::subject::Subject;
 use super::table::{Table, place};
-use super::CrosscheckError;
 use crate::geometry::Frame;
 use std::path::Path;
 
@@ -109,7 +109,8 @@ impl Asked<'_> {
         get: fn(&Table, &str) -> Result<Vec<T>, CrosscheckError>,
     ) -> Result<(Vec<Pair>, Vec<Vec<T>>), CrosscheckError> {
         let pairs = self.model().pairs();
-        let columns = pairs.iter().map(|pair| get(table, &self.model().pair_name(*pair))).collect::<Result<_, _>>()?;
+        let columns =
+            pairs.iter().map(|pair| get(table, &self.model().pair_name(*pair))).collect::<Result<_, _>>()?;
         Ok((pairs, columns))
     }
 

@@ -93,9 +93,8 @@ impl Wrong {
             (self.questions.len(), (0..self.questions.len()).filter(|row| differs(*row, None)).count())
         } else {
             let pairs = self.model.pairs();
-            let is_caught = |(row, pair): &&(usize, usize)| {
-                differs(*row, Some(&self.model.pair_name(pairs[*pair])))
-            };
+            let is_caught =
+                |(row, pair): &&(usize, usize)| differs(*row, Some(&self.model.pair_name(pairs[*pair])));
             (self.listed.len(), self.listed.iter().filter(is_caught).count())
         };
         Control { what: self.what.clone(), listed, caught }
@@ -124,8 +123,9 @@ pub fn pushed_path(subject: &dyn Subject, paths: &[Path]) -> Option<Path> {
 pub fn pushed_control(asked: &Asked<'_>, compared: &Compared, path: Option<&Path>) -> Control {
     let is_pushed = |row: usize| asked.questions[row].kind == Kind::Pushed;
     let caught = compared.touches.iter().any(|(row, _)| is_pushed(*row));
-    let what = path.map_or_else(|| "no path can be pushed into anything".to_owned(), |path| {
-        format!("path `{}`", path.name)
-    });
+    let what = path.map_or_else(
+        || "no path can be pushed into anything".to_owned(),
+        |path| format!("path `{}`", path.name),
+    );
     Control { what, listed: usize::from(path.is_some()), caught: usize::from(caught) }
 }

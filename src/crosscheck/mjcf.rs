@@ -53,7 +53,12 @@ pub fn mjcf(model: &Model, keys: &[Key]) -> String {
     line!(text, "  </worldbody>\n  <contact>");
     for [a, b] in &model.self_pairs {
         let names = [a, b].map(|part| escaped(&model.parts[*part].name));
-        line!(text, "    <pair geom1=\"part:{}\" geom2=\"part:{}\" margin=\"0\" gap=\"0\"/>", names[0], names[1]);
+        line!(
+            text,
+            "    <pair geom1=\"part:{}\" geom2=\"part:{}\" margin=\"0\" gap=\"0\"/>",
+            names[0],
+            names[1]
+        );
     }
     line!(text, "  </contact>\n  <keyframe>");
     for key in keys {

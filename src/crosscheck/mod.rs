@@ -15,8 +15,10 @@ pub mod control;
 mod mjcf;
 mod model;
 mod path;
+mod planar;
 mod sample;
 mod spec;
+mod stored;
 mod subject;
 mod table;
 #[cfg(test)]
@@ -25,7 +27,7 @@ mod tests;
 pub use case::{Case, Outcome};
 pub use chapter::{chapter, list, table as verdict_table};
 pub use compare::{Disagreement, FRAME_TOLERANCE, Line, TIE_M};
-pub use spec::{Picture, SPEC, Spec};
+pub use spec::{Picture, SPEC, Sources, Spec};
 
 use crate::settings::SettingsError;
 use crate::study::StudyError;

@@ -81,7 +81,8 @@ impl Model {
     /// Everything that may touch: exposed parts with each still thing, then the robot with itself.
     pub fn pairs(&self) -> Vec<Pair> {
         let exposed = (0..self.parts.len()).filter(|part| self.parts[*part].exposed);
-        let outer = exposed.flat_map(|part| (0..self.stills.len()).map(move |still| Pair::Still(part, still)));
+        let outer =
+            exposed.flat_map(|part| (0..self.stills.len()).map(move |still| Pair::Still(part, still)));
         outer.chain(self.self_pairs.iter().map(|[a, b]| Pair::Parts(*a, *b))).collect()
     }
 

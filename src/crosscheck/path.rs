@@ -41,9 +41,9 @@ impl Path {
             }
             for part in 1..FINER {
                 let share = f64::from(part) / f64::from(FINER);
-                let q = subject.between(&pair[0], &pair[1], share).ok_or_else(|| {
-                    format!("step {} of path `{}` cannot be followed", step + 1, self.name)
-                })?;
+                let q = subject
+                    .between(&pair[0], &pair[1], share)
+                    .ok_or_else(|| format!("step {} of path `{}` cannot be followed", step + 1, self.name))?;
                 stops_rad.push(q);
             }
             stops_rad.push(pair[1].clone());
@@ -123,7 +123,9 @@ pub fn pushed(subject: &dyn Subject, path: &Path) -> Option<Path> {
     for (index, stop) in stops_rad.iter_mut().enumerate() {
         let share = 1.0 - index.abs_diff(worst) as f64 / PUSH_REACH as f64;
         let weight = share.max(0.0);
-        stop.iter_mut().zip(q.iter().zip(start)).for_each(|(angle, (to, from))| *angle += weight * (to - from));
+        stop.iter_mut()
+            .zip(q.iter().zip(start))
+            .for_each(|(angle, (to, from))| *angle += weight * (to - from));
     }
     Some(Path { name: format!("{}, pushed", path.name), stops_rad })
 }
@@ -132,11 +134,8 @@ pub fn pushed(subject: &dyn Subject, path: &Path) -> Option<Path> {
 pub fn straight(from: &Frame, to: &Frame, share: f64) -> Frame {
     let origin = from.origin + (to.origin - from.origin) * share;
     let turn = to.rotation * from.rotation.transpose();
-    let skew = Vec3::new(
-        turn[(2, 1)] - turn[(1, 2)],
-        turn[(0, 2)] - turn[(2, 0)],
-        turn[(1, 0)] - turn[(0, 1)],
-    );
+    let skew =
+        Vec3::new(turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]);
     let angle = libm::atan2(skew.norm(), turn.trace() - 1.0);
     // One step of a path turns by far less than half a turn, so the axis is known wherever it matters.
     let rotation = if skew.norm() < 1e-12 {

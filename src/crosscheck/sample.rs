@@ -168,7 +168,8 @@ impl<'a> Sampler<'a> {
             if inside.is_empty() || outside.is_empty() {
                 continue;
             }
-            let ends = [&outside, &inside].map(|all| draws[all[stream.random_range(0..all.len())]].as_slice());
+            let ends =
+                [&outside, &inside].map(|all| draws[all[stream.random_range(0..all.len())]].as_slice());
             let gap_m = |q: &[f64]| least_of(&self.subject.gaps_m(q), &pairs, group);
             let q = crossing(ends, |q| gap_m(q) - target_m);
             if (gap_m(&q) - target_m).abs() < NEAREST_M / 4.0 {
@@ -187,12 +188,12 @@ impl<'a> Sampler<'a> {
                 break;
             }
             let ends = [0, 1].map(|_| drawn(self.subject.model(), &mut stream));
-            let [Some(a), Some(b)] = [&ends[0], &ends[1]].map(|q| self.subject.determinant(q)) else { break };
+            let [a, b] = [&ends[0], &ends[1]].map(|q| self.subject.determinant(q));
             if a * b >= 0.0 {
                 continue;
             }
             let sign = a.signum();
-            let value = |q: &[f64]| self.subject.determinant(q).unwrap_or(0.0) * sign;
+            let value = |q: &[f64]| self.subject.determinant(q) * sign;
             let q = crossing([&ends[0], &ends[1]], value);
             found.push(Question { gaps: true, frames: true, ..question(Kind::Singular, q) });
         }

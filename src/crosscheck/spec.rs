@@ -3,15 +3,14 @@
 use super::CrosscheckError;
 use super::case::{Case, Given};
 use super::model::Still;
-use super::path::Path as JointPath;
+use super::planar::PlanarArm;
 use super::sample::Sizes;
-use super::subject::SerialArm;
+use super::stored::StoredPaths;
+use super::subject::{SerialArm, Subject};
 use crate::kinematics::{AXES, Robot};
 use crate::seed;
 use crate::settings::{Document, SettingsError};
 use crate::space::cell::Scene;
-use crate::study::manifest::Manifest;
-use crate::study::store::read_records;
 use crate::study::{Inputs, slug};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -34,6 +33,8 @@ struct SpecFile {
     scenes: Vec<Spanned<SceneEntry>>,
     #[serde(default, rename = "stored")]
     stored: Vec<Spanned<StoredEntry>>,
+    #[serde(default, rename = "workspace")]
+    workspaces: Vec<Spanned<WorkspaceEntry>>,
 }
 
 /// What the picture shows.
@@ -78,32 +79,44 @@ enum SceneFormat {
     Cell,
 }
 
-/// Paths that a study kept.
+/// Paths of one robot in one scene.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StoredEntry {
     robot: String,
     scene: String,
-    study: String,
-    exhibit: String,
-    /// Which of the exhibit's columns is the first joint's angle, from 0.
-    first_joint: usize,
-    unit: AngleUnit,
-    /// Whether the study says that the paths are free.
-    free: bool,
+    paths: StoredPaths,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum AngleUnit {
-    Deg,
-    Rad,
+/// A planar arm and its obstacles as a study poses them, and that study's paths.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WorkspaceEntry {
+    label: String,
+    paths: StoredPaths,
 }
 
 /// A cross-check as its paper poses it.
 pub struct Spec {
     file: SpecFile,
     document: Arc<Document>,
+}
+
+/// What the cases are made from.
+#[derive(Debug, Clone, Copy)]
+pub struct Sources<'a> {
+    /// The paper's folder.
+    pub folder: &'a Path,
+    /// Where input files are looked for.
+    pub inputs: &'a Inputs,
+    /// Where the paper's records are.
+    pub runs: &'a Path,
+}
+
+/// What one case is made of.
+enum Posed<'a> {
+    Scene(&'a Spanned<RobotEntry>, &'a Spanned<SceneEntry>),
+    Workspace(&'a Spanned<WorkspaceEntry>),
 }
 
 /// What a picture shows.
@@ -135,30 +148,34 @@ impl Spec {
     /// What the picture shows.
     pub fn picture(&self) -> Picture {
         let PictureEntry { case, key, azimuth_deg, elevation_deg } = &self.file.picture;
-        Picture {
-            case: case.get_ref().clone(),
-            key: key.clone(),
-            camera_deg: [*azimuth_deg, *elevation_deg],
-        }
+        Picture { case: case.get_ref().clone(), key: key.clone(), camera_deg: [*azimuth_deg, *elevation_deg] }
     }
 
-    /// Every robot in every scene; `runs` is where the paper's records are.
+    /// Every robot in every scene, and every workspace.
     ///
     /// # Errors
     /// Files and names that do not exist, stored runs that cannot be read, and a picture of no case.
-    pub fn cases(&self, inputs: &Inputs, runs: &Path) -> Result<Vec<Case>, CrosscheckError> {
+    pub fn cases(&self, sources: Sources<'_>) -> Result<Vec<Case>, CrosscheckError> {
         self.check_names()?;
-        let pairs: Vec<_> =
-            self.file.robots.iter().flat_map(|r| self.file.scenes.iter().map(move |s| (r, s))).collect();
-        let cases: Vec<Case> = pairs
-            .par_iter()
-            .map(|(robot, scene)| self.case(robot, scene, inputs, runs))
-            .collect::<Result<_, _>>()?;
+        let scenes = |robot| self.file.scenes.iter().map(move |scene| Posed::Scene(robot, scene));
+        let mut posed: Vec<Posed<'_>> = self.file.robots.iter().flat_map(scenes).collect();
+        posed.extend(self.file.workspaces.iter().map(Posed::Workspace));
+        let cases = posed.par_iter().map(|posed| match posed {
+            Posed::Scene(robot, scene) => self.scene_case(robot, scene, sources),
+            Posed::Workspace(entry) => self.workspace_case(entry, sources),
+        });
+        let cases: Vec<Case> = cases.collect::<Result<_, _>>()?;
+        let known: Vec<&str> = cases.iter().map(Case::name).collect();
         let picture = &self.file.picture.case;
-        if !cases.iter().any(|case| case.name() == picture.get_ref()) {
-            let known: Vec<&str> = cases.iter().map(Case::name).collect();
-            let message = format!("there is no case `{}`; the cases are {}", picture.get_ref(), known.join(", "));
+        if !known.contains(&picture.get_ref().as_str()) {
+            let message =
+                format!("there is no case `{}`; the cases are {}", picture.get_ref(), known.join(", "));
             return Err(self.document.error(picture.span(), message).into());
+        }
+        if let Some(twice) = known.iter().enumerate().find(|(at, name)| known[..*at].contains(name)) {
+            let message =
+                format!("two cases are called `{}`; accepted: labels that tell them apart", twice.1);
+            return Err(self.document.error(0..0, message).into());
         }
         Ok(cases)
     }
@@ -176,39 +193,67 @@ impl Spec {
         Ok(())
     }
 
-    fn case(
+    fn scene_case(
         &self,
         robot: &Spanned<RobotEntry>,
         scene: &Spanned<SceneEntry>,
-        inputs: &Inputs,
-        runs: &Path,
+        sources: Sources<'_>,
     ) -> Result<Case, CrosscheckError> {
         let (r, s) = (robot.get_ref(), scene.get_ref());
         let at_robot = |message: String| self.document.error(robot.span(), message);
         let at_scene = |message: String| self.document.error(scene.span(), message);
-        let file = inputs.locate(&r.file).map_err(at_robot)?;
+        let file = sources.inputs.locate(&r.file).map_err(at_robot)?;
         let loaded = Robot::load(&file).map_err(|error| at_robot(error.to_string()))?;
-        let stills = s.format.stills(&inputs.locate(&s.file).map_err(at_scene)?)?;
+        let stills = s.format.stills(&sources.inputs.locate(&s.file).map_err(at_scene)?)?;
         let name = slug(&format!("{} in {}", r.label, s.label));
         let tool_is_straight = r.straight == Straight::Tool;
         let subject =
             SerialArm::new(name.clone(), loaded, &r.body, stills, tool_is_straight).map_err(at_robot)?;
-        let given = self.given(r, s, runs)?;
-        let seed = seed::derive(self.file.seed, &["crosscheck", &name]);
-        Case::new(name, Box::new(subject), &self.file.sizes, seed, given)
-            .map_err(|message| at_scene(message).into())
+        let fits = |entry: &&StoredEntry| entry.robot == r.label && entry.scene == s.label;
+        let stored = self.file.stored.iter().map(Spanned::get_ref).filter(fits).map(|entry| &entry.paths);
+        let given = given(stored, sources.runs, AXES)?;
+        self.case(name, Box::new(subject), given).map_err(|message| at_scene(message).into())
     }
 
-    /// The stored paths of one robot in one scene.
-    fn given(&self, robot: &RobotEntry, scene: &SceneEntry, runs: &Path) -> Result<Given, CrosscheckError> {
-        let mut given = Given { paths: Vec::new(), must_be_free: true };
-        let fits = |entry: &&StoredEntry| entry.robot == robot.label && entry.scene == scene.label;
-        for entry in self.file.stored.iter().map(Spanned::get_ref).filter(fits) {
-            given.paths.extend(entry.paths(runs)?);
-            given.must_be_free &= entry.free;
-        }
-        Ok(given)
+    fn workspace_case(
+        &self,
+        entry: &Spanned<WorkspaceEntry>,
+        sources: Sources<'_>,
+    ) -> Result<Case, CrosscheckError> {
+        let at = |message: String| self.document.error(entry.span(), message);
+        let WorkspaceEntry { label, paths } = entry.get_ref();
+        let world = paths.world(sources.folder, sources.inputs)?;
+        let arm = world.as_arm().ok_or_else(|| {
+            at(format!(
+                "the world of `{label}` is a {}; accepted: a planar arm's workspace",
+                world.kind().name()
+            ))
+        })?;
+        let name = slug(label);
+        let subject = PlanarArm::new(name.clone(), arm).map_err(|error| at(error.to_string()))?;
+        let joints = subject.model().rows.len();
+        let given = given([paths].into_iter(), sources.runs, joints)?;
+        self.case(name, Box::new(subject), given).map_err(|message| at(message).into())
     }
+
+    fn case(&self, name: String, subject: Box<dyn Subject>, given: Given) -> Result<Case, String> {
+        let seed = seed::derive(self.file.seed, &["crosscheck", &name]);
+        Case::new(name, subject, &self.file.sizes, seed, given)
+    }
+}
+
+/// The stored paths of a robot with this many joints.
+fn given<'a>(
+    stored: impl Iterator<Item = &'a StoredPaths>,
+    runs: &Path,
+    joints: usize,
+) -> Result<Given, CrosscheckError> {
+    let mut given = Given { paths: Vec::new(), must_be_free: true };
+    for paths in stored {
+        given.paths.extend(paths.read(runs, joints)?);
+        given.must_be_free &= paths.free;
+    }
+    Ok(given)
 }
 
 impl SceneFormat {
@@ -216,26 +261,10 @@ impl SceneFormat {
         match self {
             Self::Cell => {
                 let scene = Scene::load(path)?;
-                let still = |o: &crate::space::cell::Obstacle| Still { name: o.name.clone(), solid: o.solid.clone() };
+                let still =
+                    |o: &crate::space::cell::Obstacle| Still { name: o.name.clone(), solid: o.solid.clone() };
                 Ok(scene.obstacles().iter().map(still).collect())
             }
         }
-    }
-}
-
-impl StoredEntry {
-    fn paths(&self, runs: &Path) -> Result<Vec<JointPath>, CrosscheckError> {
-        let manifest = Manifest::read(runs, &self.study)?;
-        let records = read_records(runs, &self.study, &manifest.files)?;
-        let kept = records.batch.kept.iter().filter(|kept| kept.exhibit.name == self.exhibit);
-        let angle = |value: f64| if self.unit == AngleUnit::Deg { value.to_radians() } else { value };
-        let path = |kept: &crate::study::record::Kept| {
-            let rows = kept.exhibit.values.chunks_exact(kept.exhibit.width);
-            let stop = |row: &[f64]| {
-                row.iter().skip(self.first_joint).take(AXES).map(|value| angle(*value)).collect()
-            };
-            JointPath { name: kept.of.clone(), stops_rad: rows.map(stop).collect() }
-        };
-        Ok(kept.map(path).filter(|path| path.stops_rad.len() > 1).collect())
     }
 }

@@ -27,8 +27,8 @@ pub trait Subject: Send + Sync {
     /// Whether the axis of a capsule passes through an obstacle with both ends outside.
     fn pierces(&self, q_rad: &[f64]) -> bool;
 
-    /// The determinant of the flange's Jacobian, 0 at a singular pose; `None` if the robot has not six joints.
-    fn determinant(&self, q_rad: &[f64]) -> Option<f64>;
+    /// The determinant of the Jacobian of the last link's frame, 0 at a singular pose.
+    fn determinant(&self, q_rad: &[f64]) -> f64;
 
     /// The configuration at `share` of the way between two, on the path that joins them.
     fn between(&self, from_rad: &[f64], to_rad: &[f64], share: f64) -> Option<Vec<f64>>;
@@ -59,7 +59,11 @@ impl SerialArm {
     ) -> Result<Self, String> {
         let Some(body) = robot.body(body).cloned() else {
             let known: Vec<&str> = robot.bodies().iter().map(Body::name).collect();
-            return Err(format!("robot `{}` has no body `{body}`; it has {}", robot.name(), known.join(", ")));
+            return Err(format!(
+                "robot `{}` has no body `{body}`; it has {}",
+                robot.name(),
+                known.join(", ")
+            ));
         };
         let chain = robot.arm().chain();
         let row = |joint: &crate::kinematics::Joint| Row {
@@ -150,9 +154,9 @@ impl Subject for SerialArm {
         })
     }
 
-    fn determinant(&self, q_rad: &[f64]) -> Option<f64> {
+    fn determinant(&self, q_rad: &[f64]) -> f64 {
         let frames = self.chain().frames(&six(q_rad));
-        Some(Chain::jacobian(&frames, AXES, &frames[AXES].origin).determinant())
+        Chain::jacobian(&frames, AXES, &frames[AXES].origin).determinant()
     }
 
     fn between(&self, from_rad: &[f64], to_rad: &[f64], share: f64) -> Option<Vec<f64>> {

@@ -11,7 +11,8 @@
 use super::CrosscheckError;
 use super::sample::Question;
 use polars::prelude::{
-    Column, DataFrame, NamedFrom as _, ParquetCompression, ParquetReader, ParquetWriter, SerReader as _, Series,
+    Column, DataFrame, NamedFrom as _, ParquetCompression, ParquetReader, ParquetWriter, SerReader as _,
+    Series,
 };
 use std::fs;
 use std::io::Cursor;
@@ -77,7 +78,9 @@ impl Table {
     }
 
     fn column(&self, name: &str) -> Result<&Column, CrosscheckError> {
-        self.frame.column(name).map_err(|_| self.wrong(format!("has no column `{name}`, which was asked for")))
+        self.frame
+            .column(name)
+            .map_err(|_| self.wrong(format!("has no column `{name}`, which was asked for")))
     }
 
     /// A column of numbers.
@@ -86,7 +89,8 @@ impl Table {
     /// [`CrosscheckError::Answer`] if it is missing, not numbers, or has gaps.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, CrosscheckError> {
         let cells = self.column(name)?.f64().ok().filter(|cells| cells.null_count() == 0);
-        let cells = cells.ok_or_else(|| self.wrong(format!("column `{name}` does not hold a number in every row")))?;
+        let cells = cells
+            .ok_or_else(|| self.wrong(format!("column `{name}` does not hold a number in every row")))?;
         Ok(cells.into_no_null_iter().collect())
     }
 
@@ -96,7 +100,8 @@ impl Table {
     /// As [`numbers`](Self::numbers).
     pub fn truths(&self, name: &str) -> Result<Vec<bool>, CrosscheckError> {
         let cells = self.column(name)?.bool().ok().filter(|cells| cells.null_count() == 0);
-        let cells = cells.ok_or_else(|| self.wrong(format!("column `{name}` does not say yes or no in every row")))?;
+        let cells = cells
+            .ok_or_else(|| self.wrong(format!("column `{name}` does not say yes or no in every row")))?;
         Ok(cells.iter().flatten().collect())
     }
 }

@@ -1,7 +1,9 @@
 //! The cross-check from the command line, with answers that MuJoCo gave once and that are kept beside this file.
 
 use crate::paper::{Bench, Said};
-use polars::prelude::{Column, DataFrame, NamedFrom as _, ParquetReader, ParquetWriter, SerReader as _, Series};
+use polars::prelude::{
+    Column, DataFrame, NamedFrom as _, ParquetReader, ParquetWriter, SerReader as _, Series,
+};
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -106,7 +108,9 @@ fn a_wrong_answer_is_listed_with_both_values_and_turns_the_verdict_red() {
 
 #[test]
 fn an_error_on_purpose_that_goes_unnoticed_fails_the_run() {
-    for (name, control) in [("longer_link.frames", "link 2 1 mm longer"), ("shifted_obstacle.touch", "shifted by")] {
+    for (name, control) in
+        [("longer_link.frames", "link 2 1 mm longer"), ("shifted_obstacle.touch", "shifted by")]
+    {
         let bench = bench();
         // The judge answers as if nothing were wrong: its answers to the right model, for the rows that were asked.
         let (wrong, part) = name.split_once('.').unwrap();
@@ -153,7 +157,11 @@ fn without_python_or_its_packages_the_exit_code_is_4_and_the_message_says_what_t
     let ask = |program: &str| bench.run(&["crosscheck", "./judged", "--out", "out", "--python", program]);
     let said = ask("./no-such-python");
     assert_eq!(said.code, Some(4), "{}", said.err);
-    assert!(said.err.contains("Python 3.11 or later is needed") && said.err.contains("apt install"), "{}", said.err);
+    assert!(
+        said.err.contains("Python 3.11 or later is needed") && said.err.contains("apt install"),
+        "{}",
+        said.err
+    );
     // A Python that is too old, and one whose pip has no network.
     let script = |body: &str| {
         bench.write("python", format!("#!/bin/sh\n{body}\n").as_bytes());

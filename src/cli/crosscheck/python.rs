@@ -131,7 +131,8 @@ impl Judge {
                 return Ok(());
             }
         }
-        Err("no renderer without a screen is installed; on Debian or Ubuntu run: apt install libosmesa6".to_owned())
+        Err("no renderer without a screen is installed; on Debian or Ubuntu run: apt install libosmesa6"
+            .to_owned())
     }
 }
 
