@@ -27,9 +27,9 @@ pub struct Crosscheck {
     /// Write below this folder instead of the committed places
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// The Python that the environment is made with
-    #[arg(long, value_name = "PROGRAM", default_value = "python3")]
-    python: String,
+    /// The Python that the environment is made with; python3 or python3.11 if none is given
+    #[arg(long, value_name = "PROGRAM")]
+    python: Option<String>,
     /// Judge the answers that are already there; ask nothing
     #[arg(long)]
     answered: bool,
@@ -59,7 +59,8 @@ impl Crosscheck {
                 "no paper here has a crosscheck.toml; run replan from the project's own folder",
             ));
         }
-        let judge = if self.answered { None } else { Some(Judge::ready(&self.python, Path::new(FOLDER))?) };
+        let judge =
+            if self.answered { None } else { Some(Judge::ready(self.python.as_deref(), Path::new(FOLDER))?) };
         let mut differences = 0;
         for (places, spec) in &posed {
             differences += self.paper(places, spec, judge.as_ref())?;
@@ -76,23 +77,31 @@ impl Crosscheck {
         let root = self.out.clone().unwrap_or_default();
         let folder = root.join(FOLDER).join(&id);
         let bar = Bar::default();
-        bar.begin(&format!("{id}: posing the questions"), 1);
+        bar.begin(&format!("{id}: posing the questions"), spec.count());
         let sources = Sources { folder: &places.folder, inputs: &places.inputs, runs: &places.runs };
-        let cases = spec.cases(sources)?;
+        let cases = spec.cases(sources, &|| bar.step());
         bar.end();
+        let cases = cases?;
         let picture = spec.picture();
         let drawn = match judge {
             Some(judge) => self.ask(judge, &cases, &folder, &id, &picture)?,
             None => Err("the answers were there already".to_owned()),
         };
-        let outcomes: Vec<Outcome> =
-            cases.par_iter().map(|case| case.judge(&folder)).collect::<Result<_, CrosscheckError>>()?;
+        bar.begin(&format!("{id}: comparing"), cases.len());
+        let outcomes = cases.par_iter().map(|case| {
+            let outcome = case.judge(&folder);
+            bar.step();
+            outcome
+        });
+        let outcomes: Result<Vec<Outcome>, CrosscheckError> = outcomes.collect();
+        bar.end();
+        let outcomes = outcomes?;
         print!("{}", crosscheck::verdict_table(&outcomes));
         let all = crosscheck::list(&outcomes);
         let listed = if all.is_empty() { String::new() } else { all.join("\n") + "\n" };
         write_whole(&folder.join("disagreements.txt"), listed.as_bytes())?;
         eprint!("{listed}");
-        self.report(&id, &outcomes, &picture.case, drawn)?;
+        self.report(&id, &outcomes, &picture.case, &drawn)?;
         Ok(all.len())
     }
 
@@ -110,7 +119,7 @@ impl Crosscheck {
         }
         cases.par_iter().try_for_each(|case| case.write(folder))?;
         let bar = Bar::default();
-        bar.begin(&format!("{id}: MuJoCo"), judge.models(folder)?);
+        bar.begin(&format!("{id}: MuJoCo"), python::models(folder)?);
         let answered = judge.answer(folder, || bar.step());
         bar.end();
         answered?;
@@ -138,11 +147,11 @@ impl Crosscheck {
         id: &str,
         outcomes: &[Outcome],
         scene: &str,
-        drawn: Result<PathBuf, String>,
+        drawn: &Result<PathBuf, String>,
     ) -> Result<(), Failure> {
         let root = self.out.clone().unwrap_or_default();
         let link = format!("plots/{id}/scene_mujoco.png");
-        let picture = match &drawn {
+        let picture = match drawn {
             Ok(_) => Ok(link.as_str()),
             Err(_) if root.join(&link).is_file() => Ok(link.as_str()),
             Err(why) => Err(why.as_str()),

@@ -5,8 +5,9 @@ use super::compare::{Asked, Compared, Disagreement, Line};
 use super::control::{Control, Wrong, pushed_control, pushed_path};
 use super::mjcf::{Key, mjcf};
 use super::model::Model;
-use super::path::{Path, drawn_paths};
+use super::path::{Path, Pushed, drawn_paths};
 use super::sample::{Kind, Question, Sampler, Sizes};
+use super::stored::Freedom;
 use super::subject::Subject;
 use super::table::{place, write_questions};
 use std::collections::BTreeSet;
@@ -24,8 +25,8 @@ pub struct Case {
     subject: Box<dyn Subject>,
     paths: Vec<Path>,
     are_stored: bool,
-    must_be_free: bool,
-    pushed: Option<Path>,
+    free_of: Freedom,
+    pushed: Option<Pushed>,
     questions: Vec<Question>,
     stretched: Wrong,
     shifted: Wrong,
@@ -54,6 +55,8 @@ pub struct Paths {
     pub count: usize,
     /// Whether they come from a stored run; else they were drawn for want of one.
     pub are_stored: bool,
+    /// What they are said to be free of.
+    pub free_of: Freedom,
     /// Paths that should be free and are not, each with its first contact.
     pub blocked: Vec<String>,
 }
@@ -71,8 +74,8 @@ impl Outcome {
 pub struct Given {
     /// The paths, at our own steps.
     pub paths: Vec<Path>,
-    /// Whether the studies say that they are free.
-    pub must_be_free: bool,
+    /// What the studies say that they are free of.
+    pub free_of: Freedom,
 }
 
 impl Case {
@@ -88,10 +91,11 @@ impl Case {
         given: Given,
     ) -> Result<Self, String> {
         let of = subject.as_ref();
+        let Given { paths: stored, free_of: promised } = given;
         let mut questions = Sampler::new(of, seed).questions(sizes);
-        let are_stored = !given.paths.is_empty();
+        let are_stored = !stored.is_empty();
         let paths = if are_stored {
-            given.paths.iter().map(|path| path.finer(of)).collect::<Result<Vec<_>, _>>()?
+            stored.iter().map(|path| path.finer(of)).collect::<Result<Vec<_>, _>>()?
         } else {
             drawn_paths(of, sizes.drawn_paths, seed)
         };
@@ -101,25 +105,15 @@ impl Case {
         // Frames are asked along one path at least, also where nothing is drawn.
         let first = questions.iter_mut().filter(|question| question.kind == Kind::Path && question.path == 0);
         first.for_each(|question| question.frames = true);
-        let pushed = pushed_path(of, &paths);
-        if let Some(path) = &pushed {
-            questions.extend(path.questions(0, Kind::Pushed));
+        let spare = || if are_stored { drawn_paths(of, 1, seed) } else { Vec::new() };
+        let pushed = pushed_path(of, paths.iter().cloned().chain(std::iter::once_with(spare).flatten()));
+        if let Some(pushed) = &pushed {
+            questions.extend(pushed.path.questions(0, Kind::Pushed));
         }
         let (stretched, shifted) = (Wrong::stretched(of, &questions), Wrong::shifted(of, &questions));
         let keys = keys(of.model(), &questions, &paths);
-        let must_be_free = given.must_be_free || !are_stored;
-        Ok(Self {
-            name,
-            subject,
-            paths,
-            are_stored,
-            must_be_free,
-            pushed,
-            questions,
-            stretched,
-            shifted,
-            keys,
-        })
+        let free_of = if are_stored { promised } else { Freedom::Contact };
+        Ok(Self { name, subject, paths, are_stored, free_of, pushed, questions, stretched, shifted, keys })
     }
 
     /// Its name.
@@ -181,8 +175,12 @@ impl Case {
             of_wrong(SHIFTED, &self.shifted)?,
             pushed_control(&right, &compared, self.pushed.as_ref()),
         ];
-        let paths =
-            Paths { count: self.paths.len(), are_stored: self.are_stored, blocked: self.blocked(&compared) };
+        let paths = Paths {
+            count: self.paths.len(),
+            are_stored: self.are_stored,
+            free_of: self.free_of,
+            blocked: self.blocked(&compared),
+        };
         let Compared { lines, disagreements, .. } = compared;
         Ok(Outcome { case: self.name.clone(), lines, disagreements, paths, controls })
     }
@@ -192,7 +190,8 @@ impl Case {
         let (model, pairs) = (self.subject.model(), self.subject.model().pairs());
         let mut seen = BTreeSet::new();
         let on_path = |(row, _): &&(usize, usize)| self.questions[*row].kind == Kind::Path;
-        let touches = compared.touches.iter().filter(on_path).filter(|_| self.must_be_free);
+        let is_broken = |(_, pair): &&(usize, usize)| self.free_of.is_broken_by(pairs[*pair]);
+        let touches = compared.touches.iter().filter(on_path).filter(is_broken);
         let first = touches.filter(|(row, _)| seen.insert(self.questions[*row].path));
         first
             .map(|(row, pair)| {

@@ -1,8 +1,15 @@
 //! The verdict table and the report's chapter.
 
-use super::case::Outcome;
+use super::case::{Outcome, Paths};
 use super::compare::{FRAME_TOLERANCE, Line, TIE_M};
+use super::control::Control;
+use super::planar::LINK_RADIUS_M;
+use super::sample::Kind;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
+
+/// The version that `crosscheck/requirements.txt` pins.
+pub const MUJOCO: &str = "4.0.0";
 
 /// Differences that the chapter lists; the terminal and the file beside the answers hold every one.
 const LISTED: usize = 100;
@@ -97,9 +104,10 @@ pub fn chapter(
     line!(text, "## {paper}: the same robots, scenes and paths judged by MuJoCo\n");
     line!(
         text,
-        "Made by `{command}`. MuJoCo 4.0.0 was given the numbers of the robot and scene files and the"
+        "Made by `{command}`. MuJoCo {MUJOCO} was given the numbers of the robot and scene files and the\n\
+         configurations below; it shares no code with us.\n"
     );
-    line!(text, "configurations below; it shares no code with us.\n");
+    line!(text, "**{}**\n", summary(outcomes));
     match picture {
         Ok(path) => line!(text, "![the scene as MuJoCo sees it]({path})\n"),
         Err(why) => line!(text, "No picture: {why}.\n"),
@@ -108,61 +116,114 @@ pub fn chapter(
     line!(
         text,
         "Tolerances: frames {FRAME_TOLERANCE:e} m and per entry of a rotation, since both sides round a few dozen operations \
-         on numbers of the order of 1; distances {TIE_M:e} m, since MuJoCo keeps vertices of meshes in single precision. \
+         on numbers of the order of 1; distances {TIE_M:e} m, since MuJoCo keeps vertices of meshes in single precision \
+         and links without width are given to it {LINK_RADIUS_M:e} m thick. \
          Within {TIE_M:e} m of contact either answer is right: a tie. Depths of penetration are not compared. \
          Obstacles with flat faces are given as meshes, because MuJoCo's capsule–box primitive misses capsules that \
          pierce a box.\n"
     );
-    results(&mut text, outcomes);
+    contacts(&mut text, outcomes);
+    numbers(&mut text, outcomes);
+    paths(&mut text, outcomes);
     controls(&mut text, outcomes);
     differences(&mut text, outcomes);
     text
 }
 
-fn results(text: &mut String, outcomes: &[Outcome]) {
-    line!(
-        text,
-        "| case | question | configurations | asked | in contact | ties | largest difference | differ |"
-    );
-    line!(text, "|---|---|---|---|---|---|---|---|");
+/// The verdict in a sentence.
+fn summary(outcomes: &[Outcome]) -> String {
+    let lines = || outcomes.iter().flat_map(|outcome| &outcome.lines);
+    let asked = |question: &str| -> usize {
+        lines().filter(|line| line.question == question).map(|line| line.asked).sum()
+    };
+    let differ: usize = lines().map(|line| line.disagreements).sum();
+    let blocked: usize = outcomes.iter().map(|outcome| outcome.paths.blocked.len()).sum();
+    let missed = outcomes.iter().flat_map(|o| &o.controls).filter(|control| !control.is_caught()).count();
+    let verdict = if outcomes.iter().all(Outcome::is_agreed) {
+        "MuJoCo agrees with every answer, and every error made on purpose was noticed".to_owned()
+    } else {
+        format!(
+            "MuJoCo DIFFERS: {differ} answers, {blocked} paths that should be free, {missed} errors made on purpose \
+             that went unnoticed"
+        )
+    };
+    format!(
+        "{verdict}: {} cases (a robot in a scene), {} configurations asked for contact, {} for frames, {} for distances, {} \
+         for joint limits.",
+        outcomes.len(),
+        asked("contact"),
+        asked("frame"),
+        asked("distance"),
+        asked("limit")
+    )
+}
+
+fn contacts(text: &mut String, outcomes: &[Outcome]) {
+    let all = || outcomes.iter().flat_map(|outcome| &outcome.lines).filter(|line| line.question == "contact");
+    let kinds: BTreeSet<Kind> = all().map(|line| line.kind).collect();
+    line!(text, "Contact or none: configurations asked, and in brackets how many are in contact.\n");
+    let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
+    line!(text, "| case | {} | ties | differ |", names.join(" | "));
+    line!(text, "|---|{}---|---|", "---|".repeat(kinds.len()));
     for outcome in outcomes {
-        for Line { question, kind, asked, in_contact, ties, largest, disagreements } in &outcome.lines {
-            let contact = in_contact.map_or_else(|| "–".to_owned(), |count| count.to_string());
-            line!(
-                text,
-                "| {} | {question} | {} | {asked} | {contact} | {ties} | {} | **{disagreements}** |",
-                outcome.case,
-                kind.name(),
-                bound(*largest)
-            );
-        }
-    }
-    line!(text, "\n| case | paths | from | not free for MuJoCo |");
-    line!(text, "|---|---|---|---|");
-    for outcome in outcomes {
-        let from = if outcome.paths.are_stored {
-            "the stored run, at a quarter of its step"
-        } else {
-            "drawn: no stored paths of this robot in this scene"
+        let own = || outcome.lines.iter().filter(|line| line.question == "contact");
+        let cell = |kind: &Kind| {
+            own().find(|line| line.kind == *kind).map_or_else(
+                || "–".to_owned(),
+                |line| format!("{} ({})", line.asked, line.in_contact.unwrap_or(0)),
+            )
         };
+        let cells: Vec<String> = kinds.iter().map(cell).collect();
+        let (ties, differ) = own().fold((0, 0), |(t, d), line| (t + line.ties, d + line.disagreements));
+        line!(text, "| {} | {} | {ties} | **{differ}** |", outcome.case, cells.join(" | "));
+    }
+}
+
+/// Frames, distances and limits: how many configurations were asked, and the largest difference.
+fn numbers(text: &mut String, outcomes: &[Outcome]) {
+    line!(text, "\nConfigurations asked for numbers, and the largest difference.\n");
+    line!(text, "| case | frames | largest | distances | largest, m | joint limits | differ |");
+    line!(text, "|---|---|---|---|---|---|---|");
+    for outcome in outcomes {
+        let of = |question: &'static str| outcome.lines.iter().filter(move |line| line.question == question);
+        let asked = |question| of(question).map(|line| line.asked).sum::<usize>();
+        let largest = |question| bound(of(question).filter_map(|line| line.largest).reduce(f64::max));
+        let differ: usize =
+            ["frame", "distance", "limit"].into_iter().flat_map(of).map(|l| l.disagreements).sum();
         line!(
             text,
-            "| {} | {} | {from} | **{}** |",
+            "| {} | {} | {} | {} | {} | {} | **{differ}** |",
             outcome.case,
-            outcome.paths.count,
-            outcome.paths.blocked.len()
+            asked("frame"),
+            largest("frame"),
+            asked("distance"),
+            largest("distance"),
+            asked("limit")
         );
     }
 }
 
+fn paths(text: &mut String, outcomes: &[Outcome]) {
+    line!(text, "\n| case | paths | from | said to be free of | not so for MuJoCo |");
+    line!(text, "|---|---|---|---|---|");
+    for Outcome { case, paths: Paths { count, are_stored, free_of, blocked }, .. } in outcomes {
+        let from = if *are_stored {
+            "the stored run, at a quarter of its step"
+        } else {
+            "drawn: no stored paths of this robot in this scene"
+        };
+        line!(text, "| {case} | {count} | {from} | {} | **{}** |", free_of.name(), blocked.len());
+    }
+}
+
 fn controls(text: &mut String, outcomes: &[Outcome]) {
-    line!(text, "\nErrors made on purpose, which must be noticed:\n");
-    line!(text, "| case | error | answers that must differ | that do |");
+    line!(text, "\nErrors made on purpose, and how many of the answers that must differ do:\n");
+    line!(text, "| case | a longer link | a moved obstacle | a path pushed into an obstacle |");
     line!(text, "|---|---|---|---|");
     for outcome in outcomes {
-        for control in &outcome.controls {
-            line!(text, "| {} | {} | {} | {} |", outcome.case, control.what, control.listed, control.caught);
-        }
+        let cell = |control: &Control| format!("{}: {} of {}", control.what, control.caught, control.listed);
+        let cells: Vec<String> = outcome.controls.iter().map(cell).collect();
+        line!(text, "| {} | {} |", outcome.case, cells.join(" | "));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::compare::{Asked, Compared, TIE_M};
 use super::model::Model;
-use super::path::{Path, pushed};
+use super::path::{Path, Pushed, pushed};
 use super::sample::{Kind, Question};
 use super::subject::Subject;
 use crate::geometry::Vec3;
@@ -114,18 +114,19 @@ fn flips(other: &dyn Subject, questions: &[Question], ours: &[Vec<f64>]) -> Vec<
     flips
 }
 
-/// The first of `paths` that can be pushed into something, pushed.
-pub fn pushed_path(subject: &dyn Subject, paths: &[Path]) -> Option<Path> {
-    paths.iter().find_map(|path| pushed(subject, path))
+/// The first of `paths` that is free and can be pushed into something that stands still, pushed.
+pub fn pushed_path(subject: &dyn Subject, mut paths: impl Iterator<Item = Path>) -> Option<Pushed> {
+    paths.find_map(|path| pushed(subject, &path))
 }
 
-/// Whether the judge finds the pushed path in contact.
-pub fn pushed_control(asked: &Asked<'_>, compared: &Compared, path: Option<&Path>) -> Control {
-    let is_pushed = |row: usize| asked.questions[row].kind == Kind::Pushed;
-    let caught = compared.touches.iter().any(|(row, _)| is_pushed(*row));
-    let what = path.map_or_else(
-        || "no path can be pushed into anything".to_owned(),
-        |path| format!("path `{}`", path.name),
-    );
-    Control { what, listed: usize::from(path.is_some()), caught: usize::from(caught) }
+/// Whether the judge finds the pushed path in contact where it was pushed to, with what it was pushed into.
+pub fn pushed_control(asked: &Asked<'_>, compared: &Compared, pushed: Option<&Pushed>) -> Control {
+    let Some(Pushed { path, stop, pair }) = pushed else {
+        return Control { what: "no path can be pushed into anything".to_owned(), listed: 0, caught: 0 };
+    };
+    let model = asked.subject.model();
+    let first = asked.questions.iter().position(|question| question.kind == Kind::Pushed);
+    let caught = first.is_some_and(|first| compared.touches.contains(&(first + stop, *pair)));
+    let what = format!("path `{}` pushed, {}", path.name, model.pair_name(model.pairs()[*pair]));
+    Control { what, listed: 1, caught: usize::from(caught) }
 }

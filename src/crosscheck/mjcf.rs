@@ -14,6 +14,9 @@ use std::fmt::Write as _;
 /// The thickness of a picture's floor and half its side, metres; for contact it is a half-space.
 const FLOOR_SIZE: &str = "3 3 0.05";
 
+/// The least radius that a picture shows.
+const SEEN_M: f64 = 4e-3;
+
 /// A named configuration that the viewer can be put into.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Key {
@@ -36,8 +39,13 @@ pub fn mjcf(model: &Model, keys: &[Key]) -> String {
     line!(text, "<mujoco model=\"{}\">", escaped(&model.name));
     line!(text, "  <compiler angle=\"radian\" autolimits=\"true\"/>");
     line!(text, "  <option gravity=\"0 0 0\"/>\n  <size memory=\"64M\"/>");
-    line!(text, "  <visual><global offwidth=\"1600\" offheight=\"1200\"/></visual>");
+    line!(text, "  <visual>\n    <global offwidth=\"1600\" offheight=\"1200\"/>");
+    line!(
+        text,
+        "    <headlight ambient=\"0.35 0.35 0.35\" diffuse=\"0.4 0.4 0.4\" specular=\"0 0 0\"/>\n  </visual>"
+    );
     line!(text, "  <asset>");
+    line!(text, "    <texture type=\"skybox\" builtin=\"flat\" rgb1=\"1 1 1\" width=\"16\" height=\"96\"/>");
     for (index, still) in model.stills.iter().enumerate() {
         if let Some(vertices) = mesh(&still.solid) {
             let numbers: Vec<String> = vertices.iter().map(numbers).collect();
@@ -91,6 +99,9 @@ fn robot(text: &mut String, model: &Model) {
 fn parts(text: &mut String, model: &Model, link: usize) {
     for part in model.parts.iter().filter(|part| part.link == link) {
         line!(text, "      {}", part_geom(part));
+        if part.capsule.radius < SEEN_M {
+            line!(text, "      {}", sleeve(part));
+        }
     }
 }
 
@@ -105,6 +116,15 @@ fn part_geom(part: &Part) -> String {
         numbers(&segment.b),
         number(part.capsule.radius),
         u8::from(part.exposed)
+    )
+}
+
+/// Around a part that is too thin to be seen, one that touches nothing.
+fn sleeve(part: &Part) -> String {
+    let [from, to] = [part.capsule.segment.a, part.capsule.segment.b].map(|end| numbers(&end));
+    format!(
+        "<geom type=\"capsule\" fromto=\"{from} {to}\" size=\"{SEEN_M}\" contype=\"0\" conaffinity=\"0\" mass=\"0\" \
+         rgba=\"0.90 0.55 0.20 1\"/>"
     )
 }
 

@@ -1,5 +1,6 @@
 //! Paths as the judge is asked about them: every configuration at a quarter of our step.
 
+use super::model::Pair;
 use super::sample::{Kind, Question, drawn};
 use super::subject::Subject;
 use crate::geometry::{Frame, Vec3};
@@ -69,6 +70,15 @@ fn least(subject: &dyn Subject, q: &[f64]) -> f64 {
     subject.gaps_m(q).into_iter().fold(f64::INFINITY, f64::min)
 }
 
+/// The least gap to something that stands still and the index of its pair; not below `-2 * PUSH_M`, since a depth may be
+/// unknown.
+fn nearest_still(subject: &dyn Subject, pairs: &[Pair], q: &[f64]) -> (f64, usize) {
+    let gaps = subject.gaps_m(q).into_iter().enumerate();
+    let outer = gaps.filter(|(pair, _)| pairs[*pair].still().is_some());
+    let nearest = outer.min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map_or((f64::INFINITY, 0), |(pair, gap)| (gap.max(-2.0 * PUSH_M), pair))
+}
+
 /// Straight joint lines between drawn configurations that are free by our own code.
 pub fn drawn_paths(subject: &dyn Subject, count: u32, seed: u64) -> Vec<Path> {
     let mut stream = seed::stream(seed::derive(seed, &["drawn paths"]));
@@ -92,22 +102,56 @@ pub fn drawn_paths(subject: &dyn Subject, count: u32, seed: u64) -> Vec<Path> {
     paths
 }
 
-/// `path` with the configuration that is nearest to contact, and its neighbours less and less, moved downhill in
-/// clearance until it is in contact; `None` if that does not succeed.
-pub fn pushed(subject: &dyn Subject, path: &Path) -> Option<Path> {
-    let gaps: Vec<f64> = path.stops_rad.iter().map(|q| least(subject, q)).collect();
+/// A free path that was pushed into something.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pushed {
+    /// The path as pushed.
+    pub path: Path,
+    /// Which of its configurations is in contact now.
+    pub stop: usize,
+    /// The pair that is in contact there, by index.
+    pub pair: usize,
+}
+
+/// `path`, which must be free, with the configuration that is nearest to an obstacle, and its neighbours less and less,
+/// moved downhill in clearance until it is in contact; `None` if that does not succeed.
+pub fn pushed(subject: &dyn Subject, path: &Path) -> Option<Pushed> {
+    let pairs = subject.model().pairs();
+    let gap_m = |q: &[f64]| nearest_still(subject, &pairs, q).0;
+    if path.stops_rad.iter().any(|q| least(subject, q) <= 0.0) {
+        return None;
+    }
+    let gaps: Vec<f64> = path.stops_rad.iter().map(|q| gap_m(q)).collect();
     let worst = (0..gaps.len()).min_by(|a, b| gaps[*a].total_cmp(&gaps[*b]))?;
     let start = &path.stops_rad[worst];
-    let mut q = start.clone();
+    let q = downhill(start, gap_m);
+    let (reached_m, pair) = nearest_still(subject, &pairs, &q);
+    if reached_m > -PUSH_M {
+        return None;
+    }
+    let mut stops_rad = path.stops_rad.clone();
+    for (index, stop) in stops_rad.iter_mut().enumerate() {
+        let share = 1.0 - index.abs_diff(worst) as f64 / PUSH_REACH as f64;
+        let weight = share.max(0.0);
+        let angles = stop.iter_mut().zip(q.iter().zip(start));
+        angles.for_each(|(angle, (to, from))| *angle += weight * (to - from));
+    }
+    Some(Pushed { path: Path { name: path.name.clone(), stops_rad }, stop: worst, pair })
+}
+
+/// Where steps from `start` against the slope of `gap_m` lead, until it is `-PUSH_M`.
+fn downhill(start: &[f64], gap_m: impl Fn(&[f64]) -> f64) -> Vec<f64> {
+    const PROBE_RAD: f64 = 1e-6;
+    let mut q = start.to_vec();
     for _ in 0..PUSHES {
-        let gap = least(subject, &q);
-        if gap <= -PUSH_M {
+        let here = gap_m(&q);
+        if here <= -PUSH_M {
             break;
         }
         let slope = |joint: usize| {
             let mut moved = q.clone();
-            moved[joint] += 1e-6;
-            (least(subject, &moved) - gap) / 1e-6
+            moved[joint] += PROBE_RAD;
+            (gap_m(&moved) - here) / PROBE_RAD
         };
         let slopes: Vec<f64> = (0..q.len()).map(slope).collect();
         let steepness = slopes.iter().map(|s| s * s).sum::<f64>().sqrt();
@@ -116,18 +160,7 @@ pub fn pushed(subject: &dyn Subject, path: &Path) -> Option<Path> {
         }
         q.iter_mut().zip(&slopes).for_each(|(angle, slope)| *angle -= PUSH_STEP_RAD * slope / steepness);
     }
-    if least(subject, &q) > 0.0 {
-        return None;
-    }
-    let mut stops_rad = path.stops_rad.clone();
-    for (index, stop) in stops_rad.iter_mut().enumerate() {
-        let share = 1.0 - index.abs_diff(worst) as f64 / PUSH_REACH as f64;
-        let weight = share.max(0.0);
-        stop.iter_mut()
-            .zip(q.iter().zip(start))
-            .for_each(|(angle, (to, from))| *angle += weight * (to - from));
-    }
-    Some(Path { name: format!("{}, pushed", path.name), stops_rad })
+    q
 }
 
 /// The frame at `share` of the way from one to another: on a straight line, turned evenly about one axis.

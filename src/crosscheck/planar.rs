@@ -9,7 +9,7 @@ use crate::space::{ArmWorld, Obstacle};
 use std::f64::consts::PI;
 
 /// The radius of a link for the judge, a tenth of the tolerance: our links have no width.
-const LINK_RADIUS_M: f64 = 1e-7;
+pub const LINK_RADIUS_M: f64 = 1e-7;
 /// How far prisms reach above and below the plane.
 const HALF_HEIGHT_M: f64 = 0.05;
 /// Metres in a centimetre.

@@ -5,7 +5,7 @@ use super::case::{Case, Given};
 use super::model::Still;
 use super::planar::PlanarArm;
 use super::sample::Sizes;
-use super::stored::StoredPaths;
+use super::stored::{Freedom, StoredPaths};
 use super::subject::{SerialArm, Subject};
 use crate::kinematics::{AXES, Robot};
 use crate::seed;
@@ -151,33 +151,56 @@ impl Spec {
         Picture { case: case.get_ref().clone(), key: key.clone(), camera_deg: [*azimuth_deg, *elevation_deg] }
     }
 
-    /// Every robot in every scene, and every workspace.
-    ///
-    /// # Errors
-    /// Files and names that do not exist, stored runs that cannot be read, and a picture of no case.
-    pub fn cases(&self, sources: Sources<'_>) -> Result<Vec<Case>, CrosscheckError> {
-        self.check_names()?;
+    /// How many cases there are.
+    pub fn count(&self) -> usize {
+        self.posed().len()
+    }
+
+    fn posed(&self) -> Vec<Posed<'_>> {
         let scenes = |robot| self.file.scenes.iter().map(move |scene| Posed::Scene(robot, scene));
         let mut posed: Vec<Posed<'_>> = self.file.robots.iter().flat_map(scenes).collect();
         posed.extend(self.file.workspaces.iter().map(Posed::Workspace));
-        let cases = posed.par_iter().map(|posed| match posed {
-            Posed::Scene(robot, scene) => self.scene_case(robot, scene, sources),
-            Posed::Workspace(entry) => self.workspace_case(entry, sources),
+        posed
+    }
+
+    /// Every robot in every scene, and every workspace; `step` is called after each.
+    ///
+    /// # Errors
+    /// Files and names that do not exist, stored runs that cannot be read, and a picture of no case.
+    pub fn cases(
+        &self,
+        sources: Sources<'_>,
+        step: &(dyn Fn() + Sync),
+    ) -> Result<Vec<Case>, CrosscheckError> {
+        self.check_names()?;
+        let cases = self.posed().into_par_iter().map(|posed| {
+            let case = match posed {
+                Posed::Scene(robot, scene) => self.scene_case(robot, scene, sources),
+                Posed::Workspace(entry) => self.workspace_case(entry, sources),
+            };
+            step();
+            case
         });
         let cases: Vec<Case> = cases.collect::<Result<_, _>>()?;
+        self.check_labels(&cases)?;
+        Ok(cases)
+    }
+
+    /// That the picture shows a case and that cases can be told apart.
+    fn check_labels(&self, cases: &[Case]) -> Result<(), SettingsError> {
         let known: Vec<&str> = cases.iter().map(Case::name).collect();
         let picture = &self.file.picture.case;
         if !known.contains(&picture.get_ref().as_str()) {
             let message =
                 format!("there is no case `{}`; the cases are {}", picture.get_ref(), known.join(", "));
-            return Err(self.document.error(picture.span(), message).into());
+            return Err(self.document.error(picture.span(), message));
         }
         if let Some(twice) = known.iter().enumerate().find(|(at, name)| known[..*at].contains(name)) {
             let message =
                 format!("two cases are called `{}`; accepted: labels that tell them apart", twice.1);
-            return Err(self.document.error(0..0, message).into());
+            return Err(self.document.error(0..0, message));
         }
-        Ok(cases)
+        Ok(())
     }
 
     fn check_names(&self) -> Result<(), SettingsError> {
@@ -248,10 +271,10 @@ fn given<'a>(
     runs: &Path,
     joints: usize,
 ) -> Result<Given, CrosscheckError> {
-    let mut given = Given { paths: Vec::new(), must_be_free: true };
+    let mut given = Given { paths: Vec::new(), free_of: Freedom::Contact };
     for paths in stored {
         given.paths.extend(paths.read(runs, joints)?);
-        given.must_be_free &= paths.free;
+        given.free_of = given.free_of.min(paths.free_of);
     }
     Ok(given)
 }

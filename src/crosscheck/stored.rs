@@ -1,6 +1,7 @@
 //! Paths that a study kept, and the worlds that it posed.
 
 use super::CrosscheckError;
+use super::model::Pair;
 use super::path::Path as JointPath;
 use crate::space::World;
 use crate::study::manifest::Manifest;
@@ -25,8 +26,40 @@ pub struct StoredPaths {
     pub first_joint: usize,
     /// The unit of the angles.
     pub unit: AngleUnit,
-    /// Whether the study says that the paths are free all the way.
-    pub free: bool,
+    /// What the study says the paths are free of, all the way.
+    pub free_of: Freedom,
+}
+
+/// What a path is said to be free of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Freedom {
+    /// Nothing is promised.
+    Nothing,
+    /// What stands around the robot; it may hit itself.
+    Scene,
+    /// All contact.
+    Contact,
+}
+
+impl Freedom {
+    /// In the report's words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nothing => "nothing",
+            Self::Scene => "obstacles",
+            Self::Contact => "all contact",
+        }
+    }
+
+    /// Whether a path with contact of `pair` is not as promised.
+    pub fn is_broken_by(self, pair: Pair) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::Scene => pair.still().is_some(),
+            Self::Contact => true,
+        }
+    }
 }
 
 /// A unit of angles.
@@ -48,8 +81,11 @@ impl StoredPaths {
         let manifest = Manifest::read(runs, &self.study)?;
         let records = read_records(runs, &self.study, &manifest.files)?;
         let group = slug(&self.problems);
+        // A group may also hold paths of a bare point, which are narrower.
         let is_wanted = |kept: &&Kept| {
-            kept.exhibit.name == self.exhibit && kept.of.split('/').next() == Some(group.as_str())
+            kept.exhibit.name == self.exhibit
+                && kept.of.split('/').next() == Some(group.as_str())
+                && kept.exhibit.width >= self.first_joint + joints
         };
         let kept = records.batch.kept.iter().filter(is_wanted).map(|kept| self.path(kept, joints));
         let paths: Vec<JointPath> = kept.filter(|path| path.stops_rad.len() > 1).collect();

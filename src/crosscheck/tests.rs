@@ -2,7 +2,7 @@
 
 use super::mjcf::{Key, mjcf};
 use super::model::{Pair, Still};
-use super::path::{Path as JointPath, drawn_paths, pushed, straight};
+use super::path::{Path as JointPath, Pushed, drawn_paths, pushed, straight};
 use super::sample::{Kind, NEAR_M, Sampler, Sizes, least_of};
 use super::subject::{SerialArm, Subject};
 use crate::geometry::{Frame, OrientedBox, Solid, Sphere, Vec3};
@@ -105,15 +105,18 @@ fn errors_on_purpose_change_what_they_say_and_nothing_else() {
 }
 
 #[test]
-fn a_free_path_that_is_pushed_ends_in_contact_and_keeps_its_ends() {
+fn a_free_path_that_is_pushed_meets_an_obstacle_and_one_in_contact_is_not_pushed() {
     let arm = up6();
     let least = |q: &Vec<f64>| arm.gaps_m(q).into_iter().fold(f64::INFINITY, f64::min);
     let paths = drawn_paths(&arm, 2, 5);
     assert_eq!(paths.len(), 2);
     for path in &paths {
         assert!(path.stops_rad.iter().all(|q| least(q) > 0.0));
-        let pushed = pushed(&arm, path).unwrap();
-        assert!(pushed.stops_rad.iter().map(least).fold(f64::INFINITY, f64::min) < 0.0);
+        let Pushed { path: bent, stop, pair } = pushed(&arm, path).unwrap();
+        assert!(arm.model().pairs()[pair].still().is_some(), "pushed into itself");
+        assert!(arm.gaps_m(&bent.stops_rad[stop])[pair] <= -1e-3);
+        assert!(arm.gaps_m(&path.stops_rad[stop])[pair] > 0.0);
+        assert_eq!(pushed(&arm, &bent), None, "a path in contact proves nothing");
     }
 }
 

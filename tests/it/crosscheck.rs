@@ -172,7 +172,7 @@ fn without_python_or_its_packages_the_exit_code_is_4_and_the_message_says_what_t
     let said = script("echo 3 9");
     assert!(said.code == Some(4) && said.err.contains("`./python` is Python 3.9"), "{}", said.err);
     let said = script(
-        "case \"$2\" in\n  venv) mkdir -p \"$3/bin\" && cp \"$0\" \"$3/bin/python\";;\n  pip) echo 'no route to host' >&2; exit 1;;\n\
+        "case \"$2\" in\n  venv) mkdir -p \"$4/bin\" && cp \"$0\" \"$4/bin/python\";;\n  pip) echo 'no route to host' >&2; exit 1;;\n\
          \x20 *) echo 3 11;;\nesac",
     );
     assert_eq!(said.code, Some(4), "{}{}", said.out, said.err);

@@ -14,6 +14,8 @@ const MODULES: &str = "crosscheck";
 const REQUIREMENTS: &str = "crosscheck/requirements.txt";
 /// The least Python.
 const LEAST: (u32, u32) = (3, 11);
+/// What it is usually called.
+const PROGRAMS: [&str; 2] = ["python3", "python3.11"];
 /// Renderers that work without a screen, the one that needs no GPU first.
 const RENDERERS: [&str; 2] = ["osmesa", "egl"];
 /// The most lines of a program's complaint that are passed on.
@@ -41,11 +43,12 @@ fn missing(message: String) -> Failure {
 }
 
 impl Judge {
-    /// The environment below `folder`, made with `program` if it is not there or its requirements changed.
+    /// The environment below `folder`. If it is not there or its requirements changed, it is made, with `program` or,
+    /// if none is given, with the first of the usual ones that is recent enough.
     ///
     /// # Errors
     /// Code 4 with what is missing and what to run.
-    pub fn ready(program: &str, folder: &Path) -> Result<Self, Failure> {
+    pub fn ready(program: Option<&str>, folder: &Path) -> Result<Self, Failure> {
         let venv = std::path::absolute(folder.join("venv"))?;
         let (python, stamp) = (venv.join("bin/python"), venv.join("requirements.sha256"));
         let wanted = fs::read(REQUIREMENTS).map_err(|e| {
@@ -55,14 +58,10 @@ impl Judge {
         if python.is_file() && fs::read_to_string(&stamp).is_ok_and(|stamped| stamped == wanted) {
             return Ok(Self { python });
         }
-        check_version(program)?;
+        let program = usable(program)?;
         eprintln!("making a Python environment in {} (once)", venv.display());
-        if venv.exists() {
-            fs::remove_dir_all(&venv)?;
-        }
         fs::create_dir_all(folder)?;
-        let made = run(Command::new(program).args(["-m", "venv"]).arg(&venv));
-        made.map_err(|why| {
+        make(program, &venv, &python).map_err(|why| {
             missing(format!(
                 "{program} cannot make a virtual environment: {why}\non Debian or Ubuntu run: apt install python3-venv"
             ))
@@ -84,16 +83,6 @@ impl Judge {
         let mut command = Command::new(&self.python);
         command.args(["-m", name]).env("PYTHONPATH", MODULES).env("PYTHONDONTWRITEBYTECODE", "1");
         command
-    }
-
-    /// How many models below `folder` have questions.
-    pub fn models(&self, folder: &Path) -> Result<usize, Failure> {
-        let mut count = 0;
-        for case in fs::read_dir(folder)? {
-            let files = fs::read_dir(case?.path())?.flatten();
-            count += files.filter(|file| file.file_name().to_string_lossy().ends_with(".xml")).count();
-        }
-        Ok(count)
     }
 
     /// Has every model below `folder` answered on two processes; `step` is called after each.
@@ -136,11 +125,49 @@ impl Judge {
     }
 }
 
+/// How many models below `folder` have questions.
+///
+/// # Errors
+/// What the system said.
+pub fn models(folder: &Path) -> Result<usize, Failure> {
+    let mut count = 0;
+    for case in fs::read_dir(folder)? {
+        let files = fs::read_dir(case?.path())?.flatten();
+        count += files.filter(|file| file.file_name().to_string_lossy().ends_with(".xml")).count();
+    }
+    Ok(count)
+}
+
+/// The program that was named, else the first of the usual names that is recent enough.
+fn usable(named: Option<&str>) -> Result<&str, Failure> {
+    if let Some(named) = named {
+        return check_version(named).map(|()| named);
+    }
+    let found = PROGRAMS.into_iter().find(|program| check_version(program).is_ok());
+    found.map_or_else(|| Err(check_version(PROGRAMS[0]).expect_err("none is usable")), Ok)
+}
+
+/// Makes the environment; where Python came without the part that puts pip into it (as Debian's does), the pip of
+/// `program` does that.
+fn make(program: &str, venv: &Path, python: &Path) -> Result<(), String> {
+    let create = |options: &[&str]| {
+        run(Command::new(program).args(["-m", "venv", "--clear"]).args(options).arg(venv)).map(drop)
+    };
+    let Err(why) = create(&[]) else { return Ok(()) };
+    let pip = |()| {
+        run(Command::new(program)
+            .args(["-m", "pip", "--python"])
+            .arg(python)
+            .args(["install", "--quiet", "pip"]))
+    };
+    create(&["--without-pip"]).and_then(pip).map(drop).map_err(|_| why)
+}
+
 fn check_version(program: &str) -> Result<(), Failure> {
     let (major, minor) = LEAST;
     let wanted = format!(
-        "Python {major}.{minor} or later is needed; install it (Debian or Ubuntu: apt install python3 python3-venv) or name \
-         one with --python"
+        "Python {major}.{minor} or later is needed; install it (Debian or Ubuntu: apt install python3 python3-venv) or name one \
+         with --python"
     );
     let said = run(Command::new(program).args(["-c", "import sys; print(*sys.version_info[:2])"]))
         .map_err(|why| missing(format!("`{program}` does not run: {why}\n{wanted}")))?;
