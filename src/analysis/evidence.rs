@@ -203,6 +203,16 @@ impl<'a> Run<'a> {
         })
     }
 
+    /// The name of the prepared object that `row` was run on.
+    pub fn draw_of(&self, row: &Row) -> String {
+        let is_own = |prepared: &&PreparedRow| {
+            prepared.group == row.group
+                && prepared.replicate == row.replicate
+                && prepared.reading == row.reading
+        };
+        self.records.batch.prepared.iter().find(is_own).map(|own| own.prepared.clone()).unwrap_or_default()
+    }
+
     /// The exhibit called `name` of a trial or prepared object.
     pub fn exhibit(&self, of: &str, name: &str) -> Option<&Exhibit> {
         let kept = &self.records.batch.kept;

@@ -1,6 +1,7 @@
 //! What can be wrong with a grid or with a file that describes one.
 
 use super::MAX_SIDE_CELLS;
+use super::cubic::MAX_SIDE_NODES;
 use std::path::{Path, PathBuf};
 
 /// Why a grid, a map file or a scenario file was refused.
@@ -13,6 +14,15 @@ pub enum GridError {
         width: u32,
         /// Rows asked for.
         height: u32,
+    },
+    /// A side of a lattice in space is zero or too long.
+    #[error(
+        "a lattice of {} × {} × {} nodes; each side may have 1 to {MAX_SIDE_NODES} nodes",
+        size[0], size[1], size[2]
+    )]
+    Space {
+        /// Nodes along x, y and z.
+        size: [u32; 3],
     },
     /// A map without a single row.
     #[error("found no row of cells; at least one is needed")]

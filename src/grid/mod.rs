@@ -8,6 +8,7 @@
 //! Costs belong to the search floor.
 
 mod components;
+mod cubic;
 mod error;
 mod moves;
 mod movingai;
@@ -17,6 +18,7 @@ mod sight;
 mod text;
 
 pub use components::{Components, components};
+pub use cubic::{Grid3, MAX_SIDE_NODES, STEPS_26};
 pub use error::GridError;
 pub use moves::{CornerRule, DIRECTIONS, Moves};
 pub use movingai::{Scenario, parse_movingai_map, parse_scenarios, read_movingai_map, read_scenarios};

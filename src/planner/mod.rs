@@ -7,16 +7,25 @@
 mod astar;
 mod astar_octile;
 mod bidirectional;
+mod bspline;
 mod chaos_astar;
 mod delete_inflections;
 mod direct;
 mod entry;
+mod joint_astar;
+mod key_nodes;
+mod keynode_astar;
 mod lattice;
+mod lattice26_astar;
 mod lattice_astar;
+mod polyhedra;
+mod posture;
 mod roadmap;
 mod roadmap_astar;
 mod straighten;
+mod straighten_from_previous;
 mod tips;
+mod visibility_edges;
 
 pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
 
@@ -25,12 +34,19 @@ pub static REGISTRY: &[&Entry] = &[
     &astar::ENTRY,
     &astar_octile::ENTRY,
     &bidirectional::ENTRY,
+    &bspline::ENTRY,
     &chaos_astar::ENTRY,
     &delete_inflections::ENTRY,
     &direct::ENTRY,
+    &joint_astar::ENTRY,
+    &keynode_astar::ENTRY,
+    &lattice26_astar::ENTRY,
     &lattice_astar::ENTRY,
+    &posture::ENTRY,
     &roadmap_astar::ENTRY,
     &straighten::ENTRY,
+    &straighten_from_previous::ENTRY,
+    &visibility_edges::ENTRY,
 ];
 
 /// The entry called `name`.

@@ -5,10 +5,14 @@
 
 mod inflection;
 mod measure;
+mod spline;
+mod stepwise;
 mod straighten;
 #[cfg(test)]
 mod tests;
 
 pub use inflection::{bends, inflection_deletion};
 pub use measure::{TurnAngle, path_length, turn_sum_deg};
+pub use spline::cubic_spline;
+pub use stepwise::{Resume, stepwise_straightening};
 pub use straighten::{LastNode, straightening};

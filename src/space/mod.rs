@@ -5,10 +5,12 @@
 mod arm;
 pub mod cell;
 mod lattice;
+pub mod polyhedra;
 pub mod roadmap;
 
 pub use arm::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, Zone};
 pub use lattice::LatticeWorld;
+pub use polyhedra::PolyhedraWorld;
 use roadmap::Roadmap;
 
 /// The kinds of world there are.
@@ -16,8 +18,12 @@ use roadmap::Roadmap;
 pub enum WorldKind {
     /// A planar arm whose tip moves over a lattice, among obstacles.
     Arm,
+    /// A point and the arm that carries it, among convex polyhedra.
+    ArmAmongPolyhedra,
     /// A lattice of square cells, some of them blocked.
     Lattice,
+    /// A point among convex polyhedra.
+    Polyhedra,
     /// Samples of a robot's configurations, joined by local paths.
     Roadmap,
 }
@@ -27,9 +33,16 @@ impl WorldKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Arm => "arm",
+            Self::ArmAmongPolyhedra => "arm among polyhedra",
             Self::Lattice => "lattice",
+            Self::Polyhedra => "polyhedra",
             Self::Roadmap => "roadmap",
         }
+    }
+
+    /// Whether what needs a world of the kind `needed` can plan in one of this kind.
+    pub fn serves(self, needed: Self) -> bool {
+        self == needed || (self, needed) == (Self::ArmAmongPolyhedra, Self::Polyhedra)
     }
 }
 
@@ -40,6 +53,8 @@ pub enum World {
     Arm(ArmWorld),
     /// A lattice of square cells.
     Lattice(LatticeWorld),
+    /// Convex polyhedra, with or without an arm.
+    Polyhedra(Box<PolyhedraWorld>),
     /// Samples of a robot's configurations, joined by local paths.
     Roadmap(Box<Roadmap>),
 }
@@ -50,31 +65,29 @@ impl World {
         match self {
             Self::Arm(_) => WorldKind::Arm,
             Self::Lattice(_) => WorldKind::Lattice,
+            Self::Polyhedra(world) if world.arm().is_some() => WorldKind::ArmAmongPolyhedra,
+            Self::Polyhedra(_) => WorldKind::Polyhedra,
             Self::Roadmap(_) => WorldKind::Roadmap,
         }
     }
 
     /// The lattice, if it is one.
     pub fn as_lattice(&self) -> Option<&LatticeWorld> {
-        match self {
-            Self::Lattice(lattice) => Some(lattice),
-            Self::Arm(_) | Self::Roadmap(_) => None,
-        }
+        if let Self::Lattice(lattice) = self { Some(lattice) } else { None }
     }
 
     /// The arm's workspace, if it is one.
     pub fn as_arm(&self) -> Option<&ArmWorld> {
-        match self {
-            Self::Arm(arm) => Some(arm),
-            Self::Lattice(_) | Self::Roadmap(_) => None,
-        }
+        if let Self::Arm(arm) = self { Some(arm) } else { None }
+    }
+
+    /// The polyhedra, if it is such a world.
+    pub fn as_polyhedra(&self) -> Option<&PolyhedraWorld> {
+        if let Self::Polyhedra(polyhedra) = self { Some(polyhedra) } else { None }
     }
 
     /// The roadmap, if it is one.
     pub fn as_roadmap(&self) -> Option<&Roadmap> {
-        match self {
-            Self::Roadmap(roadmap) => Some(roadmap),
-            Self::Arm(_) | Self::Lattice(_) => None,
-        }
+        if let Self::Roadmap(roadmap) = self { Some(roadmap) } else { None }
     }
 }

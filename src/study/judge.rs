@@ -4,9 +4,11 @@
 //! into the trial's status and measured values.
 
 mod arm;
+mod polyhedra;
 pub mod roadmap;
 
 pub use arm::ARM_COLUMNS;
+pub use polyhedra::{CARRIED_COLUMNS, POLYHEDRA_COLUMNS};
 
 use super::checked::Pipeline;
 use super::family::Query;
@@ -25,6 +27,8 @@ pub const LATTICE_COLUMNS: &[&str] =
 pub enum Truth {
     /// On a lattice: the least cost in the world's graph; `None` if the goal cannot be reached.
     Lattice(Option<f64>),
+    /// Among polyhedra: the solids, and the arm if there is one.
+    Polyhedra(Box<polyhedra::Truth>),
     /// On a roadmap: its robot and surroundings.
     Roadmap(roadmap::Case),
     /// For a planar arm nothing is known beforehand.
@@ -37,7 +41,7 @@ impl Truth {
     pub fn optimal(&self) -> Option<f64> {
         match self {
             Self::Lattice(optimal) => *optimal,
-            Self::Roadmap(_) | Self::Arm => panic!("a lattice is tested"),
+            Self::Polyhedra(_) | Self::Roadmap(_) | Self::Arm => panic!("a lattice is tested"),
         }
     }
 }
@@ -60,6 +64,7 @@ pub fn truth(world: &World, query: &Query) -> Truth {
         World::Arm(_) => Truth::Arm,
         World::Lattice(lattice) => Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost()),
         World::Roadmap(roadmap) => Truth::Roadmap(roadmap::Case::new(roadmap)),
+        World::Polyhedra(world) => Truth::Polyhedra(Box::new(polyhedra::truth(world))),
     }
 }
 
@@ -70,6 +75,7 @@ pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Tr
         (World::Lattice(lattice), Truth::Lattice(optimal)) => {
             judge_lattice(lattice, request, plan, pipeline, *optimal)
         }
+        (World::Polyhedra(world), Truth::Polyhedra(truth)) => polyhedra::judge(world, request, plan, truth),
         (_, Truth::Roadmap(case)) => case.judge(request, plan),
         _ => unreachable!("the truth is about the request's world"),
     }

@@ -68,6 +68,11 @@ pub struct Racer<'a> {
 }
 
 impl Unit<'_> {
+    /// The queries asked of this draw.
+    pub fn queries(&self) -> Vec<Query> {
+        self.family.queries_for(self.seed)
+    }
+
     /// The name of the problem that `query` poses in this unit.
     pub fn problem(&self, query: &Query) -> String {
         let draw = draw_name(self.group, self.replicate);
@@ -182,6 +187,11 @@ impl<'a> Field<'a> {
         files
     }
 
+    /// The names of one unit's trials.
+    pub fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+        self.task.trials(unit)
+    }
+
     /// One unit's records.
     pub fn run_unit(&self, unit: &Unit<'_>) -> Batch {
         self.task.run(self.study, unit)
@@ -255,7 +265,7 @@ impl<'a> Field<'a> {
 
     fn time_unit(&self, unit: &Unit<'_>, timing: TimingSpec, readings: &mut Vec<Timing>) {
         let Ok(prepared) = unit.family.prepare(unit.seed) else { return };
-        for query in unit.family.queries() {
+        for query in &unit.queries() {
             let runs = unit.racers.iter().flat_map(|racer| {
                 let seeds = racer.contender.repeats.min(timing.seeds.unwrap_or(1));
                 (0..seeds).map(move |seed| (racer, seed))

@@ -116,21 +116,9 @@ pub fn run_one(
 ) -> Result<(Batch, Option<Row>), StudyError> {
     let field = Field::new(study, points, inputs)?;
     let units = field.units();
-    let owner = units.iter().find(|unit| {
-        let names = unit.family.queries().iter().flat_map(|query| {
-            let racer_names = move |racer| {
-                let racer: &super::runner::Racer<'_> = racer;
-                (0..racer.contender.repeats).map(move |repeat| unit.trial(query, racer, repeat))
-            };
-            unit.racers.iter().flat_map(racer_names)
-        });
-        names.into_iter().any(|name| name == trial)
-    });
+    let owner = units.iter().find(|unit| field.trials(unit).iter().any(|name| name == trial));
     let Some(owner) = owner else {
-        let first = units.first().and_then(|unit| {
-            let query = unit.family.queries().first()?;
-            Some(unit.trial(query, unit.racers.first()?, 0))
-        });
+        let first = units.first().and_then(|unit| field.trials(unit).into_iter().next());
         let hint = format!("its first one is `{}/{}`", study.name, first.unwrap_or_default());
         return Err(StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint });
     };

@@ -6,3 +6,5 @@ pub mod arm;
 pub mod cell;
 pub mod lattice;
 pub mod plane;
+pub mod polyhedra;
+pub mod rods;

@@ -7,6 +7,7 @@ mod across_readings;
 mod all_in_draw;
 mod as_printed;
 mod attained;
+mod between_groups;
 mod clock_ticks;
 mod compare;
 mod count_bound;
@@ -21,14 +22,20 @@ mod oracle;
 mod ordering;
 mod percentage;
 mod point_distance;
+mod ratio;
+mod repulsion;
 mod row_among_draws;
 mod saving_per_draw;
+mod share;
 mod share_above;
 mod sight_bound;
 mod straight_line;
 mod table_cell;
 mod table_row;
+#[cfg(test)]
+mod tests;
 mod text_contradiction;
+mod trend;
 
 use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
@@ -73,6 +80,7 @@ pub static REGISTRY: &[&Entry] = &[
     &all_in_draw::ENTRY,
     &as_printed::ENTRY,
     &attained::ENTRY,
+    &between_groups::ENTRY,
     &clock_ticks::ENTRY,
     &compare::ENTRY,
     &count_bound::ENTRY,
@@ -87,23 +95,24 @@ pub static REGISTRY: &[&Entry] = &[
     &ordering::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
+    &ratio::ENTRY,
+    &repulsion::ENTRY,
     &row_among_draws::ENTRY,
     &saving_per_draw::ENTRY,
+    &share::ENTRY,
     &share_above::ENTRY,
     &sight_bound::ENTRY,
     &straight_line::ENTRY,
     &table_cell::ENTRY,
     &table_row::ENTRY,
     &text_contradiction::ENTRY,
+    &trend::ENTRY,
 ];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
     REGISTRY.iter().copied().find(|entry| entry.name == name)
 }
-
-#[cfg(test)]
-mod tests;
 
 pub use across_readings::Outcome;
 pub use attained::problems as attained_problems;

@@ -3,6 +3,7 @@
 //! A kind turns stored records and exhibits into a [`Sheet`]; it runs no trial and draws no statistics of its own.
 
 mod arm_plane;
+mod arm_poses;
 mod arm_postures;
 mod ask;
 mod cell_paths;
@@ -13,16 +14,21 @@ mod grid_search;
 mod identification;
 mod joint_curves;
 mod length_against_work;
+mod motion_curves;
 mod neighbourhoods;
 mod paired_boxes;
 mod plane_search;
+mod polyhedra_paths;
+mod polyhedra_scene;
 mod reductions;
 mod rejections;
 mod row_draws;
+mod saving_over;
 mod search_flow;
 mod share_bars;
 mod specification_curve;
 mod success_bands;
+mod sweep_curves;
 mod tidying;
 mod tip_path_joints;
 mod tradeoff;
@@ -78,6 +84,7 @@ pub struct Entry {
 /// Every kind, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
+    &arm_poses::ENTRY,
     &arm_postures::ENTRY,
     &cell_paths::ENTRY,
     &cell_poses::ENTRY,
@@ -87,16 +94,20 @@ pub static REGISTRY: &[&Entry] = &[
     &identification::ENTRY,
     &joint_curves::ENTRY,
     &length_against_work::ENTRY,
+    &motion_curves::ENTRY,
     &neighbourhoods::ENTRY,
     &paired_boxes::ENTRY,
     &plane_search::ENTRY,
+    &polyhedra_paths::ENTRY,
     &reductions::ENTRY,
     &rejections::ENTRY,
     &row_draws::ENTRY,
+    &saving_over::ENTRY,
     &search_flow::ENTRY,
     &share_bars::ENTRY,
     &specification_curve::ENTRY,
     &success_bands::ENTRY,
+    &sweep_curves::ENTRY,
     &tidying::ENTRY,
     &tip_path_joints::ENTRY,
     &tradeoff::ENTRY,

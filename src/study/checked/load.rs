@@ -86,7 +86,7 @@ impl Study {
                 contender.pipeline(point, &sweep)?;
             }
             for stage in &contender.stages {
-                if let Some(kind) = kinds.iter().find(|kind| **kind != stage.entry.needs) {
+                if let Some(kind) = kinds.iter().find(|kind| !kind.serves(stage.entry.needs)) {
                     let message = format!(
                         "contender `{}` uses `{}`, which needs a {} world; the study's problems are of kind {}",
                         contender.label,

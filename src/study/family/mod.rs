@@ -9,8 +9,10 @@ mod conditioned;
 mod grid_map;
 mod movingai;
 mod plane_queries;
+mod polyhedra_scene;
 mod random_bars;
 mod random_cells;
+mod random_polyhedra;
 mod random_rectangles;
 
 use super::prepared::Prepared;
@@ -53,6 +55,12 @@ pub trait Family: Send + Sync {
     /// The queries asked of every draw.
     fn queries(&self) -> &[Query];
 
+    /// The queries asked of the draw that belongs to `seed`: those of every draw, unless the family draws them too.
+    fn queries_for(&self, seed: u64) -> Vec<Query> {
+        let _ = seed;
+        self.queries().to_vec()
+    }
+
     /// What the problem itself says about its query number `query`, for every trial's row: an optimum printed with
     /// it, say.
     fn known(&self, _query: usize) -> Counts {
@@ -90,8 +98,10 @@ pub static REGISTRY: &[&Entry] = &[
     &grid_map::ENTRY,
     &movingai::ENTRY,
     &plane_queries::ENTRY,
+    &polyhedra_scene::ENTRY,
     &random_bars::ENTRY,
     &random_cells::ENTRY,
+    &random_polyhedra::ENTRY,
     &random_rectangles::ENTRY,
 ];
 

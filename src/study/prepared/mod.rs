@@ -2,6 +2,7 @@
 
 pub mod lattice;
 pub mod nested_roadmap;
+pub mod polyhedra;
 pub mod workspace_map;
 
 use crate::planner::{Counts, Exhibit};
@@ -30,7 +31,8 @@ pub struct Entry {
 }
 
 /// Every kind, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&lattice::ENTRY, &nested_roadmap::ENTRY, &workspace_map::ENTRY];
+pub static REGISTRY: &[&Entry] =
+    &[&lattice::ENTRY, &nested_roadmap::ENTRY, &polyhedra::ENTRY, &workspace_map::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

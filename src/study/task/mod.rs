@@ -1,5 +1,6 @@
 //! Tasks: what a study does with its problems and contenders; one a file, all in [`REGISTRY`].
 
+mod formula_error;
 mod identify_endpoints;
 mod null_rate;
 mod plan;
@@ -15,6 +16,17 @@ use crate::settings::{Settings, SettingsError};
 pub trait Task: Send + Sync {
     /// Does one unit of work: everything that shares one prepared object.
     fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch;
+
+    /// The names of the unit's trials: one a query, racer and repeat, unless the task does something else.
+    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+        let mut trials = Vec::new();
+        for query in &unit.queries() {
+            for racer in unit.racers {
+                trials.extend((0..racer.contender.repeats).map(|repeat| unit.trial(query, racer, repeat)));
+            }
+        }
+        trials
+    }
 }
 
 /// A registered task.
@@ -33,7 +45,8 @@ pub struct Entry {
 }
 
 /// Every task, in the order of their names.
-pub static REGISTRY: &[&Entry] = &[&identify_endpoints::ENTRY, &null_rate::ENTRY, &plan::ENTRY];
+pub static REGISTRY: &[&Entry] =
+    &[&formula_error::ENTRY, &identify_endpoints::ENTRY, &null_rate::ENTRY, &plan::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

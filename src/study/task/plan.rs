@@ -40,7 +40,7 @@ impl Task for PlanTask {
         {
             batch.keep(&unit.name, prepared.exhibits.clone());
         }
-        for (index, query) in unit.family.queries().iter().enumerate() {
+        for (index, query) in unit.queries().iter().enumerate() {
             let known = unit.family.known(index);
             let truth = prepared.as_ref().ok().map(|p| judge::truth(&p.world, query));
             for racer in unit.racers {

@@ -1,0 +1,110 @@
+//! Whether the ratio of two contenders' means of a metric, over paired problems, lies within bounds.
+
+use super::{Check, Entry};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::interval::Interval;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::bootstrap::Plan;
+use crate::analysis::stats::paired::ratio_of_means;
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::seed;
+use crate::study::Study;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "ratio",
+    about: "does the ratio of two contenders' means of a metric, over paired problems, lie within bounds?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders = [settings.contender.as_str(), settings.against.as_str()];
+        let study = context.study(&settings.study, &settings.problems, &contenders)?;
+        let metric = context.metric(&settings.metric, study)?;
+        let [low, high] = settings.accepted;
+        if !(0.0..=high).contains(&low) {
+            let message = format!("accepted is [{low}, {high}]; two rising ratios of 0 or more are accepted");
+            return Err(context.settings.error(message));
+        }
+        let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);
+        Ok(Box::new(Ratio { settings, study, metric, seed }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: Vec<String>,
+    metric: String,
+    contender: String,
+    against: String,
+    /// The least and the greatest ratio under which the claim counts as reproduced.
+    accepted: [f64; 2],
+}
+
+struct Ratio<'a> {
+    settings: Settings,
+    study: &'a Study,
+    metric: &'static Metric,
+    seed: u64,
+}
+
+impl Ratio<'_> {
+    fn pairs(&self, evidence: &Evidence<'_>) -> Vec<(f64, f64)> {
+        let Some(run) = evidence.run(&self.settings.study) else { return Vec::new() };
+        let of_group = |group: &String| {
+            let pairs = run.pairs(group, &self.settings.against, &self.settings.contender);
+            let values = pairs.iter().filter_map(|pair| {
+                Some((run.value(pair.base, self.metric)?, run.value(pair.other, self.metric)?))
+            });
+            values.collect::<Vec<_>>()
+        };
+        self.settings.problems.iter().flat_map(of_group).collect()
+    }
+
+    fn verdict(&self, ratio: Interval) -> Verdict {
+        let [low, high] = self.settings.accepted;
+        let accepted = Interval::new(low, high);
+        let same_side = (high < 1.0 && ratio.high < 1.0) || (low > 1.0 && ratio.low > 1.0);
+        if accepted.contains(ratio.low) && accepted.contains(ratio.high) {
+            if self.study.searched { Verdict::Attainable } else { Verdict::Reproduced }
+        } else if accepted.meets(ratio) {
+            Verdict::Undecided
+        } else if same_side {
+            Verdict::DirectionOnly
+        } else {
+            Verdict::NotReproduced
+        }
+    }
+}
+
+impl Check for Ratio<'_> {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let pairs = self.pairs(evidence);
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let Some(found) = ratio_of_means(&pairs, plan) else {
+            finding.verdict = Some(Verdict::Undecided);
+            finding.because.push(format!("{} pairs were measured; at least 2 are needed", pairs.len()));
+            return finding;
+        };
+        finding.verdict = Some(self.verdict(found.interval));
+        finding.because.push(format!(
+            "{} of {} over that of {} on {} of {}: {:.4} (95 % interval {:.4} to {:.4}, {} pairs); accepted {} to {}",
+            self.metric.label.to_lowercase(),
+            self.settings.contender,
+            self.settings.against,
+            self.settings.problems.join(", "),
+            self.settings.study,
+            found.value,
+            found.interval.low,
+            found.interval.high,
+            pairs.len(),
+            self.settings.accepted[0],
+            self.settings.accepted[1]
+        ));
+        let what = format!("ratio of mean {}, bootstrap 95 %", self.metric.label.to_lowercase());
+        finding.ours = Some(Estimate::new(found.value, found.interval, what, pairs.len()));
+        finding
+    }
+}

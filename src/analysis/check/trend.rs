@@ -1,0 +1,126 @@
+//! Whether one contender's saving over another grows, or falls, with a column of the problem.
+
+use super::{Check, Entry};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::stats::bootstrap::{self, Plan};
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::seed;
+use crate::study::{Study, column};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "trend",
+    about: "does one contender's saving over another grow, or fall, with a column of the problem?",
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let contenders = [settings.contender.as_str(), settings.against.as_str()];
+        let study = context.study(&settings.study, &settings.problems, &contenders)?;
+        let metric = context.metric(&settings.metric, study)?;
+        if column::find(&settings.over).is_none() {
+            let message = format!("there is no column `{}` to look along", settings.over);
+            return Err(context.settings.error(message));
+        }
+        let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);
+        Ok(Box::new(Trend { settings, study, metric, seed }))
+    },
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    study: String,
+    problems: Vec<String>,
+    metric: String,
+    contender: String,
+    against: String,
+    /// The column along which the saving is claimed to change.
+    over: String,
+    /// Whether it is claimed to grow; to fall otherwise.
+    rising: bool,
+}
+
+struct Trend<'a> {
+    settings: Settings,
+    study: &'a Study,
+    metric: &'static Metric,
+    seed: u64,
+}
+
+impl Trend<'_> {
+    /// (column, saving in %) of every pair.
+    fn points(&self, evidence: &Evidence<'_>) -> Vec<(f64, f64)> {
+        let Some(run) = evidence.run(&self.settings.study) else { return Vec::new() };
+        let of_group = |group: &String| {
+            let pairs = run.pairs(group, &self.settings.against, &self.settings.contender);
+            let points = pairs.iter().filter_map(|pair| {
+                let base = run.value(pair.base, self.metric).filter(|base| *base > 0.0)?;
+                let other = run.value(pair.other, self.metric)?;
+                Some((pair.base.value(&self.settings.over)?, 100.0 * (1.0 - other / base)))
+            });
+            points.collect::<Vec<_>>()
+        };
+        self.settings.problems.iter().flat_map(of_group).collect()
+    }
+}
+
+/// The slope of the least-squares line; `None` if all lie at one place.
+fn slope(points: &[&(f64, f64)]) -> Option<f64> {
+    let count = points.len() as f64;
+    let (sum_x, sum_y) = points.iter().fold((0.0, 0.0), |sum, point| (sum.0 + point.0, sum.1 + point.1));
+    let (mean_x, mean_y) = (sum_x / count, sum_y / count);
+    let spread: f64 = points.iter().map(|(x, _)| (x - mean_x) * (x - mean_x)).sum();
+    let joint: f64 = points.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    (spread > 0.0).then(|| joint / spread)
+}
+
+impl Check for Trend<'_> {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
+        let points = self.points(evidence);
+        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let Some(found) = bootstrap::percentile(&points, slope, plan) else {
+            finding.verdict = Some(Verdict::Undecided);
+            finding.because.push(format!("{} pairs show no slope", points.len()));
+            return finding;
+        };
+        let claimed = if self.settings.rising { 1.0 } else { -1.0 };
+        let (low, high) = (claimed * found.interval.low, claimed * found.interval.high);
+        finding.verdict = Some(if low.min(high) > 0.0 {
+            if self.study.searched { Verdict::Attainable } else { Verdict::Reproduced }
+        } else if low.max(high) < 0.0 {
+            Verdict::NotReproduced
+        } else {
+            Verdict::Undecided
+        });
+        finding.because.push(format!(
+            "saving of {} over {} in {}, along {} on {} of {}: {:+.4} points each (95 % interval {:+.4} to {:+.4}, {} pairs)",
+            self.settings.contender,
+            self.settings.against,
+            self.metric.label.to_lowercase(),
+            self.settings.over,
+            self.settings.problems.join(", "),
+            self.settings.study,
+            found.value,
+            found.interval.low,
+            found.interval.high,
+            points.len()
+        ));
+        let what = format!("slope of the saving along {}, points each, bootstrap 95 %", self.settings.over);
+        finding.ours = Some(Estimate::new(found.value, found.interval, what, points.len()));
+        finding
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_slope_of_points_on_a_line_is_the_lines() {
+        let points: Vec<(f64, f64)> = (0..5).map(|x| (f64::from(x), 3.0 - 0.5 * f64::from(x))).collect();
+        assert!((slope(&points.iter().collect::<Vec<_>>()).unwrap() + 0.5).abs() < 1e-15);
+        assert_eq!(slope(&[&(1.0, 2.0), &(1.0, 3.0)]), None);
+    }
+}

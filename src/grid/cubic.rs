@@ -1,0 +1,144 @@
+//! Cubic lattices in space: which nodes are free, and the 26 steps to neighbours in a written order.
+
+use super::GridError;
+
+/// The most nodes along one side.
+pub const MAX_SIDE_NODES: u32 = 1023;
+
+/// The 26 steps from a node to its neighbours: dz rises, for each dz dy, for each dy dx.
+pub const STEPS_26: [[i32; 3]; 26] = {
+    let mut steps = [[0; 3]; 26];
+    let (mut code, mut at) = (0, 0);
+    while code < 27 {
+        if code != 13 {
+            steps[at] = [code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1];
+            at += 1;
+        }
+        code += 1;
+    }
+    steps
+};
+
+/// A dense lattice of nodes in space, of which some are blocked.
+///
+/// Nodes are numbered row by row with a blocked border around them, so that a step from a node inside needs no
+/// check of bounds: the number of a neighbour is the number of the node plus the step's [`offset`](Self::offset).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Grid3 {
+    size: [u32; 3],
+    blocked: Vec<bool>,
+}
+
+impl Grid3 {
+    /// A lattice of `size` nodes along x, y and z, all free.
+    ///
+    /// # Errors
+    /// [`GridError::Space`] unless every side lies in 1..=[`MAX_SIDE_NODES`].
+    pub fn new(size: [u32; 3]) -> Result<Self, GridError> {
+        if size.iter().any(|side| !(1..=MAX_SIDE_NODES).contains(side)) {
+            return Err(GridError::Space { size });
+        }
+        let [x, y, z] = size.map(|side| side as usize + 2);
+        let mut grid = Self { size, blocked: vec![true; x * y * z] };
+        for k in 0..size[2] {
+            for j in 0..size[1] {
+                let row = grid.number([0, j, k]) as usize;
+                grid.blocked[row..row + size[0] as usize].fill(false);
+            }
+        }
+        Ok(grid)
+    }
+
+    /// How many nodes there are along x, y and z.
+    pub fn size(&self) -> [u32; 3] {
+        self.size
+    }
+
+    /// A number above every node's.
+    pub fn node_count(&self) -> usize {
+        self.blocked.len()
+    }
+
+    fn number(&self, [x, y, z]: [u32; 3]) -> u32 {
+        ((z + 1) * (self.size[1] + 2) + y + 1) * (self.size[0] + 2) + x + 1
+    }
+
+    /// The node at whole coordinates, or `None` outside.
+    pub fn node(&self, at: [i32; 3]) -> Option<u32> {
+        let inside = at.iter().zip(self.size).all(|(c, side)| (0..side as i32).contains(c));
+        inside.then(|| self.number(at.map(|c| c as u32)))
+    }
+
+    /// Whole coordinates of `node`.
+    pub fn xyz(&self, node: u32) -> [i32; 3] {
+        let (row, layer) = (self.size[0] + 2, self.size[1] + 2);
+        [node % row, node / row % layer, node / row / layer].map(|c| c as i32 - 1)
+    }
+
+    /// What a step adds to a node's number.
+    pub fn offset(&self, [dx, dy, dz]: [i32; 3]) -> i32 {
+        let (row, layer) = (self.size[0] as i32 + 2, self.size[1] as i32 + 2);
+        (dz * layer + dy) * row + dx
+    }
+
+    /// Whether `node` can be stood on; nodes of the border cannot.
+    ///
+    /// # Panics
+    /// If there is no such node.
+    #[inline]
+    pub fn is_free(&self, node: u32) -> bool {
+        !self.blocked[node as usize]
+    }
+
+    /// Marks `node` as blocked.
+    ///
+    /// # Panics
+    /// If there is no such node.
+    pub fn block(&mut self, node: u32) {
+        self.blocked[node as usize] = true;
+    }
+
+    /// Number of free nodes.
+    pub fn free_count(&self) -> u64 {
+        self.blocked.iter().filter(|blocked| !**blocked).count() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_coordinates_go_round_and_steps_add_up() {
+        let grid = Grid3::new([4, 3, 5]).unwrap();
+        assert_eq!(grid.free_count(), 60);
+        let mut inside = 0;
+        for (x, y, z) in (0..4).flat_map(|x| (0..3).flat_map(move |y| (0..5).map(move |z| (x, y, z)))) {
+            let node = grid.node([x, y, z]).unwrap();
+            assert_eq!(grid.xyz(node), [x, y, z]);
+            for step in STEPS_26 {
+                let to = node.wrapping_add_signed(grid.offset(step));
+                let at = [x + step[0], y + step[1], z + step[2]];
+                assert_eq!(grid.xyz(to), at);
+                assert_eq!(grid.is_free(to), grid.node(at).is_some(), "the border is blocked: {at:?}");
+                inside += u32::from(grid.is_free(to));
+            }
+        }
+        assert!(inside > 0 && inside < 60 * 26, "{inside}");
+    }
+
+    #[test]
+    fn steps_come_in_mirrored_pairs_and_without_standing_still() {
+        for (step, mirrored) in STEPS_26.iter().zip(STEPS_26.iter().rev()) {
+            assert_eq!(mirrored.map(|c| -c), *step);
+        }
+        assert!(!STEPS_26.contains(&[0, 0, 0]));
+    }
+
+    #[test]
+    fn a_lattice_without_nodes_or_with_too_many_is_refused() {
+        let error = Grid3::new([3, 0, 2]).unwrap_err();
+        assert_eq!(error.to_string(), "a lattice of 3 × 0 × 2 nodes; each side may have 1 to 1023 nodes");
+        assert!(Grid3::new([1024, 1, 1]).is_err());
+    }
+}

@@ -1,0 +1,221 @@
+//! A* over joint angles, the baseline of Tang et al. after Jia.
+//!
+//! States are the start's angles plus whole multiples of `delta_deg`; G adds up the Euclidean norms of the steps and H
+//! is the greatest difference of one angle to the goal's. H takes no account of how many joints have to move, so it
+//! is far below the cost still to come, and the search is wide.
+//!
+//! # Source
+//! Tang, Zhou & Xu (2023), section 4.2, after Jia, *Path planning for space manipulator to avoid obstacle based on
+//! A\* algorithm*, J. Mech. Eng. 46(13), 109 (2010).
+
+use super::lattice::{COLUMNS, UPDATE};
+use super::polyhedra::polyhedra;
+use super::{Build, Ending, Entry, Invalid, Plan, Planner, Request};
+use crate::geometry::Vec3;
+use crate::kinematics::{AXES, Joints};
+use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, Stop, Terms, Ties, sum};
+use crate::shorten::path_length;
+use crate::space::polyhedra::{CarriedArm, DOWN};
+use crate::space::{PolyhedraWorld, WorldKind};
+use serde::Deserialize;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "joint_astar",
+    about: "A* over joint angles in steps of delta_deg, 12 or 728 neighbours, H the greatest angle left",
+    revision: 1,
+    needs: WorldKind::ArmAmongPolyhedra,
+    columns: COLUMNS,
+    build: Build::Planner(|settings| {
+        let read: JointAstar = settings.read()?;
+        if !(read.delta_deg > 0.0 && read.delta_deg <= 45.0) {
+            let message = format!("delta_deg is {}; more than 0 and at most 45 is accepted", read.delta_deg);
+            return Err(settings.error(message));
+        }
+        if ![12, 728].contains(&read.neighbours) {
+            let message =
+                format!("neighbours is {}; 12 (one joint) or 728 (any joints) is accepted", read.neighbours);
+            return Err(settings.error(message));
+        }
+        Ok(Box::new(read))
+    }),
+};
+
+/// Between two states rods are checked at least this often.
+const CHECK_RAD: f64 = 0.04;
+/// Rods nearer than this are taken to touch.
+const LEAST_CM: f64 = 0.1;
+/// How far around the start's clearance is looked for.
+const FAR_CM: f64 = 50.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct JointAstar {
+    /// The step of each joint.
+    delta_deg: f64,
+    /// 12: one joint, up or down; 728: any joints at once.
+    neighbours: u32,
+}
+
+type Cell = [i16; AXES];
+
+struct States {
+    cells: Vec<Cell>,
+    numbers: BTreeMap<Cell, u32>,
+}
+
+struct Space<'a> {
+    world: &'a PolyhedraWorld,
+    arm: &'a CarriedArm,
+    start: Joints,
+    delta: f64,
+    steps: Vec<Cell>,
+    states: &'a RefCell<States>,
+}
+
+fn angles(start: &Joints, cell: &Cell, delta: f64) -> Joints {
+    std::array::from_fn(|i| start[i] + f64::from(cell[i]) * delta)
+}
+
+fn greatest_difference(a: &Joints, b: &Joints) -> f64 {
+    (0..AXES).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
+}
+
+impl Space<'_> {
+    /// Whether nothing touches from `a` to `b`, `a` left out.
+    fn is_clear(&self, a: &Joints, b: &Joints) -> bool {
+        if !self.arm.arm().chain().allows(b) {
+            return false;
+        }
+        let count = (greatest_difference(a, b) / CHECK_RAD).ceil().max(1.0) as u32;
+        (1..=count).rev().all(|k| {
+            let share = f64::from(k) / f64::from(count);
+            let q = std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share);
+            self.arm.clearance(&q, self.world.bodies(), 2.0 * LEAST_CM, false) >= LEAST_CM
+        })
+    }
+}
+
+impl Graph for Space<'_> {
+    type Cost = f64;
+
+    fn node_count(&self) -> usize {
+        self.states.borrow().cells.len()
+    }
+
+    fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
+        let cell = self.states.borrow().cells[node as usize];
+        let here = angles(&self.start, &cell, self.delta);
+        for step in &self.steps {
+            let to: Cell = std::array::from_fn(|i| cell[i] + step[i]);
+            let there = angles(&self.start, &to, self.delta);
+            if !self.is_clear(&here, &there) {
+                continue;
+            }
+            let moved = step.iter().filter(|c| **c != 0).count() as f64;
+            let number = {
+                let mut states = self.states.borrow_mut();
+                let fresh = states.cells.len() as u32;
+                let number = *states.numbers.entry(to).or_insert(fresh);
+                if number == fresh {
+                    states.cells.push(to);
+                }
+                number
+            };
+            visit(number, self.delta * moved.sqrt());
+        }
+    }
+}
+
+/// One joint up or down, or every combination of none, up and down.
+fn steps(neighbours: u32) -> Vec<Cell> {
+    let all = (0..729).map(|code| -> Cell { std::array::from_fn(|i| code / 3_i16.pow(i as u32) % 3 - 1) });
+    let moved = |cell: &Cell| cell.iter().filter(|c| **c != 0).count();
+    all.filter(|cell| moved(cell) > 0 && (neighbours == 728 || moved(cell) == 1)).collect()
+}
+
+/// The configurations of the two ends on the branch that has most clearance at the start.
+fn ends(world: &PolyhedraWorld, arm: &CarriedArm, start: &Vec3, goal: &Vec3) -> Option<[Joints; 2]> {
+    let solved = arm.arm().inverse(&CarriedArm::target(start, &DOWN), &[0.0; 6]);
+    let mut best: Option<(f64, [Joints; 2])> = None;
+    for (branch, from) in solved.iter() {
+        let Some(to) = arm.arm().inverse_on(&CarriedArm::target(goal, &DOWN), branch, from) else { continue };
+        let clearance = |q: &Joints| arm.clearance(q, world.bodies(), FAR_CM, false);
+        if clearance(&to) >= LEAST_CM && best.is_none_or(|(known, _)| clearance(from) > known) {
+            best = Some((clearance(from), [*from, to]));
+        }
+    }
+    best.filter(|(clearance, _)| *clearance >= LEAST_CM).map(|(_, ends)| ends)
+}
+
+impl Planner for JointAstar {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let world = polyhedra(request.world);
+        let arm = world.arm().expect("a checked study gives this planner an arm");
+        let [start, goal] = [("start", request.start), ("goal", request.goal)]
+            .map(|(what, end)| world.free_point(what, end).map_err(Invalid));
+        let [start, goal] = ends(world, arm, &start?, &goal?).ok_or_else(|| {
+            Invalid("no branch of the arm is free at start and goal with its tool down".to_owned())
+        })?;
+        let delta = self.delta_deg.to_radians();
+        let zero: Cell = [0; AXES];
+        let states = RefCell::new(States { cells: vec![zero], numbers: BTreeMap::from([(zero, 0)]) });
+        let mut graph = Space { world, arm, start, delta, steps: steps(self.neighbours), states: &states };
+        let probe = Space { world, arm, start, delta, steps: Vec::new(), states: &states };
+        let at = |node: u32| angles(&start, &states.borrow().cells[node as usize], delta);
+        let h = |node: u32| greatest_difference(&at(node), &goal);
+        let is_goal = |node: u32| h(node) <= delta && probe.is_clear(&at(node), &goal);
+        let terms = Terms {
+            graph: &mut graph,
+            estimate: &Combined { h, combine: sum },
+            observer: &mut (),
+            update: UPDATE,
+        };
+        let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
+        let report = Search::new(Heap::new(Ties::Fifo)).run(terms, 0, is_goal, rules, &mut ());
+        let counts = super::lattice26_astar::counts(&report);
+        let (ending, trail) = match &report.outcome {
+            Outcome::Solved(route) => {
+                let mut trail: Vec<Joints> = route.nodes.iter().map(|node| at(*node)).collect();
+                trail.push(goal);
+                trail.dedup();
+                (Ending::Solved, trail)
+            }
+            Outcome::NoPath => (Ending::NoPath, Vec::new()),
+            Outcome::BudgetSpent => (Ending::BudgetSpent, Vec::new()),
+        };
+        Ok(joint_plan(arm, ending, &trail, counts, request.trace))
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        false
+    }
+}
+
+/// The plan along `trail`; its cost is the length of the tip's path.
+fn joint_plan(
+    arm: &CarriedArm,
+    ending: Ending,
+    trail: &[Joints],
+    counts: super::Counts,
+    trace: bool,
+) -> Plan {
+    let tips: Vec<Vec<f64>> = trail.iter().map(|q| arm.tip(q).as_slice().to_vec()).collect();
+    let exhibits = if trace && !trail.is_empty() { super::posture::trails(arm, trail) } else { Vec::new() };
+    Plan {
+        ending,
+        path: trail.iter().map(|q| q.to_vec()).collect(),
+        cost: (ending == Ending::Solved).then(|| path_length(&tips)),
+        counts,
+        exhibits,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,111 @@
+//! The improved A* of Tang et al.: straight at the goal, and over an edge of whatever stands in the way.
+//!
+//! As printed it is a walk: it steps towards the goal, and where the next step is in an obstacle it takes the key
+//! node of least cost on the faces in front of it (`literal`). A key node lies on an edge, where no face of that
+//! obstacle is in front any more, so the printed walk stops at its first one more often than not. `greedy` adds the
+//! guards without which it does; `open_list` keeps the key nodes on an open list, which is what makes it an A*.
+//!
+//! # Source
+//! Tang, Zhou & Xu, *Obstacle avoidance path planning of 6-DOF robotic arm based on improved A\* algorithm and
+//! artificial potential field method*, Robotica (2023), section 2.3, eqs. 4 and 5.
+
+mod open;
+#[cfg(test)]
+mod tests;
+mod walk;
+
+use super::lattice26_astar::{self, Checked};
+use super::polyhedra::{Posed, plan};
+use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
+use crate::geometry::Vec3;
+use crate::search::{Heap, Search, Ties};
+use crate::space::WorldKind;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "keynode_astar",
+    about: "steps straight at the goal and over the key node of least cost on an edge of what stands in the way",
+    revision: 1,
+    needs: WorldKind::Polyhedra,
+    columns: &["opened", "expansions", "generated", "fell_back"],
+    build: Build::Planner(|settings| {
+        let read: Keynode = settings.read()?;
+        if read.search != Mode::OpenList && (read.cluster || read.last_resort) {
+            let message = "cluster and last_resort belong to search = \"open_list\"; false is accepted here";
+            return Err(settings.error(message));
+        }
+        Ok(Box::new(read))
+    }),
+};
+
+/// How key nodes are followed.
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum Mode {
+    Literal,
+    Greedy,
+    OpenList,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Keynode {
+    /// How key nodes are followed.
+    search: Mode,
+    /// Whether a node that sees no way round an obstacle looks round all that touch it.
+    cluster: bool,
+    /// Whether the lattice is searched when no key node is left.
+    last_resort: bool,
+}
+
+/// What was counted: `opened` nodes are steps walked and key nodes computed.
+#[derive(Debug, Clone, Copy, Default)]
+struct Tally {
+    opened: u64,
+    generated: u64,
+    expansions: u64,
+}
+
+/// How a search for key nodes ended.
+struct Walked {
+    ending: Ending,
+    points: Vec<Vec3>,
+    tally: Tally,
+}
+
+impl Planner for Keynode {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let posed = Posed::new(request)?;
+        let mut walked = match self.search {
+            Mode::Literal => walk::walk(&posed, false, request.expansions),
+            Mode::Greedy => walk::walk(&posed, true, request.expansions),
+            Mode::OpenList => open::search(&posed, self.cluster, request.expansions),
+        };
+        let falls_back = self.last_resort && walked.ending == Ending::NoPath;
+        if falls_back {
+            let mut memory = Search::new(Heap::new(Ties::Fifo));
+            let found = lattice26_astar::search(&posed, Checked::Segments, &mut memory, request.expansions)?;
+            let counters = found.report.counters;
+            walked.tally.opened += counters.opened;
+            walked.tally.generated += counters.generated;
+            walked.tally.expansions += counters.expansions;
+            (walked.ending, walked.points) = (found.ending, found.points);
+        }
+        let counts = Counts::from([
+            ("opened", Value::Count(walked.tally.opened)),
+            ("generated", Value::Count(walked.tally.generated)),
+            ("expansions", Value::Count(walked.tally.expansions)),
+            ("fell_back", Value::Count(u64::from(falls_back))),
+        ]);
+        Ok(plan(walked.ending, &walked.points, counts))
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        false
+    }
+}

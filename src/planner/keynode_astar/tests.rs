@@ -1,0 +1,160 @@
+//! Scenes that break careless searches, each with what must come out.
+
+use crate::geometry::{Aabb, Convex, Vec3};
+use crate::planner::{Build, Ending, Entry, Plan, Planner, Request, find};
+use crate::settings::Settings;
+use crate::shorten::path_length;
+use crate::space::{PolyhedraWorld, World};
+use crate::verify::polyhedra::{Case, Solid};
+
+const FULL: &str = "search = 'open_list'\ncluster = true\nlast_resort = true";
+const OPEN: &str = "search = 'open_list'\ncluster = false\nlast_resort = false";
+const GREEDY: &str = "search = 'greedy'\ncluster = false\nlast_resort = false";
+const LITERAL: &str = "search = 'literal'\ncluster = false\nlast_resort = false";
+
+fn cuboid(center: [f64; 3], size: [f64; 3]) -> Convex {
+    Convex::cuboid(center.into(), size.into()).unwrap()
+}
+
+fn world(bodies: Vec<Convex>) -> World {
+    let domain = Aabb { min: Vec3::zeros(), max: Vec3::repeat(40.0) };
+    World::Polyhedra(Box::new(PolyhedraWorld::new(bodies, domain, 1.0, 0.0).unwrap()))
+}
+
+fn planner(name: &str, settings: &str) -> Box<dyn Planner> {
+    let entry: &Entry = find(name).unwrap();
+    let Build::Planner(build) = entry.build else { panic!("{name} is a stage") };
+    build(&Settings::composed("test", toml::from_str(settings).unwrap())).unwrap()
+}
+
+fn solve(name: &str, settings: &str, world: &World, ends: [[f64; 3]; 2]) -> Plan {
+    let [start, goal] = &ends;
+    let request = Request { world, start, goal, expansions: 200_000, seed: 0, trace: false };
+    let plan = planner(name, settings).plan(&request).unwrap();
+    if plan.ending == Ending::Solved {
+        let polyhedra = world.as_polyhedra().unwrap();
+        let solid = |convex: &Convex| {
+            Solid::new(&convex.vertices().iter().map(|v| (*v).into()).collect::<Vec<_>>()).unwrap()
+        };
+        let solids: Vec<Solid> = polyhedra.bodies().iter().map(solid).collect();
+        let domain = [[0.0; 3], [40.0; 3]];
+        let case = Case { solids: &solids, growth: 0.0, domain, start: *start, goal: *goal };
+        let refusal = case.refuse_path(&plan.path, plan.cost);
+        let careful = !settings.contains("nodes") && !settings.contains("literal");
+        assert!(!careful || refusal.is_none(), "{name} {settings}: {refusal:?}");
+    }
+    plan
+}
+
+fn keynode(settings: &str, world: &World, ends: [[f64; 3]; 2]) -> Plan {
+    solve("keynode_astar", settings, world, ends)
+}
+
+fn lattice(checked: &str, world: &World, ends: [[f64; 3]; 2]) -> Plan {
+    solve("lattice26_astar", &format!("checked = '{checked}'\nties = 'fifo'"), world, ends)
+}
+
+const ACROSS: [[f64; 3]; 2] = [[20.0, 20.0, 5.0], [20.0, 20.0, 35.0]];
+
+#[test]
+fn round_a_single_cube_all_but_the_printed_search_find_a_way_near_the_shortest() {
+    let world = world(vec![cuboid([20.0, 20.0, 20.0], [10.0, 10.0, 10.0])]);
+    // Over the two edges of a face: 5 out, 10 along and 5 back, from 10 away.
+    let truth = 2.0 * (10.0_f64.powi(2) + 5.0_f64.powi(2)).sqrt() + 10.0;
+    // The walk first goes up to the face, which straightening is for.
+    for (settings, most) in [(GREEDY, 1.12), (OPEN, 1.01), (FULL, 1.01)] {
+        let plan = keynode(settings, &world, ACROSS);
+        assert_eq!(plan.ending, Ending::Solved, "{settings}");
+        assert!(plan.cost.unwrap() >= truth && plan.cost.unwrap() < truth * most, "{:?}", plan.cost);
+        assert!(plan.counts["opened"].as_f64() < 200.0, "{:?}", plan.counts);
+    }
+    let yardstick = solve("visibility_edges", "spacing_cm = 3.0", &world, ACROSS);
+    assert!((yardstick.cost.unwrap() - truth).abs() < 0.05, "{:?}", yardstick.cost);
+    let star = lattice("segments", &world, ACROSS);
+    assert!(star.cost.unwrap() < truth * 1.1 && star.counts["opened"].as_f64() > 200.0, "{:?}", star.counts);
+    // The printed walk climbs to the first edge and has no face in front of it there.
+    assert_eq!(keynode(LITERAL, &world, ACROSS).ending, Ending::NoPath);
+}
+
+#[test]
+fn a_cup_over_the_goal_is_left_by_the_open_list_with_its_fallbacks() {
+    // Five plates that open downwards, the start inside.
+    let plates = vec![
+        cuboid([20.0, 20.0, 30.0], [16.0, 16.0, 2.0]),
+        cuboid([13.0, 20.0, 23.0], [2.0, 16.0, 14.0]),
+        cuboid([27.0, 20.0, 23.0], [2.0, 16.0, 14.0]),
+        cuboid([20.0, 13.0, 23.0], [14.0, 2.0, 14.0]),
+        cuboid([20.0, 27.0, 23.0], [14.0, 2.0, 14.0]),
+    ];
+    let world = world(plates);
+    let ends = [[20.0, 20.0, 25.0], [20.0, 20.0, 38.0]];
+    let plan = keynode(FULL, &world, ends);
+    assert_eq!(plan.ending, Ending::Solved);
+    let yardstick = solve("visibility_edges", "spacing_cm = 2.0", &world, ends);
+    let (ours, least) = (plan.cost.unwrap(), yardstick.cost.unwrap());
+    assert!(ours < 1.4 * least && least > 13.0, "{ours} against {least}");
+    assert_eq!(lattice("segments", &world, ends).ending, Ending::Solved);
+}
+
+#[test]
+fn a_goal_behind_walls_on_all_sides_ends_every_search_without_a_path() {
+    let mut walls = Vec::new();
+    for axis in 0..3 {
+        for side in [-5.0, 5.0] {
+            let (mut center, mut size) = ([20.0; 3], [12.0; 3]);
+            center[axis] += side;
+            size[axis] = 2.0;
+            walls.push(cuboid(center, size));
+        }
+    }
+    let world = world(walls);
+    let ends = [[3.0, 4.0, 5.0], [20.0, 20.0, 20.0]];
+    for settings in [GREEDY, OPEN, FULL] {
+        assert_eq!(keynode(settings, &world, ends).ending, Ending::NoPath, "{settings}");
+    }
+    assert_eq!(lattice("segments", &world, ends).ending, Ending::NoPath);
+    assert_eq!(solve("visibility_edges", "spacing_cm = 3.0", &world, ends).ending, Ending::NoPath);
+}
+
+#[test]
+fn a_plate_thinner_than_a_step_is_tunnelled_through_by_points_and_not_by_segments() {
+    let world = world(vec![cuboid([20.0, 20.0, 20.5], [30.0, 30.0, 0.6])]);
+    let straight = 30.0;
+    assert!((lattice("nodes", &world, ACROSS).cost.unwrap() - straight).abs() < 1e-9);
+    for plan in
+        [lattice("segments", &world, ACROSS), keynode(GREEDY, &world, ACROSS), keynode(OPEN, &world, ACROSS)]
+    {
+        assert!(plan.cost.unwrap() > 40.0, "{:?}", plan.cost);
+    }
+}
+
+#[test]
+fn two_boxes_that_touch_leave_no_gap_along_their_common_plane() {
+    // The common plane x = 20 holds start and goal.
+    let world = world(vec![
+        cuboid([15.0, 20.0, 20.0], [10.0, 20.0, 10.0]),
+        cuboid([25.0, 20.0, 20.0], [10.0, 20.0, 10.0]),
+    ]);
+    for plan in
+        [lattice("nodes", &world, ACROSS), lattice("segments", &world, ACROSS), keynode(FULL, &world, ACROSS)]
+    {
+        assert!(plan.cost.unwrap() > 36.0, "leaked: {:?}", plan.cost);
+    }
+}
+
+#[test]
+fn without_obstacles_everything_is_straight_and_a_start_in_one_is_refused() {
+    let empty = world(Vec::new());
+    let apart = 30.0;
+    for settings in [LITERAL, GREEDY, OPEN, FULL] {
+        let plan = keynode(settings, &empty, ACROSS);
+        assert!((plan.cost.unwrap() - apart).abs() < 1e-9, "{settings}");
+        assert!((path_length(&plan.path) - apart).abs() < 1e-9);
+        assert_eq!(plan.path.len(), 31, "a point at every step");
+    }
+    let full = world(vec![cuboid([20.0, 20.0, 6.0], [10.0, 10.0, 10.0])]);
+    let [start, goal] = &ACROSS;
+    let request = Request { world: &full, start, goal, expansions: 10, seed: 0, trace: false };
+    let refusal = planner("keynode_astar", OPEN).plan(&request).unwrap_err();
+    assert_eq!(refusal.to_string(), "the start [20.0, 20.0, 5.0] is inside obstacle 1");
+}

@@ -1,0 +1,199 @@
+//! Posture adjustment as a stage: the whole arm follows a tip path, turning its tip away from obstacles.
+//!
+//! The stage takes a tip path and gives joint angles. It starts with the tool pointing down on the branch of the
+//! inverse kinematics that has most clearance and goes node by node; where a rod would come nearer than `act_cm` at
+//! the next node, the tip is turned down the repulsive potential before the arm moves on.
+//!
+//! # Source
+//! Tang, Zhou & Xu (2023), sections 3.2 and 3.3, eqs. 21 to 31.
+
+mod follow;
+mod potential;
+mod rotation;
+mod settings;
+#[cfg(test)]
+mod tests;
+
+use super::polyhedra::{densified, exhibit, points, polyhedra};
+use super::{Build, Ending, Entry, Exhibit, Plan, Request, Stage, Value};
+use crate::geometry::Vec3;
+use crate::kinematics::Joints;
+use crate::kinematics::ik::Branch;
+use crate::shorten::path_length;
+use crate::space::polyhedra::{CarriedArm, DOWN};
+use crate::space::{PolyhedraWorld, WorldKind};
+use follow::{Follower, LEAST_CM};
+use settings::{Branches, Posture};
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "posture",
+    about: "the whole arm follows a tip path, turning its tip down the rods' repulsive potential",
+    revision: 1,
+    needs: WorldKind::ArmAmongPolyhedra,
+    columns: &[
+        "adjustments",
+        "branches_tried",
+        "followed_share",
+        "posture_within_bounds",
+        "posture_within_rad",
+    ],
+    build: Build::Stage(|settings| Ok(Box::new(Posture::read(settings)?))),
+};
+
+/// How many postures of the arm a figure shows along its path.
+const SHOWN: usize = 7;
+
+/// How far the arm came on one branch.
+struct Attempt<'a> {
+    follower: Follower<'a>,
+    failed_at: Option<usize>,
+}
+
+impl Stage for Posture {
+    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+        if plan.ending != Ending::Solved {
+            return plan;
+        }
+        let world = polyhedra(request.world);
+        let arm = world.arm().expect("a checked study gives this stage an arm");
+        let nodes = densified(&points(&plan), world.step());
+        let mut best: Option<Attempt<'_>> = None;
+        let (mut adjustments, mut tried) = (0, 0);
+        for (branch, q) in self.starts(world, arm, &nodes[0]) {
+            let attempt = self.attempt(world, arm, branch, q, &nodes);
+            adjustments += attempt.follower.adjustments;
+            tried += 1;
+            let reached = |attempt: &Attempt<'_>| attempt.failed_at.unwrap_or(nodes.len());
+            if best.as_ref().is_none_or(|known| reached(&attempt) > reached(known)) {
+                best = Some(attempt);
+            }
+            if best.as_ref().is_some_and(|best| best.failed_at.is_none()) {
+                break;
+            }
+        }
+        plan.counts.insert("adjustments", Value::Count(adjustments));
+        plan.counts.insert("branches_tried", Value::Count(tried));
+        if request.trace {
+            plan.exhibits.push(exhibit("tip_path", &nodes));
+        }
+        self.conclude(request, plan, best, &nodes)
+    }
+}
+
+impl Posture {
+    /// The free configurations at the start with the tool down, the one with most clearance first.
+    fn starts(&self, world: &PolyhedraWorld, arm: &CarriedArm, start: &Vec3) -> Vec<(Branch, Joints)> {
+        let reach = self.d0_cm.max(50.0);
+        let solved = arm.arm().inverse(&CarriedArm::target(start, &DOWN), &[0.0; 6]);
+        let mut starts: Vec<(f64, Branch, Joints)> = solved
+            .iter()
+            .map(|(branch, q)| {
+                (arm.clearance(q, world.bodies(), reach, self.uses_printed_distance()), branch, *q)
+            })
+            .filter(|(clearance, ..)| *clearance >= LEAST_CM)
+            .collect();
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        if self.branches == Branches::Clearest {
+            starts.truncate(1);
+        }
+        starts.into_iter().map(|(_, branch, q)| (branch, q)).collect()
+    }
+
+    fn attempt<'a>(
+        &'a self,
+        world: &'a PolyhedraWorld,
+        arm: &'a CarriedArm,
+        branch: Branch,
+        q: Joints,
+        nodes: &[Vec3],
+    ) -> Attempt<'a> {
+        let mut follower = Follower {
+            settings: self,
+            world,
+            arm,
+            branch,
+            q,
+            rotation: DOWN,
+            trail: vec![q],
+            adjustments: 0,
+        };
+        let failed_at = follower.follow(nodes).err();
+        Attempt { follower, failed_at }
+    }
+
+    fn conclude(
+        &self,
+        request: &Request<'_>,
+        mut plan: Plan,
+        best: Option<Attempt<'_>>,
+        nodes: &[Vec3],
+    ) -> Plan {
+        let last = nodes.len().saturating_sub(1).max(1);
+        let share = best
+            .as_ref()
+            .map_or(0.0, |best| best.failed_at.map_or(1.0, |node| (node - 1) as f64 / last as f64));
+        plan.counts.insert("followed_share", Value::Real(share));
+        let Some(Attempt { follower, failed_at }) = best else {
+            return without_path(plan);
+        };
+        if request.trace {
+            plan.exhibits.extend(trails(follower.arm, &follower.trail));
+        }
+        if let Some(node) = failed_at {
+            if self.diagnose {
+                let [near, wide] =
+                    [self.bounds_rad, [1.0; 3]].map(|reach| other(&follower, &nodes[node], reach));
+                plan.counts.insert("posture_within_bounds", Value::Count(u64::from(near)));
+                plan.counts.insert("posture_within_rad", Value::Count(u64::from(near || wide)));
+            }
+            return without_path(plan);
+        }
+        let tips: Vec<Vec<f64>> =
+            follower.trail.iter().map(|q| follower.arm.tip(q).as_slice().to_vec()).collect();
+        plan.cost = Some(path_length(&tips));
+        plan.path = follower.trail.iter().map(|q| q.to_vec()).collect();
+        plan
+    }
+}
+
+fn without_path(mut plan: Plan) -> Plan {
+    (plan.ending, plan.cost) = (Ending::NoPath, None);
+    plan.path.clear();
+    plan
+}
+
+/// Whether some posture within `reach` of the present one would be free at `tip`, on a grid of 9 × 9 × 9 turns.
+fn other(follower: &Follower<'_>, tip: &Vec3, reach: [f64; 3]) -> bool {
+    let turn = |code: usize, axis: usize| (code as f64 / 4.0 - 1.0) * reach[axis];
+    (0..729).any(|code| {
+        let w = Vec3::new(turn(code % 9, 0), turn(code / 9 % 9, 1), turn(code / 81, 2));
+        let target = CarriedArm::target(tip, &(rotation::exp(&w) * follower.rotation));
+        let solved = follower.arm.arm().inverse_on(&target, follower.branch, &follower.q);
+        solved.is_some_and(|q| {
+            follower.arm.clearance(&q, follower.world.bodies(), 2.0 * LEAST_CM, false) >= LEAST_CM
+        })
+    })
+}
+
+/// What figures need of a trail: rods, the tip's way, and its turns from pointing down.
+pub(super) fn trails(arm: &CarriedArm, trail: &[Joints]) -> Vec<Exhibit> {
+    let tips: Vec<Vec3> = trail.iter().map(|q| arm.tip(q)).collect();
+    let turn = |q: &Joints| rotation::log(&(arm.arm().chain().forward(q).rotation * DOWN.transpose()));
+    let turns: Vec<Vec3> = trail.iter().map(turn).collect();
+    vec![rods(arm, trail), exhibit("tip_trail", &tips), exhibit("posture_trail", &turns)]
+}
+
+/// The rods at configurations spread evenly over the trail: number of the posture, both ends, radius.
+fn rods(arm: &CarriedArm, trail: &[Joints]) -> Exhibit {
+    let last = trail.len() - 1;
+    let mut values = Vec::new();
+    for k in 0..SHOWN {
+        for rod in arm.rods(&trail[k * last / (SHOWN - 1)]) {
+            values.push(k as f64);
+            values.extend(rod.segment.a.iter().chain(rod.segment.b.iter()));
+            values.push(rod.radius);
+        }
+    }
+    Exhibit { name: "rods".to_owned(), width: 8, values }
+}

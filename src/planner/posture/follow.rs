@@ -1,0 +1,171 @@
+//! Following a tip path with the whole arm, turning the tip where a rod comes near.
+
+use super::potential::{direction, field, inverse};
+use super::rotation::{exp, log};
+use super::settings::{Bounds, Pose, Posture};
+use crate::geometry::Vec3;
+use crate::kinematics::ik::Branch;
+use crate::kinematics::{AXES, Joints};
+use crate::space::PolyhedraWorld;
+use crate::space::polyhedra::{CarriedArm, DOWN};
+use nalgebra::{Matrix3, Vector6};
+
+/// Rods nearer than this are taken to touch.
+pub(super) const LEAST_CM: f64 = 0.1;
+/// A joint that moves more than this between two stored configurations has jumped.
+const JUMP_RAD: f64 = 0.35;
+/// Between stored configurations rods are checked at least this often.
+const CHECK_RAD: f64 = 0.01;
+/// How often a step that does not help is halved.
+const HALVINGS: u32 = 5;
+
+/// The arm on its way.
+pub(super) struct Follower<'a> {
+    pub(super) settings: &'a Posture,
+    pub(super) world: &'a PolyhedraWorld,
+    pub(super) arm: &'a CarriedArm,
+    pub(super) branch: Branch,
+    pub(super) q: Joints,
+    pub(super) rotation: Matrix3<f64>,
+    /// Every configuration stored.
+    pub(super) trail: Vec<Joints>,
+    /// Steps of adjustment taken.
+    pub(super) adjustments: u64,
+}
+
+impl Follower<'_> {
+    /// Follows `nodes` from the second on; the index of the node that could not be reached, if there is one.
+    pub(super) fn follow(&mut self, nodes: &[Vec3]) -> Result<(), usize> {
+        for (index, pair) in nodes.windows(2).enumerate() {
+            self.step(&pair[0], &pair[1]).ok_or(index + 1)?;
+        }
+        Ok(())
+    }
+
+    /// One node on: returns towards the first posture where there is room, turns away where there is not.
+    fn step(&mut self, here: &Vec3, next: &Vec3) -> Option<()> {
+        if !self.settings.adjust {
+            return self.advance(next, self.rotation);
+        }
+        let recovered = self.recovered();
+        let has_room =
+            self.clearance_at(next, &recovered).is_some_and(|clearance| clearance >= self.settings.act_cm);
+        if has_room && self.turn_and_advance(here, next, recovered).is_some() {
+            return Some(());
+        }
+        let turned = self.adjusted(next)?;
+        self.turn_and_advance(here, next, turned)
+    }
+
+    fn recovered(&self) -> Matrix3<f64> {
+        let back = log(&(DOWN * self.rotation.transpose()));
+        let share = (self.settings.recovery_rad / back.norm().max(1e-12)).min(1.0);
+        exp(&(back * share)) * self.rotation
+    }
+
+    fn solve(&self, tip: &Vec3, rotation: &Matrix3<f64>, reference: &Joints) -> Option<Joints> {
+        self.arm.arm().inverse_on(&CarriedArm::target(tip, rotation), self.branch, reference)
+    }
+
+    fn clearance_at(&self, tip: &Vec3, rotation: &Matrix3<f64>) -> Option<f64> {
+        let q = self.solve(tip, rotation, &self.q)?;
+        Some(field(self.settings, self.world, self.arm, &q).clearance)
+    }
+
+    /// The posture for `next` after descending the potential there, within bounds; `None` if a rod still touches.
+    fn adjusted(&mut self, next: &Vec3) -> Option<Matrix3<f64>> {
+        let origin = match self.settings.bounds {
+            Bounds::PerNode => self.rotation,
+            Bounds::FromStart => DOWN,
+        };
+        let mut rotation = self.rotation;
+        let mut q = self.solve(next, &rotation, &self.q)?;
+        let mut now = field(self.settings, self.world, self.arm, &q);
+        for _ in 0..self.settings.iterations {
+            if now.clearance >= self.settings.act_cm {
+                break;
+            }
+            let Some(direction) = direction(self.settings, self.arm, &q, &now) else { break };
+            let tried = (0..=HALVINGS).find_map(|halving| {
+                let length = self.settings.step_rad / f64::from(1 << halving);
+                let turned = self.bounded(&origin, &(exp(&(direction * length)) * rotation));
+                let solved = self.solve(next, &turned, &q)?;
+                let then = field(self.settings, self.world, self.arm, &solved);
+                let improves = then.potential < now.potential || then.clearance > now.clearance;
+                (improves || self.settings.sign == super::settings::Sign::AsPrinted)
+                    .then_some((turned, solved, then))
+            });
+            let Some((turned, solved, then)) = tried else { break };
+            self.adjustments += 1;
+            (rotation, q, now) = (turned, solved, then);
+        }
+        (now.clearance >= LEAST_CM).then_some(rotation)
+    }
+
+    /// `rotation` with its turn from `origin` cut to the bounds about each axis.
+    fn bounded(&self, origin: &Matrix3<f64>, rotation: &Matrix3<f64>) -> Matrix3<f64> {
+        let bounds = Vec3::from(self.settings.bounds_rad);
+        let turn = log(&(rotation * origin.transpose()));
+        exp(&turn.zip_map(&bounds, |angle, bound| angle.clamp(-bound, bound))) * origin
+    }
+
+    /// Turns in place and moves on; where there is no room to turn here, turns while moving.
+    fn turn_and_advance(&mut self, here: &Vec3, next: &Vec3, rotation: Matrix3<f64>) -> Option<()> {
+        let stored = (self.q, self.rotation, self.trail.len());
+        if self.turn(here, rotation).and_then(|()| self.advance(next, rotation)).is_some() {
+            return Some(());
+        }
+        (self.q, self.rotation) = (stored.0, stored.1);
+        self.trail.truncate(stored.2);
+        self.advance(next, rotation)
+    }
+
+    /// Turns the tip in place, in steps that are stored.
+    fn turn(&mut self, here: &Vec3, rotation: Matrix3<f64>) -> Option<()> {
+        let whole = log(&(rotation * self.rotation.transpose()));
+        let count = (whole.norm() / self.settings.step_rad).ceil() as u32;
+        let origin = self.rotation;
+        for k in 1..=count {
+            let share = f64::from(k) / f64::from(count);
+            let turned = exp(&(whole * share)) * origin;
+            let q = match self.settings.pose {
+                Pose::Inverse => self.solve(here, &turned, &self.q)?,
+                Pose::Jacobian => self.dead_reckoned(&(whole / f64::from(count)))?,
+            };
+            self.store(q, turned)?;
+        }
+        Some(())
+    }
+
+    /// The joints after turning by `w`, by the Jacobian alone.
+    fn dead_reckoned(&self, w: &Vec3) -> Option<Joints> {
+        let inverse = inverse(&self.arm.tip_jacobian(&self.q), self.settings.damping)?;
+        let change = inverse * Vector6::new(0.0, 0.0, 0.0, w.x, w.y, w.z);
+        Some(std::array::from_fn(|i| self.q[i] + change[i]))
+    }
+
+    fn advance(&mut self, next: &Vec3, rotation: Matrix3<f64>) -> Option<()> {
+        let q = self.solve(next, &rotation, &self.q)?;
+        self.store(q, rotation)
+    }
+
+    /// Goes to `q` if nothing touches on the way.
+    fn store(&mut self, q: Joints, rotation: Matrix3<f64>) -> Option<()> {
+        let most = (0..AXES).map(|i| (q[i] - self.q[i]).abs()).fold(0.0, f64::max);
+        if most > JUMP_RAD || !self.arm.arm().chain().allows(&q) {
+            return None;
+        }
+        let count = (most / CHECK_RAD).ceil().max(1.0) as u32;
+        for k in 1..=count {
+            let share = f64::from(k) / f64::from(count);
+            let between = std::array::from_fn(|i| self.q[i] + (q[i] - self.q[i]) * share);
+            let printed = self.settings.uses_printed_distance();
+            if self.arm.clearance(&between, self.world.bodies(), 2.0 * LEAST_CM, printed) < LEAST_CM {
+                return None;
+            }
+        }
+        (self.q, self.rotation) = (q, rotation);
+        self.trail.push(q);
+        Some(())
+    }
+}

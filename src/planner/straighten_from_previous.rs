@@ -1,0 +1,56 @@
+//! Tang's local path optimisation as a stage.
+
+use super::polyhedra::{exhibit, points, polyhedra, replace};
+use super::{Build, Ending, Entry, Plan, Request, Stage};
+use crate::geometry::Segment;
+use crate::shorten::{Resume, stepwise_straightening};
+use crate::space::WorldKind;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "straighten_from_previous",
+    about: "from a node on, joins the following ones until one is hidden, keeps the one before it, and goes on",
+    revision: 1,
+    needs: WorldKind::Polyhedra,
+    columns: &[],
+    build: Build::Stage(|settings| {
+        let read: Straighten = settings.read()?;
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Straighten {
+    /// The node from which the next stretch starts.
+    resume: ResumeSetting,
+}
+
+#[derive(Deserialize, Clone, Copy)]
+#[serde(rename_all = "snake_case")]
+enum ResumeSetting {
+    LastJoined,
+    FirstRefused,
+}
+
+impl Stage for Straighten {
+    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+        if plan.ending != Ending::Solved {
+            return plan;
+        }
+        let world = polyhedra(request.world);
+        let nodes = points(&plan);
+        let resume = match self.resume {
+            ResumeSetting::LastJoined => Resume::LastJoined,
+            ResumeSetting::FirstRefused => Resume::FirstRefused,
+        };
+        let can_join = |i: usize, j: usize| world.is_clear(&Segment::new(nodes[i], nodes[j]));
+        let kept = stepwise_straightening(nodes.len(), resume, can_join);
+        if request.trace {
+            plan.exhibits.push(exhibit("raw_path", &nodes));
+        }
+        replace(&mut plan, &kept.into_iter().map(|i| nodes[i]).collect::<Vec<_>>());
+        plan
+    }
+}

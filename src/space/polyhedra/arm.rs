@@ -1,0 +1,134 @@
+//! The arm whose tip is the point: rods among the bodies of a scene.
+//!
+//! Robot files are metres, scenes with an arm centimetres; everything given and returned here is in centimetres
+//! but joint angles. Rods meet obstacles only: the reproduced paper checks nothing else.
+
+use crate::geometry::{
+    Aabb, Capsule, Convex, Frame, Nearest, Segment, Vec3, nearest_segment_convex,
+    nearest_segment_convex_printed,
+};
+use crate::kinematics::{
+    Arm, Joints, Robot,
+    robot::{Body, Part},
+};
+use nalgebra::{Matrix3, Matrix6};
+
+const CM_PER_M: f64 = 100.0;
+
+/// The tool's axes when it points straight down, its x along the world's.
+pub const DOWN: Matrix3<f64> = Matrix3::new(1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0);
+
+/// An arm with the rods that stand for its body.
+#[derive(Debug, Clone)]
+pub struct CarriedArm {
+    arm: Arm,
+    body: Body,
+}
+
+/// How near a rod is to an obstacle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// The obstacle.
+    pub obstacle: usize,
+    /// The rod, as listed in the body.
+    pub rod: usize,
+    /// From the rod's surface to the obstacle; minus the rod's radius where its axis is in the obstacle.
+    pub clearance: f64,
+    /// The nearest point of the rod's axis.
+    pub on_rod: Vec3,
+    /// The nearest point of the obstacle.
+    pub on_obstacle: Vec3,
+}
+
+impl CarriedArm {
+    /// The arm of `robot` with its body called `body`.
+    ///
+    /// # Errors
+    /// A sentence with the bodies that there are.
+    pub fn new(robot: &Robot, body: &str) -> Result<Self, String> {
+        let found = robot.body(body).ok_or_else(|| {
+            let known: Vec<&str> = robot.bodies().iter().map(Body::name).collect();
+            format!("robot `{}` has no body `{body}`; it has {}", robot.name(), known.join(", "))
+        })?;
+        Ok(Self { arm: robot.arm().clone(), body: found.clone() })
+    }
+
+    /// Forward and inverse kinematics, in metres.
+    pub fn arm(&self) -> &Arm {
+        &self.arm
+    }
+
+    /// The rods in the frames of their links, in metres.
+    pub fn parts(&self) -> &[Part] {
+        self.body.parts()
+    }
+
+    /// The pose of the tip with the axes `rotation` at `point`, in metres as the kinematics take it.
+    pub fn target(point: &Vec3, rotation: &Matrix3<f64>) -> Frame {
+        Frame { origin: point / CM_PER_M, rotation: *rotation }
+    }
+
+    /// Where the tip is.
+    pub fn tip(&self, q: &Joints) -> Vec3 {
+        self.arm.chain().forward(q).origin * CM_PER_M
+    }
+
+    /// The rods at `q`.
+    pub fn rods(&self, q: &Joints) -> Vec<Capsule> {
+        let mut rods = Vec::new();
+        self.body.place(&self.arm.chain().frames(q), &mut rods);
+        for rod in &mut rods {
+            let Segment { a, b } = rod.segment;
+            *rod =
+                Capsule { segment: Segment::new(a * CM_PER_M, b * CM_PER_M), radius: rod.radius * CM_PER_M };
+        }
+        rods
+    }
+
+    /// For every obstacle within `reach` of a rod's surface, the rod nearest to it, by the exact distance or by the
+    /// printed one.
+    pub fn contacts(&self, q: &Joints, bodies: &[Convex], reach: f64, printed: bool) -> Vec<Contact> {
+        let rods = self.rods(q);
+        let nearest = if printed { nearest_segment_convex_printed } else { nearest_segment_convex };
+        let of = |obstacle: usize, body: &Convex| {
+            let mut best: Option<Contact> = None;
+            for (rod, capsule) in rods.iter().enumerate() {
+                if !Aabb::of_capsule(capsule).grown(reach).overlaps(body.aabb()) {
+                    continue;
+                }
+                let Nearest { distance, on_a, on_b } = nearest(&capsule.segment, body);
+                let clearance = distance - capsule.radius;
+                if clearance <= reach && best.is_none_or(|known| clearance < known.clearance) {
+                    best = Some(Contact { obstacle, rod, clearance, on_rod: on_a, on_obstacle: on_b });
+                }
+            }
+            best
+        };
+        bodies.iter().enumerate().filter_map(|(obstacle, body)| of(obstacle, body)).collect()
+    }
+
+    /// How far the rods' surfaces are from the obstacles, or `reach` if that is further.
+    pub fn clearance(&self, q: &Joints, bodies: &[Convex], reach: f64, printed: bool) -> f64 {
+        let contacts = self.contacts(q, bodies, reach, printed);
+        contacts.iter().map(|contact| contact.clearance).fold(reach, f64::min)
+    }
+
+    /// How a point of a rod's axis (in the world) moves with the joints: centimetres a radian, rows 0 to 2; rows 3 to
+    /// 5 are the rod's rotation.
+    pub fn rod_jacobian(&self, q: &Joints, rod: usize, point: &Vec3) -> Matrix6<f64> {
+        let link = self.body.parts()[rod].link();
+        self.jacobian(q, link, point)
+    }
+
+    /// How the tip moves with the joints, as [`rod_jacobian`](Self::rod_jacobian).
+    pub fn tip_jacobian(&self, q: &Joints) -> Matrix6<f64> {
+        self.jacobian(q, crate::kinematics::AXES, &self.tip(q))
+    }
+
+    fn jacobian(&self, q: &Joints, link: usize, point: &Vec3) -> Matrix6<f64> {
+        let frames = self.arm.chain().frames(q);
+        let mut jacobian = crate::kinematics::Chain::jacobian(&frames, link, &(point / CM_PER_M));
+        jacobian.fixed_view_mut::<3, 6>(0, 0).scale_mut(CM_PER_M);
+        jacobian
+    }
+}

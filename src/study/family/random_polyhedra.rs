@@ -1,0 +1,152 @@
+//! Random obstacles of several shapes in a cube, apart from each other or not, with written queries.
+
+use super::polyhedra_scene::QuerySettings;
+use super::{Entry, Family, Query};
+use crate::geometry::{Aabb, Axis, Convex, Segment, Vec3, distance_segment_convex};
+use crate::planner::Invalid;
+use crate::seed::{self, Stream};
+use crate::settings::{Settings, SettingsError};
+use crate::space::{PolyhedraWorld, WorldKind};
+use crate::study::StudyError;
+use crate::study::judge::POLYHEDRA_COLUMNS;
+use crate::study::prepared::{Prepared, polyhedra};
+use rand::RngExt as _;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "random_polyhedra",
+    about: "a random number of random obstacles in a cube, disjoint or not, with written queries",
+    revision: 1,
+    prepared: polyhedra::ENTRY.name,
+    columns: POLYHEDRA_COLUMNS,
+    build: |settings, _inputs| {
+        let read: RandomPolyhedra = settings.read()?;
+        read.check(settings)?;
+        let queries = read.queries.iter().map(QuerySettings::query).collect();
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, queries }))
+    },
+};
+
+/// How often an obstacle is drawn again before a draw is given up.
+const TRIES: u32 = 10_000;
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RandomPolyhedra {
+    side_cm: f64,
+    step_cm: f64,
+    /// The fewest and the most obstacles; each number in between is as likely.
+    count: [u32; 2],
+    /// The least and the greatest extent along each axis.
+    size_cm: [f64; 2],
+    shapes: Vec<ShapeName>,
+    /// The least distance between the boxes about two obstacles; they may overlap without it.
+    gap_cm: Option<f64>,
+    /// How far obstacles stay from starts and goals.
+    clear_cm: f64,
+    queries: Vec<QuerySettings>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum ShapeName {
+    Box,
+    Prism,
+    Octahedron,
+    Wedge,
+    Pyramid,
+}
+
+impl RandomPolyhedra {
+    fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
+        let [fewest, most] = self.count;
+        let [least, greatest] = self.size_cm;
+        let fault = if fewest > most {
+            Some(format!("count is [{fewest}, {most}]; the fewest and the most, in this order, are accepted"))
+        } else if !(0.0 < least && least <= greatest && greatest < self.side_cm) {
+            Some(format!(
+                "size_cm is [{least}, {greatest}]; two rising sizes above 0 and below side_cm are accepted"
+            ))
+        } else if self.shapes.is_empty() {
+            Some(
+                "shapes is empty; at least one of box, prism, octahedron, wedge, pyramid is needed"
+                    .to_owned(),
+            )
+        } else {
+            None
+        };
+        if let Some(message) = fault {
+            return Err(settings.error(message));
+        }
+        let empty = self.world(Vec::new()).map_err(|invalid| settings.error(invalid.0))?;
+        let queries: Vec<Query> = self.queries.iter().map(QuerySettings::query).collect();
+        super::polyhedra_scene::check(settings, &empty, &queries)
+    }
+
+    fn world(&self, bodies: Vec<Convex>) -> Result<PolyhedraWorld, Invalid> {
+        let domain = Aabb { min: Vec3::zeros(), max: Vec3::repeat(self.side_cm) };
+        PolyhedraWorld::new(bodies, domain, self.step_cm, 0.0).map_err(|e| Invalid(e.to_string()))
+    }
+
+    fn shape(&self, stream: &mut Stream) -> Convex {
+        let [least, greatest] = self.size_cm;
+        let size = Vec3::from_fn(|_, _| stream.random_range(least..=greatest));
+        let center = Vec3::from_fn(|_, _| stream.random_range(0.0..=self.side_cm));
+        let made = match self.shapes[stream.random_range(0..self.shapes.len())] {
+            ShapeName::Box => Convex::cuboid(center, size),
+            ShapeName::Octahedron => Convex::octahedron(center, size.x / 2.0),
+            ShapeName::Wedge => Convex::wedge(center, size),
+            ShapeName::Pyramid => Convex::pyramid(center, size.x, size.y),
+            ShapeName::Prism => {
+                let axis = [Axis::X, Axis::Y, Axis::Z][stream.random_range(0..3)];
+                let (sides, turn) = (stream.random_range(5..=8), stream.random_range(0.0..1.0));
+                Convex::prism(axis, center, size.x / 2.0, size.y, sides, turn)
+            }
+        };
+        made.expect("sizes were checked when the settings were read")
+    }
+
+    /// Whether `shape` lies in the cube, off the queries' ends and apart from the others.
+    fn fits(&self, shape: &Convex, others: &[Convex]) -> bool {
+        let within = shape.aabb().min.min() >= 0.0 && shape.aabb().max.max() <= self.side_cm;
+        let ends = self.queries.iter().map(QuerySettings::query).flat_map(|query| [query.start, query.goal]);
+        let off = |end: Vec<f64>| {
+            let point = Vec3::new(end[0], end[1], end[2]);
+            distance_segment_convex(&Segment::new(point, point), shape) > self.clear_cm
+        };
+        let apart = |gap: f64| others.iter().all(|o| !o.aabb().grown(gap).overlaps(shape.aabb()));
+        within && ends.into_iter().all(off) && self.gap_cm.is_none_or(apart)
+    }
+}
+
+struct Drawn {
+    read: RandomPolyhedra,
+    queries: Vec<Query>,
+}
+
+impl Family for Drawn {
+    fn world(&self) -> WorldKind {
+        WorldKind::Polyhedra
+    }
+
+    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        let mut stream = seed::stream(seed);
+        let [fewest, most] = self.read.count;
+        let count = stream.random_range(fewest..=most);
+        let mut bodies: Vec<Convex> = Vec::new();
+        for number in 0..count {
+            let mut draws = (0..TRIES).map(|_| self.read.shape(&mut stream));
+            let found = draws.find(|shape| self.read.fits(shape, &bodies));
+            let shape = found.ok_or_else(|| {
+                Invalid(format!("obstacle {} of {count} found no place in {TRIES} draws", number + 1))
+            })?;
+            bodies.push(shape);
+        }
+        Ok(polyhedra::prepare(self.read.world(bodies)?))
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+}

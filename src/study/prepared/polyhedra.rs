@@ -1,0 +1,41 @@
+//! A scene of polyhedra with its rasterised lattice.
+
+use super::{Entry, Prepared};
+use crate::geometry::Convex;
+use crate::planner::{Counts, Exhibit, Value};
+use crate::space::{PolyhedraWorld, World};
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "polyhedra",
+    about: "convex polyhedra, the cubic lattice among them rasterised, and the arm if there is one",
+    columns: &["obstacles", "free_nodes"],
+};
+
+/// `world` with what it is like.
+pub fn prepare(world: PolyhedraWorld) -> Prepared {
+    let values = Counts::from([
+        ("obstacles", Value::Count(world.obstacles().len() as u64)),
+        ("free_nodes", Value::Count(world.grid().free_count())),
+    ]);
+    let [low, high] = [world.domain().min, world.domain().max];
+    let domain = [low, high].iter().flat_map(|corner| corner.as_slice().to_vec()).collect();
+    let mut exhibits = vec![Exhibit { name: "domain".to_owned(), width: 3, values: domain }];
+    exhibits.extend(solids("bodies", world.bodies()));
+    Prepared { world: World::Polyhedra(Box::new(world)), values, exhibits }
+}
+
+/// Vertices, and the numbers of the vertices of each face: (face, vertex) in order around it, counted through.
+fn solids(name: &str, solids: &[Convex]) -> [Exhibit; 2] {
+    let (mut vertices, mut faces, mut face_count) = (Vec::new(), Vec::new(), 0);
+    for solid in solids {
+        let first = vertices.len() / 3;
+        vertices.extend(solid.vertices().iter().flat_map(|v| v.as_slice().to_vec()));
+        for face in solid.faces() {
+            faces.extend(face.corners.iter().flat_map(|v| [f64::from(face_count), (first + v) as f64]));
+            face_count += 1;
+        }
+    }
+    let exhibit = |suffix: &str, width, values| Exhibit { name: format!("{name}_{suffix}"), width, values };
+    [exhibit("vertices", 3, vertices), exhibit("faces", 2, faces)]
+}

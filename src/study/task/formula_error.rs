@@ -1,0 +1,146 @@
+//! How often the printed distance of a segment and a polyhedron is wrong, on random segments beside each obstacle.
+//!
+//! One row a draw: the counts of that draw's samples. A sample is separated if the exact distance is above 0; it is
+//! overestimated if the printed distance is longer by more than a millionth of the obstacle's extent, and a
+//! collision is missed if the printed distance is not 0. The clamped formula for two segments is compared with the
+//! exact one on pairs of segments of the same samples.
+
+use super::{Entry, Task};
+use crate::geometry::{
+    Convex, Segment, Vec3, distance_segment_convex, distance_segment_segment, nearest_segment_convex_printed,
+    nearest_segment_segment_printed,
+};
+use crate::planner::Value;
+use crate::seed::{self, Stream};
+use crate::settings::Settings;
+use crate::study::checked::Study;
+use crate::study::record::{Batch, Status, Values};
+use crate::study::runner::Unit;
+use rand::RngExt as _;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "formula_error",
+    about: "how often the printed distance of a segment and a polyhedron is wrong, on random segments",
+    revision: 1,
+    columns: &[
+        "separated",
+        "overestimated",
+        "colliding",
+        "missed",
+        "segment_pairs",
+        "segment_pairs_wrong",
+        "largest_excess_cm",
+    ],
+    build: |settings: &Settings| {
+        let read: FormulaError = settings.read()?;
+        if read.samples == 0 {
+            return Err(settings.error("samples is 0; at least 1 is accepted"));
+        }
+        if !(read.reach > 0.0 && read.reach.is_finite()) {
+            let message = format!("reach is {}; more than 0 is accepted", read.reach);
+            return Err(settings.error(message));
+        }
+        Ok(Box::new(read))
+    },
+};
+
+/// Distances that differ by less than this share of the obstacle's extent are the same.
+const SAME: f64 = 1e-6;
+
+/// What stands in a contender's place.
+const LABEL: &str = "Printed distance";
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FormulaError {
+    /// Segments drawn beside each obstacle.
+    samples: u32,
+    /// Their ends lie in the box about the obstacle, grown by this share of its extent.
+    reach: f64,
+}
+
+#[derive(Default)]
+struct Counted {
+    separated: u64,
+    overestimated: u64,
+    colliding: u64,
+    missed: u64,
+    pairs: u64,
+    pairs_wrong: u64,
+    largest_excess: f64,
+}
+
+impl Counted {
+    fn add(&mut self, segment: &Segment, other: &Segment, convex: &Convex) {
+        let extent = (convex.aabb().max - convex.aabb().min).norm();
+        let truth = distance_segment_convex(segment, convex);
+        let printed = nearest_segment_convex_printed(segment, convex).distance;
+        if truth > 0.0 {
+            self.separated += 1;
+            self.overestimated += u64::from(printed > truth + SAME * extent);
+            self.largest_excess = self.largest_excess.max(printed - truth);
+        } else {
+            self.colliding += 1;
+            self.missed += u64::from(printed > 0.0);
+        }
+        let truth = distance_segment_segment(segment, other);
+        let printed = nearest_segment_segment_printed(segment, other).distance;
+        self.pairs += 1;
+        self.pairs_wrong += u64::from((printed - truth).abs() > SAME * extent);
+    }
+
+    fn values(&self) -> Values {
+        let counts = [
+            ("separated", self.separated),
+            ("overestimated", self.overestimated),
+            ("colliding", self.colliding),
+            ("missed", self.missed),
+            ("segment_pairs", self.pairs),
+            ("segment_pairs_wrong", self.pairs_wrong),
+        ];
+        let counts = counts.into_iter().map(|(name, count)| (name.to_owned(), Value::Count(count)));
+        counts.chain([("largest_excess_cm".to_owned(), Value::Real(self.largest_excess))]).collect()
+    }
+}
+
+impl FormulaError {
+    fn segment(&self, stream: &mut Stream, convex: &Convex) -> Segment {
+        let (low, high) = (convex.aabb().min, convex.aabb().max);
+        let margin = (high - low) * self.reach;
+        let mut end = || Vec3::from_fn(|i, _| stream.random_range(low[i] - margin[i]..=high[i] + margin[i]));
+        Segment::new(end(), end())
+    }
+}
+
+impl Task for FormulaError {
+    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+        vec![super::variant_name(unit, LABEL)]
+    }
+
+    fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
+        let mut row = super::variant_row(unit, LABEL, "");
+        match unit.family.prepare(unit.seed) {
+            Err(invalid) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),
+            Ok(prepared) => match prepared.world.as_polyhedra() {
+                None => {
+                    let reason = "the task measures polyhedra, and this world has none".to_owned();
+                    (row.status, row.reason) = (Status::InvalidProblem, Some(reason));
+                }
+                Some(world) => {
+                    let mut stream = seed::stream(seed::derive(unit.seed, &["segments"]));
+                    let mut counted = Counted::default();
+                    for convex in world.bodies() {
+                        for _ in 0..self.samples {
+                            let [one, other] = [0; 2].map(|_| self.segment(&mut stream, convex));
+                            counted.add(&one, &other, convex);
+                        }
+                    }
+                    (row.status, row.values) = (Status::Solved, counted.values());
+                }
+            },
+        }
+        Batch { prepared: Vec::new(), rows: vec![row], kept: Vec::new() }
+    }
+}
