@@ -5,7 +5,7 @@ from multiprocessing import Pool
 from pathlib import Path
 
 from judge.answers import answer_model
-from judge.picture import draw
+from judge.picture import View, draw
 
 
 def main() -> None:
@@ -21,11 +21,12 @@ def main() -> None:
     drawing.add_argument("--key", required=True)
     drawing.add_argument("--azimuth", type=float, default=135.0, help="degrees (default: %(default)s)")
     drawing.add_argument("--elevation", type=float, default=-25.0, help="degrees (default: %(default)s)")
+    drawing.add_argument("--zoom", type=float, default=1.0, help="1: MuJoCo's own distance (default)")
     words = parser.parse_args()
     if words.command == "answer":
         answer_all(words.folder, words.jobs)
     else:
-        draw(words.model, words.to, words.key, words.azimuth, words.elevation)
+        draw(words.model, words.to, words.key, View(words.azimuth, words.elevation, words.zoom))
 
 
 def answer_all(folder: Path, jobs: int) -> None:

@@ -129,6 +129,7 @@ impl Crosscheck {
             model: folder.join(&picture.case).join("scene.xml"),
             key: picture.key.clone(),
             camera_deg: picture.camera_deg,
+            zoom: picture.zoom,
             to: to.clone(),
         };
         Ok(match judge.draw(&shown) {
@@ -156,7 +157,7 @@ impl Crosscheck {
             Err(_) if root.join(&link).is_file() => Ok(link.as_str()),
             Err(why) => Err(why.as_str()),
         };
-        let place = Path::new(FOLDER).join(id).join(scene).join("scene.xml");
+        let place = root.join(FOLDER).join(id).join(scene).join("scene.xml");
         let view = format!("{FOLDER}/venv/bin/python -m mujoco.viewer --mjcf={}", place.display());
         let command = format!("replan crosscheck {id}");
         let chapter = crosscheck::chapter(id, outcomes, &command, &view, picture);

@@ -39,56 +39,36 @@ fn bound(largest: Option<f64>) -> String {
 pub fn table(outcomes: &[Outcome]) -> String {
     let mut text = String::new();
     let width = outcomes.iter().map(|outcome| outcome.case.len()).max().unwrap_or(0).max(4);
-    line!(
-        text,
-        "{:<width$}  {:<9} {:<24} {:>7} {:>10} {:>5} {:>8} {:>7}  verdict",
-        "case",
-        "question",
-        "configurations",
-        "asked",
-        "in contact",
-        "ties",
-        "largest",
-        "differ"
-    );
-    for outcome in outcomes {
-        for Line { question, kind, asked, in_contact, ties, largest, disagreements } in &outcome.lines {
-            let contact = in_contact.map_or_else(|| "–".to_owned(), |count| count.to_string());
-            line!(
-                text,
-                "{:<width$}  {question:<9} {:<24} {asked:>7} {contact:>10} {ties:>5} {:>8} {disagreements:>7}  {}",
-                outcome.case,
-                kind.name(),
-                bound(*largest),
-                verdict(*disagreements == 0)
-            );
+    let head = ["question", "configurations", "asked", "in contact", "ties", "largest", "differ"];
+    row(&mut text, width, "case", &head.map(str::to_owned), "verdict");
+    let none = || "–".to_owned();
+    for Outcome { case, lines, paths, controls, .. } in outcomes {
+        for Line { question, kind, asked, in_contact, ties, largest, disagreements } in lines {
+            let contact = in_contact.map_or_else(none, |count| count.to_string());
+            let (ties, differ) = (ties.to_string(), disagreements.to_string());
+            let (question, kind) = ((*question).to_owned(), kind.name().to_owned());
+            let cells = [question, kind, asked.to_string(), contact, ties, bound(*largest), differ];
+            row(&mut text, width, case, &cells, verdict(*disagreements == 0));
         }
-        let blocked = outcome.paths.blocked.len();
-        let origin = if outcome.paths.are_stored { "stored" } else { "drawn" };
-        line!(
-            text,
-            "{:<width$}  {:<9} {origin:<24} {:>7} {:>10} {:>5} {:>8} {blocked:>7}  {}",
-            outcome.case,
-            "free path",
-            outcome.paths.count,
-            "–",
-            "–",
-            "–",
-            verdict(blocked == 0)
-        );
-        for control in &outcome.controls {
+        let (count, blocked) = (paths.count.to_string(), paths.blocked.len());
+        let origin = (if paths.are_stored { "stored" } else { "drawn" }).to_owned();
+        let cells = ["free path".to_owned(), origin, count, none(), none(), none(), blocked.to_string()];
+        row(&mut text, width, case, &cells, verdict(blocked == 0));
+        for control in controls {
             let said = if control.is_caught() { "noticed" } else { "NOT NOTICED" };
-            line!(
-                text,
-                "{:<width$}  control: {}: {} of {}  {said}",
-                outcome.case,
-                control.what,
-                control.caught,
-                control.listed
-            );
+            let Control { what, listed, caught } = control;
+            line!(text, "{case:<width$}  control: {what}: {caught} of {listed}  {said}");
         }
     }
     text
+}
+
+fn row(text: &mut String, width: usize, case: &str, cells: &[String; 7], verdict: &str) {
+    let [question, kind, asked, contact, ties, largest, differ] = cells;
+    line!(
+        text,
+        "{case:<width$}  {question:<9} {kind:<24} {asked:>7} {contact:>10} {ties:>5} {largest:>8} {differ:>7}  {verdict}"
+    );
 }
 
 /// The chapter of the paper `paper`: `command` made it, `view` opens the scene in MuJoCo's viewer, and `picture` is
@@ -113,6 +93,27 @@ pub fn chapter(
         Err(why) => line!(text, "No picture: {why}.\n"),
     }
     line!(text, "In MuJoCo's own viewer, with keyframes: `{view}`.\n");
+    tolerances(&mut text);
+    line!(
+        text,
+        "Contact of each pair that may touch: configurations asked, and in brackets how many are in contact.\n"
+    );
+    contacts(&mut text, outcomes, "contact");
+    if outcomes.iter().flat_map(|outcome| &outcome.lines).any(|line| line.question == "planners") {
+        line!(
+            text,
+            "\nThe same of the check that planners use, which knows no pairs (and for some robots only what stands around them).\n"
+        );
+        contacts(&mut text, outcomes, "planners");
+    }
+    numbers(&mut text, outcomes);
+    paths(&mut text, outcomes);
+    controls(&mut text, outcomes);
+    differences(&mut text, outcomes);
+    text
+}
+
+fn tolerances(text: &mut String) {
     line!(
         text,
         "Tolerances: frames {FRAME_TOLERANCE:e} m and per entry of a rotation, since both sides round a few dozen operations \
@@ -122,12 +123,6 @@ pub fn chapter(
          Obstacles with flat faces are given as meshes, because MuJoCo's capsule–box primitive misses capsules that \
          pierce a box.\n"
     );
-    contacts(&mut text, outcomes);
-    numbers(&mut text, outcomes);
-    paths(&mut text, outcomes);
-    controls(&mut text, outcomes);
-    differences(&mut text, outcomes);
-    text
 }
 
 /// The verdict in a sentence.
@@ -148,34 +143,39 @@ fn summary(outcomes: &[Outcome]) -> String {
         )
     };
     format!(
-        "{verdict}: {} cases (a robot in a scene), {} configurations asked for contact, {} for frames, {} for distances, {} \
-         for joint limits.",
+        "{verdict}: {} cases (a robot in a scene), {} configurations asked for contact, {} of them also of \
+         the check that planners use, {} for frames, {} for distances, {} for joint limits.",
         outcomes.len(),
         asked("contact"),
+        asked("planners"),
         asked("frame"),
         asked("distance"),
         asked("limit")
     )
 }
 
-fn contacts(text: &mut String, outcomes: &[Outcome]) {
-    let all = || outcomes.iter().flat_map(|outcome| &outcome.lines).filter(|line| line.question == "contact");
-    let kinds: BTreeSet<Kind> = all().map(|line| line.kind).collect();
-    line!(text, "Contact or none: configurations asked, and in brackets how many are in contact.\n");
+/// One row a case that was asked `question`, one column a kind of configuration.
+fn contacts(text: &mut String, outcomes: &[Outcome], question: &str) {
+    let own = |outcome: &Outcome| {
+        outcome.lines.iter().filter(|line| line.question == question).cloned().collect::<Vec<Line>>()
+    };
+    let kinds: BTreeSet<Kind> = outcomes.iter().flat_map(own).map(|line| line.kind).collect();
     let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
     line!(text, "| case | {} | ties | differ |", names.join(" | "));
     line!(text, "|---|{}---|---|", "---|".repeat(kinds.len()));
-    for outcome in outcomes {
-        let own = || outcome.lines.iter().filter(|line| line.question == "contact");
+    for (outcome, lines) in outcomes.iter().map(|outcome| (outcome, own(outcome))) {
         let cell = |kind: &Kind| {
-            own().find(|line| line.kind == *kind).map_or_else(
+            lines.iter().find(|line| line.kind == *kind).map_or_else(
                 || "–".to_owned(),
                 |line| format!("{} ({})", line.asked, line.in_contact.unwrap_or(0)),
             )
         };
         let cells: Vec<String> = kinds.iter().map(cell).collect();
-        let (ties, differ) = own().fold((0, 0), |(t, d), line| (t + line.ties, d + line.disagreements));
-        line!(text, "| {} | {} | {ties} | **{differ}** |", outcome.case, cells.join(" | "));
+        let (ties, differ) =
+            lines.iter().fold((0, 0), |(t, d), line| (t + line.ties, d + line.disagreements));
+        if !lines.is_empty() {
+            line!(text, "| {} | {} | {ties} | **{differ}** |", outcome.case, cells.join(" | "));
+        }
     }
 }
 

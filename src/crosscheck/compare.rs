@@ -138,17 +138,47 @@ impl Asked<'_> {
                     compared.touches.push((row, index));
                 }
                 if touches != (*gap_m <= 0.0) {
-                    let of = self.model().pair_name(pairs[index]);
                     let found = Disagreement {
                         ours: format!("gap {gap_m:e} m"),
-                        theirs: (if touches { "contact" } else { "no contact" }).to_owned(),
-                        ..self.disagreement("contact", row, of)
+                        theirs: contact(touches),
+                        ..self.disagreement("contact", row, self.model().pair_name(pairs[index]))
                     };
                     compared.differ(found);
                 }
             }
+            let near = |index: usize| gaps_m[index].abs() <= TIE_M;
+            let theirs = |index: usize| (!near(index)).then_some(columns[index][row]);
+            self.planners_check(compared, row, &pairs, theirs);
         }
         Ok(())
+    }
+
+    /// Compares what planners' own check says of a row with the judge's answers by pair, which are `None` for ties.
+    fn planners_check(
+        &self,
+        compared: &mut Compared,
+        row: usize,
+        pairs: &[Pair],
+        theirs: impl Fn(usize) -> Option<bool>,
+    ) {
+        let question = &self.questions[row];
+        let Some((is_free, of)) = self.subject.planners_check(&question.q_rad) else { return };
+        let sought = (0..pairs.len()).filter(|index| of.is_broken_by(pairs[*index]));
+        let answers: Vec<Option<bool>> = sought.map(theirs).collect();
+        let touches = answers.contains(&Some(true));
+        let line = compared.line("planners", question.kind);
+        line.asked += 1;
+        *line.in_contact.get_or_insert(0) += usize::from(!is_free);
+        if !touches && answers.contains(&None) {
+            line.ties += 1;
+        } else if is_free == touches {
+            let found = Disagreement {
+                ours: contact(!is_free),
+                theirs: contact(touches),
+                ..self.disagreement("planners", row, "the whole robot".to_owned())
+            };
+            compared.differ(found);
+        }
     }
 
     fn distances(&self, compared: &mut Compared) -> Result<(), CrosscheckError> {
@@ -232,6 +262,10 @@ impl Asked<'_> {
         }
         Ok(())
     }
+}
+
+fn contact(is: bool) -> String {
+    (if is { "contact" } else { "no contact" }).to_owned()
 }
 
 /// Place and rotation, row by row.

@@ -45,7 +45,10 @@ pub fn mjcf(model: &Model, keys: &[Key]) -> String {
         "    <headlight ambient=\"0.35 0.35 0.35\" diffuse=\"0.4 0.4 0.4\" specular=\"0 0 0\"/>\n  </visual>"
     );
     line!(text, "  <asset>");
-    line!(text, "    <texture type=\"skybox\" builtin=\"flat\" rgb1=\"1 1 1\" width=\"16\" height=\"96\"/>");
+    line!(
+        text,
+        "    <texture type=\"skybox\" builtin=\"flat\" rgb1=\"1 1 1\" rgb2=\"1 1 1\" width=\"16\" height=\"96\"/>"
+    );
     for (index, still) in model.stills.iter().enumerate() {
         if let Some(vertices) = mesh(&still.solid) {
             let numbers: Vec<String> = vertices.iter().map(numbers).collect();
@@ -59,6 +62,18 @@ pub fn mjcf(model: &Model, keys: &[Key]) -> String {
     }
     robot(&mut text, model);
     line!(text, "  </worldbody>\n  <contact>");
+    contact(&mut text, model);
+    line!(text, "  </contact>\n  <keyframe>");
+    for key in keys {
+        let angles: Vec<String> = key.q_rad.iter().map(|angle| number(*angle)).collect();
+        line!(text, "    <key name=\"{}\" qpos=\"{}\"/>", escaped(&key.name), angles.join(" "));
+    }
+    line!(text, "  </keyframe>\n</mujoco>");
+    text
+}
+
+/// The pairs of the robot's own parts that may touch.
+fn contact(text: &mut String, model: &Model) {
     for [a, b] in &model.self_pairs {
         let names = [a, b].map(|part| escaped(&model.parts[*part].name));
         line!(
@@ -68,13 +83,6 @@ pub fn mjcf(model: &Model, keys: &[Key]) -> String {
             names[1]
         );
     }
-    line!(text, "  </contact>\n  <keyframe>");
-    for key in keys {
-        let angles: Vec<String> = key.q_rad.iter().map(|angle| number(*angle)).collect();
-        line!(text, "    <key name=\"{}\" qpos=\"{}\"/>", escaped(&key.name), angles.join(" "));
-    }
-    line!(text, "  </keyframe>\n</mujoco>");
-    text
 }
 
 fn robot(text: &mut String, model: &Model) {

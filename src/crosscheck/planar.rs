@@ -1,6 +1,7 @@
 //! A planar arm as the judge sees it: in the plane z = 0, links as capsules too thin to matter.
 
 use super::model::{Model, Pair, Part, Row, Still};
+use super::stored::Freedom;
 use super::subject::Subject;
 use crate::geometry::planar::{Circle, ConvexPolygon, Segment2, Touch, distance_point_segment};
 use crate::geometry::{Capsule, Convex, Frame, GeometryError, Solid, Sphere, Vec2, Vec3};
@@ -138,6 +139,11 @@ impl Subject for PlanarArm {
             Pair::Parts(..) => unreachable!("a planar arm's links are not kept apart"),
         };
         self.pairs.iter().map(gap).collect()
+    }
+
+    fn planners_check(&self, _q_rad: &[f64]) -> Option<(bool, Freedom)> {
+        // Planners ask what `gaps_m` asks, and nothing on top of it.
+        None
     }
 
     fn is_beyond(&self, _joint: usize, _angle_rad: f64) -> Option<bool> {

@@ -6,11 +6,13 @@ use super::model::Still;
 use super::planar::PlanarArm;
 use super::sample::Sizes;
 use super::stored::{Freedom, StoredPaths};
-use super::subject::{SerialArm, Subject};
+use super::subject::{Check, SerialArm, Subject};
+use crate::geometry::{Convex, Solid};
 use crate::kinematics::{AXES, Robot};
 use crate::seed;
 use crate::settings::{Document, SettingsError};
-use crate::space::cell::Scene;
+use crate::space::cell::{Cell, Obstacle, Scene};
+use crate::space::polyhedra::{CarriedArm, read_scene};
 use crate::study::{Inputs, slug};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -45,6 +47,7 @@ struct PictureEntry {
     key: String,
     azimuth_deg: f64,
     elevation_deg: f64,
+    zoom: f64,
 }
 
 #[derive(Debug, Deserialize)]
@@ -77,6 +80,8 @@ struct SceneEntry {
 enum SceneFormat {
     /// A robot's cell, in millimetres.
     Cell,
+    /// Convex solids, in centimetres.
+    Polyhedra,
 }
 
 /// Paths of one robot in one scene.
@@ -128,6 +133,8 @@ pub struct Picture {
     pub key: String,
     /// Where the camera stands: turned about the vertical, and above the horizon (negative looks down).
     pub camera_deg: [f64; 2],
+    /// How much larger things are than where MuJoCo would stand.
+    pub zoom: f64,
 }
 
 impl Spec {
@@ -147,8 +154,13 @@ impl Spec {
 
     /// What the picture shows.
     pub fn picture(&self) -> Picture {
-        let PictureEntry { case, key, azimuth_deg, elevation_deg } = &self.file.picture;
-        Picture { case: case.get_ref().clone(), key: key.clone(), camera_deg: [*azimuth_deg, *elevation_deg] }
+        let PictureEntry { case, key, azimuth_deg, elevation_deg, zoom } = &self.file.picture;
+        Picture {
+            case: case.get_ref().clone(),
+            key: key.clone(),
+            camera_deg: [*azimuth_deg, *elevation_deg],
+            zoom: *zoom,
+        }
     }
 
     /// How many cases there are.
@@ -227,11 +239,13 @@ impl Spec {
         let at_scene = |message: String| self.document.error(scene.span(), message);
         let file = sources.inputs.locate(&r.file).map_err(at_robot)?;
         let loaded = Robot::load(&file).map_err(|error| at_robot(error.to_string()))?;
-        let stills = s.format.stills(&sources.inputs.locate(&s.file).map_err(at_scene)?)?;
+        let (stills, check) =
+            s.format.read(&sources.inputs.locate(&s.file).map_err(at_scene)?, &loaded, &r.body)?;
         let name = slug(&format!("{} in {}", r.label, s.label));
         let tool_is_straight = r.straight == Straight::Tool;
         let subject =
             SerialArm::new(name.clone(), loaded, &r.body, stills, tool_is_straight).map_err(at_robot)?;
+        let subject = subject.checked_by(check);
         let fits = |entry: &&StoredEntry| entry.robot == r.label && entry.scene == s.label;
         let stored = self.file.stored.iter().map(Spanned::get_ref).filter(fits).map(|entry| &entry.paths);
         let given = given(stored, sources.runs, AXES)?;
@@ -279,14 +293,40 @@ fn given<'a>(
     Ok(given)
 }
 
+/// One of a scene's convex solids, which have no names and are in centimetres.
+fn convex_still(index: usize, body: &Convex) -> Still {
+    const M: f64 = 1e-2;
+    let vertices = body.vertices().iter().map(|vertex| vertex * M).collect();
+    let solid = Convex::from_vertices(vertices).expect("a solid stays one in another unit");
+    Still { name: format!("obstacle {}", index + 1), solid: Solid::Convex(solid) }
+}
+
 impl SceneFormat {
-    fn stills(self, path: &Path) -> Result<Vec<Still>, SettingsError> {
+    /// What stands in the scene at `path`, and how planners check the body called `body` of `robot` in it.
+    fn read(
+        self,
+        path: &Path,
+        robot: &Robot,
+        body: &str,
+    ) -> Result<(Vec<Still>, Option<Check>), SettingsError> {
         match self {
             Self::Cell => {
                 let scene = Scene::load(path)?;
-                let still =
-                    |o: &crate::space::cell::Obstacle| Still { name: o.name.clone(), solid: o.solid.clone() };
-                Ok(scene.obstacles().iter().map(still).collect())
+                let still = |o: &Obstacle| Still { name: o.name.clone(), solid: o.solid.clone() };
+                let stills = scene.obstacles().iter().map(still).collect();
+                // Cells know a robot's first body only.
+                let is_first = robot.bodies().first().is_some_and(|first| first.name() == body);
+                let check = is_first.then(|| Check::Cell(Box::new(Cell::new(robot.clone(), scene, true))));
+                Ok((stills, check))
+            }
+            Self::Polyhedra => {
+                let bodies = read_scene(path)?.bodies;
+                let stills = bodies.iter().enumerate().map(|(index, body)| convex_still(index, body));
+                let stills = stills.collect();
+                // Planners among polyhedra know no part that obstacles cannot touch.
+                let arm = CarriedArm::new(robot, body).ok();
+                let arm = arm.filter(|arm| arm.parts().iter().all(|part| !part.is_self_only()));
+                Ok((stills, arm.map(|arm| Check::Rods(Box::new(arm), bodies))))
             }
         }
     }

@@ -5,11 +5,11 @@ use super::model::Pair;
 use super::path::Path as JointPath;
 use crate::space::World;
 use crate::study::manifest::Manifest;
-use crate::study::record::Kept;
+use crate::study::record::{Kept, Status};
 use crate::study::store::read_records;
 use crate::study::{Inputs, Point, Study, StudyError, slug};
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Which paths of a study are judged.
@@ -73,7 +73,7 @@ pub enum AngleUnit {
 }
 
 impl StoredPaths {
-    /// The paths in the records below `runs`, of a robot with this many joints.
+    /// The paths of solved trials in the records below `runs`, of a robot with this many joints.
     ///
     /// # Errors
     /// A run that is missing or damaged, or that kept no such path.
@@ -81,17 +81,20 @@ impl StoredPaths {
         let manifest = Manifest::read(runs, &self.study)?;
         let records = read_records(runs, &self.study, &manifest.files)?;
         let group = slug(&self.problems);
+        let rows = records.batch.rows.iter().filter(|row| row.status == Status::Solved);
+        let solved: BTreeSet<&str> = rows.map(|row| row.trial.as_str()).collect();
         // A group may also hold paths of a bare point, which are narrower.
         let is_wanted = |kept: &&Kept| {
             kept.exhibit.name == self.exhibit
                 && kept.of.split('/').next() == Some(group.as_str())
                 && kept.exhibit.width >= self.first_joint + joints
+                && solved.contains(kept.of.as_str())
         };
         let kept = records.batch.kept.iter().filter(is_wanted).map(|kept| self.path(kept, joints));
         let paths: Vec<JointPath> = kept.filter(|path| path.stops_rad.len() > 1).collect();
         if paths.is_empty() {
             let reason = format!(
-                "the stored run of study `{}` kept no exhibit `{}` of problems `{}`",
+                "the stored run of study `{}` kept no exhibit `{}` of a solved trial of problems `{}`",
                 self.study, self.exhibit, self.problems
             );
             return Err(StudyError::stored(Manifest::path(runs, &self.study), reason).into());

@@ -1,11 +1,14 @@
 //! What is judged: our kinematics and our distances, asked through one door for every kind of robot.
 
 use super::model::{Model, Pair, Part, Row, Still};
+use super::stored::Freedom;
 use crate::geometry::{
-    Frame, Solid, Vec3, distance_point_solid, distance_segment_segment, distance_segment_solid,
+    Convex, Frame, Solid, Vec3, distance_point_solid, distance_segment_segment, distance_segment_solid,
 };
 use crate::kinematics::robot::Body;
 use crate::kinematics::{AXES, Chain, Joints, Robot};
+use crate::space::cell::{Cell, Standing};
+use crate::space::polyhedra::CarriedArm;
 
 /// A robot among obstacles that answers with our code.
 pub trait Subject: Send + Sync {
@@ -17,6 +20,10 @@ pub trait Subject: Send + Sync {
 
     /// The gap of each of the model's pairs, metres: above 0 the distance, at most 0 in contact.
     fn gaps_m(&self, q_rad: &[f64]) -> Vec<f64>;
+
+    /// What the check that planners use says of contact at `q_rad`, and what contact it looks for: `true` if the robot
+    /// can be there. `None` if no planner moves this robot here.
+    fn planners_check(&self, q_rad: &[f64]) -> Option<(bool, Freedom)>;
 
     /// Whether a joint, counted from 0, may not be at this angle; `None` if the robot has no limits.
     fn is_beyond(&self, joint: usize, angle_rad: f64) -> Option<bool>;
@@ -34,6 +41,15 @@ pub trait Subject: Send + Sync {
     fn between(&self, from_rad: &[f64], to_rad: &[f64], share: f64) -> Option<Vec<f64>>;
 }
 
+/// How planners check a six-axis arm for contact.
+#[derive(Debug, Clone)]
+pub enum Check {
+    /// As in a cell: with all that stands there, and with itself.
+    Cell(Box<Cell>),
+    /// As rods among solids, in centimetres, and nothing else.
+    Rods(Box<CarriedArm>, Vec<Convex>),
+}
+
 /// A six-axis arm with the capsules of its body.
 #[derive(Debug, Clone)]
 pub struct SerialArm {
@@ -41,6 +57,7 @@ pub struct SerialArm {
     body: Body,
     model: Model,
     pairs: Vec<Pair>,
+    check: Option<Check>,
     /// Whether the tool goes straight between configurations of a path; else the joints do.
     tool_is_straight: bool,
 }
@@ -57,14 +74,10 @@ impl SerialArm {
         stills: Vec<Still>,
         tool_is_straight: bool,
     ) -> Result<Self, String> {
-        let Some(body) = robot.body(body).cloned() else {
+        let body = robot.body(body).cloned().ok_or_else(|| {
             let known: Vec<&str> = robot.bodies().iter().map(Body::name).collect();
-            return Err(format!(
-                "robot `{}` has no body `{body}`; it has {}",
-                robot.name(),
-                known.join(", ")
-            ));
-        };
+            format!("robot `{}` has no body `{body}`; it has {}", robot.name(), known.join(", "))
+        })?;
         let chain = robot.arm().chain();
         let row = |joint: &crate::kinematics::Joint| Row {
             alpha_rad: joint.alpha_rad,
@@ -89,7 +102,12 @@ impl SerialArm {
             stills,
         };
         let pairs = model.pairs();
-        Ok(Self { robot, body, model, pairs, tool_is_straight })
+        Ok(Self { robot, body, model, pairs, check: None, tool_is_straight })
+    }
+
+    /// The same, whose contacts planners check as `check` does.
+    pub fn checked_by(self, check: Option<Check>) -> Self {
+        Self { check, ..self }
     }
 
     fn chain(&self) -> &Chain {
@@ -135,12 +153,27 @@ impl Subject for SerialArm {
         self.pairs.iter().map(gap).collect()
     }
 
+    fn planners_check(&self, q_rad: &[f64]) -> Option<(bool, Freedom)> {
+        /// How far around rods obstacles are looked for.
+        const REACH_CM: f64 = 1.0;
+        match self.check.as_ref()? {
+            Check::Cell(cell) => {
+                let mut placed = Vec::new();
+                cell.place(&six(q_rad), &mut placed);
+                Some((cell.standing(&placed, |_| 0.0) != Standing::Contact, Freedom::Contact))
+            }
+            Check::Rods(arm, bodies) => {
+                Some((arm.clearance(&six(q_rad), bodies, REACH_CM, false) > 0.0, Freedom::Scene))
+            }
+        }
+    }
+
     fn is_beyond(&self, joint: usize, angle_rad: f64) -> Option<bool> {
         Some(!self.chain().joints()[joint].allows(angle_rad))
     }
 
     fn shifted(&self, still: usize, by_m: &Vec3) -> Box<dyn Subject> {
-        Box::new(Self { model: self.model.shifted(still, by_m), ..self.clone() })
+        Box::new(Self { model: self.model.shifted(still, by_m), check: None, ..self.clone() })
     }
 
     fn pierces(&self, q_rad: &[f64]) -> bool {

@@ -1,9 +1,11 @@
 //! Questions and models: that the sample is worth drawing, and that MJCF says what files say.
 
+use super::chapter::MUJOCO;
 use super::mjcf::{Key, mjcf};
 use super::model::{Pair, Still};
 use super::path::{Path as JointPath, Pushed, drawn_paths, pushed, straight};
 use super::sample::{Kind, NEAR_M, Sampler, Sizes, least_of};
+use super::stored::Freedom;
 use super::subject::{SerialArm, Subject};
 use crate::geometry::{Frame, OrientedBox, Solid, Sphere, Vec3};
 use crate::kinematics::Robot;
@@ -139,4 +141,34 @@ fn a_stored_path_is_followed_on_the_tool_s_straight_line() {
     }
     let whole = straight(&a, &b, 1.0);
     assert!((whole.rotation - b.rotation).norm() < 1e-12);
+}
+
+#[test]
+fn a_promise_is_broken_by_the_contacts_that_it_is_about() {
+    let (outer, own) = (Pair::Still(1, 0), Pair::Parts(0, 2));
+    let broken = |promise: Freedom| [outer, own].map(|pair| promise.is_broken_by(pair));
+    assert_eq!(broken(Freedom::Nothing), [false, false]);
+    assert_eq!(broken(Freedom::Scene), [true, false]);
+    assert_eq!(broken(Freedom::Contact), [true, true]);
+    // Of several, the least promise counts.
+    assert!(Freedom::Nothing < Freedom::Scene && Freedom::Scene < Freedom::Contact);
+}
+
+#[test]
+fn the_version_in_the_report_is_the_one_that_is_installed() {
+    let pinned = include_str!("../../crosscheck/requirements.txt");
+    assert!(pinned.lines().any(|line| line == format!("mujoco=={MUJOCO}")), "{pinned}");
+}
+
+#[test]
+fn a_link_too_thin_to_be_seen_has_a_sleeve_that_touches_nothing() {
+    let mut model = up6().model().clone();
+    model.parts[0].capsule.radius = 1e-7;
+    let text = mjcf(&model, &[]);
+    let sleeves: Vec<&str> = text.lines().filter(|line| line.contains("size=\"0.004\"")).collect();
+    assert_eq!(sleeves.len(), 1, "{text}");
+    assert!(
+        !sleeves[0].contains("name=") && sleeves[0].contains("contype=\"0\" conaffinity=\"0\""),
+        "{text}"
+    );
 }

@@ -66,7 +66,10 @@ fn right_answers_agree_and_every_control_is_noticed() {
     assert_eq!(said.out.matches("  noticed").count(), 3, "{}", said.out);
     let report = fs::read_to_string(bench.at("out/paper_repro.md")).unwrap();
     assert!(report.contains("<!-- replan begin judged crosscheck -->"), "{report}");
-    assert!(report.contains("Nothing differs."), "{report}");
+    assert!(
+        report.contains("Nothing differs.") && report.contains("**MuJoCo agrees with every answer"),
+        "{report}"
+    );
     // The sample was worth drawing: both outcomes, adversarial and singular poses, pierced obstacles.
     for kind in ["random", "within 1 mm of contact", "singular", "axis pierces an obstacle", "paths"] {
         assert!(said.out.contains(kind), "{kind} was not asked:\n{}", said.out);
@@ -103,7 +106,43 @@ fn a_wrong_answer_is_listed_with_both_values_and_turns_the_verdict_red() {
         assert!(said.err.contains("replan: 1 answers differ"), "{}", said.err);
         let report = fs::read_to_string(bench.at("out/paper_repro.md")).unwrap();
         assert!(report.contains(&format!("- up6-in-room, {listed}")), "{report}");
+        assert!(report.contains("**MuJoCo DIFFERS: 1 answers, 0 paths"), "{report}");
     }
+}
+
+/// The first row of a kind of configuration: contacts are tabulated in the order of the questions.
+fn first_row(table: &str, kind: &str) -> usize {
+    let lines = table.lines().filter_map(|line| line.strip_prefix("up6-in-room  contact   "));
+    let before = lines.take_while(|line| !line.starts_with(kind));
+    before.map(|line| line[24..].split_whitespace().next().unwrap().parse::<usize>().unwrap()).sum()
+}
+
+#[test]
+fn a_path_that_is_not_free_for_the_judge_is_named() {
+    let bench = bench();
+    let row = first_row(&judged(&bench).out, "paths") + 5;
+    edit(&bench, "scene.touch.parquet", "finger|box", |column| flipped(column, row));
+    let said = judged(&bench);
+    assert_eq!(said.code, Some(3), "{}{}", said.out, said.err);
+    assert!(said.err.contains("path `drawn 1` touches finger|box at ["), "{}", said.err);
+    assert!(said.err.contains("contact of finger|box, paths configuration"), "{}", said.err);
+}
+
+#[test]
+fn a_pushed_path_that_the_judge_lets_through_fails_the_run() {
+    let bench = bench();
+    let said = judged(&bench);
+    let (_, rest) = said.out.split_once("control: path `drawn 1` pushed, ").unwrap();
+    let (pair, _) = rest.split_once(':').unwrap();
+    let first = first_row(&said.out, "pushed path");
+    edit(&bench, "scene.touch.parquet", pair, |column| {
+        let cells = column.bool().unwrap().iter().flatten().enumerate();
+        let cells: Vec<bool> = cells.map(|(row, touches)| touches && row < first).collect();
+        Series::new(column.name().clone(), cells)
+    });
+    let said = judged(&bench);
+    assert_eq!(said.code, Some(3), "{}{}", said.out, said.err);
+    assert!(said.err.contains("control not noticed: path `drawn 1` pushed"), "{}", said.err);
 }
 
 #[test]

@@ -34,6 +34,8 @@ pub struct Snapshot {
     pub key: String,
     /// Azimuth and elevation of the camera.
     pub camera_deg: [f64; 2],
+    /// How much larger things are than where MuJoCo would stand.
+    pub zoom: f64,
     /// Where the picture goes.
     pub to: PathBuf,
 }
@@ -116,6 +118,7 @@ impl Judge {
             command.arg("draw").arg(&shown.model).arg(&shown.to).args(["--key", &shown.key]);
             let [azimuth, elevation] = shown.camera_deg.map(|angle| angle.to_string());
             command.args([format!("--azimuth={azimuth}"), format!("--elevation={elevation}")]);
+            command.arg(format!("--zoom={}", shown.zoom));
             if run(command.env("MUJOCO_GL", renderer)).is_ok() {
                 return Ok(());
             }
