@@ -121,6 +121,11 @@ impl Case {
         &self.name
     }
 
+    /// The names of its keyframes.
+    pub fn keys(&self) -> Vec<&str> {
+        self.keys.iter().map(|key| key.name.as_str()).collect()
+    }
+
     /// Where the models and questions lie below `folder`.
     pub fn folder(&self, folder: &FilePath) -> PathBuf {
         folder.join(&self.name)

@@ -44,7 +44,7 @@ struct SpecFile {
 #[serde(deny_unknown_fields)]
 struct PictureEntry {
     case: Spanned<String>,
-    key: String,
+    key: Spanned<String>,
     azimuth_deg: f64,
     elevation_deg: f64,
     zoom: f64,
@@ -157,7 +157,7 @@ impl Spec {
         let PictureEntry { case, key, azimuth_deg, elevation_deg, zoom } = &self.file.picture;
         Picture {
             case: case.get_ref().clone(),
-            key: key.clone(),
+            key: key.get_ref().clone(),
             camera_deg: [*azimuth_deg, *elevation_deg],
             zoom: *zoom,
         }
@@ -201,11 +201,16 @@ impl Spec {
     /// That the picture shows a case and that cases can be told apart.
     fn check_labels(&self, cases: &[Case]) -> Result<(), SettingsError> {
         let known: Vec<&str> = cases.iter().map(Case::name).collect();
-        let picture = &self.file.picture.case;
-        if !known.contains(&picture.get_ref().as_str()) {
+        let PictureEntry { case, key, .. } = &self.file.picture;
+        let Some(shown) = cases.iter().find(|known| known.name() == case.get_ref()) else {
             let message =
-                format!("there is no case `{}`; the cases are {}", picture.get_ref(), known.join(", "));
-            return Err(self.document.error(picture.span(), message));
+                format!("there is no case `{}`; the cases are {}", case.get_ref(), known.join(", "));
+            return Err(self.document.error(case.span(), message));
+        };
+        if !shown.keys().contains(&key.get_ref().as_str()) {
+            let (asked, keys) = (key.get_ref(), shown.keys().join(", "));
+            let message = format!("case `{}` has no keyframe `{asked}`; it has {keys}", case.get_ref());
+            return Err(self.document.error(key.span(), message));
         }
         if let Some(twice) = known.iter().enumerate().find(|(at, name)| known[..*at].contains(name)) {
             let message =

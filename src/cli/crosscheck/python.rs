@@ -113,18 +113,22 @@ impl Judge {
         if let Some(folder) = shown.to.parent() {
             fs::create_dir_all(folder).map_err(|e| e.to_string())?;
         }
+        let mut whys = Vec::new();
         for renderer in RENDERERS {
             let mut command = self.module("judge");
             command.arg("draw").arg(&shown.model).arg(&shown.to).args(["--key", &shown.key]);
             let [azimuth, elevation] = shown.camera_deg.map(|angle| angle.to_string());
             command.args([format!("--azimuth={azimuth}"), format!("--elevation={elevation}")]);
             command.arg(format!("--zoom={}", shown.zoom));
-            if run(command.env("MUJOCO_GL", renderer)).is_ok() {
-                return Ok(());
+            match run(command.env("MUJOCO_GL", renderer)) {
+                Ok(_) => return Ok(()),
+                Err(why) => whys.push(format!("{renderer}: {}", why.lines().last().unwrap_or("no word"))),
             }
         }
-        Err("no renderer without a screen is installed; on Debian or Ubuntu run: apt install libosmesa6"
-            .to_owned())
+        Err(format!(
+            "no renderer works here without a screen ({}); on Debian or Ubuntu run: apt install libosmesa6",
+            whys.join("; ")
+        ))
     }
 }
 
