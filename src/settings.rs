@@ -23,7 +23,7 @@ pub enum SettingsError {
         reason: String,
     },
     /// The file is read, but a value in it is not what was expected.
-    #[error("{}:{line}:{column}: {message}\n    {excerpt}", path.display())]
+    #[error("{}:{line}:{column}: {message}{}", path.display(), below(excerpt))]
     At {
         /// The file.
         path: PathBuf,
@@ -48,7 +48,7 @@ pub enum SettingsError {
 
 impl SettingsError {
     /// What is wrong, without the place.
-    fn message(self) -> String {
+    pub fn message(self) -> String {
         match self {
             Self::Unreadable { reason, .. } => reason,
             Self::At { message, .. } | Self::Composed { message, .. } => message,
@@ -126,8 +126,30 @@ impl Document {
 
     fn toml_error(&self, error: &toml::de::Error, fallback: Option<Range<usize>>) -> SettingsError {
         let span = error.span().or(fallback).unwrap_or(0..0);
-        self.error(span, error.message().trim().replace('\n', "; "))
+        self.error(span, in_words(error.message()))
     }
+}
+
+/// The excerpt on a line of its own; nothing if it is empty.
+fn below(excerpt: &str) -> String {
+    if excerpt.is_empty() { String::new() } else { format!("\n    {excerpt}") }
+}
+
+/// A parser's message on one line, with Rust's names of types in words.
+fn in_words(message: &str) -> String {
+    const WORDS: [(&str, &str); 9] = [
+        ("expected u64", "expected a whole number of 0 or more"),
+        ("expected u32", "expected a whole number of 0 or more"),
+        ("expected u16", "expected a whole number from 0 to 65535"),
+        ("expected u8", "expected a whole number from 0 to 255"),
+        ("expected usize", "expected a whole number of 0 or more"),
+        ("expected i64", "expected a whole number"),
+        ("expected i32", "expected a whole number"),
+        ("expected f64", "expected a number"),
+        ("wanted string or table", "expected a string"),
+    ];
+    let line = message.trim().replace('\n', "; ");
+    WORDS.into_iter().fold(line, |text, (rust, words)| text.replace(rust, words))
 }
 
 /// `line` with control characters replaced, so that a binary file taken for TOML cannot steer a terminal.

@@ -91,6 +91,7 @@ fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, Setting
         claim: claim.id.clone(),
         at: claim.at.clone(),
         says: claim.says.clone(),
+        quote: claim.quote.clone(),
         printed: claim.printed.clone(),
         unit: claim.unit.clone(),
         verdict: combine(&findings),

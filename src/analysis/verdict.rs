@@ -108,6 +108,8 @@ pub struct Judged {
     pub at: String,
     /// The sentence, where it is not a number alone.
     pub says: Option<String>,
+    /// The paper's own words, where they are given word for word.
+    pub quote: Option<String>,
     /// The number as printed.
     pub printed: Option<String>,
     /// The number's unit.
@@ -183,9 +185,10 @@ impl Verdicts {
     /// [`StudyError::Stored`] if there are none, or a settings error if they cannot be understood.
     pub fn read(folder: &Path) -> Result<Self, StudyError> {
         let path = Self::path(folder);
-        let document = Document::open(&path)
-            .map_err(|e| StudyError::stored(&path, format!("no verdicts ({e}); run `replan judge` first")))?;
-        Ok(document.read()?)
+        if !path.exists() {
+            return Err(StudyError::stored(&path, "no verdicts; run `replan judge` first"));
+        }
+        Ok(Document::open(&path)?.read()?)
     }
 
     /// Writes the verdicts into `folder`.

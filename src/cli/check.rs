@@ -2,7 +2,7 @@
 
 use super::places::{Places, papers};
 use super::run::load;
-use super::{Failure, How, Which};
+use super::{Failure, How, Which, all};
 use crate::study::paper::Paper;
 use crate::study::rerun;
 use clap::Args;
@@ -24,27 +24,31 @@ pub struct Check {
 impl Check {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
-        let specs = if self.specs.is_empty() { papers() } else { self.specs };
+        let specs = if self.specs.is_empty() { papers() } else { self.specs.clone() };
         if specs.is_empty() {
             return Err(Failure::input(
                 "there is no paper here to check; run replan from the project's own folder",
             ));
         }
-        for spec in specs {
-            let which = Which { paper: folder_of(&spec), out: None };
-            let how = How { quick: false, seed: None, readings: None, threads: None };
-            let places = Places::find(&which, "")?;
-            let paper = load(&places, &how)?;
-            say!(
-                "{}: {} studies, {} claims, {} ledger rows are in order",
-                paper.id,
-                paper.studies.len(),
-                paper.claims.len(),
-                paper.ledger.len()
-            );
-            if self.rerun > 0 {
-                rerun(&paper, &places, self.rerun, self.threads as usize)?;
-            }
+        let results = specs.iter().map(|spec| self.check(spec)).collect();
+        all(results, "papers are not in order")
+    }
+
+    /// Checks one paper.
+    fn check(&self, spec: &str) -> Result<(), Failure> {
+        let which = Which { paper: folder_of(spec), out: None };
+        let how = How { quick: false, seed: None, readings: None, threads: None };
+        let places = Places::find(&which, "")?;
+        let paper = load(&places, &how)?;
+        say!(
+            "{}: {} studies, {} claims, {} ledger rows are in order",
+            paper.id,
+            paper.studies.len(),
+            paper.claims.len(),
+            paper.ledger.len()
+        );
+        if self.rerun > 0 {
+            rerun(&paper, &places, self.rerun, self.threads as usize)?;
         }
         Ok(())
     }

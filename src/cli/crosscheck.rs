@@ -41,6 +41,9 @@ pub struct Crosscheck {
 /// Where models, questions and answers lie, below the root of outputs.
 const FOLDER: &str = "target/replan/crosscheck";
 
+/// The picture's name among a paper's figures.
+const PICTURE: &str = "scene_mujoco.png";
+
 impl Crosscheck {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
@@ -49,7 +52,11 @@ impl Crosscheck {
         for name in &names {
             let places = Places::find(&Which { paper: name.clone(), out: None }, "")?;
             match Spec::load(&places.folder)? {
-                Some(spec) => posed.push((places, spec)),
+                Some(spec) => {
+                    let shown = Places::find(&Which { paper: name.clone(), out: self.out.clone() }, "")?;
+                    report::besides(&shown.report, &chapter_name(&shown))?;
+                    posed.push((places, shown, spec));
+                }
                 None if self.paper.is_some() => return Err(nothing_posed(&places)),
                 None => {}
             }
@@ -62,8 +69,8 @@ impl Crosscheck {
         let judge =
             if self.answered { None } else { Some(Judge::ready(self.python.as_deref(), Path::new(FOLDER))?) };
         let mut differences = 0;
-        for (places, spec) in &posed {
-            differences += self.paper(places, spec, judge.as_ref())?;
+        for (places, shown, spec) in &posed {
+            differences += self.paper(places, shown, spec, judge.as_ref())?;
         }
         if differences > 0 {
             return Err(Failure::stale(format!("{differences} answers differ or controls went unnoticed")));
@@ -71,11 +78,16 @@ impl Crosscheck {
         Ok(())
     }
 
-    /// Cross-checks one paper and gives the number of differences.
-    fn paper(&self, places: &Places, spec: &Spec, judge: Option<&Judge>) -> Result<usize, Failure> {
-        let id = places.runs.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let root = self.out.clone().unwrap_or_default();
-        let folder = root.join(FOLDER).join(&id);
+    /// Cross-checks one paper, read from `places` and shown in `shown`, and gives the number of differences.
+    fn paper(
+        &self,
+        places: &Places,
+        shown: &Places,
+        spec: &Spec,
+        judge: Option<&Judge>,
+    ) -> Result<usize, Failure> {
+        let id = id(places);
+        let folder = answers(shown);
         let bar = Bar::default();
         bar.begin(&format!("{id}: posing the questions"), spec.count());
         let sources = Sources { folder: &places.folder, inputs: &places.inputs, runs: &places.runs };
@@ -84,24 +96,16 @@ impl Crosscheck {
         let cases = cases?;
         let picture = spec.picture();
         let drawn = match judge {
-            Some(judge) => self.ask(judge, &cases, &folder, &id, &picture)?,
+            Some(judge) => self.ask(judge, &cases, shown, &picture)?,
             None => Err("the answers were there already".to_owned()),
         };
-        bar.begin(&format!("{id}: comparing"), cases.len());
-        let outcomes = cases.par_iter().map(|case| {
-            let outcome = case.judge(&folder);
-            bar.step();
-            outcome
-        });
-        let outcomes: Result<Vec<Outcome>, CrosscheckError> = outcomes.collect();
-        bar.end();
-        let outcomes = outcomes?;
-        print!("{}", crosscheck::verdict_table(&outcomes));
+        let outcomes = compare(&id, &cases, &folder)?;
+        say!("{}", crosscheck::verdict_table(&outcomes).trim_end());
         let all = crosscheck::list(&outcomes);
         let listed = if all.is_empty() { String::new() } else { all.join("\n") + "\n" };
         write_whole(&folder.join("disagreements.txt"), listed.as_bytes())?;
         eprint!("{listed}");
-        self.report(&id, &outcomes, &picture.case, &drawn)?;
+        self.report(shown, &outcomes, &picture.case, &drawn)?;
         Ok(all.len())
     }
 
@@ -110,29 +114,28 @@ impl Crosscheck {
         &self,
         judge: &Judge,
         cases: &[Case],
-        folder: &Path,
-        id: &str,
+        shown: &Places,
         picture: &Picture,
     ) -> Result<Result<PathBuf, String>, Failure> {
+        let (id, folder) = (id(shown), answers(shown));
         if folder.exists() {
-            fs::remove_dir_all(folder)?;
+            fs::remove_dir_all(&folder)?;
         }
-        cases.par_iter().try_for_each(|case| case.write(folder))?;
+        cases.par_iter().try_for_each(|case| case.write(&folder))?;
         let bar = Bar::default();
-        bar.begin(&format!("{id}: MuJoCo"), python::models(folder)?);
-        let answered = judge.answer(folder, || bar.step());
+        bar.begin(&format!("{id}: MuJoCo"), python::models(&folder)?);
+        let answered = judge.answer(&folder, || bar.step());
         bar.end();
         answered?;
-        let committed = self.out.clone().unwrap_or_default().join("plots").join(id).join("scene_mujoco.png");
-        let to = if self.check { folder.join("scene_mujoco.png") } else { committed };
-        let shown = Snapshot {
+        let to = if self.check { folder.join(PICTURE) } else { shown.plots.join(PICTURE) };
+        let snapshot = Snapshot {
             model: folder.join(&picture.case).join("scene.xml"),
             key: picture.key.clone(),
             camera_deg: picture.camera_deg,
             zoom: picture.zoom,
             to: to.clone(),
         };
-        Ok(match judge.draw(&shown) {
+        Ok(match judge.draw(&snapshot) {
             Ok(()) => Ok(to),
             Err(why) => {
                 eprintln!("{id}: no picture: {why}");
@@ -145,39 +148,65 @@ impl Crosscheck {
     /// around in.
     fn report(
         &self,
-        id: &str,
+        shown: &Places,
         outcomes: &[Outcome],
         scene: &str,
         drawn: &Result<PathBuf, String>,
     ) -> Result<(), Failure> {
-        let root = self.out.clone().unwrap_or_default();
-        let link = format!("plots/{id}/scene_mujoco.png");
+        let id = id(shown);
+        let link = format!("plots/{id}/{PICTURE}");
         let picture = match drawn {
             Ok(_) => Ok(link.as_str()),
-            Err(_) if root.join(&link).is_file() => Ok(link.as_str()),
+            Err(_) if shown.plots.join(PICTURE).is_file() => Ok(link.as_str()),
             Err(_) => Err("no renderer that needs no screen was there when this was written"),
         };
-        let place = root.join(FOLDER).join(id).join(scene).join("scene.xml");
+        let place = answers(shown).join(scene).join("scene.xml");
         let view = format!("{FOLDER}/venv/bin/python -m mujoco.viewer --mjcf={}", place.display());
         let command = format!("replan crosscheck {id}");
-        let chapter = crosscheck::chapter(id, outcomes, &command, &view, picture);
-        let path = root.join("paper_repro.md");
-        let before = fs::read_to_string(&path).unwrap_or_default();
-        let text = report::with_chapter(&before, &format!("{id} crosscheck"), &chapter);
-        if self.check && text != before {
-            return Err(Failure::stale(format!(
-                "not current: the chapter `{id} crosscheck` of {}",
-                path.display()
-            )));
-        }
-        if self.check {
-            println!("the chapter in {} is current", path.display());
+        let chapter = crosscheck::chapter(&id, outcomes, &command, &view, picture);
+        let (path, name) = (&shown.report, chapter_name(shown));
+        if !self.check {
+            report::put_chapter(path, &shown.report_lock(), &name, &chapter)?;
+            say!("the chapter is in {}; to look around the scene: {view}", path.display());
             return Ok(());
         }
-        write_whole(&path, text.as_bytes())?;
-        println!("the chapter is in {}; to look around the scene: {view}", path.display());
+        let before = report::read(path)?;
+        if report::with_chapter(path, &before, &name, &chapter)? != before {
+            return Err(Failure::stale(format!("not current: the chapter `{name}` of {}", path.display())));
+        }
+        say!("the chapter in {} is current", path.display());
         Ok(())
     }
+}
+
+/// The paper's name.
+fn id(places: &Places) -> String {
+    places.runs.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// What the chapter is called in the report.
+fn chapter_name(shown: &Places) -> String {
+    format!("{} crosscheck", id(shown))
+}
+
+/// Where models, questions and answers of a paper lie.
+fn answers(shown: &Places) -> PathBuf {
+    let root = shown.report.parent().unwrap_or(Path::new(""));
+    root.join(FOLDER).join(id(shown))
+}
+
+/// Our answers beside those in `folder`.
+fn compare(id: &str, cases: &[Case], folder: &Path) -> Result<Vec<Outcome>, CrosscheckError> {
+    let bar = Bar::default();
+    bar.begin(&format!("{id}: comparing"), cases.len());
+    let outcomes = cases.par_iter().map(|case| {
+        let outcome = case.judge(folder);
+        bar.step();
+        outcome
+    });
+    let outcomes: Result<_, _> = outcomes.collect();
+    bar.end();
+    outcomes
 }
 
 fn nothing_posed(places: &Places) -> Failure {

@@ -6,6 +6,7 @@ use crate::analysis::claims;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::study::Point;
+use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
 
@@ -26,6 +27,7 @@ impl Judge {
         let places = Places::find(&self.which, &how.variant())?;
         let paper = super::run::load(&places, &how)?;
         let point = how.point(&paper.readings())?;
+        let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         verdicts::print(&judge(&paper, point, &places)?);
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! `replan list`: what there is.
 
-use super::Failure;
 use super::places::{EXPERIMENTS, papers};
+use super::{Failure, all};
 use crate::analysis::{check, metric};
 use crate::planner::{self, Build};
 use crate::render::figure;
@@ -35,34 +35,35 @@ enum What {
 impl List {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
+        let wanted = [What::Papers, What::Studies, What::Readings];
+        let is_about_papers = self.what.is_none_or(|what| wanted.contains(&what));
+        let (papers, results) = if is_about_papers { loaded() } else { (Vec::new(), Vec::new()) };
         for what in What::value_variants() {
             if self.what.is_none_or(|wanted| wanted == *what) {
                 let name = what.to_possible_value().expect("no variant is hidden");
                 say!("{}", name.get_name());
-                for (name, about) in rows(*what)? {
+                for (name, about) in rows(*what, &papers) {
                     say!("  {name:<26} {about}");
                 }
             }
         }
-        Ok(())
+        all(results, "papers cannot be listed")
     }
 }
 
-fn rows(what: What) -> Result<Vec<(String, String)>, Failure> {
+fn rows(what: What, papers: &[Paper]) -> Vec<(String, String)> {
     let row = |name: &str, about: &str| (name.to_owned(), about.to_owned());
     let planners = |first: bool| {
         let fits = move |entry: &&planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
         planner::REGISTRY.iter().copied().filter(fits).map(|e| row(e.name, e.about)).collect()
     };
-    Ok(match what {
-        What::Papers => loaded()?.iter().map(|paper| row(&paper.id, &paper.source.title)).collect(),
+    match what {
+        What::Papers => papers.iter().map(|paper| row(&paper.id, &paper.source.title)).collect(),
         What::Studies => {
-            let papers = loaded()?;
             let studies = papers.iter().flat_map(|paper| &paper.studies);
             studies.map(|s| (format!("{}/{}", s.paper, s.name), s.question.clone())).collect()
         }
         What::Readings => {
-            let papers = loaded()?;
             let readings =
                 papers.iter().flat_map(|paper| paper.readings().into_iter().map(|r| (&paper.id, r)));
             readings
@@ -82,14 +83,20 @@ fn rows(what: What) -> Result<Vec<(String, String)>, Failure> {
         What::Checks => check::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
         What::Metrics => metric::METRICS.iter().map(|m| row(m.name, &m.title())).collect(),
         What::Figures => figure::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
-    })
+    }
 }
 
-fn loaded() -> Result<Vec<Paper>, Failure> {
-    let load = |name: String| {
+/// Every paper that can be read, and how reading each went.
+fn loaded() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
+    let load = |name: String| -> Result<Paper, Failure> {
         let folder = Path::new(EXPERIMENTS).join(name);
         let inputs = Inputs { roots: vec![folder.clone(), PathBuf::new()] };
         Ok(Paper::load(&folder, &inputs)?)
     };
-    papers().into_iter().map(load).collect()
+    let read: Vec<Result<Paper, Failure>> = papers().into_iter().map(load).collect();
+    let (mut papers, mut results) = (Vec::new(), Vec::new());
+    for paper in read {
+        results.push(paper.map(|paper| papers.push(paper)));
+    }
+    (papers, results)
 }

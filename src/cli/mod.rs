@@ -127,7 +127,8 @@ impl From<SettingsError> for Failure {
 
 impl From<crate::render::RenderError> for Failure {
     fn from(error: crate::render::RenderError) -> Self {
-        Self::input(error.to_string())
+        let code = if matches!(error, crate::render::RenderError::Interrupted) { 130 } else { 2 };
+        Self { code, message: error.to_string() }
     }
 }
 
@@ -135,6 +136,20 @@ impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         Self { code: 1, message: error.to_string() }
     }
+}
+
+/// Success if all of `results` are; otherwise the one failure, or every failure told and the worst code with `what`.
+fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
+    let count = results.len();
+    let mut failures: Vec<Failure> = results.into_iter().filter_map(Result::err).collect();
+    if count == 1 || failures.is_empty() {
+        return failures.pop().map_or(Ok(()), Err);
+    }
+    for failure in &failures {
+        let _ = writeln!(io::stderr(), "replan: {}", failure.message);
+    }
+    let code = if failures.iter().any(|failure| failure.code == 2) { 2 } else { failures[0].code };
+    Err(Failure { code, message: format!("{} of {count} {what}", failures.len()) })
 }
 
 /// Runs the command that the process was called with.

@@ -7,7 +7,8 @@ use super::{Failure, How, Which};
 use crate::study::paper::Paper;
 use crate::study::{Inputs, Point, Study};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::path::{Component, Path, PathBuf};
 
 /// Where the papers of the project lie.
 pub const EXPERIMENTS: &str = "experiments";
@@ -31,23 +32,23 @@ impl Places {
     /// The places of the paper that `which` names; `variant` is what sets a run apart from a full default one.
     ///
     /// # Errors
-    /// If there is no such paper; the message lists those that exist.
+    /// If there is no such paper; the message lists those that exist. If `--out` names a committed place for a run that is not a
+    /// full default one.
     pub fn find(which: &Which, variant: &str) -> Result<Self, Failure> {
-        let named = Path::new(EXPERIMENTS).join(&which.paper);
-        let given = PathBuf::from(&which.paper);
-        let (folder, is_own) = if named.join("paper.toml").is_file() {
-            (named, false)
-        } else if given.join("paper.toml").is_file() {
-            (given, true)
-        } else {
-            return Err(unknown(&which.paper));
-        };
+        let (folder, is_own) = folder(&which.paper)?;
         let id = paper_id(&folder)?;
-        let root = match (&which.out, variant, is_own) {
-            (Some(out), _, _) => out.clone(),
-            (None, "", false) => PathBuf::from("."),
-            (None, "", true) => folder.join("out"),
-            (None, variant, _) => PathBuf::from(format!("target/replan/{id}-{variant}")),
+        let committed = if is_own { folder.join("out") } else { PathBuf::from(".") };
+        let root = match (&which.out, variant) {
+            (Some(out), "") => out.clone(),
+            (Some(out), variant) if is_committed(out, &committed) => {
+                return Err(Failure::input(format!(
+                    "--out {} is where full runs are kept, and this is not one ({variant}); another folder is accepted",
+                    out.display()
+                )));
+            }
+            (Some(out), _) => out.clone(),
+            (None, "") => committed,
+            (None, variant) => PathBuf::from(format!("target/replan/{id}-{variant}")),
         };
         let root = if root == Path::new(".") { PathBuf::new() } else { root };
         Ok(Self {
@@ -60,9 +61,56 @@ impl Places {
     }
 }
 
+impl Places {
+    /// The file by which runs agree on who changes the report.
+    pub fn report_lock(&self) -> PathBuf {
+        self.runs.parent().unwrap_or(Path::new("")).join(".lock")
+    }
+}
+
+/// The folder of the paper called `paper`, and whether it is a user's own: one that does not lie in the project.
+fn folder(paper: &str) -> Result<(PathBuf, bool), Failure> {
+    let given = Path::new(paper);
+    let is_name = matches!(given.components().collect::<Vec<_>>()[..], [Component::Normal(_)]);
+    let named = Path::new(EXPERIMENTS).join(given);
+    if is_name && named.join("paper.toml").is_file() {
+        return Ok((named, false));
+    }
+    if !given.join("paper.toml").is_file() {
+        return Err(unknown(paper));
+    }
+    let absolute = fs::canonicalize(given)?;
+    match (fs::canonicalize(EXPERIMENTS), absolute.file_name()) {
+        (Ok(project), Some(name)) if absolute.parent() == Some(&project) => {
+            Ok((Path::new(EXPERIMENTS).join(name), false))
+        }
+        _ => Ok((given.to_owned(), true)),
+    }
+}
+
+/// Whether writing below `out` writes a committed place: this paper's own or the project's.
+fn is_committed(out: &Path, committed: &Path) -> bool {
+    let is_project = Path::new(EXPERIMENTS).is_dir();
+    let kept = [Some(committed), is_project.then_some(Path::new("."))];
+    kept.into_iter().flatten().any(|kept| resolved(out) == resolved(kept))
+}
+
+/// The absolute path of a folder that may not exist yet.
+fn resolved(folder: &Path) -> PathBuf {
+    let mut found = PathBuf::from(".");
+    for part in folder.components() {
+        found.push(part);
+        found = fs::canonicalize(&found).unwrap_or_else(|_| match part {
+            Component::ParentDir => found.parent().and_then(Path::parent).unwrap_or(&found).to_owned(),
+            _ => found.clone(),
+        });
+    }
+    fs::canonicalize(&found).unwrap_or(found)
+}
+
 /// Every paper of the project, by name.
 pub fn papers() -> Vec<String> {
-    let entries = std::fs::read_dir(EXPERIMENTS).into_iter().flatten().flatten();
+    let entries = fs::read_dir(EXPERIMENTS).into_iter().flatten().flatten();
     let mut names: Vec<String> = entries
         .filter(|entry| entry.path().join("paper.toml").is_file())
         .map(|entry| entry.file_name().to_string_lossy().into_owned())
@@ -72,7 +120,7 @@ pub fn papers() -> Vec<String> {
 }
 
 fn paper_id(folder: &Path) -> Result<String, Failure> {
-    let absolute = std::fs::canonicalize(folder)?;
+    let absolute = fs::canonicalize(folder)?;
     Ok(absolute.file_name().unwrap_or_default().to_string_lossy().into_owned())
 }
 
@@ -138,8 +186,12 @@ impl How {
                     "--readings: `{part}` is not `reading=option`; `all` or `a=x,b=y` is accepted"
                 )));
             };
-            if readings.iter().any(|reading| reading.id == id) {
-                chosen.insert(id.to_owned(), option.to_owned());
+            if readings.iter().any(|reading| reading.id == id)
+                && let Some(other) = chosen.insert(id.to_owned(), option.to_owned())
+            {
+                return Err(Failure::input(format!(
+                    "--readings: `{id}` is given twice, as `{other}` and as `{option}`; one option is accepted"
+                )));
             }
         }
         Point::new(readings, &chosen).map_err(|message| Failure::input(format!("--readings: {message}")))

@@ -1,12 +1,13 @@
 //! Progress on the terminal, and Ctrl-C.
 
+use super::Failure;
 use crate::study::runner::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal as _;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Set by the first Ctrl-C: units at work are finished and kept.
+/// Set by the first Ctrl-C: units at work, or the figure at work, are finished.
 static STOP: AtomicBool = AtomicBool::new(false);
 
 /// The flag that Ctrl-C sets; a second Ctrl-C ends the process at once.
@@ -15,11 +16,20 @@ pub fn stop_flag() -> &'static AtomicBool {
         if STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(130);
         }
-        eprintln!("stopping after the units at work; press Ctrl-C again to stop at once");
+        eprintln!("stopping at the next safe point; press Ctrl-C again to stop at once");
     };
     // Without a handler Ctrl-C still ends the process, and the journal keeps what was done.
     let _ = ctrlc::set_handler(handler);
     &STOP
+}
+
+/// Ends the command here if Ctrl-C was pressed; `kept` says what is not lost.
+pub fn safe_point(stop: &AtomicBool, kept: &str) -> Result<(), Failure> {
+    if stop.load(Ordering::Relaxed) {
+        let message = format!("interrupted: {kept}; the same command goes on from there");
+        return Err(Failure { code: 130, message });
+    }
+    Ok(())
 }
 
 /// A bar with the time left on a terminal, one line per pass elsewhere.

@@ -1,9 +1,12 @@
 //! `replan repro`: from the spec to the verdicts.
 
 use super::places::Places;
+use super::progress::{safe_point, stop_flag};
 use super::run::{load, run_studies, summary};
 use super::{Failure, How, Which, trial, verdicts};
 use super::{judge, render};
+use crate::study::lock::Lock;
+use crate::study::manifest::MadeBy;
 use clap::Args;
 
 /// Reproduces a paper.
@@ -13,6 +16,9 @@ pub struct Repro {
     which: Which,
     #[command(flatten)]
     how: How,
+    /// Run every trial again, also those that are stored and unchanged
+    #[arg(long)]
+    fresh: bool,
     /// Run one trial alone, print it, and say whether it equals the stored row
     #[arg(long, value_name = "STUDY/TRIAL")]
     trial: Option<String>,
@@ -21,18 +27,22 @@ pub struct Repro {
 impl Repro {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
+        MadeBy::here();
         let places = Places::find(&self.which, &self.how.variant())?;
         let paper = load(&places, &self.how)?;
         if let Some(name) = &self.trial {
             return trial::run(&paper, &places, &self.how, name);
         }
-        for report in run_studies(&paper, &places, &self.how, true)? {
+        render::check_report(&paper, &places)?;
+        let (lock, stop) = (Lock::take(&places.runs)?, stop_flag());
+        for report in run_studies(&paper, &places, &self.how, &lock, self.fresh)? {
             say!("{}", summary(&report, false));
         }
+        safe_point(stop, "the records are kept")?;
         let point = self.how.point(&paper.readings())?;
         let judged = judge::judge(&paper, point, &places)?;
-        render::write(&paper, &places)?;
         verdicts::print(&judged);
+        render::write(&paper, &places, stop)?;
         say!(
             "records and verdicts are in {}, figures and tables in {}, the report in {}",
             places.runs.display(),

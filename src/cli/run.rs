@@ -4,6 +4,8 @@ use super::places::Places;
 use super::progress::{Bar, stop_flag};
 use super::{Failure, How, Which, command_line};
 use crate::analysis::claims;
+use crate::study::lock::Lock;
+use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
 use crate::study::session::{self, Options, Report};
 use clap::Args;
@@ -26,9 +28,11 @@ pub struct Run {
 impl Run {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
+        MadeBy::here();
         let places = Places::find(&self.which, &self.how.variant())?;
         let paper = load(&places, &self.how)?;
-        for report in run_studies(&paper, &places, &self.how, self.fresh)? {
+        let lock = Lock::take(&places.runs)?;
+        for report in run_studies(&paper, &places, &self.how, &lock, self.fresh)? {
             say!("{}", summary(&report, self.why));
         }
         say!("records are in {}", places.runs.display());
@@ -46,14 +50,20 @@ pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
     Ok(paper)
 }
 
-/// Runs every study of `paper`.
-pub fn run_studies(paper: &Paper, places: &Places, how: &How, fresh: bool) -> Result<Vec<Report>, Failure> {
+/// Runs what is stale of every study of `paper`; everything with `fresh`.
+pub fn run_studies(
+    paper: &Paper,
+    places: &Places,
+    how: &How,
+    lock: &Lock,
+    fresh: bool,
+) -> Result<Vec<Report>, Failure> {
     let (stop, bar) = (stop_flag(), Bar::default());
     let mut reports = Vec::new();
     for study in &paper.studies {
         let points = how.points(study)?;
         let options = Options {
-            folder: &places.runs,
+            lock,
             points: &points,
             inputs: &places.inputs,
             command: command_line(),

@@ -3,7 +3,7 @@
 use super::places::Places;
 use super::{Failure, How};
 use crate::study::paper::Paper;
-use crate::study::record::Row;
+use crate::study::record::{Kept, Row};
 use crate::study::session;
 
 /// Runs the trial called `name` = `study/trial`, prints its record and path, and compares it with the stored row.
@@ -21,11 +21,7 @@ pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), 
     for row in &batch.rows {
         print_row(row);
     }
-    for kept in &batch.kept {
-        let points = kept.exhibit.values.chunks(kept.exhibit.width);
-        let listed: Vec<String> = points.map(|point| format!("{point:?}")).collect();
-        say!("{:<22} {}", kept.exhibit.name, listed.join(" "));
-    }
+    print_exhibits(&batch.kept);
     match (batch.rows.first(), stored) {
         (_, None) => {
             say!("no stored run has this trial");
@@ -39,6 +35,22 @@ pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), 
             print_row(&stored);
             Err(Failure::stale(format!("trial {name} is not what is stored; the stored row stands above")))
         }
+    }
+}
+
+/// The path point by point; how many points everything else has, which may be thousands.
+fn print_exhibits(kept: &[Kept]) {
+    for Kept { exhibit, .. } in kept {
+        let points = exhibit.values.chunks(exhibit.width);
+        let text = if exhibit.name == "path" {
+            points.map(|point| format!("{point:?}")).collect::<Vec<String>>().join(" ")
+        } else {
+            format!("{} points of {} numbers", points.len(), exhibit.width)
+        };
+        say!("{:<22} {text}", exhibit.name);
+    }
+    if kept.iter().all(|kept| kept.exhibit.name != "path") {
+        say!("{:<22} none", "path");
     }
 }
 

@@ -38,7 +38,7 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
     }
     if !verdicts.claims_changed_since.is_empty() {
         let studies = verdicts.claims_changed_since.join(", ");
-        text += &format!("claims or margins changed after the run of {studies}; run it again\n");
+        text += &format!("claims or margins changed after the run of {studies}; run it again with --fresh\n");
     }
     text
 }

@@ -85,8 +85,17 @@ pub enum GridError {
 
 /// Reads the file at `path` and parses it, so that every error names the file once.
 pub(super) fn read<T>(path: &Path, parse: impl Fn(&str) -> Result<T, GridError>) -> Result<T, GridError> {
-    std::fs::read_to_string(path)
+    std::fs::read(path)
         .map_err(|error| GridError::Unreadable { reason: error.to_string() })
+        .and_then(|bytes| {
+            String::from_utf8(bytes).map_err(|error| {
+                let at = error.utf8_error().valid_up_to();
+                let line = error.as_bytes()[..at].split(|byte| *byte == b'\n').count();
+                GridError::Unreadable {
+                    reason: format!("line {line}, byte {at} of the file is not UTF-8 text"),
+                }
+            })
+        })
         .and_then(|text| parse(&text))
         .map_err(|source| GridError::InFile { path: path.to_owned(), source: Box::new(source) })
 }

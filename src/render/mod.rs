@@ -23,6 +23,19 @@ pub enum RenderError {
     /// A figure's settings are wrong.
     #[error(transparent)]
     Settings(#[from] crate::settings::SettingsError),
+    /// A figure that cannot be drawn.
+    #[error("figure `{figure}`: {source}")]
+    Figure {
+        /// Its study and id.
+        figure: String,
+        /// Why.
+        source: Box<RenderError>,
+    },
+    /// Drawing was asked to stop.
+    #[error(
+        "interrupted while drawing; records and verdicts are kept, and `replan render` goes on from there"
+    )]
+    Interrupted,
     /// What should be drawn is not there.
     #[error("the stored run and the paper have nothing like {what}")]
     NotStored {

@@ -13,6 +13,7 @@ use crate::study::spec::FigureSpec;
 use crate::study::store::write_whole;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A file as it should be.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,22 +24,31 @@ pub struct Output {
     pub bytes: Vec<u8>,
 }
 
-/// Every file for the paper of `evidence`, or only those whose name without its ending is `only`.
+/// Every file for the paper of `evidence`, or only those whose name without its ending is `only`; `stop` is looked at
+/// before each figure.
 ///
 /// # Errors
-/// A figure that cannot be drawn from what is stored or whose labels collide ([`RenderError::Flawed`]); two
-/// numbers with one macro name.
+/// [`RenderError::Interrupted`] if `stop` is set, [`RenderError::Figure`] with the name of a figure that cannot be drawn
+/// from what is stored or whose labels collide ([`RenderError::Flawed`]); two numbers with one macro name.
 pub fn outputs(
     evidence: &Evidence<'_>,
     verdicts: &Verdicts,
     only: Option<&str>,
+    stop: &AtomicBool,
 ) -> Result<Vec<Output>, RenderError> {
     let is_wanted = |id: &str| only.is_none_or(|only| only == id);
     let paper = evidence.paper;
     let mut outputs = Vec::new();
     for run in evidence.runs() {
         for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
-            outputs.extend(figure_outputs(&Scene { evidence, run, verdicts }, spec)?);
+            if stop.load(Ordering::Relaxed) {
+                return Err(RenderError::Interrupted);
+            }
+            let drawn = figure_outputs(&Scene { evidence, run, verdicts }, spec);
+            outputs.extend(drawn.map_err(|source| RenderError::Figure {
+                figure: format!("{}:{}", run.study.name, spec.id.get_ref()),
+                source: Box::new(source),
+            })?);
         }
     }
     for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
@@ -55,8 +65,9 @@ pub fn outputs(
         outputs.push(Output { name: "numbers.tex".to_owned(), bytes: text.into_bytes() });
     }
     if outputs.is_empty() {
+        let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
         return Err(RenderError::NotStored {
-            what: format!("a figure or table `{}`", only.unwrap_or_default()),
+            what: format!("a figure or table `{}`; there are {}", only.unwrap_or_default(), ids.join(", ")),
         });
     }
     Ok(outputs)
@@ -111,17 +122,43 @@ pub fn stale(folder: &Path, outputs: &[Output]) -> Vec<PathBuf> {
     outputs.iter().filter(|output| !is_stale(output)).map(|output| folder.join(&output.name)).collect()
 }
 
-/// The text of the report at `path` with the paper's chapter as it should be.
-pub fn report_with_chapter(
+/// The files in `folder` that are not among `outputs` and that the report at `path` does not speak of outside the chapter of
+/// `paper`: what an earlier state of the paper left behind.
+///
+/// # Errors
+/// Those of [`report::besides`].
+pub fn left_over(
+    folder: &Path,
+    outputs: &[Output],
+    path: &Path,
+    paper: &str,
+) -> Result<Vec<PathBuf>, StudyError> {
+    let elsewhere = report::besides(path, paper)?;
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|name| outputs.iter().all(|output| output.name != *name))
+        .filter(|name| !elsewhere.contains(&format!("{paper}/{name}")))
+        .collect();
+    names.sort();
+    Ok(names.into_iter().map(|name| folder.join(name)).collect())
+}
+
+/// The paper's chapter of the report at `path`; figures and the tables among `outputs` are named as seen from there.
+pub fn chapter(
     path: &Path,
     evidence: &Evidence<'_>,
     verdicts: &Verdicts,
     plots: &Path,
+    outputs: &[Output],
 ) -> String {
-    let before = fs::read_to_string(path).unwrap_or_default();
     let folder = path.parent().unwrap_or(Path::new(""));
-    let link = plots.strip_prefix(folder).unwrap_or(plots);
-    report::with_chapter(&before, &evidence.paper.id, &report::chapter(evidence, verdicts, link))
+    let is_table =
+        |name: &&str| *name != "numbers.tex" && Path::new(name).extension() == Some("tex".as_ref());
+    let tables: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).filter(is_table).collect();
+    report::chapter(evidence, verdicts, plots.strip_prefix(folder).unwrap_or(plots), &tables)
 }
 
 #[cfg(test)]

@@ -1,10 +1,16 @@
 //! The report: one chapter a paper, between markers, so that each is generated alone.
 
+mod chapters;
+
 use super::tables::short;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Judged, Verdict, Verdicts};
+use crate::study::StudyError;
 use crate::study::paper::Paper;
+use crate::study::store::write_whole;
 use std::fmt::Write as _;
+use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 const OPENING: &str = "# What the papers claim and what we found
@@ -13,34 +19,57 @@ Every chapter is written by `replan repro <paper>` from its specs and stored run
 edit it by hand. `replan render <paper> --check` says whether it is current. How to read a verdict stands in README.md.
 ";
 
-/// `report` with the chapter of `paper` put in place of its former one, or in the order of names if it had none.
-pub fn with_chapter(report: &str, paper: &str, chapter: &str) -> String {
-    let mut chapters: std::collections::BTreeMap<String, String> = split(report);
-    chapters.insert(paper.to_owned(), chapter.trim().to_owned());
-    let mut text = OPENING.to_owned();
-    for (paper, chapter) in chapters {
-        let (begin, end) = markers(&paper);
-        let _ = write!(text, "\n{begin}\n\n{chapter}\n\n{end}\n");
-    }
-    text
+/// The report at `path`; empty if there is none.
+///
+/// # Errors
+/// [`StudyError::Io`] if it cannot be read, [`StudyError::Stored`] if it is not UTF-8 text.
+pub fn read(path: &Path) -> Result<String, StudyError> {
+    let bytes = match fs::read(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(String::new()),
+        read => read.map_err(StudyError::io(path, "reading the report"))?,
+    };
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        StudyError::stored(path, format!("byte {at} is not UTF-8; {ASIDE}"))
+    })
 }
 
-fn markers(paper: &str) -> (String, String) {
-    (format!("<!-- replan begin {paper} -->"), format!("<!-- replan end {paper} -->"))
+const ASIDE: &str = "mend it, move it away, or write elsewhere with --out";
+
+/// `report`, read from `path`, with the chapter called `name` in its place; everything else stays as it is.
+///
+/// # Errors
+/// [`StudyError::Stored`] with the line if the markers of its chapters do not pair up.
+pub fn with_chapter(path: &Path, report: &str, name: &str, chapter: &str) -> Result<String, StudyError> {
+    let text = chapters::with_chapter(report, OPENING, name, chapter);
+    text.map_err(|error| StudyError::stored(path, format!("{error}; {ASIDE}")))
 }
 
-fn split(report: &str) -> std::collections::BTreeMap<String, String> {
-    let mut chapters = std::collections::BTreeMap::new();
-    for piece in report.split("<!-- replan begin ").skip(1) {
-        let Some((paper, rest)) = piece.split_once(" -->") else { continue };
-        let Some((chapter, _)) = rest.split_once(&format!("<!-- replan end {paper} -->")) else { continue };
-        chapters.insert(paper.to_owned(), chapter.trim().to_owned());
-    }
-    chapters
+/// Puts the chapter called `name` into the report at `path`, which no other run changes meanwhile: `lock` is the file by which
+/// runs agree on that.
+///
+/// # Errors
+/// As [`read`] and [`with_chapter`]; the report is as it was then.
+pub fn put_chapter(path: &Path, lock: &Path, name: &str, chapter: &str) -> Result<(), StudyError> {
+    let folder = lock.parent().unwrap_or(Path::new(""));
+    fs::create_dir_all(folder).map_err(StudyError::io(folder, "creating the folder"))?;
+    let held = fs::File::create(lock).and_then(|file| file.lock().map(|()| file));
+    let _held = held.map_err(StudyError::io(lock, "locking the report"))?;
+    write_whole(path, with_chapter(path, &read(path)?, name, chapter)?.as_bytes())
 }
 
-/// The chapter of the evidence's paper; `plots` is where its figures are, as seen from the report.
-pub fn chapter(evidence: &Evidence<'_>, verdicts: &Verdicts, plots: &Path) -> String {
+/// What the report at `path` says besides the chapter called `name`.
+///
+/// # Errors
+/// As [`read`] and [`with_chapter`].
+pub fn besides(path: &Path, name: &str) -> Result<String, StudyError> {
+    let text = chapters::without_chapter(&read(path)?, name);
+    text.map_err(|error| StudyError::stored(path, format!("{error}; {ASIDE}")))
+}
+
+/// The chapter of the evidence's paper; `plots` is where its figures are, as seen from the report, and `tables` the names of its
+/// tables there.
+pub fn chapter(evidence: &Evidence<'_>, verdicts: &Verdicts, plots: &Path, tables: &[&str]) -> String {
     let paper = evidence.paper;
     let mut text = String::new();
     heading(&mut text, paper, verdicts);
@@ -49,7 +78,7 @@ pub fn chapter(evidence: &Evidence<'_>, verdicts: &Verdicts, plots: &Path) -> St
     together(&mut text, verdicts);
     reasons(&mut text, verdicts);
     results(&mut text, evidence);
-    figures(&mut text, paper, plots);
+    figures(&mut text, paper, plots, tables);
     readings(&mut text, paper);
     studies(&mut text, evidence);
     ledger(&mut text, paper);
@@ -96,24 +125,21 @@ fn claims(text: &mut String, verdicts: &Verdicts) {
     line!(text, "| claim | place in the paper | printed | ours | n | verdict |");
     line!(text, "|---|---|---|---|---|---|");
     for judged in &verdicts.claims {
-        let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
-        let said = match (&judged.printed, &judged.says) {
-            (Some(printed), _) => format!("{printed}{unit}"),
-            (None, Some(says)) => format!("“{says}”"),
-            (None, None) => "–".to_owned(),
-        };
         let (ours, n) = judged.ours().map_or_else(
             || ("–".to_owned(), "–".to_owned()),
             |ours| (format!("{} ({})", short(ours), ours.what), ours.n.to_string()),
         );
-        line!(
-            text,
-            "| `{}` | {} | {said} | {ours} | {n} | **{}** |",
-            judged.claim,
-            judged.at,
-            judged.verdict.name()
-        );
+        let (claim, at, said, verdict) = (&judged.claim, &judged.at, said(judged), judged.verdict.name());
+        line!(text, "| `{claim}` | {at} | {said} | {ours} | {n} | **{verdict}** |");
     }
+}
+
+/// What the paper says: its number, its own words in quotation marks, or what its words amount to.
+fn said(judged: &Judged) -> String {
+    let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+    let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
+    let quoted = judged.quote.as_ref().map(|quote| format!("“{quote}”"));
+    printed.or(quoted).or_else(|| judged.says.clone()).unwrap_or_else(|| "–".to_owned())
 }
 
 fn together(text: &mut String, verdicts: &Verdicts) {
@@ -180,7 +206,7 @@ fn results(text: &mut String, evidence: &Evidence<'_>) {
     }
 }
 
-fn figures(text: &mut String, paper: &Paper, plots: &Path) {
+fn figures(text: &mut String, paper: &Paper, plots: &Path, tables: &[&str]) {
     line!(text, "### Figures and tables\n");
     for study in &paper.studies {
         for figure in &study.figures {
@@ -189,13 +215,11 @@ fn figures(text: &mut String, paper: &Paper, plots: &Path) {
             line!(text, "*{id}: {}*\n", figure.caption);
         }
     }
-    let tables: Vec<String> = paper.table_ids().map(|id| format!("`{}/{id}.tex`", plots.display())).collect();
-    line!(
-        text,
-        "Tables in LaTeX: {}; every number as a macro: `{}/numbers.tex`.",
-        tables.join(", "),
-        plots.display()
-    );
+    let tables: Vec<String> = tables.iter().map(|name| format!("`{}/{name}`", plots.display())).collect();
+    if !tables.is_empty() {
+        line!(text, "Tables in LaTeX: {}.\n", tables.join(", "));
+    }
+    line!(text, "Every number as a macro of LaTeX: `{}/numbers.tex`.", plots.display());
 }
 
 fn readings(text: &mut String, paper: &Paper) {

@@ -43,7 +43,7 @@ pub fn table(paper: &Paper, table: &TableSpec, verdicts: &Verdicts) -> Result<St
     latex.latex(&made(paper, &table.id, verdicts))
 }
 
-/// One macro for each printed number, each of ours and each verdict.
+/// One macro for each printed number, each of ours, each end of an interval, each count of draws and each verdict.
 ///
 /// # Errors
 /// [`RenderError::DuplicateMacro`] if two claims' names differ in punctuation only.
@@ -55,12 +55,16 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
             numbers.add(&key("printed"), printed)?;
         }
         if let Some(ours) = judged.ours() {
-            numbers.add(&key("ours"), &short(ours))?;
+            numbers.add(&key("ours"), &plain(ours.value))?;
+            if let Some([low, high]) = ours.interval {
+                numbers.add(&key("low"), &plain(low))?;
+                numbers.add(&key("high"), &plain(high))?;
+            }
             numbers.add(&key("n"), &ours.n.to_string())?;
         }
         numbers.add(&key("verdict"), judged.verdict.name())?;
     }
-    Ok(numbers.latex(&paper.id, &made(paper, "numbers", verdicts)))
+    numbers.latex(&paper.id, &made(paper, "numbers", verdicts))
 }
 
 pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
@@ -72,18 +76,20 @@ fn dash() -> String {
     "–".to_owned()
 }
 
-/// Our number as tables show it: four significant decimals at most, with its interval.
+/// A number with four decimals at most.
+fn plain(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    if text == "-0" { "0".to_owned() } else { text }
+}
+
+/// Our number as tables show it: four decimals at most, two with its interval.
 pub fn short(estimate: &Estimate) -> String {
-    let number = |value: f64| {
-        let text = format!("{value:.4}");
-        let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
-        if text == "-0" { "0".to_owned() } else { text }
-    };
     match estimate.interval {
         Some([low, high]) => {
             let coarse = |value: f64| format!("{value:.2}");
             format!("{} [{}, {}]", coarse(estimate.value), coarse(low), coarse(high))
         }
-        None => number(estimate.value),
+        None => plain(estimate.value),
     }
 }

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 /// What stands in `<study>.manifest.toml`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -51,7 +52,7 @@ pub struct MadeBy {
     pub replan: String,
     /// The git revision of the working tree.
     pub git: Option<String>,
-    /// Whether the working tree had no changes.
+    /// Whether the working tree had no changes when the command began, outputs of runs aside.
     pub clean: Option<bool>,
     /// The compiler.
     pub rustc: Option<String>,
@@ -91,7 +92,7 @@ impl Manifest {
             spec: sha256(study.document.text().as_bytes()),
             claims,
             depends,
-            made_by: MadeBy::here(),
+            made_by: MadeBy::here().clone(),
             inputs,
             problems,
             contenders,
@@ -110,9 +111,10 @@ impl Manifest {
     /// [`StudyError::Stored`] if there is none or it cannot be understood.
     pub fn read(folder: &Path, study: &str) -> Result<Self, StudyError> {
         let path = Self::path(folder, study);
-        let document = Document::open(&path)
-            .map_err(|e| StudyError::stored(&path, format!("no stored run ({e}); run the study first")))?;
-        Ok(document.read()?)
+        if !path.exists() {
+            return Err(StudyError::stored(&path, "no stored run; run the study first"));
+        }
+        Ok(Document::open(&path)?.read()?)
     }
 
     /// Stages the manifest for `folder`.
@@ -148,10 +150,20 @@ impl Manifest {
     }
 }
 
+/// What a run itself writes does not make the tree that it runs from unclean.
+const OUTPUTS: [&str; 3] = ["data/runs", "plots", "paper_repro.md"];
+
 impl MadeBy {
-    fn here() -> Self {
+    /// What is true at the first call, before this process has written anything.
+    pub fn here() -> &'static Self {
+        static HERE: OnceLock<MadeBy> = OnceLock::new();
+        HERE.get_or_init(|| Self::found(Path::new(".")))
+    }
+
+    /// What is true of the program and of the working tree that `folder` lies in.
+    fn found(folder: &Path) -> Self {
         let said = |program: &str, arguments: &[&str]| {
-            let output = Command::new(program).args(arguments).output().ok()?;
+            let output = Command::new(program).args(arguments).current_dir(folder).output().ok()?;
             let text = String::from_utf8(output.stdout).ok()?.trim().to_owned();
             output.status.success().then_some(text)
         };
@@ -159,12 +171,15 @@ impl MadeBy {
             let line = text.lines().find(|line| line.starts_with("model name"))?;
             Some(line.split_once(':')?.1.trim().to_owned())
         });
+        let outputs = OUTPUTS.map(|path| format!(":(top,exclude){path}"));
+        let mut status = vec!["status", "--porcelain", "--", ":(top)"];
+        status.extend(outputs.iter().map(String::as_str));
         Self {
             replan: env!("CARGO_PKG_VERSION").to_owned(),
             git: said("git", &["rev-parse", "HEAD"]),
-            clean: said("git", &["status", "--porcelain"]).map(|text| text.is_empty()),
+            clean: said("git", &status).map(|text| text.is_empty()),
             rustc: said("rustc", &["--version"]),
-            lock: fs::read("Cargo.lock").ok().map(|bytes| sha256(&bytes)),
+            lock: fs::read(folder.join("Cargo.lock")).ok().map(|bytes| sha256(&bytes)),
             cpu,
         }
     }
@@ -223,4 +238,41 @@ fn contender_hashes(study: &Study, points: &[Point]) -> BTreeMap<String, String>
         }
     }
     hashes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outputs_of_runs_leave_a_tree_clean_and_any_other_change_does_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let git = |arguments: &[&str]| {
+            let name = ["-c", "user.name=n", "-c", "user.email=e"];
+            let mut command = Command::new("git");
+            let done = command.current_dir(folder.path()).args(name).args(arguments).output().unwrap();
+            assert!(done.status.success(), "{arguments:?}: {done:?}");
+        };
+        let write = |name: &str| {
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, name).unwrap();
+        };
+        let clean = || MadeBy::found(folder.path()).clean;
+        git(&["init", "--quiet"]);
+        write("spec.toml");
+        git(&["add", "."]);
+        git(&["commit", "--quiet", "-m", "first"]);
+        assert_eq!(clean(), Some(true));
+        for output in ["data/runs/p/s.manifest.toml", "plots/p/fig1.svg", "paper_repro.md"] {
+            write(output);
+            assert_eq!(clean(), Some(true), "{output}");
+        }
+        assert_eq!(MadeBy::found(&folder.path().join("data/runs")).clean, Some(true), "seen from below");
+        write("data/robots/r.toml");
+        assert_eq!(clean(), Some(false));
+        fs::remove_dir_all(folder.path().join("data/robots")).unwrap();
+        fs::write(folder.path().join("spec.toml"), "changed").unwrap();
+        assert_eq!(clean(), Some(false));
+    }
 }

@@ -11,6 +11,7 @@ pub mod endpoints;
 mod error;
 pub mod family;
 pub mod judge;
+pub mod lock;
 pub mod manifest;
 pub mod paper;
 pub mod prepared;
@@ -43,9 +44,16 @@ impl Inputs {
     /// A message that lists every place looked at.
     pub fn locate(&self, name: &str) -> Result<PathBuf, String> {
         let tried: Vec<PathBuf> = self.roots.iter().map(|root| root.join(name)).collect();
-        tried.iter().find(|path| path.is_file()).cloned().ok_or_else(|| {
-            let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();
-            format!("input file `{name}` does not exist; looked for {}", places.join(", "))
-        })
+        if let Some(file) = tried.iter().find(|path| path.is_file()) {
+            return Ok(file.clone());
+        }
+        if let Some(folder) = tried.iter().find(|path| path.is_dir()) {
+            return Err(format!(
+                "input file `{name}` is a folder ({}); a file is accepted",
+                folder.display()
+            ));
+        }
+        let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();
+        Err(format!("input file `{name}` does not exist; looked for {}", places.join(", ")))
     }
 }

@@ -3,12 +3,13 @@
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
 pub mod results;
+mod rules;
 
 use self::results::ResultsSpec;
 use super::{Inputs, Reading, Study, StudyError};
 use crate::settings::{Document, Settings, SettingsError};
 use serde::Deserialize;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -84,6 +85,7 @@ struct ClaimSpec {
     id: Spanned<String>,
     at: String,
     says: Option<String>,
+    quote: Option<String>,
     printed: Option<Spanned<String>>,
     unit: Option<String>,
     digits: Option<Digits>,
@@ -113,6 +115,8 @@ pub struct Claim {
     pub at: String,
     /// The sentence, where it is not a number alone.
     pub says: Option<String>,
+    /// The paper's own words, where they are given word for word.
+    pub quote: Option<String>,
     /// The number as printed.
     pub printed: Option<String>,
     /// The number's unit; absent if the paper gives none.
@@ -198,6 +202,10 @@ impl Paper {
         for path in study_files(folder)? {
             studies.push(Study::load(&path, inputs)?);
         }
+        if studies.is_empty() {
+            let what = "no study; a study is a TOML file beside paper.toml".to_owned();
+            return Err(StudyError::Missing { path: folder.to_owned(), what });
+        }
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -233,6 +241,11 @@ impl Paper {
         readings
     }
 
+    /// The names of all figures of its studies.
+    pub fn figure_ids(&self) -> impl Iterator<Item = &str> {
+        self.studies.iter().flat_map(|study| study.figures.iter().map(|figure| figure.id.get_ref().as_str()))
+    }
+
     /// The names of all its tables, the paper's own and those of our results.
     pub fn table_ids(&self) -> impl Iterator<Item = &str> {
         let own = self.tables.iter().map(|table| table.id.as_str());
@@ -242,114 +255,6 @@ impl Paper {
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.id == id)
-    }
-
-    fn check(&self, specs: &[ClaimSpec]) -> Result<(), SettingsError> {
-        let mut seen = BTreeSet::new();
-        for spec in specs {
-            if !seen.insert(spec.id.get_ref()) {
-                let message = format!("claim `{}` stands twice", spec.id.get_ref());
-                return Err(self.document.error(spec.id.span(), message));
-            }
-        }
-        let claims: BTreeSet<&str> = self.claims.iter().map(|claim| claim.id.as_str()).collect();
-        let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
-        let drawn =
-            self.studies.iter().flat_map(|study| study.figures.iter().map(|f| f.id.get_ref().as_str()));
-        let figures: BTreeSet<&str> = drawn.chain(self.table_ids()).collect();
-        for row in &self.ledger {
-            self.known("claim", &row.claims, &claims)?;
-            self.known("figure or table", &row.figures, &figures)?;
-            self.known("study", &row.studies, &studies)?;
-            let answered = !(row.claims.is_empty() && row.figures.is_empty() && row.studies.is_empty());
-            if answered == row.none.is_some() {
-                let message = format!(
-                    "ledger row `{}` needs claims, figures or studies that answer it, or `none` with the reason, and \
-                     not both",
-                    row.item.get_ref()
-                );
-                return Err(self.document.error(row.item.span(), message));
-            }
-        }
-        for row in self.tables.iter().flat_map(|table| &table.rows) {
-            self.known("claim", &row.claims, &claims)?;
-        }
-        self.check_tables()?;
-        self.check_results()?;
-        self.check_readings()?;
-        self.check_numbering()
-    }
-
-    /// A reading's name means the same in every study of the paper.
-    fn check_readings(&self) -> Result<(), SettingsError> {
-        for (study, reading) in self.studies.iter().flat_map(|s| s.readings.iter().map(move |r| (s, r))) {
-            let all = self.readings();
-            let first = all.iter().find(|known| known.id == reading.id).expect("every reading is listed");
-            if first.default != reading.default || !first.options.keys().eq(reading.options.keys()) {
-                let message = format!(
-                    "reading `{}` has other options or another default in another study of the paper; one name must \
-                     mean the same everywhere",
-                    reading.id
-                );
-                return Err(study.document.error(0..0, message));
-            }
-        }
-        Ok(())
-    }
-
-    fn check_tables(&self) -> Result<(), SettingsError> {
-        for table in &self.tables {
-            for row in &table.rows {
-                let (claims, cells) = (row.claims.len(), row.cells.len());
-                if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
-                    let message = format!(
-                        "row `{}` of table `{}` has {claims} claims and {cells} cells; either are accepted, one for each of \
-                         the {} columns",
-                        row.label,
-                        table.id,
-                        table.columns.len()
-                    );
-                    let span = row.claims.first().map_or(0..0, Spanned::span);
-                    return Err(self.document.error(span, message));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn known(
-        &self,
-        what: &str,
-        names: &[Spanned<String>],
-        known: &BTreeSet<&str>,
-    ) -> Result<(), SettingsError> {
-        for name in names {
-            if !known.contains(name.get_ref().as_str()) {
-                let list: Vec<&str> = known.iter().copied().collect();
-                let message =
-                    format!("there is no {what} `{}`; there are {}", name.get_ref(), list.join(", "));
-                return Err(self.document.error(name.span(), message));
-            }
-        }
-        Ok(())
-    }
-
-    /// Every numbered figure, table and equation must have a row.
-    fn check_numbering(&self) -> Result<(), SettingsError> {
-        let items: BTreeSet<&str> = self.ledger.iter().map(|row| row.item.get_ref().as_str()).collect();
-        for (kind, count) in
-            [("Fig.", self.prints.figures), ("Table", self.prints.tables), ("Eq.", self.prints.equations)]
-        {
-            for number in 1..=count {
-                let item = format!("{kind} {number}");
-                if !items.contains(item.as_str()) {
-                    let message =
-                        format!("the ledger has no row for {item}; the paper has {count} of its kind");
-                    return Err(self.document.error(0..0, message));
-                }
-            }
-        }
-        Ok(())
     }
 }
 
@@ -388,6 +293,7 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         id: id.clone(),
         at: spec.at.clone(),
         says: spec.says.clone(),
+        quote: spec.quote.clone(),
         printed: spec.printed.as_ref().map(|printed| printed.get_ref().clone()),
         unit: spec.unit.clone(),
         digits: spec.digits,

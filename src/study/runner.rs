@@ -6,6 +6,7 @@
 
 use super::checked::{Contender, Group, Pipeline, Study, SweepPoint, slug};
 use super::family::{Family, Query};
+use super::prepared::Prepared;
 use super::reading::Point;
 use super::record::{Batch, Timing};
 use super::spec::TimingSpec;
@@ -39,6 +40,9 @@ impl Progress for Unwatched {
     fn end(&self) {}
 }
 
+/// How many times the clock's sample is gone through; each time takes its share of the repeats.
+const PASSES: u32 = 4;
+
 /// One prepared object and the trials that share it.
 pub struct Unit<'a> {
     /// Its name in records.
@@ -55,6 +59,8 @@ pub struct Unit<'a> {
     pub replicate: u32,
     /// The draw's seed; the same under every reading and for every contender.
     pub seed: u64,
+    /// Keeps every exhibit, whatever the study asks for.
+    pub keeps_all: bool,
 }
 
 /// A contender at one point of the sweeps, ready to run.
@@ -93,14 +99,16 @@ impl Unit<'_> {
 
     /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
     pub fn is_kept(&self, study: &Study, contender: Option<&str>, repeat: u32) -> bool {
-        study.kept(&self.group.label).any(|trials| {
-            let named = match (contender, &trials.contender) {
-                (Some(contender), Some(wanted)) => contender == wanted,
-                _ => true,
-            };
-            let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
-            named && is_early && self.replicate < trials.replicates
-        })
+        let mut wanted = study.kept(&self.group.label);
+        self.keeps_all
+            || wanted.any(|trials| {
+                let named = match (contender, &trials.contender) {
+                    (Some(contender), Some(wanted)) => contender == wanted,
+                    _ => true,
+                };
+                let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
+                named && is_early && self.replicate < trials.replicates
+            })
     }
 }
 
@@ -175,6 +183,7 @@ impl<'a> Field<'a> {
             racers,
             replicate,
             seed: seed::derive(self.study.seed, &names),
+            keeps_all: false,
         }
     }
 
@@ -235,9 +244,11 @@ impl<'a> Field<'a> {
         }))
     }
 
-    /// The timed pass: one thread, warmed up, with only the pipeline's call between two readings of the clock.
+    /// The timed passes: one thread, warmed up, with only the pipeline's call between two readings of the clock.
     ///
-    /// It times the first draws of every group under the first point, every contender and sweep.
+    /// They time the first draws of every group under the first point, every contender and sweep. A machine that gets
+    /// slower or faster meanwhile must not favour anyone: contenders take turns within each repeat, forwards and backwards,
+    /// and the repeats are spread over [`PASSES`] passes through the whole sample.
     ///
     /// # Errors
     /// [`StudyError::Interrupted`] if `stop` was set: half a sample would favour the first groups.
@@ -245,53 +256,70 @@ impl<'a> Field<'a> {
         let Some(timing) = self.study.timing else { return Ok(Vec::new()) };
         let units = self.units();
         let total = units.len();
-        let sample: Vec<Unit<'_>> = units
-            .into_iter()
-            .filter(|unit| *unit.point == self.points[0] && unit.replicate < timing.problems)
+        let is_timed = |unit: &&Unit<'_>| *unit.point == self.points[0] && unit.replicate < timing.problems;
+        let sample: Vec<(&Unit<'_>, Prepared)> = units
+            .iter()
+            .filter(is_timed)
+            .filter_map(|unit| Some((unit, unit.family.prepare(unit.seed).ok()?)))
             .collect();
-        progress.begin(&format!("{}: clock", self.study.name), sample.len());
+        let passes = PASSES.min(timing.repeats);
+        progress.begin(&format!("{}: clock", self.study.name), sample.len() * passes as usize);
         let mut readings = Vec::new();
-        for unit in &sample {
-            if stop.load(Ordering::Relaxed) {
-                progress.end();
-                return Err(StudyError::Interrupted { study: self.study.name.clone(), kept: total, total });
+        for pass in 0..passes {
+            for (unit, prepared) in &sample {
+                if stop.load(Ordering::Relaxed) {
+                    progress.end();
+                    let study = self.study.name.clone();
+                    return Err(StudyError::Interrupted { study, kept: total, total });
+                }
+                let repeats: Vec<u32> = (pass..timing.repeats).step_by(passes as usize).collect();
+                self.time_unit(unit, prepared, timing, &repeats, &mut readings);
+                progress.step();
             }
-            self.time_unit(unit, timing, &mut readings);
-            progress.step();
         }
         progress.end();
         Ok(readings)
     }
 
-    fn time_unit(&self, unit: &Unit<'_>, timing: TimingSpec, readings: &mut Vec<Timing>) {
-        let Ok(prepared) = unit.family.prepare(unit.seed) else { return };
+    fn time_unit(
+        &self,
+        unit: &Unit<'_>,
+        prepared: &Prepared,
+        timing: TimingSpec,
+        repeats: &[u32],
+        readings: &mut Vec<Timing>,
+    ) {
         for query in &unit.queries() {
             let runs = unit.racers.iter().flat_map(|racer| {
                 let seeds = racer.contender.repeats.min(timing.seeds.unwrap_or(1));
                 (0..seeds).map(move |seed| (racer, seed))
             });
-            for (racer, seed) in runs {
-                let request = Request {
-                    world: &prepared.world,
-                    start: &query.start,
-                    goal: &query.goal,
-                    expansions: self.study.budget.expansions,
-                    seed: racer.seed(self.study, &unit.problem(query), seed),
-                    trace: false,
-                };
-                if racer.pipeline.plan(&request).is_err() {
-                    continue;
-                }
-                for repeat in 0..timing.repeats {
-                    let (plan_wall_ns, _) = clock::timed(|| racer.pipeline.plan(&request));
-                    readings.push(Timing {
-                        trial: unit.trial(query, racer, seed),
-                        group: unit.group.label.clone(),
-                        contender: racer.contender.label.clone(),
-                        replicate: unit.replicate,
-                        repeat,
-                        plan_wall_ns,
-                    });
+            let request = |(racer, seed): &(&Racer<'_>, u32)| Request {
+                world: &prepared.world,
+                start: &query.start,
+                goal: &query.goal,
+                expansions: self.study.budget.expansions,
+                seed: racer.seed(self.study, &unit.problem(query), *seed),
+                trace: false,
+            };
+            let warmed: Vec<_> = runs.filter(|run| run.0.pipeline.plan(&request(run)).is_ok()).collect();
+            let mut read = |run: &(&Racer<'_>, u32), repeat: u32| {
+                let request = request(run);
+                let (plan_wall_ns, _) = clock::timed(|| run.0.pipeline.plan(&request));
+                readings.push(Timing {
+                    trial: unit.trial(query, run.0, run.1),
+                    group: unit.group.label.clone(),
+                    contender: run.0.contender.label.clone(),
+                    replicate: unit.replicate,
+                    repeat,
+                    plan_wall_ns,
+                });
+            };
+            for (turn, repeat) in repeats.iter().enumerate() {
+                let last = warmed.len().saturating_sub(1);
+                for place in 0..warmed.len() {
+                    let whose = if turn % 2 == 0 { place } else { last - place };
+                    read(&warmed[whose], *repeat);
                 }
             }
         }

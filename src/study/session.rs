@@ -1,6 +1,7 @@
-//! A run from beginning to end: lock, resume or reuse, trials, clock, records, manifest.
+//! A run from beginning to end: resume or reuse, trials, clock, records, manifest.
 
 use super::checked::Study;
+use super::lock::Lock;
 use super::manifest::{Manifest, key};
 use super::reading::Point;
 use super::record::{Batch, Row};
@@ -8,15 +9,14 @@ use super::runner::{Field, Progress, Unit};
 use super::store::{Journal, Records, Staged, read_records, remove_temporaries, stage_records};
 use super::{Inputs, StudyError};
 use std::collections::BTreeMap;
-use std::fs::{self, File, TryLockError};
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 /// How to run.
 pub struct Options<'a> {
-    /// Where records go.
-    pub folder: &'a Path,
+    /// The right to write where records go.
+    pub lock: &'a Lock,
     /// The readings to run; the first is the one that clocks are read under.
     pub points: &'a [Point],
     /// Where input files are.
@@ -56,42 +56,65 @@ pub struct Report {
     pub moved: Vec<String>,
 }
 
-/// Runs `study`.
+/// Runs what is stale of `study`; where nothing is, the stored run stays as it is.
 ///
 /// # Errors
-/// [`StudyError::Busy`] if another process runs into the folder, [`StudyError::Interrupted`] if it was stopped,
-/// and those of the file system. Records that existed before stay as they are unless the run succeeds.
+/// [`StudyError::Interrupted`] if it was stopped, and those of the file system. Records that existed before stay as they
+/// are unless the run succeeds.
 pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
-    let field = Field::new(study, options.points, options.inputs)?;
+    let (field, folder) = (Field::new(study, options.points, options.inputs)?, options.lock.folder());
     let (claims, command) = (options.claims.clone(), options.command.clone());
     let mut manifest = Manifest::new(study, options.points, &field, claims, command, options.quick)?;
-    let _lock = lock(options.folder)?;
-    remove_temporaries(options.folder, &study.name);
-    let (journal, mut done) = Journal::open(&journal_path(options.folder, &study.name), &manifest.depends)?;
-    let resumed = done.len();
-    let stored = stored(options.folder, &study.name);
-    let why = stored.as_ref().map_or_else(Vec::new, |(before, _)| manifest.differs_from(before));
+    remove_temporaries(folder, &study.name);
+    let (journal, mut done) = Journal::open(&journal_path(folder, &study.name), &manifest.depends)?;
+    let (resumed, units) = (done.len(), field.units().len());
+    let Before { stored, why } = before(folder, &manifest);
     let found = match &stored {
         Some((before, records)) if !options.fresh => reusable(&field, &manifest, before, records),
         _ => BTreeMap::new(),
     };
     let reused = found.keys().filter(|index| !done.contains_key(index)).count();
-    for (index, batch) in found {
-        done.entry(index).or_insert(batch);
+    if let Some((before, records)) = &stored
+        && reused == units
+        && (&before.spec, &before.depends) == (&manifest.spec, &manifest.depends)
+    {
+        journal.remove()?;
+        let (manifest, trials) = (before.clone(), records.batch.rows.len());
+        return Ok(Report { manifest, trials, resumed, reused, units, why, moved: Vec::new() });
     }
-    let units = field.units().len();
+    if let Some((before, _)) = stored.as_ref().filter(|_| reused > 0) {
+        // These trials were seen under the former claims, so that a margin which has moved since stays marked.
+        manifest.claims.clone_from(&before.claims);
+    }
+    done = found.into_iter().chain(done).collect();
     let journal = Mutex::new(journal);
     let pool = pool(options.threads);
     let batch = pool.install(|| field.run(done, &journal, options.stop, options.progress))?;
-    let times = match &stored {
-        Some((before, records)) if reused == units && before.spec == manifest.spec => records.times.clone(),
-        _ => field.time(options.stop, options.progress)?,
-    };
+    let times = field.time(options.stop, options.progress)?;
     let moved = stored.map_or_else(Vec::new, |(before, records)| moved(&manifest, &before, &records, &batch));
     let records = Records { batch, times };
-    write(study, options.folder, &mut manifest, &records)?;
+    write(study, folder, &mut manifest, &records)?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
     Ok(Report { manifest, trials: records.batch.rows.len(), resumed, reused, units, why, moved })
+}
+
+/// What is stored of a study, and why it cannot stand for the run that `manifest` describes.
+struct Before {
+    stored: Option<(Manifest, Records)>,
+    why: Vec<String>,
+}
+
+fn before(folder: &Path, manifest: &Manifest) -> Before {
+    if !Manifest::path(folder, &manifest.study).exists() {
+        return Before { stored: None, why: Vec::new() };
+    }
+    match stored(folder, &manifest.study) {
+        Ok((before, records)) => {
+            let why = manifest.differs_from(&before);
+            Before { stored: Some((before, records)), why }
+        }
+        Err(error) => Before { stored: None, why: vec![format!("what is stored cannot be used: {error}")] },
+    }
 }
 
 /// Puts records and manifest in their places, the manifest last: it says which records are whole.
@@ -122,23 +145,13 @@ pub fn run_one(
         let hint = format!("its first one is `{}/{}`", study.name, first.unwrap_or_default());
         return Err(StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint });
     };
-    let mut batch = field.run_unit(owner);
+    let mut batch = field.run_unit(&Unit { name: owner.name.clone(), keeps_all: true, ..*owner });
     batch.rows.retain(|row| row.trial == trial);
     batch.kept.retain(|kept| kept.of == trial);
     let before = stored(folder, &study.name)
+        .ok()
         .and_then(|(_, records)| records.batch.rows.into_iter().find(|row| row.trial == trial));
     Ok((batch, before))
-}
-
-fn lock(folder: &Path) -> Result<File, StudyError> {
-    fs::create_dir_all(folder).map_err(StudyError::io(folder, "creating the folder"))?;
-    let path = folder.join(".lock");
-    let file = File::create(&path).map_err(StudyError::io(&path, "creating the lock"))?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(StudyError::Busy { path: folder.to_owned() }),
-        Err(TryLockError::Error(e)) => Err(StudyError::io(&path, "locking")(e)),
-    }
 }
 
 fn journal_path(folder: &Path, study: &str) -> std::path::PathBuf {
@@ -153,10 +166,10 @@ pub(super) fn pool(threads: Option<usize>) -> rayon::ThreadPool {
         .expect("the system gives a process its first threads")
 }
 
-fn stored(folder: &Path, study: &str) -> Option<(Manifest, Records)> {
-    let manifest = Manifest::read(folder, study).ok()?;
-    let records = read_records(folder, study, &manifest.files).ok()?;
-    Some((manifest, records))
+fn stored(folder: &Path, study: &str) -> Result<(Manifest, Records), StudyError> {
+    let manifest = Manifest::read(folder, study)?;
+    let records = read_records(folder, study, &manifest.files)?;
+    Ok((manifest, records))
 }
 
 /// The units of which every record is stored and depends on nothing that has changed.

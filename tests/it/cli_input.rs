@@ -1,190 +1,8 @@
 //! Bad input: what is said, with which exit code, and that nothing which existed before is lost.
 
 use crate::paper::Bench;
+use crate::wrong_words::{WRONG, file};
 use std::fs::{self, File};
-
-/// A wrong edit of the tiny paper and what must be said about it.
-struct Wrong {
-    file: &'static str,
-    from: &'static str,
-    to: &'static str,
-    said: &'static str,
-}
-
-const fn wrong(file: &'static str, from: &'static str, to: &'static str, said: &'static str) -> Wrong {
-    Wrong { file, from, to, said }
-}
-
-const WRONG: &[Wrong] = &[
-    wrong("draws", "[budget]", "[budget", "mini/draws.toml:5:8: "),
-    wrong("draws", "seed = 7\n", "", "mini/draws.toml:1:1: missing field `seed`"),
-    wrong("draws", "seed = 7", "seed = 'seven'", "mini/draws.toml:3:8: invalid type: string \"seven\""),
-    wrong("draws", "question", "questoin", "mini/draws.toml:2:1: unknown field `questoin`, expected one of"),
-    wrong(
-        "draws",
-        "planner = \"astar\"",
-        "planner = \"a-star\"",
-        "mini/draws.toml:23:11: contender `A*` asks for planner `a-star`, which does not exist; the planners are ",
-    ),
-    wrong(
-        "draws",
-        "\"delete_inflections\"",
-        "\"astar\"",
-        "mini/draws.toml:30:19: contender `Two-sided` asks for stage `astar`, which does not exist; the stages are ",
-    ),
-    wrong(
-        "draws",
-        "weight = 1,",
-        "wait = 1,",
-        "mini/draws.toml:24:14: unknown field `wait`, expected `weight` or",
-    ),
-    wrong(
-        "draws",
-        "weight = 1,",
-        "weight = -1,",
-        "weight is -1; 0 (Dijkstra), 1 (A*), any larger number, or",
-    ),
-    wrong(
-        "draws",
-        "\"fifo\" }\n\n",
-        "\"filo\" }\n\n",
-        "mini/draws.toml:24:33: unknown variant `filo`, expected one of",
-    ),
-    wrong(
-        "draws",
-        "\"random_cells\"",
-        "\"random_cell\"",
-        "mini/draws.toml:17:10: there is no problem family `random_cell`; the known ones are ",
-    ),
-    wrong("draws", "seed = 7", "seed = 7\ntask = \"plna\"", "there is no task `plna`; the known ones are"),
-    wrong(
-        "draws",
-        "replicates = 24",
-        "replicates = 0",
-        "mini/draws.toml:18:14: replicates is 0; at least 1 is",
-    ),
-    wrong(
-        "draws",
-        "default = \"allow\"",
-        "default = \"deny\"",
-        "reading `corners` has no option `deny`; it has allow,",
-    ),
-    wrong(
-        "draws",
-        "problem = { corner_rule = \"forbid_any\" }",
-        "problem = { corner_rule = \"never\" }",
-        "reading corners=forbid_any: unknown variant `never`, expected one of",
-    ),
-    wrong(
-        "draws",
-        "label = \"Two-sided\"",
-        "label = \"a-star\"",
-        "the second to be called `a-star` in trial names",
-    ),
-    wrong("draws", "\"mini\"", "\"maxi\"", "`paper` is `maxi`, but the study lies in the folder of `mini`"),
-    wrong(
-        "draws",
-        "goal = [11, 9]",
-        "goal = [12, 9]",
-        "goal is [12, 9], outside the map; cells are 0..12 by 0..12",
-    ),
-    wrong(
-        "room",
-        "start = [0, 0]",
-        "start = [3, 0]",
-        "mini/room.toml:15:12: the start [3.0, 0.0] is blocked",
-    ),
-    wrong(
-        "room",
-        "goal = [6, 3]",
-        "goal = [7, 3]",
-        "the goal [7.0, 3.0] is not a cell of the map; cells are 0..7 by",
-    ),
-    wrong(
-        "room",
-        "room.map.txt",
-        "hall.map.txt",
-        "input file `hall.map.txt` does not exist; looked for ./mini/hall",
-    ),
-    wrong(
-        "room",
-        "\"grid_search\"",
-        "\"grid_saerch\"",
-        "mini/room.toml:24:8: figure `fig1` is of kind `grid_saerch`, which does not exist; the kinds are ",
-    ),
-    wrong(
-        "room",
-        "contenders = [\"A*\"]",
-        "contenders = [\"B*\"]",
-        "no contender is called `B*`; they are A*",
-    ),
-    wrong(
-        "room",
-        "shows = [{ problems = \"room\"",
-        "shows = [{ problems = \"hall\"",
-        "no problem group is called `hall`",
-    ),
-    wrong("room.map", "#", "x", "room.map.txt: line 3, column 4: found `x`; a cell is one of"),
-    wrong(
-        "paper",
-        "claim.check.attained",
-        "claim.check.obtained",
-        "claim `cost` asks for the check `obtained`, which does not exist; the checks are ",
-    ),
-    wrong(
-        "paper",
-        "metric = \"nodes\"",
-        "metric = \"knots\"",
-        "there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are ",
-    ),
-    wrong(
-        "paper",
-        "metric = \"path_cost_cells\"",
-        "metric = \"plan_time_us\"",
-        "study `room` does not produce the metric `plan_time_us`; it produces ",
-    ),
-    wrong(
-        "paper",
-        "study = \"draws\"",
-        "study = \"drawn\"",
-        "there is no study `drawn`; there are draws, room",
-    ),
-    wrong(
-        "paper",
-        "lower = \"Two-sided\"",
-        "lower = \"Two\"",
-        "study `draws` has no contender `Two`; it has A*, Two-sided",
-    ),
-    wrong(
-        "paper",
-        "printed = \"7.83\"",
-        "printed = \"7,83\"",
-        "mini/paper.toml:23:11: claim `cost`: printed is `7,83`",
-    ),
-    wrong(
-        "paper",
-        "figures = 1",
-        "figures = 2",
-        "the ledger has no row for Fig. 2; the paper has 2 of its kind",
-    ),
-    wrong(
-        "paper",
-        "figures = [\"fig1\"]",
-        "figures = [\"fig2\"]",
-        "there is no figure or table `fig2`; there are fig1, tab",
-    ),
-    wrong("paper", "id = \"nodes\"", "id = \"cost\"", "claim `cost` stands twice"),
-    wrong(
-        "paper",
-        "claims = [\"cost\", \"nodes\"]",
-        "claims = [\"cost\"]",
-        "row `A*` of table `table1` has 1 claims and 0 cells; either are accepted",
-    ),
-];
-
-fn file(name: &str) -> String {
-    if name == "room.map" { "mini/room.map.txt".to_owned() } else { format!("mini/{name}.toml") }
-}
 
 #[test]
 fn every_wrong_word_in_a_spec_is_told_with_its_place_and_what_is_accepted() {
@@ -264,6 +82,10 @@ fn papers_and_flags_that_do_not_exist_are_told() {
             "reading `corners` has no option `x`; it has allow, forbid_any",
         ),
         (
+            &["repro", "./mini", "--readings", "corners=allow,corners=forbid_any"],
+            "--readings: `corners` is given twice, as `allow` and as `forbid_any`; one option is accepted",
+        ),
+        (
             &["repro", "./mini", "--threads", "0"],
             "invalid value '0' for '--threads <N>': 0 is not in 1..=1024",
         ),
@@ -277,7 +99,7 @@ fn papers_and_flags_that_do_not_exist_are_told() {
             "study `draws` has no trial `x`; its first one is `draws/drawn/0/a",
         ),
         (&["judge", "./mini"], "no stored run"),
-        (&["render", "./mini"], "verdicts.toml: no verdicts ("),
+        (&["render", "./mini"], "verdicts.toml: no verdicts; run `replan judge` first"),
         (&["list", "plotters"], "invalid value 'plotters'"),
         (&["reproduce", "./mini"], "unrecognized subcommand 'reproduce'"),
     ] {
@@ -338,7 +160,7 @@ fn places_that_cannot_be_written_are_told_with_exit_code_1() {
     assert_eq!(said.code, Some(1), "{}", said.err);
     assert_eq!(
         said.err,
-        "replan: file/below/data/runs/mini: creating the folder: Not a directory (os error 20)\n"
+        "replan: file/below/paper_repro.md: reading the report: Not a directory (os error 20)\n"
     );
     assert_eq!(fs::read(bench.at("file")).unwrap(), b"in the way");
 }
@@ -381,4 +203,48 @@ fn a_second_run_into_one_folder_is_refused_and_disturbs_nothing() {
     assert!(bench.tree("mini/out") == before, "the refused run changed something");
     drop(lock);
     bench.done(&["repro", "./mini"]);
+}
+
+#[test]
+fn a_map_or_verdicts_that_are_no_text_are_told_with_the_byte_and_a_paper_without_study_as_such() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    bench.write("mini/out/data/runs/mini/verdicts.toml", b"paper = \"\xff\"");
+    let said = bench.run(&["render", "./mini"]);
+    assert_eq!(
+        (said.code, said.err.contains("verdicts.toml: byte 9 is not UTF-8")),
+        (Some(2), true),
+        "{}",
+        said.err
+    );
+    bench.write("mini/room.map.txt", b"; a room\n..\xff.\n");
+    let said = bench.run(&["check", "./mini"]);
+    assert!(said.err.contains("line 2, byte 11 of the file is not UTF-8 text"), "{}", said.err);
+    for study in ["draws", "room"] {
+        fs::remove_file(bench.at(&format!("mini/{study}.toml"))).unwrap();
+    }
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(
+        (said.code, said.err.as_str()),
+        (Some(2), "replan: ./mini: no study; a study is a TOML file beside paper.toml\n")
+    );
+}
+
+#[test]
+fn one_broken_paper_does_not_hide_the_others() {
+    let bench = Bench::new();
+    fs::create_dir(bench.at("experiments")).unwrap();
+    fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
+    bench.write("experiments/abroken/paper.toml", b"[source\n");
+    let said = bench.run(&["check"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(said.out.starts_with("mini: 2 studies"), "{}", said.out);
+    assert!(said.err.contains("abroken/paper.toml:1:8: "), "{}", said.err);
+    assert!(said.err.ends_with("replan: 1 of 2 papers are not in order\n"), "{}", said.err);
+    let said = bench.run(&["list"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    for name in ["  mini ", "  mini/draws ", "  astar ", "  grid_search "] {
+        assert!(said.out.contains(name), "{name}\n{}", said.out);
+    }
+    assert!(bench.done(&["list", "planners"]).contains("  astar "), "planners need no paper");
 }

@@ -32,7 +32,7 @@ fn render_writes_what_repro_wrote_byte_for_byte_and_check_notices_an_edit() {
     for name in ["plots/mini/fig1.svg", "plots/mini/table1.tex", "plots/mini/numbers.tex", "paper_repro.md"] {
         let path = bench.at(&format!("mini/out/{name}"));
         let whole = fs::read_to_string(&path).unwrap();
-        fs::write(&path, whole.replacen("mini", "minni", 1)).unwrap();
+        fs::write(&path, whole.replacen("made by", "mad by", 1).replacen("Made by", "Mad by", 1)).unwrap();
         let said = bench.run(&["render", "./mini", "--check"]);
         assert_eq!((said.code, said.err), (Some(3), format!("replan: not current: ./mini/out/{name}\n")));
         fs::write(&path, whole).unwrap();
@@ -43,7 +43,8 @@ fn render_writes_what_repro_wrote_byte_for_byte_and_check_notices_an_edit() {
     assert!(bench.tree("mini/out") == before, "--only fig1 did not bring the figure back");
     let said = bench.run(&["render", "./mini", "--only", "fig9"]);
     assert_eq!(said.code, Some(2));
-    assert!(said.err.contains("nothing like a figure or table `fig9`"), "{}", said.err);
+    let known = "nothing like a figure or table `fig9`; there are fig1, table1, numbers";
+    assert!(said.err.contains(known), "{}", said.err);
 }
 
 #[test]
@@ -68,42 +69,6 @@ fn a_quick_run_is_marked_in_every_output_and_lies_elsewhere() {
 }
 
 #[test]
-fn another_seed_and_another_reading_write_elsewhere() {
-    let bench = Bench::new();
-    for (flags, place) in [
-        (&["--seed", "9"][..], "target/replan/mini-seed-9"),
-        (&["--readings", "corners=forbid_any"], "target/replan/mini-readings-corners-forbid-any"),
-        (&["--readings", "all"], "target/replan/mini-readings-all"),
-        (&["--quick", "--seed", "9"], "target/replan/mini-quick-seed-9"),
-    ] {
-        bench.done(&[&["repro", "./mini"], flags].concat());
-        assert_eq!(bench.facts(place).len(), 6, "{flags:?}");
-    }
-    assert!(!bench.at("mini/out").exists());
-    let trials = |place: &str| bench.facts(place)["draws.trials.parquet"].clone();
-    let all = ["seed-9", "readings-corners-forbid-any", "readings-all"]
-        .map(|name| trials(&format!("target/replan/mini-{name}")));
-    assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2]);
-}
-
-#[test]
-fn a_paper_of_the_project_is_found_by_name_and_writes_the_committed_places() {
-    let bench = Bench::new();
-    fs::create_dir(bench.at("experiments")).unwrap();
-    fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
-    bench.done(&["repro", "mini"]);
-    for place in ["data/runs/mini/verdicts.toml", "plots/mini/fig1.png", "paper_repro.md"] {
-        assert!(bench.at(place).is_file(), "{place}");
-    }
-    assert!(bench.done(&["check"]).starts_with("mini: 2 studies"));
-    assert!(bench.done(&["check", "experiments/mini/draws.toml"]).starts_with("mini: 2 studies"));
-    let listed = bench.done(&["list"]);
-    for name in ["  mini ", "  mini/draws ", "  mini/corners ", "  astar ", "  grid_search ", "  ordering "] {
-        assert!(listed.contains(name), "{name}\n{listed}");
-    }
-}
-
-#[test]
 fn a_trial_run_alone_equals_its_stored_row_and_a_wrong_row_is_noticed() {
     let bench = Bench::new();
     let trial = ["repro", "./mini", "--trial", "draws/drawn/5/two-sided"];
@@ -114,7 +79,9 @@ fn a_trial_run_alone_equals_its_stored_row_and_a_wrong_row_is_noticed() {
     assert!(out.ends_with("equals the stored row\n"), "{out}");
     assert!(out.contains("\nopened ") && out.contains("\nseed "), "{out}");
     let room = bench.done(&["repro", "./mini", "--trial", "room/room/a-star"]);
-    assert!(room.contains("\npath                   [0.0, 0.0] ["), "the path is not shown: {room}");
+    for out in [&out, &room] {
+        assert!(out.contains("\npath                   [0.0, 0.0] ["), "the path is not shown: {out}");
+    }
     assert!(bench.tree("mini/out") == before, "--trial wrote something");
     bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
     let said = bench.run(&trial);
@@ -195,4 +162,67 @@ fn help_has_examples_and_nothing_is_coloured_in_a_pipe() {
     for text in [&help, &said.out, &said.err, &bench.run(&["repro"]).err] {
         assert!(!text.contains('\x1b'), "{text}");
     }
+}
+
+#[test]
+fn repro_runs_what_is_stale_and_fresh_runs_everything_without_losing_a_byte() {
+    let bench = Bench::new();
+    let repro = |flags: &[&str]| bench.done(&[&["repro", "./mini"], flags].concat());
+    assert!(repro(&[]).starts_with("draws: 48 trials\n"));
+    let first = bench.tree("mini/out");
+    assert!(repro(&[]).starts_with("draws: 48 trials (24 of 24 units reused)\n"));
+    assert!(bench.tree("mini/out") == first, "a run with nothing to do changed something");
+    let facts = bench.facts("mini/out");
+    assert!(repro(&["--fresh"]).starts_with("draws: 48 trials\n"));
+    assert!(bench.facts("mini/out") == facts);
+}
+
+#[test]
+fn a_margin_that_moves_after_the_run_is_marked_until_everything_is_run_again() {
+    let bench = Bench::new();
+    let mark = "claims or margins changed after the run of draws, room; run it again with --fresh";
+    assert!(!bench.done(&["repro", "./mini"]).contains(mark));
+    bench.edit("mini/paper.toml", "on = \"average\"", "on = \"average\"\nwithin = 0.2");
+    if bench.run(&["check", "./mini"]).code != Some(0) {
+        bench.edit("mini/paper.toml", "\nwithin = 0.2", "");
+        bench.edit("mini/paper.toml", "printed = \"7.83\"", "printed = \"7.84\"");
+    }
+    assert!(bench.done(&["repro", "./mini"]).contains(mark), "reuse hid that a claim has changed");
+    assert!(!bench.done(&["repro", "./mini", "--fresh"]).contains(mark));
+}
+
+#[test]
+fn why_says_that_a_stored_run_cannot_be_read() {
+    let bench = Bench::new();
+    bench.done(&["run", "./mini"]);
+    bench.write("mini/out/data/runs/mini/draws.manifest.toml", b"");
+    let out = bench.done(&["run", "./mini", "--why"]);
+    assert!(
+        out.contains(
+            "why: what is stored cannot be used: ./mini/out/data/runs/mini/draws.manifest.toml:1:1: the file"
+        ),
+        "{out}"
+    );
+}
+
+#[test]
+fn contenders_take_turns_at_the_clock() {
+    let bench = Bench::new();
+    bench.edit("mini/draws.toml", "repeats = 2", "repeats = 9");
+    let out = bench.run(&["run", "./mini"]);
+    assert!(out.err.contains("draws: clock: 8 units in "), "2 problems in 4 passes: {}", out.err);
+}
+
+#[test]
+fn check_names_what_an_earlier_state_of_the_paper_left_behind() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    bench.write("mini/out/plots/mini/fig7.svg", b"old");
+    let said = bench.run(&["render", "./mini", "--check"]);
+    let left = "replan: left over from before; remove: ./mini/out/plots/mini/fig7.svg\n";
+    assert_eq!((said.code, said.err.as_str()), (Some(3), left));
+    let path = bench.at("mini/out/paper_repro.md");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text + "\nMy remark on plots/mini/fig7.svg.\n").unwrap();
+    assert!(bench.done(&["render", "./mini", "--check"]).ends_with(" files are current\n"));
 }

@@ -123,7 +123,7 @@ fn ctrl_c_finishes_the_units_at_work_says_what_it_kept_and_the_run_goes_on() {
     let message = format!(
         "replan: interrupted: {kept} of 300 units of study `draws` are kept; the same command goes on from there\n"
     );
-    assert!(said.err.starts_with("stopping after the units at work; press Ctrl-C again to"), "{}", said.err);
+    assert!(said.err.starts_with("stopping at the next safe point; press Ctrl-C again to"), "{}", said.err);
     assert!(said.err.ends_with(&message), "{message}{}", said.err);
     assert!((1..300).contains(&kept), "{kept}");
     let out = bench.done(&["run", "./mini"]);
@@ -163,4 +163,34 @@ fn a_journal_of_another_study_is_not_believed() {
     assert!(out.starts_with("draws: 600 trials\n"), "{out}");
     bench.done(&["run", "./mini", "--out", "calm"]);
     assert!(bench.facts("mini/out") == bench.facts("calm"));
+}
+
+#[test]
+fn ctrl_c_while_figures_are_drawn_ends_with_130_and_leaves_the_older_ones() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let before = bench.tree("mini/out/plots");
+    let room = fs::read_to_string(bench.at("mini/room.toml")).unwrap();
+    let figure = room.split("[[figure]]").nth(1).unwrap();
+    let more: Vec<String> = (2..40).map(|n| figure.replace("fig1", &format!("fig{n}"))).collect();
+    fs::write(bench.at("mini/room.toml"), room + "\n[[figure]]" + &more.join("\n[[figure]]")).unwrap();
+    fs::remove_file(bench.at("mini/out/data/runs/mini/verdicts.toml")).unwrap();
+    let mut run = bench.command(&["repro", "./mini"]).spawn().unwrap();
+    while !bench.at("mini/out/data/runs/mini/verdicts.toml").exists() {
+        assert!(run.try_wait().unwrap().is_none(), "the run was over before its verdicts were seen");
+        sleep(Duration::from_micros(500));
+    }
+    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).status().unwrap();
+    assert!(sent.success());
+    let said = bench.said(&run.wait_with_output().unwrap());
+    assert_eq!(said.code, Some(130), "{}", said.err);
+    assert!(said.err.contains("interrupted"), "{}", said.err);
+    assert!(
+        said.out.contains("2 claims: "),
+        "the verdicts are printed before figures are drawn: {}",
+        said.out
+    );
+    assert!(bench.tree("mini/out/plots") == before, "a figure was replaced");
+    bench.done(&["repro", "./mini"]);
+    assert_eq!(bench.tree("mini/out/plots").len(), before.len() + 2 * 38);
 }

@@ -2,14 +2,17 @@
 
 mod arm;
 mod cli_input;
+mod cli_places;
 mod cli_run;
 mod cli_stop;
 mod conformance;
 mod crosscheck;
 mod floors;
+mod latex;
 mod laws;
 mod paper;
 mod registries;
 mod snapshots;
 mod source;
 mod worlds;
+mod wrong_words;

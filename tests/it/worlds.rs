@@ -1,12 +1,23 @@
 //! Worlds of every kind with what is true of them, found by other code than any planner's.
 
-use rand::RngExt as _;
-use replan::grid::{CornerRule, Grid2, independent_cells};
-use replan::planner::Plan;
-use replan::seed;
-use replan::space::{LatticeWorld, World, WorldKind};
-use replan::verify::lattice::{Answer, Case as Query};
-use std::collections::BTreeSet;
+mod arm;
+mod lattice;
+mod roadmap;
+
+use replan::planner::{Entry, Plan, Planner};
+use replan::settings::Settings;
+use replan::space::{World, WorldKind};
+use replan::verify::plane;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+/// A planner with the settings that it was built from.
+pub struct Subject {
+    pub name: String,
+    pub entry: &'static Entry,
+    pub settings: Settings,
+    pub planner: Box<dyn Planner>,
+}
 
 /// A query in a world.
 pub struct Case {
@@ -15,93 +26,93 @@ pub struct Case {
     pub world: World,
     pub start: Vec<f64>,
     pub goal: Vec<f64>,
+    posed: Posed,
+}
+
+/// What the oracle of each kind needs besides.
+enum Posed {
+    /// The least cost.
+    Lattice(Option<f64>),
+    /// The discs.
+    Arm(Vec<[f64; 2]>),
+    /// The samples, and the verifier's map.
+    Roadmap(Vec<Vec<f64>>, plane::Case),
+}
+
+/// What is true of a query in the graph that a planner searches.
+pub struct Truth {
     /// The least cost; absent if the goal cannot be reached.
     pub optimum: Option<f64>,
+    /// The planner must find a path exactly if there is one.
+    pub is_exact: bool,
+    /// How many nodes can be reached and how many moves leave them, where one search from the start takes them all.
+    pub reachable: Option<(u64, u64)>,
 }
 
 /// A sample of worlds of `kind`, some with the goal walled off.
 pub fn worlds(kind: WorldKind) -> Vec<Case> {
     match kind.name() {
-        "lattice" => (0..150).map(lattice).collect(),
-        other => panic!("conformance has no sample of {other} worlds; add one to tests/it/worlds.rs"),
+        "arm" => (0..48).map(arm::arm).collect(),
+        "lattice" => (0..150).map(lattice::lattice).collect(),
+        "roadmap" => (0..60).map(roadmap::roadmap).collect(),
+        other => panic!("conformance has no sample of {other} worlds; add one to tests/it/worlds"),
     }
 }
 
-fn lattice(number: u64) -> Case {
-    let mut stream = seed::stream(seed::derive(1968, &["conformance", &number.to_string()]));
-    let size = [stream.random_range(3..16), stream.random_range(3..16)];
-    let ends: [[u32; 2]; 2] =
-        [0, 1].map(|_| [stream.random_range(0..size[0]), stream.random_range(0..size[1])]);
-    let keep = ends.map(|[x, y]| y * size[0] + x);
-    let share = stream.random_range(0.1..0.55);
-    let rule = [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny][(number % 3) as usize];
-    let mut grid = independent_cells(&mut stream, size, share, &keep).unwrap();
-    if number % 10 == 9 && ends[0] != ends[1] {
-        wall_off(&mut grid, ends[1], keep[0]);
-    }
-    let [start, goal] = ends.map(|cell| cell.map(f64::from).to_vec());
-    let optimum = Query { grid: &grid, corner_rule: rule, start: &start, goal: &goal }.optimal_cost();
-    let name = format!("lattice {number}, {size:?} under {rule:?}, {start:?} to {goal:?}");
-    Case { name, world: World::Lattice(LatticeWorld::new(grid, rule)), start, goal, optimum }
-}
-
-/// Blocks every cell around `goal` but `start`.
-fn wall_off(grid: &mut Grid2, [x, y]: [u32; 2], start: u32) {
-    for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
-        if let Some(cell) = grid.cell(x as i32 + dx, y as i32 + dy)
-            && (dx, dy) != (0, 0)
-            && cell != start
-        {
-            grid.set_blocked(cell, true);
+/// The least cost of every node that can be reached from `start`, and how many moves leave them: Dijkstra's algorithm.
+fn flood(start: u32, moves: impl Fn(u32) -> Vec<(u32, f64)>) -> (BTreeMap<u32, f64>, u64) {
+    let (mut found, mut count): (BTreeMap<u32, f64>, u64) = (BTreeMap::new(), 0);
+    // Costs are not negative, so that their bits are in their order.
+    let mut open = BinaryHeap::from([(Reverse(0_u64), start)]);
+    while let Some((Reverse(cost), node)) = open.pop() {
+        if found.contains_key(&node) {
+            continue;
+        }
+        found.insert(node, f64::from_bits(cost));
+        for (to, step) in moves(node) {
+            count += 1;
+            open.push((Reverse((f64::from_bits(cost) + step).to_bits()), to));
         }
     }
+    (found, count)
 }
 
 impl Case {
-    fn lattice(&self) -> &LatticeWorld {
-        self.world.as_lattice().expect("the sample holds lattices only")
-    }
-
-    /// Why the verifier refuses `plan`'s path.
-    pub fn refusal(&self, plan: &Plan, in_graph: bool, optimal: bool) -> Option<String> {
-        let (grid, corner_rule) = (self.lattice().grid(), self.lattice().corner_rule());
-        let query = Query { grid, corner_rule, start: &self.start, goal: &self.goal };
-        query.refuse_path(&Answer { path: &plan.path, cost: plan.cost, in_graph, optimal }, self.optimum)
-    }
-
-    /// How many nodes can be reached from the start, and how many moves leave them in all: counted cell by cell.
-    pub fn reachable(&self) -> (u64, u64) {
-        let (grid, rule) = (self.lattice().grid(), self.lattice().corner_rule());
-        let mut seen = BTreeSet::new();
-        let mut todo = vec![[self.start[0] as i32, self.start[1] as i32]];
-        let mut moves = 0;
-        while let Some([x, y]) = todo.pop() {
-            if !seen.insert([x, y]) {
-                continue;
-            }
-            for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
-                let flanks = [grid.is_free_xy(x + dx, y), grid.is_free_xy(x, y + dy)];
-                let fits = match rule {
-                    CornerRule::Allow => true,
-                    CornerRule::ForbidBoth => flanks[0] || flanks[1],
-                    CornerRule::ForbidAny => flanks[0] && flanks[1],
-                };
-                let is_legal = (dx, dy) != (0, 0) && grid.is_free_xy(x + dx, y + dy);
-                if is_legal && (dx == 0 || dy == 0 || fits) {
-                    moves += 1;
-                    todo.push([x + dx, y + dy]);
-                }
-            }
+    /// What is true of it for `subject`.
+    pub fn truth(&self, subject: &Subject) -> Truth {
+        match &self.posed {
+            Posed::Lattice(optimum) => lattice::truth(self, *optimum, subject),
+            Posed::Arm(_) => arm::truth(self, subject),
+            Posed::Roadmap(places, plane) => roadmap::truth(self, places, plane, subject),
         }
-        (seen.len() as u64, moves)
     }
 
-    /// Starts and goals that cannot be posed: in an obstacle, outside, between cells, of another dimension.
+    /// Why the verifier refuses the path of a plan that `subject` made.
+    pub fn refusal(&self, plan: &Plan, subject: &Subject) -> Option<String> {
+        let (steps, optimal) = (subject.planner.steps(), subject.planner.is_optimal());
+        match &self.posed {
+            Posed::Lattice(optimum) => lattice::refusal(self, *optimum, plan, [true, optimal]),
+            Posed::Arm(discs) => arm::refusal(self, discs, plan, steps, optimal),
+            Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, Some(subject)),
+        }
+    }
+
+    /// Why the verifier refuses the path of a tidied plan, which may leave the graph.
+    pub fn refusal_off_graph(&self, plan: &Plan) -> Option<String> {
+        match &self.posed {
+            Posed::Lattice(optimum) => lattice::refusal(self, *optimum, plan, [false; 2]),
+            Posed::Arm(discs) => arm::refusal(self, discs, plan, None, false),
+            Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, None),
+        }
+    }
+
+    /// Starts and goals that cannot be posed.
     pub fn impossible(&self) -> Vec<(Vec<f64>, Vec<f64>)> {
-        let grid = self.lattice().grid();
-        let blocked = (0..grid.cell_count()).find(|cell| !grid.is_free(*cell));
-        let mut points = vec![vec![-1.0, 0.0], vec![f64::from(grid.width()), 0.0], vec![0.5, 0.0], vec![0.0]];
-        points.extend(blocked.map(|cell| grid.xy(cell).map(f64::from).to_vec()));
+        let points = match &self.posed {
+            Posed::Lattice(_) => lattice::impossible(self),
+            Posed::Arm(discs) => arm::impossible(discs),
+            Posed::Roadmap(..) => roadmap::impossible(),
+        };
         let both = |point: Vec<f64>| [(point.clone(), self.goal.clone()), (self.start.clone(), point)];
         points.into_iter().flat_map(both).collect()
     }

@@ -1,6 +1,7 @@
 use crate::analysis::claims::judge;
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use crate::study::session::{Options, run};
 use crate::study::{Inputs, Point, runner::Unwatched};
@@ -62,7 +63,7 @@ fn with_run(folder: &Path, claims: &str, study: &str, then: impl FnOnce(&Paper, 
     let paper = Paper::load(&home, &inputs).unwrap();
     let points = paper.studies[0].trial_points().unwrap();
     let options = Options {
-        folder: &folder.join("runs"),
+        lock: &Lock::take(&folder.join("runs")).unwrap(),
         points: &points,
         inputs: &inputs,
         command: String::new(),
@@ -74,7 +75,7 @@ fn with_run(folder: &Path, claims: &str, study: &str, then: impl FnOnce(&Paper, 
         progress: &Unwatched,
     };
     run(&paper.studies[0], &options).unwrap();
-    let evidence = Evidence::read(&paper, default_point(&paper), options.folder).unwrap();
+    let evidence = Evidence::read(&paper, default_point(&paper), options.lock.folder()).unwrap();
     then(&paper, &evidence);
 }
 

@@ -185,7 +185,13 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
     })?;
     let settings = match &figure.settings {
         Some(settings) => Settings::written(&study.document, settings),
-        None => Settings::composed(format!("figure `{}`", figure.id.get_ref()), Toml::new()),
+        None => Settings::composed(String::new(), Toml::new()),
     };
-    (entry.build)(&settings, study, paper)
+    (entry.build)(&settings, study, paper).map_err(|error| match figure.settings {
+        Some(_) => error,
+        None => study.document.error(
+            figure.id.span(),
+            format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message()),
+        ),
+    })
 }

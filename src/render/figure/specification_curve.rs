@@ -52,6 +52,14 @@ struct ColumnSpec {
     axis: String,
 }
 
+/// What a column without outcomes says; a quick run may have too few maps for any.
+const NOTHING: &str = "no reading has enough maps";
+
+/// The axis that outcomes stand along, one unit each; it has room for one where there is none.
+fn places(label: &str, outcomes: &[Outcome]) -> Result<Axis, RenderError> {
+    Axis::linear(label, -0.5, outcomes.len().max(1) as f64 - 0.5)
+}
+
 struct Curve {
     read: SpecificationCurve,
     settings: Settings,
@@ -69,8 +77,11 @@ impl Curve {
     fn curve(scene: &Scene<'_>, spec: &ColumnSpec, outcomes: &[Outcome]) -> Result<Panel, RenderError> {
         let printed = printed_value(scene.evidence, &spec.claim);
         let ends = outcomes.iter().flat_map(|o| [o.central.low, o.central.high]);
-        let x = Axis::linear("", -0.5, outcomes.len() as f64 - 0.5)?;
-        let mut panel = Panel::new(&spec.title, x, Axis::over(&spec.axis, ends.chain(printed)));
+        let y = Axis::over(&spec.axis, ends.chain(printed));
+        if outcomes.is_empty() {
+            return Ok(Panel::new(format!("{}: {NOTHING}", spec.title), places("", outcomes)?, y));
+        }
+        let mut panel = Panel::new(&spec.title, places("", outcomes)?, y);
         let at = |index: usize| index as f64;
         let edges =
             outcomes.iter().enumerate().map(|(i, o)| [at(i), o.central.low, o.central.high]).collect();
@@ -100,8 +111,11 @@ impl Curve {
                 String::new()
             }
         });
-        let x = Axis::linear("readings, by median", -0.5, outcomes.len() as f64 - 0.5)?;
+        let x = places("readings, by median", outcomes)?;
         let mut panel = Panel::new("", x, Axis::names("", names.collect::<Vec<_>>()));
+        if outcomes.is_empty() {
+            return Ok(panel);
+        }
         let color = |outcome: &Outcome, [reading, option]: &[String; 2]| {
             (outcome.point.choices()[reading] == *option).then_some(if outcome.is_among {
                 INK

@@ -46,7 +46,7 @@ fn a_table_is_written_as_seen_here() {
 
 #[test]
 fn numbers_are_written_as_seen_here() {
-    let latex = numbers().latex("zhang", "cargo run -- render zhang");
+    let latex = numbers().latex("zhang", "cargo run -- render zhang").unwrap();
     assert!(is_balanced(&latex), "{latex}");
     insta::assert_snapshot!(latex);
 }
@@ -95,4 +95,38 @@ fn a_row_that_does_not_fill_the_columns_is_refused() {
     table.row(vec![Cell::Across(3, "wide".into())]);
     let message = table.latex("x").unwrap_err().to_string();
     assert!(message.contains("fills 3 columns; 4 are declared") && message.contains("table2"), "{message}");
+}
+
+#[test]
+fn macros_of_a_paper_with_digits_in_its_name_hold_letters_only() {
+    let mut numbers = numbers();
+    numbers.add("t2.improved.800.low", "80").unwrap();
+    for prefix in ["fu2018", "movingai_sample", "zhang"] {
+        let latex = numbers.latex(prefix, "x").unwrap();
+        let names = latex.lines().filter_map(|line| line.strip_prefix("\\newcommand{\\")?.split('}').next());
+        let names: Vec<&str> = names.collect();
+        assert_eq!(names.len(), 3, "{latex}");
+        for name in names {
+            assert!(name.bytes().all(|byte| byte.is_ascii_alphabetic()), "{name}\n{latex}");
+        }
+    }
+    assert!(numbers.latex("2018", "x").unwrap().contains("{\\TwoZeroOneEightACost}"), "a name of digits");
+    let message = numbers.add("a* cost", "1").unwrap_err().to_string();
+    assert!(message.contains("`A* cost`") && message.contains("`a* cost`"), "{message}");
+}
+
+#[test]
+fn cells_of_a_wide_table_are_broken_at_spaces_until_it_fits_and_lose_no_word() {
+    let words = "one interval [27.0, 30.1] after another, *starred";
+    let mut table = Table::new("wide", "Wide", &[Column::Left; 6]);
+    table.head(vec!["a head of several words".into(); 6]);
+    table.row(vec![words.into(); 6]);
+    let latex = table.latex("x").unwrap();
+    assert!(is_balanced(&latex), "{latex}");
+    let row = latex.lines().find(|line| line.contains("27.0")).unwrap();
+    assert!(row.starts_with("\\begin{tabular}[t]{@{}l@{}}one interval\\\\{}[27.0, 30.1]\\\\"), "{row}");
+    assert_eq!(row.matches("\\\\{}*starred").count(), 6, "{row}");
+    let mut narrow = Table::new("narrow", "Narrow", &[Column::Left; 2]);
+    narrow.row(vec!["a head of several words".into(); 2]);
+    assert!(!narrow.latex("x").unwrap().contains("{tabular}[t]"), "what fits is not broken");
 }

@@ -8,6 +8,7 @@ use super::{
 use crate::planner;
 use crate::settings::{Document, SettingsError};
 use std::collections::BTreeSet;
+use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 use toml::{Spanned, Table};
@@ -61,14 +62,17 @@ impl Study {
 
     /// Builds everything once under every single option, so that nothing can fail for its settings later.
     fn check(&self, inputs: &Inputs) -> Result<(), StudyError> {
-        let folder = self.document.path().parent().and_then(Path::file_name).unwrap_or_default();
-        if folder.to_string_lossy() != self.paper {
-            let message = format!(
-                "`paper` is `{}`, but the study lies in the folder of `{}`",
-                self.paper,
-                folder.display()
-            );
+        let path = self.document.path();
+        let absolute = fs::canonicalize(path).map_err(StudyError::io(path, "opening the study"))?;
+        let folder = absolute.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
+        if folder != self.paper {
+            let message =
+                format!("`paper` is `{}`, but the study lies in the folder of `{folder}`", self.paper);
             return Err(self.document.error(self.key_span("paper"), message).into());
+        }
+        if self.budget.expansions == 0 {
+            let message = "expansions is 0; a budget of at least 1 is accepted";
+            return Err(self.document.error(self.key_span("expansions"), message).into());
         }
         (self.task.build)(&self.task_settings)?;
         self.check_sweeps()?;

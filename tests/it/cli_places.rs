@@ -1,0 +1,136 @@
+//! Where outputs go: the committed places belong to full runs of the project's papers, a user's own paper keeps its own.
+
+use crate::paper::Bench;
+use std::fs;
+use std::os::unix::fs::symlink;
+
+#[test]
+fn another_seed_and_another_reading_write_elsewhere() {
+    let bench = Bench::new();
+    for (flags, place) in [
+        (&["--seed", "9"][..], "target/replan/mini-seed-9"),
+        (&["--readings", "corners=forbid_any"], "target/replan/mini-readings-corners-forbid-any"),
+        (&["--readings", "all"], "target/replan/mini-readings-all"),
+        (&["--quick", "--seed", "9"], "target/replan/mini-quick-seed-9"),
+    ] {
+        bench.done(&[&["repro", "./mini"], flags].concat());
+        assert_eq!(bench.facts(place).len(), 6, "{flags:?}");
+    }
+    assert!(!bench.at("mini/out").exists());
+    let trials = |place: &str| bench.facts(place)["draws.trials.parquet"].clone();
+    let all = ["seed-9", "readings-corners-forbid-any", "readings-all"]
+        .map(|name| trials(&format!("target/replan/mini-{name}")));
+    assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2]);
+}
+
+#[test]
+fn a_paper_of_the_project_is_found_by_name_and_writes_the_committed_places() {
+    let bench = Bench::new();
+    fs::create_dir(bench.at("experiments")).unwrap();
+    fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
+    bench.done(&["repro", "mini"]);
+    for place in ["data/runs/mini/verdicts.toml", "plots/mini/fig1.png", "paper_repro.md"] {
+        assert!(bench.at(place).is_file(), "{place}");
+    }
+    assert!(bench.done(&["check"]).starts_with("mini: 2 studies"));
+    assert!(bench.done(&["check", "experiments/mini/draws.toml"]).starts_with("mini: 2 studies"));
+    let listed = bench.done(&["list"]);
+    for name in ["  mini ", "  mini/draws ", "  mini/corners ", "  astar ", "  grid_search ", "  ordering "] {
+        assert!(listed.contains(name), "{name}\n{listed}");
+    }
+}
+
+/// A bench that is a project: its paper lies in `experiments`.
+fn project() -> Bench {
+    let bench = Bench::new();
+    fs::create_dir(bench.at("experiments")).unwrap();
+    fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
+    bench
+}
+
+#[test]
+fn a_run_that_is_not_a_full_one_is_refused_the_committed_places_however_they_are_written() {
+    let bench = project();
+    bench.done(&["repro", "mini"]);
+    let before = bench.tree("");
+    let here = bench.at("").display().to_string();
+    for out in [".", "./", "experiments/..", "new/..", "new/deep/../..", &here] {
+        for flags in [&["--quick"][..], &["--seed", "5"], &["--readings", "all"], &["--quick", "--fresh"]] {
+            let said = bench.run(&[&["repro", "mini", "--out", out], flags].concat());
+            assert_eq!(said.code, Some(2), "--out {out} {flags:?}: {}", said.err);
+            assert!(said.err.contains("is where full runs are kept, and this is not one ("), "{}", said.err);
+        }
+    }
+    assert!(bench.tree("") == before, "a refused run wrote something");
+    let own = Bench::new();
+    let said = own.run(&["repro", "./mini", "--quick", "--out", "mini/out"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    bench.done(&["repro", "mini", "--quick", "--out", "elsewhere"]);
+    bench.done(&["repro", "mini", "--out", "."]);
+}
+
+#[test]
+fn an_own_paper_given_by_its_absolute_path_keeps_its_outputs_beside_it() {
+    let (bench, own) = (project(), Bench::new());
+    let before = bench.tree("");
+    bench.done(&["repro", own.at("mini").to_str().unwrap()]);
+    assert!(bench.tree("") == before, "the project that stood around was written to");
+    assert!(own.at("mini/out/paper_repro.md").is_file());
+}
+
+#[test]
+fn a_paper_of_the_project_is_the_same_however_it_is_named() {
+    let bench = project();
+    let absolute = bench.at("experiments/mini").display().to_string();
+    bench.done(&["repro", "mini"]);
+    let before = bench.tree("");
+    for name in ["experiments/mini", "./experiments/mini", &absolute] {
+        let out = bench.done(&["repro", name]);
+        assert!(out.contains("(24 of 24 units reused)"), "{name}: {out}");
+        assert!(bench.tree("") == before, "{name} wrote elsewhere");
+    }
+}
+
+#[test]
+fn an_own_paper_runs_from_within_its_folder_and_through_a_link() {
+    let bench = Bench::new();
+    symlink(bench.at("mini"), bench.at("link")).unwrap();
+    for (folder, name) in [("mini", "."), ("mini", "./"), ("mini", "../mini"), ("", "./link"), ("", "link")] {
+        let said = bench.said(&bench.command(&["run", name]).current_dir(bench.at(folder)).output().unwrap());
+        assert_eq!(said.code, Some(0), "{name} in `{folder}`: {}", said.err);
+        assert!(bench.at("mini/out/data/runs/mini/draws.manifest.toml").is_file(), "{name} in `{folder}`");
+        fs::remove_dir_all(bench.at("mini/out")).unwrap();
+    }
+    let check = bench.command(&["check", "paper.toml"]).current_dir(bench.at("mini")).output().unwrap();
+    assert_eq!(bench.said(&check).out, "mini: 2 studies, 2 claims, 2 ledger rows are in order\n");
+}
+
+#[test]
+fn the_report_keeps_what_others_wrote_and_is_refused_where_it_cannot() {
+    let bench = Bench::new();
+    let report = "mini/out/paper_repro.md";
+    let mine = "# My notes\n\nA remark.\n\n<!-- replan begin zz other -->\n\nx\n\n<!-- replan end zz other -->\n\nThe end";
+    bench.write(report, mine.as_bytes());
+    bench.done(&["repro", "./mini"]);
+    let text = fs::read_to_string(bench.at(report)).unwrap();
+    let (before, after) = mine.split_once("<!-- replan begin zz").unwrap();
+    assert!(text.starts_with(before) && text.ends_with(after), "{text}");
+    let runs = bench.tree("mini/out/data");
+    for (broken, said) in [
+        (text.replace("<!-- replan end mini -->", "").into_bytes(), "`zz other` begins within `mini`"),
+        (text.replace("<!-- replan end zz other -->", "").into_bytes(), "`zz other` begins and has no end"),
+        (
+            [text.as_bytes(), b"\xff"].concat(),
+            "is not UTF-8; mend it, move it away, or write elsewhere with --out",
+        ),
+    ] {
+        bench.write(report, &broken);
+        for command in [&["repro", "./mini", "--fresh"][..], &["render", "./mini"]] {
+            let answer = bench.run(command);
+            assert_eq!(answer.code, Some(2), "{command:?}: {}", answer.err);
+            assert!(answer.err.contains(said), "{command:?}: {}", answer.err);
+        }
+        assert!(fs::read(bench.at(report)).unwrap() == broken, "the broken report was touched");
+        assert!(bench.tree("mini/out/data") == runs, "a refused command ran something");
+    }
+}

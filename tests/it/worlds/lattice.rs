@@ -1,0 +1,103 @@
+//! Lattices of square cells, some with the goal walled off.
+
+use super::{Case, Posed, Subject, Truth};
+use rand::RngExt as _;
+use replan::grid::{CornerRule, Grid2, independent_cells};
+use replan::planner::Plan;
+use replan::seed;
+use replan::space::{LatticeWorld, World};
+use replan::verify::lattice::{Answer, Case as Query};
+use std::collections::BTreeSet;
+
+pub fn lattice(number: u64) -> Case {
+    let mut stream = seed::stream(seed::derive(1968, &["conformance", &number.to_string()]));
+    let size = [stream.random_range(3..16), stream.random_range(3..16)];
+    let ends: [[u32; 2]; 2] =
+        [0, 1].map(|_| [stream.random_range(0..size[0]), stream.random_range(0..size[1])]);
+    let keep = ends.map(|[x, y]| y * size[0] + x);
+    let share = stream.random_range(0.1..0.55);
+    let rule = [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny][(number % 3) as usize];
+    let mut grid = independent_cells(&mut stream, size, share, &keep).unwrap();
+    if number % 10 == 9 && ends[0] != ends[1] {
+        wall_off(&mut grid, ends[1], keep[0]);
+    }
+    let [start, goal] = ends.map(|cell| cell.map(f64::from).to_vec());
+    let optimum = Query { grid: &grid, corner_rule: rule, start: &start, goal: &goal }.optimal_cost();
+    let name = format!("lattice {number}, {size:?} under {rule:?}, {start:?} to {goal:?}");
+    let world = World::Lattice(LatticeWorld::new(grid, rule));
+    Case { name, world, start, goal, posed: Posed::Lattice(optimum) }
+}
+
+/// Blocks every cell around `goal` but `start`.
+fn wall_off(grid: &mut Grid2, [x, y]: [u32; 2], start: u32) {
+    for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
+        if let Some(cell) = grid.cell(x as i32 + dx, y as i32 + dy)
+            && (dx, dy) != (0, 0)
+            && cell != start
+        {
+            grid.set_blocked(cell, true);
+        }
+    }
+}
+
+fn world(case: &Case) -> &LatticeWorld {
+    case.world.as_lattice().expect("the sample holds lattices only")
+}
+
+/// What is true in the eight-connected graph that every planner of this kind searches.
+pub fn truth(case: &Case, optimum: Option<f64>, subject: &Subject) -> Truth {
+    let is_one_sided = !subject.name.starts_with("bidirectional");
+    Truth {
+        optimum,
+        is_exact: subject.planner.is_complete(),
+        reachable: is_one_sided.then(|| reachable(world(case), &case.start)),
+    }
+}
+
+/// How many nodes can be reached from the start, and how many moves leave them in all: counted cell by cell.
+fn reachable(world: &LatticeWorld, start: &[f64]) -> (u64, u64) {
+    let (grid, rule) = (world.grid(), world.corner_rule());
+    let mut seen = BTreeSet::new();
+    let mut todo = vec![[start[0] as i32, start[1] as i32]];
+    let mut moves = 0;
+    while let Some([x, y]) = todo.pop() {
+        if !seen.insert([x, y]) {
+            continue;
+        }
+        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
+            let flanks = [grid.is_free_xy(x + dx, y), grid.is_free_xy(x, y + dy)];
+            let fits = match rule {
+                CornerRule::Allow => true,
+                CornerRule::ForbidBoth => flanks[0] || flanks[1],
+                CornerRule::ForbidAny => flanks[0] && flanks[1],
+            };
+            let is_legal = (dx, dy) != (0, 0) && grid.is_free_xy(x + dx, y + dy);
+            if is_legal && (dx == 0 || dy == 0 || fits) {
+                moves += 1;
+                todo.push([x + dx, y + dy]);
+            }
+        }
+    }
+    (seen.len() as u64, moves)
+}
+
+/// Why the verifier refuses `plan`'s path.
+pub fn refusal(
+    case: &Case,
+    optimum: Option<f64>,
+    plan: &Plan,
+    [in_graph, optimal]: [bool; 2],
+) -> Option<String> {
+    let (grid, corner_rule) = (world(case).grid(), world(case).corner_rule());
+    let query = Query { grid, corner_rule, start: &case.start, goal: &case.goal };
+    query.refuse_path(&Answer { path: &plan.path, cost: plan.cost, in_graph, optimal }, optimum)
+}
+
+/// In an obstacle, outside, between cells, of another dimension.
+pub fn impossible(case: &Case) -> Vec<Vec<f64>> {
+    let grid = world(case).grid();
+    let blocked = (0..grid.cell_count()).find(|cell| !grid.is_free(*cell));
+    let mut points = vec![vec![-1.0, 0.0], vec![f64::from(grid.width()), 0.0], vec![0.5, 0.0], vec![0.0]];
+    points.extend(blocked.map(|cell| grid.xy(cell).map(f64::from).to_vec()));
+    points
+}

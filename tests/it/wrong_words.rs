@@ -1,0 +1,223 @@
+//! Wrong words in specs, with what must be said about each.
+
+/// A wrong edit of the tiny paper and what must be said about it.
+pub struct Wrong {
+    pub file: &'static str,
+    pub from: &'static str,
+    pub to: &'static str,
+    pub said: &'static str,
+}
+
+const fn wrong(file: &'static str, from: &'static str, to: &'static str, said: &'static str) -> Wrong {
+    Wrong { file, from, to, said }
+}
+
+/// One wrong word each, in every place that a spec has.
+pub const WRONG: &[Wrong] = &[
+    wrong("draws", "[budget]", "[budget", "mini/draws.toml:5:8: "),
+    wrong("draws", "seed = 7\n", "", "mini/draws.toml:1:1: missing field `seed`"),
+    wrong(
+        "draws",
+        "seed = 7",
+        "seed = -1",
+        "mini/draws.toml:3:8: invalid value: integer `-1`, expected a whole number of",
+    ),
+    wrong(
+        "draws",
+        "expansions = 10_000",
+        "expansions = 0",
+        "mini/draws.toml:6:1: expansions is 0; a budget of at least 1",
+    ),
+    wrong("draws", "seed = 7", "seed = 'seven'", "mini/draws.toml:3:8: invalid type: string \"seven\""),
+    wrong("draws", "question", "questoin", "mini/draws.toml:2:1: unknown field `questoin`, expected one of"),
+    wrong(
+        "draws",
+        "planner = \"astar\"",
+        "planner = \"a-star\"",
+        "mini/draws.toml:23:11: contender `A*` asks for planner `a-star`, which does not exist; the planners are ",
+    ),
+    wrong(
+        "draws",
+        "\"delete_inflections\"",
+        "\"astar\"",
+        "mini/draws.toml:30:19: contender `Two-sided` asks for stage `astar`, which does not exist; the stages are ",
+    ),
+    wrong(
+        "draws",
+        "weight = 1,",
+        "wait = 1,",
+        "mini/draws.toml:24:14: unknown field `wait`, expected `weight` or",
+    ),
+    wrong(
+        "draws",
+        "weight = 1,",
+        "weight = -1,",
+        "weight is -1; 0 (Dijkstra), 1 (A*), any larger number, or",
+    ),
+    wrong(
+        "draws",
+        "\"fifo\" }\n\n",
+        "\"filo\" }\n\n",
+        "mini/draws.toml:24:33: unknown variant `filo`, expected one of",
+    ),
+    wrong(
+        "draws",
+        "\"random_cells\"",
+        "\"random_cell\"",
+        "mini/draws.toml:17:10: there is no problem family `random_cell`; the known ones are ",
+    ),
+    wrong("draws", "seed = 7", "seed = 7\ntask = \"plna\"", "there is no task `plna`; the known ones are"),
+    wrong(
+        "draws",
+        "replicates = 24",
+        "replicates = 0",
+        "mini/draws.toml:18:14: replicates is 0; at least 1 is",
+    ),
+    wrong(
+        "draws",
+        "default = \"allow\"",
+        "default = \"deny\"",
+        "reading `corners` has no option `deny`; it has allow,",
+    ),
+    wrong(
+        "draws",
+        "problem = { corner_rule = \"forbid_any\" }",
+        "problem = { corner_rule = \"never\" }",
+        "reading corners=forbid_any: unknown variant `never`, expected one of",
+    ),
+    wrong(
+        "draws",
+        "label = \"Two-sided\"",
+        "label = \"a-star\"",
+        "the second to be called `a-star` in trial names",
+    ),
+    wrong("draws", "\"mini\"", "\"maxi\"", "`paper` is `maxi`, but the study lies in the folder of `mini`"),
+    wrong(
+        "draws",
+        "goal = [11, 9]",
+        "goal = [12, 9]",
+        "goal is [12, 9], outside the map; cells are 0..12 by 0..12",
+    ),
+    wrong(
+        "room",
+        "start = [0, 0]",
+        "start = [3, 0]",
+        "mini/room.toml:15:12: the start [3.0, 0.0] is blocked",
+    ),
+    wrong(
+        "room",
+        "goal = [6, 3]",
+        "goal = [7, 3]",
+        "the goal [7.0, 3.0] is not a cell of the map; cells are 0..7 by",
+    ),
+    wrong(
+        "room",
+        "room.map.txt",
+        "hall.map.txt",
+        "input file `hall.map.txt` does not exist; looked for ./mini/hall",
+    ),
+    wrong(
+        "room",
+        "\"grid_search\"",
+        "\"grid_saerch\"",
+        "mini/room.toml:24:8: figure `fig1` is of kind `grid_saerch`, which does not exist; the kinds are ",
+    ),
+    wrong(
+        "room",
+        "contenders = [\"A*\"]",
+        "contenders = [\"B*\"]",
+        "no contender is called `B*`; they are A*",
+    ),
+    wrong(
+        "room",
+        "shows = [{ problems = \"room\"",
+        "shows = [{ problems = \"hall\"",
+        "no problem group is called `hall`",
+    ),
+    wrong(
+        "room",
+        "id = \"fig1\"",
+        "id = \"../fig1\"",
+        "mini/room.toml:23:6: the id `../fig1` names files; a to z, 0 to 9 and _",
+    ),
+    wrong(
+        "room",
+        "id = \"fig1\"",
+        "id = \"table1\"",
+        "mini/paper.toml:49:6: another figure or table of the paper is called `table1`",
+    ),
+    wrong("paper", "id = \"table1\"", "id = \"Table\"", "mini/paper.toml:49:6: the id `Table` names files"),
+    wrong(
+        "room",
+        "settings = { problem = \"room\", contenders = [\"A*\"] }",
+        "",
+        "mini/room.toml:23:6: figure `fig1` has no settings: missing field `",
+    ),
+    wrong(
+        "room",
+        "map = \"room.map.txt\"",
+        "map = \"..\"",
+        "input file `..` is a folder (./mini/..); a file is",
+    ),
+    wrong("room.map", "#", "x", "room.map.txt: line 3, column 4: found `x`; a cell is one of"),
+    wrong(
+        "paper",
+        "claim.check.attained",
+        "claim.check.obtained",
+        "claim `cost` asks for the check `obtained`, which does not exist; the checks are ",
+    ),
+    wrong(
+        "paper",
+        "metric = \"nodes\"",
+        "metric = \"knots\"",
+        "there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are ",
+    ),
+    wrong(
+        "paper",
+        "metric = \"path_cost_cells\"",
+        "metric = \"plan_time_us\"",
+        "study `room` does not produce the metric `plan_time_us`; it produces ",
+    ),
+    wrong(
+        "paper",
+        "study = \"draws\"",
+        "study = \"drawn\"",
+        "there is no study `drawn`; there are draws, room",
+    ),
+    wrong(
+        "paper",
+        "lower = \"Two-sided\"",
+        "lower = \"Two\"",
+        "study `draws` has no contender `Two`; it has A*, Two-sided",
+    ),
+    wrong(
+        "paper",
+        "printed = \"7.83\"",
+        "printed = \"7,83\"",
+        "mini/paper.toml:23:11: claim `cost`: printed is `7,83`",
+    ),
+    wrong(
+        "paper",
+        "figures = 1",
+        "figures = 2",
+        "the ledger has no row for Fig. 2; the paper has 2 of its kind",
+    ),
+    wrong(
+        "paper",
+        "figures = [\"fig1\"]",
+        "figures = [\"fig2\"]",
+        "there is no figure or table `fig2`; there are fig1, tab",
+    ),
+    wrong("paper", "id = \"nodes\"", "id = \"cost\"", "claim `cost` stands twice"),
+    wrong(
+        "paper",
+        "claims = [\"cost\", \"nodes\"]",
+        "claims = [\"cost\"]",
+        "row `A*` of table `table1` has 1 claims and 0 cells; either are accepted",
+    ),
+];
+
+/// The file of the tiny paper that a wrong word stands in.
+pub fn file(name: &str) -> String {
+    if name == "room.map" { "mini/room.map.txt".to_owned() } else { format!("mini/{name}.toml") }
+}
