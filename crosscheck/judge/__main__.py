@@ -21,7 +21,7 @@ def main() -> None:
     drawing.add_argument("--key", required=True)
     drawing.add_argument("--azimuth", type=float, default=135.0, help="degrees (default: %(default)s)")
     drawing.add_argument("--elevation", type=float, default=-25.0, help="degrees (default: %(default)s)")
-    drawing.add_argument("--zoom", type=float, default=1.0, help="1: MuJoCo's own distance (default)")
+    drawing.add_argument("--zoom", type=float, default=1.0, help="1: everything is in the picture (default)")
     words = parser.parse_args()
     if words.command == "answer":
         answer_all(words.folder, words.jobs)

@@ -14,7 +14,7 @@ WIDTH, HEIGHT = 1200, 900
 
 @dataclass(frozen=True)
 class View:
-    """Where the camera stands: as many times nearer than MuJoCo's own as `zoom` says."""
+    """Where the camera stands; with a `zoom` of 1 everything but endless planes is well in the picture."""
 
     azimuth_deg: float
     elevation_deg: float
@@ -30,10 +30,20 @@ def draw(model_path: Path, to: Path, key: str, view: View) -> None:
     camera = mujoco.MjvCamera()
     mujoco.mjv_defaultFreeCamera(model, camera)
     camera.azimuth, camera.elevation = view.azimuth_deg, view.elevation_deg
-    camera.distance /= view.zoom
+    centre, radius = ball_around(model, data)
+    camera.lookat[:] = centre
+    camera.distance = radius / np.sin(np.deg2rad(model.vis.global_.fovy / 2)) / view.zoom
     with mujoco.Renderer(model, HEIGHT, WIDTH) as renderer:
         renderer.update_scene(data, camera)
         to.write_bytes(png(renderer.render()))
+
+
+def ball_around(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[npt.NDArray[np.float64], float]:
+    """Centre and radius of the ball around the box around the balls around all geoms but planes."""
+    bounded = model.geom_rbound > 0
+    centres, radii = data.geom_xpos[bounded], model.geom_rbound[bounded, np.newaxis]
+    low, high = (centres - radii).min(axis=0), (centres + radii).max(axis=0)
+    return (low + high) / 2, float(np.linalg.norm(high - low) / 2)
 
 
 def png(pixels: npt.NDArray[np.uint8]) -> bytes:

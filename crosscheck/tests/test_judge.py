@@ -5,13 +5,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
 from judge.answers import Answers, Questions, answer, answer_model
 from judge.model import load
-from judge.picture import png
+from judge.picture import ball_around, png
 from judge.tables import read_questions
 
 FIXTURES = Path(__file__).parent / "fixtures"
@@ -92,6 +93,16 @@ def test_a_capsule_that_pierces_a_mesh_of_eight_vertices_is_in_contact_wherever_
     none = np.zeros(len(rows), dtype=np.bool_)
     touch = answer(judged, Questions(rows, none, none, none)).touch
     assert touch["fore|box"].all()
+
+
+def test_the_camera_looks_at_the_middle_of_what_is_there() -> None:
+    judged = load(MINI)
+    mujoco.mj_forward(judged.model, judged.data)
+    (x, y, _), radius = ball_around(judged.model, judged.data)
+    # From the elbow's ball about (-0.02, ...) to the ball's far side at 0.75; up to the box's corner balls.
+    assert -0.2 < x - 0.3 < 0.1
+    assert 0.1 < y < 0.4
+    assert 0.5 < radius < 1.0
 
 
 def test_a_png_has_its_size_and_no_clock() -> None:

@@ -105,7 +105,7 @@ impl Case {
         // Frames are asked along one path at least, also where nothing is drawn.
         let first = questions.iter_mut().filter(|question| question.kind == Kind::Path && question.path == 0);
         first.for_each(|question| question.frames = true);
-        let spare = || if are_stored { drawn_paths(of, 1, seed) } else { Vec::new() };
+        let spare = || if are_stored { drawn_paths(of, sizes.drawn_paths, seed) } else { Vec::new() };
         let pushed = pushed_path(of, paths.iter().cloned().chain(std::iter::once_with(spare).flatten()));
         if let Some(pushed) = &pushed {
             questions.extend(pushed.path.questions(0, Kind::Pushed));

@@ -133,7 +133,7 @@ pub struct Picture {
     pub key: String,
     /// Where the camera stands: turned about the vertical, and above the horizon (negative looks down).
     pub camera_deg: [f64; 2],
-    /// How much larger things are than where MuJoCo would stand.
+    /// How much larger things are than if everything just fits.
     pub zoom: f64,
 }
 

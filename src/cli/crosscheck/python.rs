@@ -34,7 +34,7 @@ pub struct Snapshot {
     pub key: String,
     /// Azimuth and elevation of the camera.
     pub camera_deg: [f64; 2],
-    /// How much larger things are than where MuJoCo would stand.
+    /// How much larger things are than if everything just fits.
     pub zoom: f64,
     /// Where the picture goes.
     pub to: PathBuf,
