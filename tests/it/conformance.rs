@@ -288,7 +288,7 @@ fn a_start_or_goal_that_is_blocked_or_outside_is_invalid() {
 #[test]
 fn stages_keep_the_ends_and_the_truth_and_never_lengthen() {
     for (name, kind, stage) in stages() {
-        let mut shorter = 0;
+        let (mut solved, mut shorter) = (0, 0);
         let fitting = searching().into_iter().filter(|subject| subject.entry.needs == kind);
         let planner = fitting.into_iter().nth(1).expect("a stage's kind of world has a planner").planner;
         for case in worlds(kind) {
@@ -304,8 +304,9 @@ fn stages_keep_the_ends_and_the_truth_and_never_lengthen() {
             assert!(tidied.cost.unwrap() < raw.cost.unwrap() + 1e-9, "{name} on {}", case.name);
             let kept = raw.counts.iter().all(|(column, value)| tidied.counts.get(column) == Some(value));
             assert!(kept, "{name} on {}: {:?} from {:?}", case.name, tidied.counts, raw.counts);
+            solved += 1;
             shorter += usize::from(tidied.cost.unwrap() < raw.cost.unwrap() - 1e-9);
         }
-        assert!(shorter > 20, "{name}: shortened {shorter} paths only");
+        assert!(shorter * 4 > solved, "{name}: shortened {shorter} paths of {solved} only");
     }
 }

@@ -1,10 +1,11 @@
 //! Holds every registry to its folder: each file with an entry is registered under its own name, in order.
 
 use crate::source::files;
-use replan::analysis::check;
+use replan::analysis::{check, metric};
 use replan::planner;
 use replan::render::figure;
-use replan::study::{family, prepared, task};
+use replan::study::{column, family, prepared, task};
+use std::collections::BTreeSet;
 
 /// A registry as tests see it: its folder, the names it lists, and the names that its `find` gives back.
 struct Registry {
@@ -64,5 +65,18 @@ fn no_entry_lies_outside_a_registry() {
         let modules = file.modules();
         let folder = modules[..modules.len() - 1].join("/");
         assert!(folders.contains(&folder.as_str()), "{}: no registry is known there", file.path.display());
+    }
+}
+
+#[test]
+fn a_column_and_a_metric_mean_one_thing_each() {
+    let columns: Vec<&str> = column::COLUMNS.iter().map(|column| column.name).collect();
+    let metrics: Vec<&str> = metric::METRICS.iter().map(|metric| metric.name).collect();
+    for (what, names) in [("column", columns), ("metric", metrics)] {
+        let distinct: BTreeSet<&str> = names.iter().copied().collect();
+        let twice: Vec<&&str> =
+            distinct.iter().filter(|n| names.iter().filter(|m| m == n).count() > 1).collect();
+        assert!(names.len() > 20 || what == "metric", "{} columns", names.len());
+        assert!(twice.is_empty(), "{what} {twice:?} stands twice");
     }
 }

@@ -144,9 +144,9 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "id = \"fig1\"",
         "id = \"table1\"",
-        "mini/paper.toml:49:6: another figure or table of the paper is called `table1`",
+        "mini/paper.toml:43:6: another figure or table of the paper is called `table1`",
     ),
-    wrong("paper", "id = \"table1\"", "id = \"Table\"", "mini/paper.toml:49:6: the id `Table` names files"),
+    wrong("paper", "id = \"table1\"", "id = \"Table\"", "mini/paper.toml:43:6: the id `Table` names files"),
     wrong(
         "room",
         "settings = { problem = \"room\", contenders = [\"A*\"] }",

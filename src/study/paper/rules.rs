@@ -48,7 +48,9 @@ impl Paper {
         let mut placed: Vec<_> =
             figures.chain(results).map(|(document, id)| (document, id.get_ref(), id.span())).collect();
         for TableSpec { id, .. } in &self.tables {
-            let at = self.document.text().find(&format!("\"{id}\"")).unwrap_or(0);
+            let before = "id = ";
+            let at =
+                self.document.text().find(&format!("{before}\"{id}\"")).map_or(0, |at| at + before.len());
             placed.push((&self.document, id, at..at + id.len()));
         }
         let mut seen = BTreeSet::from(["numbers"]);

@@ -1,4 +1,5 @@
 use super::*;
+use crate::planner::Plan;
 use crate::planner::{self, Build, Ending, Planner, Request};
 use crate::study::judge;
 
@@ -112,6 +113,20 @@ fn regions_hold_what_they_say() {
     }
 }
 
+/// The plan with something wrong in it, one thing each.
+fn mutants(plan: &Plan) -> Vec<Plan> {
+    let mut mutants = vec![plan.clone(), plan.clone(), plan.clone()];
+    mutants[0].cost = plan.cost.map(|cost| cost * 0.999);
+    mutants[1].path.pop();
+    mutants[2].path.insert(1, vec![0.3, -2.0, 0.4, 1.0, 1.2, 0.5]);
+    if plan.path.len() > 2 {
+        let mut nudged = plan.clone();
+        nudged.path[1][0] += 0.3;
+        mutants.push(nudged);
+    }
+    mutants
+}
+
 #[test]
 fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
     let posed = Posed::new(&settings("samples = 900\nregion = 'front'"), &inputs(None)).unwrap();
@@ -139,16 +154,7 @@ fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
             let judged = case.judge(&request, &plan);
             assert_eq!(judged.outcome.1, None, "group {}", query.name);
             solved[index] += 1;
-            let mut mutants = vec![plan.clone(), plan.clone(), plan.clone()];
-            mutants[0].cost = plan.cost.map(|cost| cost * 0.999);
-            mutants[1].path.pop();
-            mutants[2].path.insert(1, vec![0.3, -2.0, 0.4, 1.0, 1.2, 0.5]);
-            if plan.path.len() > 2 {
-                let mut nudged = plan.clone();
-                nudged.path[1][0] += 0.3;
-                mutants.push(nudged);
-            }
-            for (which, mutant) in mutants.iter().enumerate() {
+            for (which, mutant) in mutants(&plan).iter().enumerate() {
                 let judged = case.judge(&request, mutant);
                 assert_eq!(judged.outcome.0, crate::study::record::Status::Rejected, "mutant {which}");
                 refused += 1;
