@@ -142,15 +142,20 @@ fn summary(outcomes: &[Outcome]) -> String {
              that went unnoticed"
         )
     };
+    let parts = [
+        ("contact", "for contact"),
+        ("planners", "also of the check that planners use"),
+        ("frame", "for frames"),
+        ("distance", "for distances"),
+        ("limit", "for joint limits"),
+    ];
+    let parts = parts.iter().map(|(question, words)| (asked(question), words));
+    let parts: Vec<String> =
+        parts.filter(|(count, _)| *count > 0).map(|(count, words)| format!("{count} {words}")).collect();
     format!(
-        "{verdict}: {} cases (a robot in a scene), {} configurations asked for contact, {} of them also of \
-         the check that planners use, {} for frames, {} for distances, {} for joint limits.",
+        "{verdict}: {} cases (a robot in a scene), configurations asked {}.",
         outcomes.len(),
-        asked("contact"),
-        asked("planners"),
-        asked("frame"),
-        asked("distance"),
-        asked("limit")
+        parts.join(", ")
     )
 }
 

@@ -127,6 +127,8 @@ pub fn pushed_control(asked: &Asked<'_>, compared: &Compared, pushed: Option<&Pu
     let model = asked.subject.model();
     let first = asked.questions.iter().position(|question| question.kind == Kind::Pushed);
     let caught = first.is_some_and(|first| compared.touches.contains(&(first + stop, *pair)));
-    let what = format!("path `{}` pushed, {}", path.name, model.pair_name(model.pairs()[*pair]));
+    // A bar would end the cell of a table.
+    let pair = model.pair_name(model.pairs()[*pair]).replace('|', " on ");
+    let what = format!("path `{}` pushed, {pair}", path.name);
     Control { what, listed: 1, caught: usize::from(caught) }
 }

@@ -139,9 +139,9 @@ fn a_pushed_path_that_the_judge_lets_through_fails_the_run() {
     let bench = bench();
     let said = judged(&bench);
     let (_, rest) = said.out.split_once("control: path `drawn 1` pushed, ").unwrap();
-    let (pair, _) = rest.split_once(':').unwrap();
+    let pair = rest.split_once(':').unwrap().0.replace(" on ", "|");
     let first = first_row(&said.out, "pushed path");
-    edit(&bench, "scene.touch.parquet", pair, |column| {
+    edit(&bench, "scene.touch.parquet", &pair, |column| {
         let cells = column.bool().unwrap().iter().flatten().enumerate();
         let cells: Vec<bool> = cells.map(|(row, touches)| touches && row < first).collect();
         Series::new(column.name().clone(), cells)
@@ -228,9 +228,13 @@ fn without_python_or_its_packages_the_exit_code_is_4_and_the_message_says_what_t
 #[test]
 fn a_spec_that_names_what_is_not_there_is_refused_at_its_line() {
     for (from, to, parts) in [
-        ("body = \"capsules\"", "body = \"bones\"", ["crosscheck.toml:25:1", "no body `bones`"]),
-        ("room.toml", "hall.toml", ["crosscheck.toml:31:1", "`hall.toml` does not exist"]),
-        ("up6-in-room", "up6-in-hall", ["crosscheck.toml:18:8", "the cases are up6-in-room"]),
+        ("body = \"capsules\"", "body = \"bones\"", ["crosscheck.toml:24:1", "no body `bones`"]),
+        ("room.toml", "hall.toml", ["crosscheck.toml:30:1", "`hall.toml` does not exist"]),
+        (
+            "case = \"up6-in-room\"",
+            "case = \"up6-in-hall\"",
+            ["crosscheck.toml:18:8", "the cases are up6-in-room"],
+        ),
         (
             "key = \"zero\"",
             "key = \"one\"",
