@@ -24,6 +24,8 @@ pub mod study;
 
 pub mod analysis;
 
+pub mod crosscheck;
+
 pub mod render;
 
 pub mod cli;

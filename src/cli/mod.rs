@@ -1,7 +1,8 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 done, but what was checked is not as stored; 130 interrupted, and what was done is kept.
+//! wrong input files; 3 done, but what was checked is not as stored, or an independent judge disagrees; 4 `crosscheck`
+//! lacks Python or the network; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
 macro_rules! say {
@@ -12,6 +13,7 @@ macro_rules! say {
 }
 
 mod check;
+mod crosscheck;
 mod judge;
 mod list;
 mod places;
@@ -56,6 +58,8 @@ enum Command {
     Judge(judge::Judge),
     /// Draw a paper's figures and tables again from its stored run and verdicts
     Render(render::Render),
+    /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
+    Crosscheck(crosscheck::Crosscheck),
     /// List papers, studies, planners, tasks, checks, metrics, figure kinds, readings and more
     List(list::List),
 }
@@ -156,6 +160,7 @@ pub fn run() -> ExitCode {
         Command::Run(command) => command.run(),
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
+        Command::Crosscheck(command) => command.run(),
         Command::List(command) => command.run(),
     };
     match done {

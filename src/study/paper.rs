@@ -253,12 +253,15 @@ impl Paper {
     }
 }
 
+/// Files of a paper's folder that are no studies: the paper itself, and what an independent judge is asked.
+const NO_STUDIES: [&str; 2] = ["paper.toml", "crosscheck.toml"];
+
 fn study_files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
     let entries = fs::read_dir(folder).map_err(StudyError::io(folder, "listing the folder"))?;
     let mut files: Vec<PathBuf> = entries
         .filter_map(|entry| Some(entry.ok()?.path()))
         .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .filter(|path| path.file_name().is_some_and(|name| name != "paper.toml"))
+        .filter(|path| path.file_name().is_some_and(|name| !NO_STUDIES.iter().any(|other| name == *other)))
         .collect();
     files.sort();
     Ok(files)

@@ -7,6 +7,7 @@ mod cli_places;
 mod cli_run;
 mod cli_stop;
 mod conformance;
+mod crosscheck;
 mod floors;
 mod latex;
 mod laws;

@@ -1,0 +1,60 @@
+"""A picture of a model, rendered without a screen (MUJOCO_GL=osmesa or egl)."""
+
+import struct
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+WIDTH, HEIGHT = 1200, 900
+
+
+@dataclass(frozen=True)
+class View:
+    """Where the camera stands; with a `zoom` of 1 everything but endless planes is well in the picture."""
+
+    azimuth_deg: float
+    elevation_deg: float
+    zoom: float
+
+
+def draw(model_path: Path, to: Path, key: str, view: View) -> None:
+    """Draw the model at `model_path` in the configuration of a keyframe."""
+    model = mujoco.MjModel.from_xml_path(str(model_path))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
+    mujoco.mj_forward(model, data)
+    camera = mujoco.MjvCamera()
+    mujoco.mjv_defaultFreeCamera(model, camera)
+    camera.azimuth, camera.elevation = view.azimuth_deg, view.elevation_deg
+    centre, radius = ball_around(model, data)
+    camera.lookat[:] = centre
+    camera.distance = radius / np.sin(np.deg2rad(model.vis.global_.fovy / 2)) / view.zoom
+    with mujoco.Renderer(model, HEIGHT, WIDTH) as renderer:
+        renderer.update_scene(data, camera)
+        to.write_bytes(png(renderer.render()))
+
+
+def ball_around(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[npt.NDArray[np.float64], float]:
+    """Centre and radius of the ball around the box around the balls around all geoms but planes."""
+    bounded = model.geom_rbound > 0
+    centres, radii = data.geom_xpos[bounded], model.geom_rbound[bounded, np.newaxis]
+    low, high = (centres - radii).min(axis=0), (centres + radii).max(axis=0)
+    return (low + high) / 2, float(np.linalg.norm(high - low) / 2)
+
+
+def png(pixels: npt.NDArray[np.uint8]) -> bytes:
+    """Pixels (rows, columns, red green blue) as a PNG file: the same for the same pixels."""
+    height, width, _ = pixels.shape
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    parts = ((b"IHDR", header), (b"IDAT", zlib.compress(rows, 9)), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(chunk(kind, body) for kind, body in parts)
+
+
+def chunk(kind: bytes, body: bytes) -> bytes:
+    """One chunk of a PNG file."""
+    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))

@@ -1,0 +1,111 @@
+"""The judge on a two-link arm whose answers can be worked out by hand."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from judge.answers import Answers, Questions, answer, answer_model
+from judge.model import load
+from judge.picture import ball_around, png
+from judge.tables import read_questions
+
+FIXTURES = Path(__file__).parent / "fixtures"
+MINI = FIXTURES / "mini.xml"
+PAIRS = {
+    "upper|floor", "upper|box", "upper|ball", "fore|floor", "fore|box", "fore|ball", "base|fore",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def answers() -> Answers:
+    judged = load(MINI)
+    q_rad, asked = read_questions(MINI, len(judged.joints))
+    return answer(judged, Questions(q_rad, asked["frames"], asked["gaps"], asked["limits"]))
+
+
+def test_pairs_are_those_of_masks_and_explicit_ones_and_no_part_that_the_scene_cannot_touch() -> None:
+    judged = load(MINI)
+    assert {pair.name for pair in judged.pairs} == PAIRS
+    assert judged.frames == ("link_1", "link_2", "tool")
+
+
+def test_contact_is_where_the_arm_reaches(answers: Answers) -> None:
+    touched = [
+        {name for name, column in answers.touch.items() if column[row]}
+        for row in range(len(answers.touch["fore|box"]))
+    ]
+    # Stretched it ends at 0.5 + 0.02, the ball begins at 0.55; upright its fore link pierces the box.
+    assert touched[:3] == [set(), set(), {"fore|box"}]
+
+
+def test_distances_are_those_worked_out_by_hand(answers: Answers) -> None:
+    assert answers.gaps["fore|ball"][0] == pytest.approx(0.03, abs=1e-9)
+    assert answers.gaps["upper|floor"][0] == pytest.approx(0.48, abs=1e-9)
+    # The elbow is at (0, 0.3), the fore link goes on to (0.2, 0.3): 0.1 below the box.
+    assert answers.gaps["fore|box"][1] == pytest.approx(0.08, abs=1e-6)
+    assert answers.gaps["base|fore"][0] == pytest.approx(np.hypot(0.3, 0.1) - 0.07, abs=1e-9)
+
+
+def test_frames_are_those_of_the_rows(answers: Answers) -> None:
+    assert answers.frames["link_2.x"].tolist() == pytest.approx([0.5, 0.2], abs=1e-12)
+    assert answers.frames["link_2.y"].tolist() == pytest.approx([0.0, 0.3], abs=1e-12)
+    # The tool's z was twisted from z to -y, 0.1 long.
+    assert answers.frames["tool.y"][0] == pytest.approx(-0.1, abs=1e-12)
+    assert answers.frames["link_2.yz"][0] == pytest.approx(-1.0, abs=1e-12)
+
+
+def test_a_joint_is_beyond_its_limit_from_the_limit_on(answers: Answers) -> None:
+    assert answers.limits["joint_1"].tolist() == [False, False, True]
+    assert answers.limits["joint_2"].tolist() == [False, False, True]
+
+
+def test_answers_are_written_beside_the_model(tmp_path: Path) -> None:
+    folder = tmp_path / "case"
+    folder.mkdir()
+    for name in ("mini.xml", "mini.questions.parquet"):
+        shutil.copy(FIXTURES / name, folder / name)
+    assert answer_model(folder / "mini.xml") == "case/mini"
+    heights = {
+        part: pq.read_table(folder / f"mini.{part}.parquet").num_rows for part in ("touch", "gaps", "limits")
+    }
+    assert heights == {"touch": 4, "gaps": 2, "limits": 3}
+
+
+def test_the_command_line_answers_a_folder_and_names_each_model(tmp_path: Path) -> None:
+    folder = tmp_path / "case"
+    folder.mkdir()
+    for name in ("mini.xml", "mini.questions.parquet"):
+        shutil.copy(FIXTURES / name, folder / name)
+    words = [sys.executable, "-m", "judge", "answer", str(tmp_path), "--jobs", "1"]
+    said = subprocess.run(words, capture_output=True, text=True, check=True, cwd=FIXTURES.parents[1])
+    assert said.stdout == "case/mini\n"
+
+
+def test_a_capsule_that_pierces_a_mesh_of_eight_vertices_is_in_contact_wherever_it_pierces() -> None:
+    judged = load(MINI)
+    rows = np.array([[angle, 0.0] for angle in np.linspace(np.pi / 2 - 0.15, np.pi / 2 + 0.15, 301)])
+    none = np.zeros(len(rows), dtype=np.bool_)
+    touch = answer(judged, Questions(rows, none, none, none)).touch
+    assert touch["fore|box"].all()
+
+
+def test_the_camera_looks_at_the_middle_of_what_is_there() -> None:
+    judged = load(MINI)
+    mujoco.mj_forward(judged.model, judged.data)
+    (x, y, _), radius = ball_around(judged.model, judged.data)
+    # From the elbow's ball about (-0.02, ...) to the ball's far side at 0.75; up to the box's corner balls.
+    assert -0.2 < x - 0.3 < 0.1
+    assert 0.1 < y < 0.4
+    assert 0.5 < radius < 1.0
+
+
+def test_a_png_has_its_size_and_no_clock() -> None:
+    pixels = np.zeros((2, 3, 3), dtype=np.uint8)
+    assert png(pixels) == png(pixels)
+    assert png(pixels)[16:24] == (3).to_bytes(4, "big") + (2).to_bytes(4, "big")

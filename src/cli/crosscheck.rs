@@ -1,0 +1,228 @@
+//! `replan crosscheck`: robots, scenes and stored paths before an independent judge.
+
+mod python;
+
+use super::places::{Places, papers};
+use super::progress::Bar;
+use super::{Failure, Which};
+use crate::crosscheck::{self, Case, CrosscheckError, Outcome, Picture, Sources, Spec};
+use crate::render::report;
+use crate::study::runner::Progress as _;
+use crate::study::store::write_whole;
+use clap::Args;
+use python::{Judge, Snapshot};
+use rayon::prelude::*;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Has MuJoCo judge kinematics, contacts and paths.
+///
+/// Makes its own Python environment below target/replan/ at the first run, which needs Python 3.11 or later and
+/// the network once. Exit code 3: something differs, or an error made on purpose was not noticed. Exit code 4:
+/// Python or the network is missing; nothing else depends on them.
+#[derive(Args)]
+pub struct Crosscheck {
+    /// A paper's name or folder; every paper with a crosscheck.toml if none is given
+    paper: Option<String>,
+    /// Write below this folder instead of the committed places
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The Python that the environment is made with; python3 or python3.11 if none is given
+    #[arg(long, value_name = "PROGRAM")]
+    python: Option<String>,
+    /// Judge the answers that are already there; ask nothing
+    #[arg(long)]
+    answered: bool,
+    /// Leave report and picture as they are; say whether the report's chapter is what would be written
+    #[arg(long)]
+    check: bool,
+}
+
+/// Where models, questions and answers lie, below the root of outputs.
+const FOLDER: &str = "target/replan/crosscheck";
+
+/// The picture's name among a paper's figures.
+const PICTURE: &str = "scene_mujoco.png";
+
+impl Crosscheck {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        let names = self.paper.clone().map_or_else(papers, |paper| vec![paper]);
+        let mut posed = Vec::new();
+        for name in &names {
+            let places = Places::find(&Which { paper: name.clone(), out: None }, "")?;
+            match Spec::load(&places.folder)? {
+                Some(spec) => {
+                    let shown = Places::find(&Which { paper: name.clone(), out: self.out.clone() }, "")?;
+                    report::besides(&shown.report, &chapter_name(&shown))?;
+                    posed.push((places, shown, spec));
+                }
+                None if self.paper.is_some() => return Err(nothing_posed(&places)),
+                None => {}
+            }
+        }
+        if posed.is_empty() {
+            return Err(Failure::input(
+                "no paper here has a crosscheck.toml; run replan from the project's own folder",
+            ));
+        }
+        let judge =
+            if self.answered { None } else { Some(Judge::ready(self.python.as_deref(), Path::new(FOLDER))?) };
+        let mut differences = 0;
+        for (places, shown, spec) in &posed {
+            differences += self.paper(places, shown, spec, judge.as_ref())?;
+        }
+        if differences > 0 {
+            return Err(Failure::stale(format!("{differences} answers differ or controls went unnoticed")));
+        }
+        Ok(())
+    }
+
+    /// Cross-checks one paper, read from `places` and shown in `shown`, and gives the number of differences.
+    fn paper(
+        &self,
+        places: &Places,
+        shown: &Places,
+        spec: &Spec,
+        judge: Option<&Judge>,
+    ) -> Result<usize, Failure> {
+        let id = id(places);
+        let folder = answers(shown);
+        let bar = Bar::default();
+        bar.begin(&format!("{id}: posing the questions"), spec.count());
+        let sources = Sources { folder: &places.folder, inputs: &places.inputs, runs: &places.runs };
+        let cases = spec.cases(sources, &|| bar.step());
+        bar.end();
+        let cases = cases?;
+        let picture = spec.picture();
+        let drawn = match judge {
+            Some(judge) => self.ask(judge, &cases, shown, &picture)?,
+            None => Err("the answers were there already".to_owned()),
+        };
+        let outcomes = compare(&id, &cases, &folder)?;
+        say!("{}", crosscheck::verdict_table(&outcomes).trim_end());
+        let all = crosscheck::list(&outcomes);
+        let listed = if all.is_empty() { String::new() } else { all.join("\n") + "\n" };
+        write_whole(&folder.join("disagreements.txt"), listed.as_bytes())?;
+        eprint!("{listed}");
+        self.report(shown, &outcomes, &picture.case, &drawn)?;
+        Ok(all.len())
+    }
+
+    /// Writes the cases, has them answered, and draws the picture: where it is, or why it is not.
+    fn ask(
+        &self,
+        judge: &Judge,
+        cases: &[Case],
+        shown: &Places,
+        picture: &Picture,
+    ) -> Result<Result<PathBuf, String>, Failure> {
+        let (id, folder) = (id(shown), answers(shown));
+        if folder.exists() {
+            fs::remove_dir_all(&folder)?;
+        }
+        cases.par_iter().try_for_each(|case| case.write(&folder))?;
+        let bar = Bar::default();
+        bar.begin(&format!("{id}: MuJoCo"), python::models(&folder)?);
+        let answered = judge.answer(&folder, || bar.step());
+        bar.end();
+        answered?;
+        let to = if self.check { folder.join(PICTURE) } else { shown.plots.join(PICTURE) };
+        let snapshot = Snapshot {
+            model: folder.join(&picture.case).join("scene.xml"),
+            key: picture.key.clone(),
+            camera_deg: picture.camera_deg,
+            zoom: picture.zoom,
+            to: to.clone(),
+        };
+        Ok(match judge.draw(&snapshot) {
+            Ok(()) => Ok(to),
+            Err(why) => {
+                eprintln!("{id}: no picture: {why}");
+                Err(why)
+            }
+        })
+    }
+
+    /// Writes or checks the chapter; a picture that could not be drawn now stays as it is. `scene` is the case to look
+    /// around in.
+    fn report(
+        &self,
+        shown: &Places,
+        outcomes: &[Outcome],
+        scene: &str,
+        drawn: &Result<PathBuf, String>,
+    ) -> Result<(), Failure> {
+        let id = id(shown);
+        let link = format!("plots/{id}/{PICTURE}");
+        let picture = match drawn {
+            Ok(_) => Ok(link.as_str()),
+            Err(_) if shown.plots.join(PICTURE).is_file() => Ok(link.as_str()),
+            Err(_) => Err("no renderer that needs no screen was there when this was written"),
+        };
+        let place = answers(shown).join(scene).join("scene.xml");
+        let view = format!("{FOLDER}/venv/bin/python -m mujoco.viewer --mjcf={}", place.display());
+        let command = format!("replan crosscheck {id}");
+        let chapter = crosscheck::chapter(&id, outcomes, &command, &view, picture);
+        let (path, name) = (&shown.report, chapter_name(shown));
+        if !self.check {
+            report::put_chapter(path, &shown.report_lock(), &name, &chapter)?;
+            say!("the chapter is in {}; to look around the scene: {view}", path.display());
+            return Ok(());
+        }
+        let before = report::read(path)?;
+        if report::with_chapter(path, &before, &name, &chapter)? != before {
+            return Err(Failure::stale(format!("not current: the chapter `{name}` of {}", path.display())));
+        }
+        say!("the chapter in {} is current", path.display());
+        Ok(())
+    }
+}
+
+/// The paper's name.
+fn id(places: &Places) -> String {
+    places.runs.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// What the chapter is called in the report.
+fn chapter_name(shown: &Places) -> String {
+    format!("{} crosscheck", id(shown))
+}
+
+/// Where models, questions and answers of a paper lie.
+fn answers(shown: &Places) -> PathBuf {
+    let root = shown.report.parent().unwrap_or(Path::new(""));
+    root.join(FOLDER).join(id(shown))
+}
+
+/// Our answers beside those in `folder`.
+fn compare(id: &str, cases: &[Case], folder: &Path) -> Result<Vec<Outcome>, CrosscheckError> {
+    let bar = Bar::default();
+    bar.begin(&format!("{id}: comparing"), cases.len());
+    let outcomes = cases.par_iter().map(|case| {
+        let outcome = case.judge(folder);
+        bar.step();
+        outcome
+    });
+    let outcomes: Result<_, _> = outcomes.collect();
+    bar.end();
+    outcomes
+}
+
+fn nothing_posed(places: &Places) -> Failure {
+    Failure::input(format!(
+        "{}: there is no such file; it says which robots, scenes and stored paths are judged",
+        places.folder.join(crosscheck::SPEC).display()
+    ))
+}
+
+impl From<CrosscheckError> for Failure {
+    fn from(error: CrosscheckError) -> Self {
+        match error {
+            CrosscheckError::Study(error) => error.into(),
+            CrosscheckError::Io { .. } => Self { code: 1, message: error.to_string() },
+            CrosscheckError::Settings(_) => Self::input(error.to_string()),
+            CrosscheckError::Answer { .. } => Self::stale(error.to_string()),
+        }
+    }
+}

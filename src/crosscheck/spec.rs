@@ -1,0 +1,338 @@
+//! `crosscheck.toml` in a paper's folder: which robots, scenes and stored paths are judged.
+
+use super::CrosscheckError;
+use super::case::{Case, Given};
+use super::model::Still;
+use super::planar::PlanarArm;
+use super::sample::Sizes;
+use super::stored::{Freedom, StoredPaths};
+use super::subject::{Check, SerialArm, Subject};
+use crate::geometry::{Convex, Solid};
+use crate::kinematics::{AXES, Robot};
+use crate::seed;
+use crate::settings::{Document, SettingsError};
+use crate::space::cell::{Cell, Obstacle, Scene};
+use crate::space::polyhedra::{CarriedArm, read_scene};
+use crate::study::{Inputs, slug};
+use rayon::prelude::*;
+use serde::Deserialize;
+use std::path::Path;
+use std::sync::Arc;
+use toml::Spanned;
+
+/// The file's name.
+pub const SPEC: &str = "crosscheck.toml";
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SpecFile {
+    seed: u64,
+    sizes: Sizes,
+    picture: PictureEntry,
+    #[serde(default, rename = "robot")]
+    robots: Vec<Spanned<RobotEntry>>,
+    #[serde(default, rename = "scene")]
+    scenes: Vec<Spanned<SceneEntry>>,
+    #[serde(default, rename = "stored")]
+    stored: Vec<Spanned<StoredEntry>>,
+    #[serde(default, rename = "workspace")]
+    workspaces: Vec<Spanned<WorkspaceEntry>>,
+}
+
+/// What the picture shows.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PictureEntry {
+    case: Spanned<String>,
+    key: Spanned<String>,
+    azimuth_deg: f64,
+    elevation_deg: f64,
+    zoom: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RobotEntry {
+    label: String,
+    file: String,
+    body: String,
+    /// What is straight between the stops of a stored path.
+    straight: Straight,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Straight {
+    Tool,
+    Joints,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneEntry {
+    label: String,
+    file: String,
+    format: SceneFormat,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SceneFormat {
+    /// A robot's cell, in millimetres.
+    Cell,
+    /// Convex solids, in centimetres.
+    Polyhedra,
+}
+
+/// Paths of one robot in one scene.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StoredEntry {
+    robot: String,
+    scene: String,
+    paths: StoredPaths,
+}
+
+/// A planar arm and its obstacles as a study poses them, and that study's paths.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WorkspaceEntry {
+    label: String,
+    paths: StoredPaths,
+}
+
+/// A cross-check as its paper poses it.
+pub struct Spec {
+    file: SpecFile,
+    document: Arc<Document>,
+}
+
+/// What the cases are made from.
+#[derive(Debug, Clone, Copy)]
+pub struct Sources<'a> {
+    /// The paper's folder.
+    pub folder: &'a Path,
+    /// Where input files are looked for.
+    pub inputs: &'a Inputs,
+    /// Where the paper's records are.
+    pub runs: &'a Path,
+}
+
+/// What one case is made of.
+enum Posed<'a> {
+    Scene(&'a Spanned<RobotEntry>, &'a Spanned<SceneEntry>),
+    Workspace(&'a Spanned<WorkspaceEntry>),
+}
+
+/// What a picture shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// The case.
+    pub case: String,
+    /// The keyframe.
+    pub key: String,
+    /// Where the camera stands: turned about the vertical, and above the horizon (negative looks down).
+    pub camera_deg: [f64; 2],
+    /// How much larger things are than if everything just fits.
+    pub zoom: f64,
+}
+
+impl Spec {
+    /// Reads the spec in a paper's `folder`; `None` if there is none.
+    ///
+    /// # Errors
+    /// The line and column of what is not understood.
+    pub fn load(folder: &Path) -> Result<Option<Self>, CrosscheckError> {
+        let path = folder.join(SPEC);
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let document = Document::open(&path)?;
+        let file: SpecFile = document.read()?;
+        Ok(Some(Self { file, document }))
+    }
+
+    /// What the picture shows.
+    pub fn picture(&self) -> Picture {
+        let PictureEntry { case, key, azimuth_deg, elevation_deg, zoom } = &self.file.picture;
+        Picture {
+            case: case.get_ref().clone(),
+            key: key.get_ref().clone(),
+            camera_deg: [*azimuth_deg, *elevation_deg],
+            zoom: *zoom,
+        }
+    }
+
+    /// How many cases there are.
+    pub fn count(&self) -> usize {
+        self.posed().len()
+    }
+
+    fn posed(&self) -> Vec<Posed<'_>> {
+        let scenes = |robot| self.file.scenes.iter().map(move |scene| Posed::Scene(robot, scene));
+        let mut posed: Vec<Posed<'_>> = self.file.robots.iter().flat_map(scenes).collect();
+        posed.extend(self.file.workspaces.iter().map(Posed::Workspace));
+        posed
+    }
+
+    /// Every robot in every scene, and every workspace; `step` is called after each.
+    ///
+    /// # Errors
+    /// Files and names that do not exist, stored runs that cannot be read, and a picture of no case.
+    pub fn cases(
+        &self,
+        sources: Sources<'_>,
+        step: &(dyn Fn() + Sync),
+    ) -> Result<Vec<Case>, CrosscheckError> {
+        self.check_names()?;
+        let cases = self.posed().into_par_iter().map(|posed| {
+            let case = match posed {
+                Posed::Scene(robot, scene) => self.scene_case(robot, scene, sources),
+                Posed::Workspace(entry) => self.workspace_case(entry, sources),
+            };
+            step();
+            case
+        });
+        let cases: Vec<Case> = cases.collect::<Result<_, _>>()?;
+        self.check_labels(&cases)?;
+        Ok(cases)
+    }
+
+    /// That the picture shows a case and that cases can be told apart.
+    fn check_labels(&self, cases: &[Case]) -> Result<(), SettingsError> {
+        let known: Vec<&str> = cases.iter().map(Case::name).collect();
+        let PictureEntry { case, key, .. } = &self.file.picture;
+        let Some(shown) = cases.iter().find(|known| known.name() == case.get_ref()) else {
+            let message =
+                format!("there is no case `{}`; the cases are {}", case.get_ref(), known.join(", "));
+            return Err(self.document.error(case.span(), message));
+        };
+        if !shown.keys().contains(&key.get_ref().as_str()) {
+            let (asked, keys) = (key.get_ref(), shown.keys().join(", "));
+            let message = format!("case `{}` has no keyframe `{asked}`; it has {keys}", case.get_ref());
+            return Err(self.document.error(key.span(), message));
+        }
+        if let Some(twice) = known.iter().enumerate().find(|(at, name)| known[..*at].contains(name)) {
+            let message =
+                format!("two cases are called `{}`; accepted: labels that tell them apart", twice.1);
+            return Err(self.document.error(0..0, message));
+        }
+        Ok(())
+    }
+
+    fn check_names(&self) -> Result<(), SettingsError> {
+        for entry in &self.file.stored {
+            let StoredEntry { robot, scene, .. } = entry.get_ref();
+            let has_robot = self.file.robots.iter().any(|known| known.get_ref().label == *robot);
+            let has_scene = self.file.scenes.iter().any(|known| known.get_ref().label == *scene);
+            if !(has_robot && has_scene) {
+                let message = format!("there is no robot `{robot}` with a scene `{scene}` in this file");
+                return Err(self.document.error(entry.span(), message));
+            }
+        }
+        Ok(())
+    }
+
+    fn scene_case(
+        &self,
+        robot: &Spanned<RobotEntry>,
+        scene: &Spanned<SceneEntry>,
+        sources: Sources<'_>,
+    ) -> Result<Case, CrosscheckError> {
+        let (r, s) = (robot.get_ref(), scene.get_ref());
+        let at_robot = |message: String| self.document.error(robot.span(), message);
+        let at_scene = |message: String| self.document.error(scene.span(), message);
+        let file = sources.inputs.locate(&r.file).map_err(at_robot)?;
+        let loaded = Robot::load(&file).map_err(|error| at_robot(error.to_string()))?;
+        let (stills, check) =
+            s.format.read(&sources.inputs.locate(&s.file).map_err(at_scene)?, &loaded, &r.body)?;
+        let name = slug(&format!("{} in {}", r.label, s.label));
+        let tool_is_straight = r.straight == Straight::Tool;
+        let subject =
+            SerialArm::new(name.clone(), loaded, &r.body, stills, tool_is_straight).map_err(at_robot)?;
+        let subject = subject.checked_by(check);
+        let fits = |entry: &&StoredEntry| entry.robot == r.label && entry.scene == s.label;
+        let stored = self.file.stored.iter().map(Spanned::get_ref).filter(fits).map(|entry| &entry.paths);
+        let given = given(stored, sources.runs, AXES)?;
+        self.case(name, Box::new(subject), given).map_err(|message| at_scene(message).into())
+    }
+
+    fn workspace_case(
+        &self,
+        entry: &Spanned<WorkspaceEntry>,
+        sources: Sources<'_>,
+    ) -> Result<Case, CrosscheckError> {
+        let at = |message: String| self.document.error(entry.span(), message);
+        let WorkspaceEntry { label, paths } = entry.get_ref();
+        let world = paths.world(sources.folder, sources.inputs)?;
+        let arm = world.as_arm().ok_or_else(|| {
+            at(format!(
+                "the world of `{label}` is a {}; accepted: a planar arm's workspace",
+                world.kind().name()
+            ))
+        })?;
+        let name = slug(label);
+        let subject = PlanarArm::new(name.clone(), arm).map_err(|error| at(error.to_string()))?;
+        let joints = subject.model().rows.len();
+        let given = given([paths].into_iter(), sources.runs, joints)?;
+        self.case(name, Box::new(subject), given).map_err(|message| at(message).into())
+    }
+
+    fn case(&self, name: String, subject: Box<dyn Subject>, given: Given) -> Result<Case, String> {
+        let seed = seed::derive(self.file.seed, &["crosscheck", &name]);
+        Case::new(name, subject, &self.file.sizes, seed, given)
+    }
+}
+
+/// The stored paths of a robot with this many joints.
+fn given<'a>(
+    stored: impl Iterator<Item = &'a StoredPaths>,
+    runs: &Path,
+    joints: usize,
+) -> Result<Given, CrosscheckError> {
+    let mut given = Given { paths: Vec::new(), free_of: Freedom::Contact };
+    for paths in stored {
+        given.paths.extend(paths.read(runs, joints)?);
+        given.free_of = given.free_of.min(paths.free_of);
+    }
+    Ok(given)
+}
+
+/// One of a scene's convex solids, which have no names and are in centimetres.
+fn convex_still(index: usize, body: &Convex) -> Still {
+    const M: f64 = 1e-2;
+    let vertices = body.vertices().iter().map(|vertex| vertex * M).collect();
+    let solid = Convex::from_vertices(vertices).expect("a solid stays one in another unit");
+    Still { name: format!("obstacle {}", index + 1), solid: Solid::Convex(solid) }
+}
+
+impl SceneFormat {
+    /// What stands in the scene at `path`, and how planners check the body called `body` of `robot` in it.
+    fn read(
+        self,
+        path: &Path,
+        robot: &Robot,
+        body: &str,
+    ) -> Result<(Vec<Still>, Option<Check>), SettingsError> {
+        match self {
+            Self::Cell => {
+                let scene = Scene::load(path)?;
+                let still = |o: &Obstacle| Still { name: o.name.clone(), solid: o.solid.clone() };
+                let stills = scene.obstacles().iter().map(still).collect();
+                // Cells know a robot's first body only.
+                let is_first = robot.bodies().first().is_some_and(|first| first.name() == body);
+                let check = is_first.then(|| Check::Cell(Box::new(Cell::new(robot.clone(), scene, true))));
+                Ok((stills, check))
+            }
+            Self::Polyhedra => {
+                let bodies = read_scene(path)?.bodies;
+                let stills = bodies.iter().enumerate().map(|(index, body)| convex_still(index, body));
+                let stills = stills.collect();
+                // Planners among polyhedra know no part that obstacles cannot touch.
+                let arm = CarriedArm::new(robot, body).ok();
+                let arm = arm.filter(|arm| arm.parts().iter().all(|part| !part.is_self_only()));
+                Ok((stills, arm.map(|arm| Check::Rods(Box::new(arm), bodies))))
+            }
+        }
+    }
+}

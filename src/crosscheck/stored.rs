@@ -1,0 +1,130 @@
+//! Paths that a study kept, and the worlds that it posed.
+
+use super::CrosscheckError;
+use super::model::Pair;
+use super::path::Path as JointPath;
+use crate::space::World;
+use crate::study::manifest::Manifest;
+use crate::study::record::{Kept, Status};
+use crate::study::store::read_records;
+use crate::study::{Inputs, Point, Study, StudyError, slug};
+use serde::Deserialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// Which paths of a study are judged.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StoredPaths {
+    /// The study.
+    pub study: String,
+    /// The label of its problem group.
+    pub problems: String,
+    /// The exhibit that holds configurations, one a point.
+    pub exhibit: String,
+    /// Which of a point's numbers is the first joint's angle, from 0.
+    pub first_joint: usize,
+    /// The unit of the angles.
+    pub unit: AngleUnit,
+    /// What the study says the paths are free of, all the way.
+    pub free_of: Freedom,
+}
+
+/// What a path is said to be free of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Freedom {
+    /// Nothing is promised.
+    Nothing,
+    /// What stands around the robot; it may hit itself.
+    Scene,
+    /// All contact.
+    Contact,
+}
+
+impl Freedom {
+    /// In the report's words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nothing => "nothing",
+            Self::Scene => "obstacles",
+            Self::Contact => "all contact",
+        }
+    }
+
+    /// Whether a path with contact of `pair` is not as promised.
+    pub fn is_broken_by(self, pair: Pair) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::Scene => pair.still().is_some(),
+            Self::Contact => true,
+        }
+    }
+}
+
+/// A unit of angles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AngleUnit {
+    /// Degrees.
+    Deg,
+    /// Radians.
+    Rad,
+}
+
+impl StoredPaths {
+    /// The paths of solved trials in the records below `runs`, of a robot with this many joints.
+    ///
+    /// # Errors
+    /// A run that is missing or damaged, or that kept no such path.
+    pub fn read(&self, runs: &Path, joints: usize) -> Result<Vec<JointPath>, CrosscheckError> {
+        let manifest = Manifest::read(runs, &self.study)?;
+        let records = read_records(runs, &self.study, &manifest.files)?;
+        let group = slug(&self.problems);
+        let rows = records.batch.rows.iter().filter(|row| row.status == Status::Solved);
+        let solved: BTreeSet<&str> = rows.map(|row| row.trial.as_str()).collect();
+        // A group may also hold paths of a bare point, which are narrower.
+        let is_wanted = |kept: &&Kept| {
+            kept.exhibit.name == self.exhibit
+                && kept.of.split('/').next() == Some(group.as_str())
+                && kept.exhibit.width >= self.first_joint + joints
+                && solved.contains(kept.of.as_str())
+        };
+        let kept = records.batch.kept.iter().filter(is_wanted).map(|kept| self.path(kept, joints));
+        let paths: Vec<JointPath> = kept.filter(|path| path.stops_rad.len() > 1).collect();
+        if paths.is_empty() {
+            let reason = format!(
+                "the stored run of study `{}` kept no exhibit `{}` of a solved trial of problems `{}`",
+                self.study, self.exhibit, self.problems
+            );
+            return Err(StudyError::stored(Manifest::path(runs, &self.study), reason).into());
+        }
+        Ok(paths)
+    }
+
+    fn path(&self, kept: &Kept, joints: usize) -> JointPath {
+        let angle = |value: &f64| if self.unit == AngleUnit::Deg { value.to_radians() } else { *value };
+        let stop = |row: &[f64]| row.iter().skip(self.first_joint).take(joints).map(angle).collect();
+        let rows = kept.exhibit.values.chunks_exact(kept.exhibit.width);
+        JointPath { name: kept.of.clone(), stops_rad: rows.map(stop).collect() }
+    }
+
+    /// The world that the study, in the paper's `folder`, poses under its default readings.
+    ///
+    /// # Errors
+    /// A study or problem group that does not exist or is wrong.
+    pub fn world(&self, folder: &Path, inputs: &Inputs) -> Result<World, CrosscheckError> {
+        let path = folder.join(format!("{}.toml", self.study));
+        let study = Study::load(&path, inputs)?;
+        let group = study.groups.iter().find(|group| group.label == self.problems).ok_or_else(|| {
+            let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
+            let message =
+                format!("there are no problems `{}`; there are {}", self.problems, known.join(", "));
+            study.document.error(0..0, message)
+        })?;
+        let point = Point::new(&study.readings, &BTreeMap::new());
+        let point = point.expect("a loaded study's defaults are among its options");
+        let prepared = group.family(&point, inputs)?.prepare(0);
+        Ok(prepared.map_err(|invalid| study.document.error(0..0, invalid.0))?.world)
+    }
+}

@@ -1,0 +1,206 @@
+//! What is judged: our kinematics and our distances, asked through one door for every kind of robot.
+
+use super::model::{Model, Pair, Part, Row, Still};
+use super::stored::Freedom;
+use crate::geometry::{
+    Convex, Frame, Solid, Vec3, distance_point_solid, distance_segment_segment, distance_segment_solid,
+};
+use crate::kinematics::robot::Body;
+use crate::kinematics::{AXES, Chain, Joints, Robot};
+use crate::space::cell::{Cell, Standing};
+use crate::space::polyhedra::CarriedArm;
+
+/// A robot among obstacles that answers with our code.
+pub trait Subject: Send + Sync {
+    /// The same in the judge's terms.
+    fn model(&self) -> &Model;
+
+    /// The frame of every link, and the tool's, in the world.
+    fn frames(&self, q_rad: &[f64]) -> Vec<Frame>;
+
+    /// The gap of each of the model's pairs, metres: above 0 the distance, at most 0 in contact.
+    fn gaps_m(&self, q_rad: &[f64]) -> Vec<f64>;
+
+    /// What the check that planners use says of contact at `q_rad`, and what contact it looks for: `true` if the robot
+    /// can be there. `None` if no planner moves this robot here.
+    fn planners_check(&self, q_rad: &[f64]) -> Option<(bool, Freedom)>;
+
+    /// Whether a joint, counted from 0, may not be at this angle; `None` if the robot has no limits.
+    fn is_beyond(&self, joint: usize, angle_rad: f64) -> Option<bool>;
+
+    /// The same robot with one still thing of the model elsewhere.
+    fn shifted(&self, still: usize, by_m: &Vec3) -> Box<dyn Subject>;
+
+    /// Whether the axis of a capsule passes through an obstacle with both ends outside.
+    fn pierces(&self, q_rad: &[f64]) -> bool;
+
+    /// The determinant of the Jacobian of the last link's frame, 0 at a singular pose.
+    fn determinant(&self, q_rad: &[f64]) -> f64;
+
+    /// The configuration at `share` of the way between two, on the path that joins them.
+    fn between(&self, from_rad: &[f64], to_rad: &[f64], share: f64) -> Option<Vec<f64>>;
+}
+
+/// How planners check a six-axis arm for contact.
+#[derive(Debug, Clone)]
+pub enum Check {
+    /// As in a cell: with all that stands there, and with itself.
+    Cell(Box<Cell>),
+    /// As rods among solids, in centimetres, and nothing else.
+    Rods(Box<CarriedArm>, Vec<Convex>),
+}
+
+/// A six-axis arm with the capsules of its body.
+#[derive(Debug, Clone)]
+pub struct SerialArm {
+    robot: Robot,
+    body: Body,
+    model: Model,
+    pairs: Vec<Pair>,
+    check: Option<Check>,
+    /// Whether the tool goes straight between configurations of a path; else the joints do.
+    tool_is_straight: bool,
+}
+
+impl SerialArm {
+    /// `robot` with its body called `body` among `stills`.
+    ///
+    /// # Errors
+    /// A sentence with the bodies that there are.
+    pub fn new(
+        name: String,
+        robot: Robot,
+        body: &str,
+        stills: Vec<Still>,
+        tool_is_straight: bool,
+    ) -> Result<Self, String> {
+        let body = robot.body(body).cloned().ok_or_else(|| {
+            let known: Vec<&str> = robot.bodies().iter().map(Body::name).collect();
+            format!("robot `{}` has no body `{body}`; it has {}", robot.name(), known.join(", "))
+        })?;
+        let chain = robot.arm().chain();
+        let row = |joint: &crate::kinematics::Joint| Row {
+            alpha_rad: joint.alpha_rad,
+            a_m: joint.a_m,
+            d_m: joint.d_m,
+            offset_rad: joint.offset_rad,
+            limits_rad: [joint.lower_rad, joint.upper_rad],
+        };
+        let part = |part: &crate::kinematics::robot::Part| Part {
+            name: part.name().to_owned(),
+            link: part.link(),
+            capsule: *part.capsule(),
+            exposed: !part.is_self_only(),
+        };
+        let model = Model {
+            name,
+            base: *chain.base(),
+            rows: chain.joints().iter().map(row).collect(),
+            tool_m: robot.tool_length_m(),
+            parts: body.parts().iter().map(part).collect(),
+            self_pairs: body.self_pairs().to_vec(),
+            stills,
+        };
+        let pairs = model.pairs();
+        Ok(Self { robot, body, model, pairs, check: None, tool_is_straight })
+    }
+
+    /// The same, whose contacts planners check as `check` does.
+    pub fn checked_by(self, check: Option<Check>) -> Self {
+        Self { check, ..self }
+    }
+
+    fn chain(&self) -> &Chain {
+        self.robot.arm().chain()
+    }
+
+    fn placed(&self, q_rad: &[f64]) -> Vec<crate::geometry::Capsule> {
+        let mut placed = Vec::new();
+        self.body.place(&self.chain().frames(&six(q_rad)), &mut placed);
+        placed
+    }
+}
+
+fn six(q_rad: &[f64]) -> Joints {
+    q_rad.try_into().expect("a six-axis arm is asked for six angles")
+}
+
+impl Subject for SerialArm {
+    fn model(&self) -> &Model {
+        &self.model
+    }
+
+    fn frames(&self, q_rad: &[f64]) -> Vec<Frame> {
+        let q = six(q_rad);
+        let mut frames = self.chain().frames(&q)[1..].to_vec();
+        frames.push(self.chain().forward(&q));
+        frames
+    }
+
+    fn gaps_m(&self, q_rad: &[f64]) -> Vec<f64> {
+        let placed = self.placed(q_rad);
+        let gap = |pair: &Pair| match *pair {
+            Pair::Still(part, still) => {
+                distance_segment_solid(&placed[part].segment, &self.model.stills[still].solid)
+                    - placed[part].radius
+            }
+            Pair::Parts(a, b) => {
+                distance_segment_segment(&placed[a].segment, &placed[b].segment)
+                    - placed[a].radius
+                    - placed[b].radius
+            }
+        };
+        self.pairs.iter().map(gap).collect()
+    }
+
+    fn planners_check(&self, q_rad: &[f64]) -> Option<(bool, Freedom)> {
+        /// How far around rods obstacles are looked for.
+        const REACH_CM: f64 = 1.0;
+        match self.check.as_ref()? {
+            Check::Cell(cell) => {
+                let mut placed = Vec::new();
+                cell.place(&six(q_rad), &mut placed);
+                Some((cell.standing(&placed, |_| 0.0) != Standing::Contact, Freedom::Contact))
+            }
+            Check::Rods(arm, bodies) => {
+                Some((arm.clearance(&six(q_rad), bodies, REACH_CM, false) > 0.0, Freedom::Scene))
+            }
+        }
+    }
+
+    fn is_beyond(&self, joint: usize, angle_rad: f64) -> Option<bool> {
+        Some(!self.chain().joints()[joint].allows(angle_rad))
+    }
+
+    fn shifted(&self, still: usize, by_m: &Vec3) -> Box<dyn Subject> {
+        Box::new(Self { model: self.model.shifted(still, by_m), check: None, ..self.clone() })
+    }
+
+    fn pierces(&self, q_rad: &[f64]) -> bool {
+        let placed = self.placed(q_rad);
+        self.pairs.iter().any(|pair| {
+            let Pair::Still(part, still) = *pair else { return false };
+            let (axis, solid) = (&placed[part].segment, &self.model.stills[still].solid);
+            !matches!(solid, Solid::HalfSpace(_))
+                && distance_segment_solid(axis, solid) == 0.0
+                && [axis.a, axis.b].iter().all(|end| distance_point_solid(end, solid) > 0.0)
+        })
+    }
+
+    fn determinant(&self, q_rad: &[f64]) -> f64 {
+        let frames = self.chain().frames(&six(q_rad));
+        Chain::jacobian(&frames, AXES, &frames[AXES].origin).determinant()
+    }
+
+    fn between(&self, from_rad: &[f64], to_rad: &[f64], share: f64) -> Option<Vec<f64>> {
+        let mixed: Vec<f64> = from_rad.iter().zip(to_rad).map(|(a, b)| a + (b - a) * share).collect();
+        if !self.tool_is_straight {
+            return Some(mixed);
+        }
+        let (arm, from, to) = (self.robot.arm(), six(from_rad), six(to_rad));
+        let ends = [self.chain().forward(&from), self.chain().forward(&to)];
+        let target = super::path::straight(&ends[0], &ends[1], share);
+        let q = arm.inverse_on(&target, arm.branch_of(&from), &six(&mixed))?;
+        Some(q.to_vec())
+    }
+}
