@@ -100,6 +100,45 @@ pub struct Finding {
     pub premises: Vec<String>,
 }
 
+impl Verdict {
+    /// Whether an estimate is at least `bound`, as its interval says.
+    pub fn at_least(interval: Interval, bound: f64) -> Self {
+        if interval.low >= bound {
+            Self::Reproduced
+        } else if interval.high < bound {
+            Self::NotReproduced
+        } else {
+            Self::Undecided
+        }
+    }
+
+    /// Whether an estimate is below 0, as its interval says.
+    pub fn below_zero(interval: Interval) -> Self {
+        if interval.high < 0.0 {
+            Self::Reproduced
+        } else if interval.low > 0.0 {
+            Self::NotReproduced
+        } else {
+            Self::Undecided
+        }
+    }
+}
+
+impl Finding {
+    /// A finding of `check` that says nothing yet.
+    pub fn of(check: &str) -> Self {
+        Self { check: check.to_owned(), ..Self::default() }
+    }
+
+    /// It, undecided for this reason.
+    #[must_use]
+    pub fn undecided(mut self, because: impl Into<String>) -> Self {
+        self.verdict = Some(Verdict::Undecided);
+        self.because.push(because.into());
+        self
+    }
+}
+
 /// A claim with what was found about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

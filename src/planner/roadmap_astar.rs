@@ -174,17 +174,12 @@ impl Planner for RoadmapAstar {
         let mut plan = match report.outcome {
             Outcome::NoPath => unsolved(Ending::NoPath, counts),
             Outcome::BudgetSpent => unsolved(Ending::BudgetSpent, counts),
-            Outcome::Solved(route) => {
-                let nodes = match self.path {
-                    PathSetting::Parents => route.nodes,
-                    PathSetting::ClosedSequence => {
-                        let nodes: Vec<u32> = lists.closed.iter().copied().chain([goal]).collect();
-                        // The last leg is an edge or a shot that was found free.
-                        let unjoined = part.unjoined(&nodes[..nodes.len() - 1]);
-                        counts.insert("unjoined_legs", Value::Count(unjoined));
-                        nodes
-                    }
-                };
+            Outcome::Solved(route) if self.path == PathSetting::Parents => solved(map, &route.nodes, counts),
+            Outcome::Solved(_) => {
+                let nodes: Vec<u32> = lists.closed.iter().copied().chain([goal]).collect();
+                // The last leg is an edge or a shot that was found free.
+                let unjoined = part.unjoined(&nodes[..nodes.len() - 1]);
+                counts.insert("unjoined_legs", Value::Count(unjoined));
                 solved(map, &nodes, counts)
             }
         };

@@ -51,18 +51,18 @@ pub fn outputs(
             })?);
         }
     }
-    for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
-        let text = tables::table(evidence, table, verdicts)?;
-        outputs.push(Output { name: format!("{}.tex", table.id), bytes: text.into_bytes() });
-    }
     let quick = evidence.runs().any(|run| run.manifest.quick);
+    let mut write = |id: &str, text: String| {
+        outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
+    };
+    for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
+        write(&table.id, tables::table(evidence, table, verdicts)?);
+    }
     for table in paper.results.iter().filter(|table| is_wanted(table.id.get_ref())) {
-        let text = results::latex(evidence, table, quick)?;
-        outputs.push(Output { name: format!("{}.tex", table.id.get_ref()), bytes: text.into_bytes() });
+        write(table.id.get_ref(), results::latex(evidence, table, quick)?);
     }
     if is_wanted("numbers") {
-        let text = tables::numbers(paper, verdicts)?;
-        outputs.push(Output { name: "numbers.tex".to_owned(), bytes: text.into_bytes() });
+        write("numbers", tables::numbers(paper, verdicts)?);
     }
     if outputs.is_empty() {
         let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();

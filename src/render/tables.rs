@@ -19,26 +19,10 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
     let mut head = vec![Cell::from(""), Cell::from("")];
     head.extend(table.columns.iter().map(Cell::from));
     latex.head(head);
-    let shown = |estimate: &Estimate| rounded(estimate, table.decimals.unwrap_or(2));
     for row in &table.rows {
-        if row.claims.is_empty() {
-            let cells = [row.label.as_str(), ""].into_iter().chain(row.cells.iter().map(String::as_str));
-            latex.row(cells.map(Cell::from).collect());
-            continue;
+        for line in lines(evidence, table, row, verdicts)? {
+            latex.row(line);
         }
-        let judged: Vec<Option<&Judged>> =
-            row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
-        let line = |first: &str, second: &str, text: &dyn Fn(&Judged) -> String| {
-            let mut cells = vec![Cell::from(first), Cell::from(second)];
-            cells.extend(judged.iter().map(|judged| Cell::from(judged.map_or_else(dash, text))));
-            cells
-        };
-        latex.row(line(&row.label, "printed", &|judged| judged.printed.clone().unwrap_or_else(dash)));
-        match &table.ours {
-            Some(ours) => latex.row(own_row(evidence, ours, row)?),
-            None => latex.row(line("", "ours", &|judged| judged.ours().map_or_else(dash, shown))),
-        };
-        latex.row(line("", "verdict", &|judged| judged.outcome().to_owned()));
     }
     for note in table.notes.as_ref().unwrap_or(&paper.source.notes) {
         latex.note(note);
@@ -54,6 +38,33 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
         latex.note(super::output::QUICK);
     }
     latex.latex(&made(paper, &table.id, verdicts))
+}
+
+/// The lines that a row of the paper's takes: its own cells, or what it printed, ours, and the verdicts.
+fn lines(
+    evidence: &Evidence<'_>,
+    table: &TableSpec,
+    row: &TableRow,
+    verdicts: &Verdicts,
+) -> Result<Vec<Vec<Cell>>, RenderError> {
+    if row.claims.is_empty() {
+        let cells = [row.label.as_str(), ""].into_iter().chain(row.cells.iter().map(String::as_str));
+        return Ok(vec![cells.map(Cell::from).collect()]);
+    }
+    let judged: Vec<Option<&Judged>> =
+        row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
+    let line = |first: &str, second: &str, text: &dyn Fn(&Judged) -> String| {
+        let mut cells = vec![Cell::from(first), Cell::from(second)];
+        cells.extend(judged.iter().map(|judged| Cell::from(judged.map_or_else(dash, text))));
+        cells
+    };
+    let shown = |estimate: &Estimate| rounded(estimate, table.decimals.unwrap_or(2));
+    let ours = match &table.ours {
+        Some(ours) => own_row(evidence, ours, row)?,
+        None => line("", "ours", &|judged| judged.ours().map_or_else(dash, shown)),
+    };
+    let printed = line(&row.label, "printed", &|judged| judged.printed.clone().unwrap_or_else(dash));
+    Ok(vec![printed, ours, line("", "verdict", &|judged| judged.outcome().to_owned())])
 }
 
 /// The row of trials of one contender on one problem, or what it saves there of another's.

@@ -322,8 +322,7 @@ impl<'a> Field<'a> {
             for (turn, repeat) in repeats.iter().enumerate() {
                 let last = warmed.len().saturating_sub(1);
                 for place in 0..warmed.len() {
-                    let whose = if turn % 2 == 0 { place } else { last - place };
-                    read(&warmed[whose], *repeat);
+                    read(&warmed[if turn % 2 == 0 { place } else { last - place }], *repeat);
                 }
             }
         }

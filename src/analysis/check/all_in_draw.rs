@@ -47,24 +47,16 @@ struct AllInDraw {
 impl Check for AllInDraw {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, lower, higher, in_share, whole_draws, .. } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(study) else { return finding };
         let compared =
             Compared { group: problems, contenders: [higher, lower], query: None, whole: *whole_draws };
         let draws = compared.values(run, self.metric);
         let all = draws.iter().filter(|draw| draw.iter().all(|(base, other)| other < base)).count();
         let Some(interval) = wilson(all, draws.len(), 0.95) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push("no draw has a query that both solve".to_owned());
-            return finding;
+            return finding.undecided("no draw has a query that both solve");
         };
-        finding.verdict = Some(if interval.low >= *in_share {
-            Verdict::Reproduced
-        } else if interval.high < *in_share {
-            Verdict::NotReproduced
-        } else {
-            Verdict::Undecided
-        });
+        finding.verdict = Some(Verdict::at_least(interval, *in_share));
         let share = all as f64 / draws.len() as f64;
         let queries: Vec<&(f64, f64)> = draws.iter().flatten().collect();
         let count = |is: fn(&&&(f64, f64)) -> bool| queries.iter().filter(is).count();

@@ -63,7 +63,7 @@ struct AsPrinted<'a> {
 
 impl Check for AsPrinted<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Settings { study, problems, contender, .. } = &self.settings;
         let rows = evidence.run(study).map(|run| (run, run.rows(problems, contender)));
         let values: Vec<f64> = rows
@@ -71,9 +71,7 @@ impl Check for AsPrinted<'_> {
             .flat_map(|(run, rows)| rows.iter().filter_map(|row| run.value(row, self.metric)))
             .collect();
         let Some(value) = median(&values) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("`{contender}` was not measured on `{problems}` of {study}"));
-            return finding;
+            return finding.undecided(format!("`{contender}` was not measured on `{problems}` of {study}"));
         };
         let agrees = self.printed.agrees(value, self.digits);
         finding.verdict = Some(match (agrees, self.is_fitted, self.study.searched) {

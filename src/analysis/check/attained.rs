@@ -216,11 +216,9 @@ impl Check for Attained<'_> {
         let given: Vec<&str> = self.given.iter().map(|given| given.claim).collect();
         let condition =
             if given.is_empty() { String::new() } else { format!(" on which {} hold", given.join(", ")) };
-        let nearest = eligible.iter().min_by(|a, b| {
-            let distance = |seen: &Seen| (seen.value - self.printed.value()).abs();
-            distance(a).total_cmp(&distance(b))
-        });
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let distance = |seen: &Seen| (seen.value - self.printed.value()).abs();
+        let nearest = eligible.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let mut finding = Finding::of(ENTRY.name);
         if let Some(shown) = met.first().copied().or(nearest) {
             finding.trial = Some(shown.trial.clone());
             finding.reading = Some(shown.reading.clone()).filter(|name| name != evidence.point.name());
@@ -246,12 +244,10 @@ impl Check for Attained<'_> {
                 format!("met by none of {} trials{condition}; this proves nothing either way", eligible.len())
             }
         });
-        if !selected.is_empty() {
-            finding.because.push(format!(
-                "{} more trials are on maps that were drawn until it held, and do not count",
-                selected.len()
-            ));
-        }
+        let more = selected.len();
+        finding.because.extend((more > 0).then(|| {
+            format!("{more} more trials are on maps that were drawn until it held, and do not count")
+        }));
         finding
     }
 }

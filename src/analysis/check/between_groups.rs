@@ -69,12 +69,10 @@ impl Check for BetweenGroups<'_> {
         };
         let mut units = tagged(&self.settings.lower, false);
         units.extend(tagged(&self.settings.higher, true));
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = bootstrap::percentile(&units, difference, plan) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("{} problems were solved on both sides together", units.len()));
-            return finding;
+            return finding.undecided(format!("{} problems were solved on both sides together", units.len()));
         };
         finding.verdict = Some(if found.interval.low > 0.0 {
             if self.study.searched { Verdict::Attainable } else { Verdict::Reproduced }

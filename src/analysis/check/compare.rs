@@ -76,11 +76,9 @@ impl Check for Compare<'_> {
         let measured = evidence.measured(study, problems, self.metric, against, contender);
         let pairs: Vec<(f64, f64)> = measured.iter().map(|measured| measured.values).collect();
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(ratio) = ratio_of_means(&pairs, plan) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("{} pairs were measured; at least 2 are needed", pairs.len()));
-            return finding;
+            return finding.undecided(format!("{} pairs were measured; at least 2 are needed", pairs.len()));
         };
         let percent = |ratio: f64| 100.0 * (1.0 - ratio);
         let reduction = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));

@@ -57,7 +57,7 @@ fn share(draws: &[&Vec<(f64, f64)>]) -> Option<f64> {
 impl Check for EqualsLeast {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, contender, least, .. } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(study) else { return finding };
         let compared =
             Compared { group: problems, contenders: [least, contender], query: None, whole: false };

@@ -38,7 +38,7 @@ struct FailsWhere {
 impl Check for FailsWhere {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, contender, .. } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(study) else { return finding };
         let (mut explained, mut unexplained, mut found, mut refused, mut against) = (0, 0, 0, 0, None);
         let rows = run.rows(problems, contender);

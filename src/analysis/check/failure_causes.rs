@@ -88,23 +88,15 @@ fn share(draws: &[&Tally]) -> Option<f64> {
 impl Check for FailureCauses {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, contender, relief, at_least } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(study) else { return finding };
         let pairs = both(run, problems, contender, relief);
         let draws: Vec<Tally> = pairs.values().map(|pairs| Tally::of(run, pairs)).collect();
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = percentile(&draws, share, plan) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push("fewer than two draws, or no search fails".to_owned());
-            return finding;
+            return finding.undecided("fewer than two draws, or no search fails");
         };
-        finding.verdict = Some(if found.interval.low >= *at_least {
-            Verdict::Reproduced
-        } else if found.interval.high < *at_least {
-            Verdict::NotReproduced
-        } else {
-            Verdict::Undecided
-        });
+        finding.verdict = Some(Verdict::at_least(found.interval, *at_least));
         let what = "share of failing searches with neighbours at both ends, bootstrap over draws, 95 %";
         finding.ours = Some(Estimate::new(found.value, found.interval, what, draws.len()));
         let sum = |get: fn(&Tally) -> usize| draws.iter().map(get).sum::<usize>();

@@ -47,7 +47,7 @@ impl Problems {
 
 impl Check for Settings {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(&self.study) else { return finding };
         let (mut both_find, mut only_other, mut more, mut refused) = (0, Vec::new(), 0, 0);
         for group in self.problems.listed() {

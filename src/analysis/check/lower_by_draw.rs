@@ -54,21 +54,14 @@ impl Check for LowerByDraw {
         let Settings { study, problems, lower, higher, query, .. } = &self.settings;
         let (contenders, query) = ([higher.as_str(), lower.as_str()], query.as_deref());
         let compared = Compared { group: problems, contenders, query, whole: false };
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let draws = evidence.run(study).map(|run| compared.values(run, self.metric)).unwrap_or_default();
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = percentile(&draws, change_percent, plan) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("{} draws have a query that both solve; 2 are needed", draws.len()));
-            return finding;
+            return finding
+                .undecided(format!("{} draws have a query that both solve; 2 are needed", draws.len()));
         };
-        finding.verdict = Some(if found.interval.high < 0.0 {
-            Verdict::Reproduced
-        } else if found.interval.low > 0.0 {
-            Verdict::NotReproduced
-        } else {
-            Verdict::Undecided
-        });
+        finding.verdict = Some(Verdict::below_zero(found.interval));
         let pairs: Vec<&(f64, f64)> = draws.iter().flatten().collect();
         let count = |is: fn(&(f64, f64)) -> bool| pairs.iter().filter(|pair| is(pair)).count();
         finding.because.push(format!(

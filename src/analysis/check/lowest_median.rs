@@ -269,7 +269,7 @@ fn needed(one: &Compared, limit: f64) -> Option<String> {
 
 impl Check for LowestMedian<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(&self.settings.study) else { return finding };
         let all = self.compared(run);
         let verdict = self.decided(&all);

@@ -54,7 +54,7 @@ fn verdict(band: &[Interval]) -> Verdict {
 impl Check for MeanCurveAbove<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, contender, against } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(study) else { return finding };
         let points = self.study.sweep_points();
         let shares = |who: &str| -> Vec<Vec<f64>> {
@@ -65,9 +65,7 @@ impl Check for MeanCurveAbove<'_> {
         let curve = |draw: usize| own.iter().zip(&other).map(|(a, b)| a[draw] - b[draw]).collect();
         let curves: Vec<Vec<f64>> = (0..draws).map(curve).collect();
         let Some(found) = sup_t(&curves, Plan { resamples: 2000, level: 0.95, seed: self.seed }) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("{draws} draws; at least 2 are needed"));
-            return finding;
+            return finding.undecided(format!("{draws} draws; at least 2 are needed"));
         };
         finding.verdict = Some(verdict(&found.band));
         let mut order: Vec<usize> = (0..points.len()).collect();

@@ -62,7 +62,7 @@ fn counts(nodes: usize, is_cornered: bool) -> Vec<(usize, f64)> {
 
 impl Check for OctagonNodes {
     fn judge(&self, _evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let mut exists = false;
         for (is_cornered, how) in
             [(true, "with corners on the axes"), (false, "with sides square to the axes")]

@@ -43,7 +43,7 @@ struct Oracle {
 
 impl Check for Oracle {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let (mut trials, mut worst, mut off) = (0, 0.0_f64, 0);
         let run = evidence.run(&self.settings.study);
         for (run, group) in

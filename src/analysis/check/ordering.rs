@@ -111,7 +111,7 @@ impl Check for Ordering<'_> {
         let Settings { study, problems, lower, higher, .. } = &self.settings;
         let found = evidence.measured(study, problems, self.metric, higher, lower);
         let pairs: Vec<(f64, f64)> = found.iter().map(|measured| measured.values).collect();
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let signs = signs(&pairs);
         finding.because.push(format!(
             "{} against {} on {} of {}: {} lower on {}, equal on {}, higher on {} of {} problems",

@@ -35,7 +35,7 @@ struct OverClaims<'a> {
 
 impl Check for OverClaims<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let verdict = |claim: &&Claim| verdict_on(evidence, claim).unwrap_or(Verdict::Undecided);
         let verdicts: Vec<Verdict> = self.claims.iter().map(verdict).collect();
         for verdict in Verdict::ALL {

@@ -72,7 +72,7 @@ impl PrintedRatio {
 
 impl Check for PrintedRatio {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(&self.settings.study) else { return finding };
         let ours = self.metrics.iter().filter_map(|metric| Some((*metric, self.ratio(run, metric)?)));
         let ours: Vec<(&Metric, (f64, usize))> = ours.collect();

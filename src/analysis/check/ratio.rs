@@ -84,12 +84,10 @@ fn verdict([low, high]: [f64; 2], ratio: Interval, searched: bool) -> Verdict {
 impl Check for Ratio<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let pairs = self.pairs(evidence);
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = ratio_of_means(&pairs, plan) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("{} pairs were measured; at least 2 are needed", pairs.len()));
-            return finding;
+            return finding.undecided(format!("{} pairs were measured; at least 2 are needed", pairs.len()));
         };
         finding.verdict = Some(verdict(self.settings.accepted, found.interval, self.study.searched));
         finding.because.push(format!(

@@ -68,7 +68,7 @@ impl<'a> RefusedByOption<'a> {
 
 impl Check for RefusedByOption<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         for option in &self.options {
             let [paths, refused] = self.counted(option, evidence);
             let Some(share) = wilson(refused, paths, 0.95) else { continue };

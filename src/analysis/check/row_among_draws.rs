@@ -150,7 +150,7 @@ impl Check for RowAmongDraws {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let draws = self.draws(evidence);
         let printed = self.printed.value();
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         finding.because = draws.iter().map(|draws| said(draws, printed)).collect();
         if let Some(last) = draws.last() {
             let rank = Rank::of(printed, &last.values);

@@ -76,18 +76,15 @@ struct SavingPerDraw<'a> {
 impl Check for SavingPerDraw<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, contender, against, of_queries, whole_draws, .. } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(study) else { return finding };
         let compared =
             Compared { group: problems, contenders: [against, contender], query: None, whole: *whole_draws };
         let drawn = compared.savings_percent(run, self.metric);
         let draws: Vec<f64> = drawn.iter().map(|draw| of_queries.of(draw)).collect();
         let (Some(interval), Some(mean)) = (predictive(&draws, 0.95), mean(&draws)) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding
-                .because
-                .push(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
-            return finding;
+            return finding
+                .undecided(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
         };
         let printed = self.printed.value();
         finding.verdict = Some(match interval.contains(printed) {

@@ -53,7 +53,7 @@ struct SavingsWithin<'a> {
 impl Check for SavingsWithin<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, contender, against, refused_below, .. } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(study) else { return finding };
         let compared =
             Compared { group: problems, contenders: [against, contender], query: None, whole: true };
@@ -61,9 +61,7 @@ impl Check for SavingsWithin<'_> {
         let within =
             draws.iter().filter(|draw| draw.iter().all(|saving| self.range.contains(*saving))).count();
         let Some(interval) = clopper_pearson(within, draws.len(), 0.95) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push("no draw has all its queries solved by both".to_owned());
-            return finding;
+            return finding.undecided("no draw has all its queries solved by both");
         };
         // The printed draw is counted with ours, as if it were one that stays within.
         let rank = (within + 1) as f64 / (draws.len() + 1) as f64;

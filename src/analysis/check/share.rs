@@ -118,15 +118,13 @@ impl Share<'_> {
 impl Check for Share<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let rows = self.rows(evidence);
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let found = match &self.settings.of {
             Some(of) => self.of_events(&rows, of),
             None => self.of_trials(&rows),
         };
         let Some((estimate, counted)) = found else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("none of {} trials counts {}", rows.len(), self.settings.hits));
-            return finding;
+            return finding.undecided(format!("none of {} trials counts {}", rows.len(), self.settings.hits));
         };
         let [low, high] = estimate.interval.expect("a share is estimated with its interval");
         finding.verdict = Some(self.verdict(Interval::new(low, high)));

@@ -44,7 +44,7 @@ struct ShareAbove<'a> {
 impl Check for ShareAbove<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, contender, against, .. } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(study) else { return finding };
         let (mut above, mut equal, mut below) = (0, 0, 0);
         for point in self.study.sweep_points() {

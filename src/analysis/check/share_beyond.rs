@@ -53,7 +53,7 @@ const EQUAL: f64 = 1e-9;
 
 impl Check for ShareBeyond {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let (mut below, mut all) = (None, 0);
         for set in &self.settings.sets {
             let Some(run) = evidence.run(&set.study) else { continue };

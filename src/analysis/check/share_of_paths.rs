@@ -78,7 +78,7 @@ impl<'a> ShareOfPaths<'a> {
 
 impl Check for ShareOfPaths<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(&self.settings.study) else { return finding };
         let total = self.total(run);
         let [paths, with] = total;

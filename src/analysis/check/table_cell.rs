@@ -57,13 +57,10 @@ impl Check for TableCell<'_> {
         let Settings { study, problems, contender, sweep } = &self.settings;
         let run = evidence.run(study);
         let draws = run.map(|run| solved_percents(run, problems, contender, sweep)).unwrap_or_default();
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let (Some(interval), Some(mean)) = (predictive(&draws, 0.95), mean(&draws)) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding
-                .because
-                .push(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
-            return finding;
+            return finding
+                .undecided(format!("{} draws; a 95 % predictive interval takes at least 39", draws.len()));
         };
         let printed = self.printed.value();
         let has_power = interval.high - interval.low < NO_POWER_POINTS;

@@ -7,7 +7,7 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::stats::proportion::Rank;
 use crate::analysis::stats::rows::{distance_to_mean, monotone_probability};
 use crate::analysis::stats::summary::{mean, standard_deviation};
-use crate::analysis::verdict::{Finding, Verdict};
+use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use serde::Deserialize;
 
@@ -142,7 +142,7 @@ impl Level {
 impl Check for TableRow<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, rows, refused_below } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let points = self.study.sweep_points();
         let wanted = rows.iter().flat_map(|row| points.iter().map(move |point| (&row.contender, point)));
         let cells: Vec<Vec<f64>> = evidence.run(study).map_or_else(Vec::new, |run| {
@@ -150,9 +150,7 @@ impl Check for TableRow<'_> {
         });
         let row: Vec<f64> = self.printed.iter().map(|printed| printed.value()).collect();
         let (Some(place), Some(level)) = (place(&row, &cells), Level::of(&row, &cells)) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push("fewer than three draws were run".to_owned());
-            return finding;
+            return finding.undecided("fewer than three draws were run");
         };
         // Among our draws and the row itself.
         let rank = (place.as_far + 1) as f64 / (place.draws + 1) as f64;
@@ -162,13 +160,11 @@ impl Check for TableRow<'_> {
             false => Verdict::NotReproduced,
         });
         let contender = rows.iter().map(|row| row.contender.as_str()).collect::<Vec<_>>().join(" and ");
-        let share = Rank { below: place.draws - place.as_far, equal: place.as_far, above: 0 };
-        let what = "share of our draws at least as far from the mean curve";
-        finding.ours = Some(crate::analysis::verdict::Estimate {
+        finding.ours = Some(Estimate {
             value: place.as_far as f64 / place.draws as f64,
             interval: None,
-            what: what.to_owned(),
-            n: share.draws(),
+            what: "share of our draws at least as far from the mean curve".to_owned(),
+            n: place.draws,
         });
         finding.because.push(format!(
             "{contender}: the printed row is {:.2} standard deviations a cell from our mean curve; {} of {} draws of ours, each \

@@ -78,12 +78,10 @@ fn slope(points: &[&(f64, f64)]) -> Option<f64> {
 impl Check for Trend<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let points = self.points(evidence);
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = bootstrap::percentile(&points, slope, plan) else {
-            finding.verdict = Some(Verdict::Undecided);
-            finding.because.push(format!("{} pairs show no slope", points.len()));
-            return finding;
+            return finding.undecided(format!("{} pairs show no slope", points.len()));
         };
         let claimed = if self.settings.rising { 1.0 } else { -1.0 };
         let (low, high) = (claimed * found.interval.low, claimed * found.interval.high);

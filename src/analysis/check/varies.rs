@@ -42,7 +42,7 @@ struct Varies {
 
 impl Check for Varies {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(&self.settings.study) else { return finding };
         let value = |problem: &String| {
             let rows = run.rows(problem, &self.settings.contender);

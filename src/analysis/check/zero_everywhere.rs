@@ -1,12 +1,12 @@
 //! Whether a count that should be 0 is 0 on every path that contenders return, refused ones included.
 
 use super::{Check, Entry};
-use crate::analysis::evidence::Evidence;
+use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::stats::bootstrap::{Plan, percentile};
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
-use crate::study::record::Status;
+use crate::study::record::{Row, Status};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -48,26 +48,32 @@ fn share(tallies: &[&Tally]) -> Option<f64> {
     (sum(0) > 0.0).then(|| sum(1) / sum(0))
 }
 
+impl ZeroEverywhere {
+    /// The paths that a contender returned, each as a tally of one.
+    fn returned<'a>(&self, run: &'a Run<'_>, contender: &str) -> impl Iterator<Item = (&'a Row, Tally)> {
+        run.rows(&self.settings.problems, contender).into_iter().filter_map(|row| {
+            let is_refused = row.status == Status::Rejected;
+            let is_returned = row.status == Status::Solved || is_refused;
+            let value = run.value(row, self.metric).filter(|_| is_returned)?;
+            Some((row, [1, usize::from(value > 0.0), usize::from(is_refused)]))
+        })
+    }
+}
+
 impl Check for ZeroEverywhere {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let Settings { study, problems, contenders, .. } = &self.settings;
-        let mut finding = Finding { check: ENTRY.name.to_owned(), ..Finding::default() };
+        let Settings { study, contenders, .. } = &self.settings;
+        let mut finding = Finding::of(ENTRY.name);
         let Some(run) = evidence.run(study) else { return finding };
         let mut draws: BTreeMap<u32, Tally> = BTreeMap::new();
         for contender in contenders {
             let mut own: Tally = [0; 3];
-            for row in run.rows(problems, contender) {
-                let is_refused = row.status == Status::Rejected;
-                let returned = row.status == Status::Solved || is_refused;
-                let Some(value) = run.value(row, self.metric).filter(|_| returned) else { continue };
-                let seen = [1, usize::from(value > 0.0), usize::from(is_refused)];
-                let of_draw = draws.entry(row.replicate).or_default();
-                for tally in [&mut own, of_draw] {
+            for (row, seen) in self.returned(run, contender) {
+                for tally in [&mut own, draws.entry(row.replicate).or_default()] {
                     tally.iter_mut().zip(seen).for_each(|(sum, one)| *sum += one);
                 }
-                if value > 0.0 {
-                    finding.trial =
-                        finding.trial.or_else(|| Some(format!("{}/{}", run.study.name, row.trial)));
+                if seen[1] > 0 && finding.trial.is_none() {
+                    finding.trial = Some(format!("{}/{}", run.study.name, row.trial));
                 }
             }
             finding.because.push(format!(

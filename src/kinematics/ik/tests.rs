@@ -288,9 +288,9 @@ fn four_lanes_find_what_one_branch_at_a_time_finds_and_pass_on_what_is_singular(
             let pull = if stream.random_bool(0.3) { stream.random_range(1.0..1.3) } else { 1.0 };
             Frame { origin: tool.origin * pull, ..tool }
         });
-        let rows = std::array::from_fn(|row| {
-            targets.map(|t| if row < 9 { t.rotation[(row % 3, row / 3)] } else { t.origin[row - 9] })
-        });
+        let number =
+            |t: Frame, row: usize| if row < 9 { t.rotation[(row % 3, row / 3)] } else { t.origin[row - 9] };
+        let rows = std::array::from_fn(|row| targets.map(|t| number(t, row)));
         for (lane, (target, q)) in targets.iter().zip(&drawn).enumerate() {
             let place = format!("seed 723 case {index} lane {lane}: {q:?}");
             let branch = arm.branch_of(q);

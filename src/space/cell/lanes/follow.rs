@@ -139,16 +139,24 @@ impl Lines {
             let reason = if exceeds(change, 0.9 * TAU)? { Rejection::Limits } else { Rejection::Jump };
             return Some(Err(reason));
         }
-        if let Some(law) = &rules.speed {
-            let duration_s = pace.duration_s(law, step);
-            for (joint, (a, b)) in arm.chain().joints().iter().zip(q.iter().zip(last)) {
-                if exceeds((a - b).abs(), joint.speed_rad_s * duration_s)? {
-                    return Some(Err(Rejection::Speed));
-                }
-            }
+        if self.is_too_fast(pace, step, last, &q)? {
+            return Some(Err(Rejection::Speed));
         }
         // Near a limit the way between the two is looked at too.
         (!self.nears_limit(last, &q, 3.0 * SLACK)).then_some(Ok(q))
+    }
+
+    /// Whether a joint is faster than it can be in this step; `None` in doubt.
+    #[inline]
+    fn is_too_fast(&self, pace: &Pace, step: u32, last: &Joints, q: &Joints) -> Option<bool> {
+        let Some(law) = &self.rules.speed else { return Some(false) };
+        let duration_s = pace.duration_s(law, step);
+        for (joint, (a, b)) in self.cell.robot.arm().chain().joints().iter().zip(q.iter().zip(last)) {
+            if exceeds((a - b).abs(), joint.speed_rad_s * duration_s)? {
+                return Some(true);
+            }
+        }
+        Some(false)
     }
 
     fn arrives_surely(&self, end: &Joints, wanted: &Joints) -> Option<Result<(), Rejection>> {
