@@ -96,7 +96,7 @@ fn a_model_is_written_with_the_numbers_of_its_files() {
 fn errors_on_purpose_change_what_they_say_and_nothing_else() {
     let arm = up6();
     let (longer, link) = arm.model().stretched(1e-3);
-    assert_eq!((link, longer.rows[1].a_m), (2, 0.571));
+    assert!(link == 2 && (longer.rows[1].a_m - 0.571).abs() < 1e-12, "{link} {}", longer.rows[1].a_m);
     let by_m = Vec3::new(0.0, 0.005, 0.0);
     let q = [0.3, -0.8, 0.1, 0.2, 0.7, 0.0];
     let (before, after) = (arm.gaps_m(&q), arm.shifted(0, &by_m).gaps_m(&q));
@@ -110,11 +110,13 @@ fn errors_on_purpose_change_what_they_say_and_nothing_else() {
 fn a_free_path_that_is_pushed_meets_an_obstacle_and_one_in_contact_is_not_pushed() {
     let arm = up6();
     let least = |q: &Vec<f64>| arm.gaps_m(q).into_iter().fold(f64::INFINITY, f64::min);
-    let paths = drawn_paths(&arm, 2, 5);
-    assert_eq!(paths.len(), 2);
-    for path in &paths {
-        assert!(path.stops_rad.iter().all(|q| least(q) > 0.0));
-        let Pushed { path: bent, stop, pair } = pushed(&arm, path).unwrap();
+    let paths = drawn_paths(&arm, 8, 5);
+    assert_eq!(paths.len(), 8);
+    assert!(paths.iter().flat_map(|path| &path.stops_rad).all(|q| least(q) > 0.0));
+    let met: Vec<(&JointPath, Pushed)> =
+        paths.iter().filter_map(|path| Some((path, pushed(&arm, path)?))).collect();
+    assert!(met.len() >= 4, "only {} of 8 met anything", met.len());
+    for (path, Pushed { path: bent, stop, pair }) in met {
         assert!(arm.model().pairs()[pair].still().is_some(), "pushed into itself");
         assert!(arm.gaps_m(&bent.stops_rad[stop])[pair] <= -1e-3);
         assert!(arm.gaps_m(&path.stops_rad[stop])[pair] > 0.0);

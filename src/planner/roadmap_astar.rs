@@ -143,6 +143,14 @@ fn distance_to(map: &Roadmap, goal: u32) -> impl Fn(u32) -> f64 {
     }
 }
 
+/// The plan along `nodes` in the order in which they were closed, with how many of its legs are no edges.
+fn along_closed(map: &Roadmap, part: &Part<'_>, nodes: &[u32], mut counts: Counts) -> Plan {
+    // The last leg is an edge or a shot that was found free.
+    let unjoined = part.unjoined(&nodes[..nodes.len() - 1]);
+    counts.insert("unjoined_legs", Value::Count(unjoined));
+    solved(map, nodes, counts)
+}
+
 impl Planner for RoadmapAstar {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
@@ -162,25 +170,18 @@ impl Planner for RoadmapAstar {
             is_free.then_some(Shot { goal, cost: 1.0 })
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
-        let terms = Terms {
-            graph: &mut part,
-            estimate: &estimate,
-            observer: &mut lists,
-            update: Update { lower_open: true, reopen_closed: false },
-        };
+        let update = Update { lower_open: true, reopen_closed: false };
+        let terms = Terms { graph: &mut part, estimate: &estimate, observer: &mut lists, update };
         let report =
             Search::new(Heap::new(Ties::Fifo)).run(terms, start, |node| node == goal, rules, &mut shoot);
-        let mut counts = self.counts(&part, &report.counters, shots);
+        let counts = self.counts(&part, &report.counters, shots);
         let mut plan = match report.outcome {
             Outcome::NoPath => unsolved(Ending::NoPath, counts),
             Outcome::BudgetSpent => unsolved(Ending::BudgetSpent, counts),
             Outcome::Solved(route) if self.path == PathSetting::Parents => solved(map, &route.nodes, counts),
             Outcome::Solved(_) => {
                 let nodes: Vec<u32> = lists.closed.iter().copied().chain([goal]).collect();
-                // The last leg is an edge or a shot that was found free.
-                let unjoined = part.unjoined(&nodes[..nodes.len() - 1]);
-                counts.insert("unjoined_legs", Value::Count(unjoined));
-                solved(map, &nodes, counts)
+                along_closed(map, &part, &nodes, counts)
             }
         };
         if request.trace {

@@ -36,8 +36,8 @@ pub fn outputs(
     only: Option<&str>,
     stop: &AtomicBool,
 ) -> Result<Vec<Output>, RenderError> {
-    let is_wanted = |id: &str| only.is_none_or(|only| only == id);
-    let paper = evidence.paper;
+    let (paper, is_wanted) = (evidence.paper, |id: &str| only.is_none_or(|only| only == id));
+    let quick = evidence.runs().any(|run| run.manifest.quick);
     let mut outputs = Vec::new();
     for run in evidence.runs() {
         for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
@@ -45,13 +45,13 @@ pub fn outputs(
                 return Err(RenderError::Interrupted);
             }
             let drawn = figure_outputs(&Scene { evidence, run, verdicts }, spec);
-            outputs.extend(drawn.map_err(|source| RenderError::Figure {
+            let named = |source| RenderError::Figure {
                 figure: format!("{}:{}", run.study.name, spec.id.get_ref()),
                 source: Box::new(source),
-            })?);
+            };
+            outputs.extend(drawn.map_err(named)?);
         }
     }
-    let quick = evidence.runs().any(|run| run.manifest.quick);
     let mut write = |id: &str, text: String| {
         outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
     };
@@ -66,8 +66,9 @@ pub fn outputs(
     }
     if outputs.is_empty() {
         let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
+        let (wanted, ids) = (only.unwrap_or_default(), ids.join(", "));
         return Err(RenderError::NotStored {
-            what: format!("a figure or table `{}`; there are {}", only.unwrap_or_default(), ids.join(", ")),
+            what: format!("a figure or table `{wanted}`; there are {ids}"),
         });
     }
     Ok(outputs)

@@ -294,10 +294,9 @@ impl<'a> Field<'a> {
         readings: &mut Vec<Timing>,
     ) {
         for query in &unit.queries() {
-            let runs = unit.racers.iter().flat_map(|racer| {
-                let seeds = racer.contender.repeats.min(timing.seeds.unwrap_or(1));
-                (0..seeds).map(move |seed| (racer, seed))
-            });
+            let seeds = |racer: &Racer<'_>| racer.contender.repeats.min(timing.seeds.unwrap_or(1));
+            let of_racer = |racer| (0..seeds(racer)).map(move |seed| (racer, seed));
+            let runs = unit.racers.iter().flat_map(of_racer);
             let request = |(racer, seed): &(&Racer<'_>, u32)| Request {
                 world: &prepared.world,
                 start: &query.start,
@@ -309,20 +308,19 @@ impl<'a> Field<'a> {
             let warmed: Vec<_> = runs.filter(|run| run.0.pipeline.plan(&request(run)).is_ok()).collect();
             let mut read = |run: &(&Racer<'_>, u32), repeat: u32| {
                 let request = request(run);
-                let (plan_wall_ns, _) = clock::timed(|| run.0.pipeline.plan(&request));
                 readings.push(Timing {
                     trial: unit.trial(query, run.0, run.1),
                     group: unit.group.label.clone(),
                     contender: run.0.contender.label.clone(),
                     replicate: unit.replicate,
                     repeat,
-                    plan_wall_ns,
+                    plan_wall_ns: clock::timed(|| run.0.pipeline.plan(&request)).0,
                 });
             };
             for (turn, repeat) in repeats.iter().enumerate() {
-                let last = warmed.len().saturating_sub(1);
                 for place in 0..warmed.len() {
-                    read(&warmed[if turn % 2 == 0 { place } else { last - place }], *repeat);
+                    let whose = if turn % 2 == 0 { place } else { warmed.len() - 1 - place };
+                    read(&warmed[whose], *repeat);
                 }
             }
         }

@@ -222,13 +222,9 @@ impl Check for Attained<'_> {
         if let Some(shown) = met.first().copied().or(nearest) {
             finding.trial = Some(shown.trial.clone());
             finding.reading = Some(shown.reading.clone()).filter(|name| name != evidence.point.name());
-            let what = if met.is_empty() { "nearest" } else { "met" };
-            finding.ours = Some(Estimate {
-                value: shown.value,
-                interval: None,
-                what: format!("{what}, {} by {}", self.title(), shown.contender),
-                n: eligible.len(),
-            });
+            let found = if met.is_empty() { "nearest" } else { "met" };
+            let what = format!("{found}, {} by {}", self.title(), shown.contender);
+            finding.ours = Some(Estimate { value: shown.value, interval: None, what, n: eligible.len() });
         }
         finding.verdict = Some(if met.is_empty() { Verdict::Undecided } else { Verdict::Attainable });
         finding.because.push(match met.first() {

@@ -277,9 +277,7 @@ fn four_lanes_find_what_one_branch_at_a_time_finds_and_pass_on_what_is_singular(
     for index in 0..25_000 {
         let drawn: [Joints; LANES] = std::array::from_fn(|_| {
             let mut q = draw(&mut stream, arm.chain());
-            if stream.random_bool(0.1) {
-                q[4] *= 1e-2;
-            }
+            q[4] *= if stream.random_bool(0.1) { 1e-2 } else { 1.0 };
             q
         });
         // A tool pulled outwards is out of reach now and then.
