@@ -144,7 +144,7 @@ fn distance_to(map: &Roadmap, goal: u32) -> impl Fn(u32) -> f64 {
 }
 
 /// The plan along `nodes` in the order in which they were closed, with how many of its legs are no edges.
-fn along_closed(map: &Roadmap, part: &Part<'_>, nodes: &[u32], mut counts: Counts) -> Plan {
+fn along_closed(map: &Roadmap, part: &mut Part<'_>, nodes: &[u32], mut counts: Counts) -> Plan {
     // The last leg is an edge or a shot that was found free.
     let unjoined = part.unjoined(&nodes[..nodes.len() - 1]);
     counts.insert("unjoined_legs", Value::Count(unjoined));
@@ -181,7 +181,7 @@ impl Planner for RoadmapAstar {
             Outcome::Solved(route) if self.path == PathSetting::Parents => solved(map, &route.nodes, counts),
             Outcome::Solved(_) => {
                 let nodes: Vec<u32> = lists.closed.iter().copied().chain([goal]).collect();
-                along_closed(map, &part, &nodes, counts)
+                along_closed(map, &mut part, &nodes, counts)
             }
         };
         if request.trace {

@@ -44,12 +44,7 @@ pub fn outputs(
             if stop.load(Ordering::Relaxed) {
                 return Err(RenderError::Interrupted);
             }
-            let drawn = figure_outputs(&Scene { evidence, run, verdicts }, spec);
-            let named = |source| RenderError::Figure {
-                figure: format!("{}:{}", run.study.name, spec.id.get_ref()),
-                source: Box::new(source),
-            };
-            outputs.extend(drawn.map_err(named)?);
+            outputs.extend(named_figure_outputs(&Scene { evidence, run, verdicts }, spec)?);
         }
     }
     let mut write = |id: &str, text: String| {
@@ -80,6 +75,14 @@ fn fit_to_print(id: &str, drawn: Figure) -> Result<Figure, RenderError> {
         return Ok(drawn);
     }
     Err(RenderError::Flawed { figure: id.to_owned(), flaws: drawn.flaws.join("; ") })
+}
+
+/// [`figure_outputs`], with the figure's name in errors.
+fn named_figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, RenderError> {
+    figure_outputs(scene, spec).map_err(|source| RenderError::Figure {
+        figure: format!("{}:{}", scene.run.study.name, spec.id.get_ref()),
+        source: Box::new(source),
+    })
 }
 
 /// The files of one figure: SVG, PNG and, where it has one, its table.
