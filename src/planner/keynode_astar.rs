@@ -85,12 +85,15 @@ impl Planner for Keynode {
         let falls_back = self.last_resort && walked.ending == Ending::NoPath;
         if falls_back {
             let mut memory = Search::new(Heap::new(Ties::Fifo));
-            let found = lattice26_astar::search(&posed, Checked::Segments, &mut memory, request.expansions)?;
-            let counters = found.report.counters;
-            walked.tally.opened += counters.opened;
-            walked.tally.generated += counters.generated;
-            walked.tally.expansions += counters.expansions;
-            (walked.ending, walked.points) = (found.ending, found.points);
+            let left = request.expansions - walked.tally.expansions;
+            // From a start that sees no node of the lattice there is nothing left to try.
+            if let Ok(found) = lattice26_astar::search(&posed, Checked::Segments, &mut memory, left) {
+                let counters = found.report.counters;
+                walked.tally.opened += counters.opened;
+                walked.tally.generated += counters.generated;
+                walked.tally.expansions += counters.expansions;
+                (walked.ending, walked.points) = (found.ending, found.points);
+            }
         }
         let counts = Counts::from([
             ("opened", Value::Count(walked.tally.opened)),

@@ -116,6 +116,21 @@ fn a_goal_behind_walls_on_all_sides_ends_every_search_without_a_path() {
 }
 
 #[test]
+fn a_start_in_a_box_smaller_than_a_step_is_a_start_without_a_path() {
+    let mut walls = Vec::new();
+    for axis in 0..3 {
+        for side in [-0.5, 0.5] {
+            let (mut center, mut size) = ([20.5; 3], [1.4; 3]);
+            center[axis] += side;
+            size[axis] = 0.4;
+            walls.push(cuboid(center, size));
+        }
+    }
+    let world = world(walls);
+    assert_eq!(keynode(FULL, &world, [[20.5; 3], [3.0, 4.0, 5.0]]).ending, Ending::NoPath);
+}
+
+#[test]
 fn a_plate_thinner_than_a_step_is_tunnelled_through_by_points_and_not_by_segments() {
     let world = world(vec![cuboid([20.0, 20.0, 20.5], [30.0, 30.0, 0.6])]);
     let straight = 30.0;
