@@ -6,7 +6,7 @@
 use crate::worlds::{Case, Subject, worlds};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
-use replan::planner::{self, Build, Ending, Invalid, Plan, Planner, Request, Stage};
+use replan::planner::{self, Build, Ending, Entry, Invalid, Plan, Planner, Request, Stage};
 use replan::settings::Settings;
 use replan::space::WorldKind;
 use std::collections::BTreeSet;
@@ -35,6 +35,13 @@ const SETTINGS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "bspline",
+        &[
+            "control = 'steps'\nguarded = true\npoints_per_span = 2",
+            "control = 'nodes'\nguarded = true\npoints_per_span = 5",
+        ],
+    ),
+    (
         "chaos_astar",
         &[
             "region_shape = 'square'\nregion_radius_cells = 2\nneighbours = 16\ndrawn = 'each_expansion'\nsource = \
@@ -45,12 +52,42 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ),
     ("delete_inflections", &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'"]),
     ("direct", &[""]),
+    ("joint_astar", &["delta_deg = 12.0\nneighbours = 12"]),
+    (
+        "keynode_astar",
+        &[
+            "search = 'open_list'\ncluster = true\nlast_resort = true",
+            "search = 'open_list'\ncluster = false\nlast_resort = false",
+            "search = 'greedy'\ncluster = false\nlast_resort = false",
+            "search = 'literal'\ncluster = false\nlast_resort = false",
+        ],
+    ),
+    (
+        "lattice26_astar",
+        &[
+            "checked = 'segments'\nties = 'fifo'",
+            "checked = 'segments'\nties = 'larger_g'",
+            "checked = 'nodes'\nties = 'lifo'",
+        ],
+    ),
     (
         "lattice_astar",
         &[
             "neighbourhood = { shape = 'square', radius_cells = 1 }\nopen_node = 'lowered'\nties = 'fifo'",
             "neighbourhood = { shape = 'disc', radius_cells = 2 }\nopen_node = 'lowered'\nties = 'larger_g'",
             "neighbourhood = { shape = 'square', radius_cells = 2 }\nopen_node = 'never'\nties = 'lifo'",
+        ],
+    ),
+    (
+        "posture",
+        &[
+            "adjust = true\nsign = 'down'\nclamp = 'floor'\ndistance = 'exact'\npose = 'inverse'\ndamping = 0.02\n\
+             act_cm = 2.0\nd0_cm = 5.0\nstep_rad = 0.03\niterations = 20\nbounds_rad = [0.2, 0.2, 0.1]\n\
+             bounds = 'per_node'\nrecovery_rad = 0.02\nbranches = 'all'\ndiagnose = false",
+            "adjust = true\nsign = 'as_printed'\nclamp = 'literal'\ndistance = 'exact'\npose = 'jacobian'\n\
+             damping = 0.0\nact_cm = 2.0\nd0_cm = 5.0\nstep_rad = 0.03\niterations = 5\n\
+             bounds_rad = [0.2, 0.2, 0.1]\nbounds = 'from_start'\nrecovery_rad = 0.02\nbranches = 'clearest'\n\
+             diagnose = true",
         ],
     ),
     (
@@ -61,13 +98,36 @@ const SETTINGS: &[(&str, &[&str])] = &[
             "samples = 40\nneighbour_mm = 30.0\ncost = 'hops'\ngoal_shot = 'before_expansion'\npath = 'parents'",
         ],
     ),
+    ("shorten_best", &["least = 'length'", "least = 'nodes'"]),
     ("straighten", &["last = 'as_printed'", "last = 'goal'"]),
+    ("straighten_from_previous", &["resume = 'last_joined'", "resume = 'first_refused'"]),
+    ("visibility_edges", &["spacing_cm = 2.0"]),
 ];
 
 /// Planners that have nothing to show but their path.
-const WITHOUT_EXHIBITS: &[&str] = &["astar_octile", "direct"];
+const WITHOUT_EXHIBITS: &[&str] =
+    &["astar_octile", "direct", "keynode_astar", "lattice26_astar", "visibility_edges"];
 
-const PLENTY: u64 = 1_000_000;
+/// An entry, one of its settings, and the value under which a property is not asked of it.
+type Exception = (&'static str, &'static str, &'static str);
+
+/// As their papers print them, these look at points only: what is between them may be refused.
+const LOOK_AT_POINTS: &[Exception] =
+    &[("keynode_astar", "search", "literal"), ("lattice26_astar", "checked", "nodes")];
+
+/// As printed, the walk may go round in circles until its budget is spent.
+const CIRCLE: &[Exception] = &[("keynode_astar", "search", "literal")];
+
+/// The tip drifts where joints follow the Jacobian, so that its path may be longer than the one it follows.
+const DRIFT: &[Exception] = &[("posture", "pose", "jacobian")];
+
+/// Stages that take the paths of another kind of world's planners: `posture` makes joint angles of a tip's path.
+const FED_BY: &[(&str, WorldKind)] = &[("posture", WorldKind::Polyhedra)];
+
+/// Stages that follow a path instead of shortening it, and have none to give where they cannot.
+const FOLLOWING: &[&str] = &["posture"];
+
+const PLENTY: u64 = 100_000;
 
 fn settings(name: &str) -> Vec<Settings> {
     let (_, texts) = SETTINGS.iter().find(|(known, _)| *known == name).unwrap_or_else(|| {
@@ -97,13 +157,30 @@ fn searching() -> Vec<Subject> {
     planners().into_iter().filter(|subject| subject.entry.columns.contains(&"expansions")).collect()
 }
 
-fn stages() -> Vec<(String, WorldKind, Box<dyn Stage>)> {
+/// Whether an exception is made for the entry under these settings.
+fn is_among(exceptions: &[Exception], entry: &Entry, settings: &Settings) -> bool {
+    let is_set = |&(name, key, value): &Exception| {
+        name == entry.name && settings.table().get(key).and_then(|found| found.as_str()) == Some(value)
+    };
+    exceptions.iter().any(is_set)
+}
+
+/// A stage with the settings that it was built from.
+struct Tidier {
+    name: String,
+    entry: &'static Entry,
+    settings: Settings,
+    stage: Box<dyn Stage>,
+}
+
+fn stages() -> Vec<Tidier> {
     let mut built = Vec::new();
     for entry in planner::REGISTRY {
         let Build::Stage(build) = entry.build else { continue };
         for settings in settings(entry.name) {
             let name = format!("{} {:?}", entry.name, settings.table());
-            built.push((name, entry.needs, build(&settings).unwrap()));
+            let stage = build(&settings).unwrap_or_else(|e| panic!("{name}: {e}"));
+            built.push(Tidier { name, entry, settings, stage });
         }
     }
     built
@@ -156,11 +233,12 @@ fn planners_find_a_path_exactly_where_their_graph_has_one() {
     for subject in planners() {
         let (mut solved, mut walled) = (0, 0);
         let cases = worlds(subject.entry.needs);
-        for case in &cases {
+        for case in cases {
             let (plan, truth) = (plan(subject.planner.as_ref(), case), case.truth(&subject));
             let what = format!("{} on {}", subject.name, case.name);
             let found = plan.ending == Ending::Solved;
-            assert_ne!(plan.ending, Ending::BudgetSpent, "{what}");
+            let may_circle = is_among(CIRCLE, subject.entry, &subject.settings);
+            assert!(plan.ending != Ending::BudgetSpent || may_circle, "{what}: the budget was spent");
             assert!(!found || truth.optimum.is_some(), "{what}: a path where there is none");
             assert!(!truth.is_exact || found == truth.optimum.is_some(), "{what}");
             assert_eq!((plan.path.is_empty(), plan.cost.is_none()), (!found, !found), "{what}");
@@ -181,10 +259,12 @@ fn no_planner_is_refused_and_optimal_ones_cost_what_the_oracle_finds() {
     let mut above = 0;
     for subject in planners() {
         for case in worlds(subject.entry.needs) {
-            let (plan, truth) = (plan(subject.planner.as_ref(), &case), case.truth(&subject));
+            let (plan, truth) = (plan(subject.planner.as_ref(), case), case.truth(&subject));
             let Some((cost, optimum)) = plan.cost.zip(truth.optimum) else { continue };
             let what = format!("{} on {}", subject.name, case.name);
-            assert_eq!(case.refusal(&plan, &subject), None, "{what}");
+            let refusal = case.refusal(&plan, &subject);
+            let is_excused = is_among(LOOK_AT_POINTS, subject.entry, &subject.settings);
+            assert!(refusal.is_none() || is_excused, "{what}: {refusal:?}");
             assert!(cost > optimum - 1e-9, "{what}: {cost} is below {optimum}");
             assert!(
                 !subject.planner.is_optimal() || cost < optimum + 1e-9,
@@ -208,18 +288,21 @@ fn astar_expands_less_than_dijkstra_so_that_its_heuristic_is_not_zero() {
     let (dijkstra, astar) = (of(0), of(1));
     let [mut all, mut guided] = [0, 0];
     for case in worlds(WorldKind::Lattice) {
-        all += count(&plan(dijkstra.as_ref(), &case), "expansions");
-        guided += count(&plan(astar.as_ref(), &case), "expansions");
+        all += count(&plan(dijkstra.as_ref(), case), "expansions");
+        guided += count(&plan(astar.as_ref(), case), "expansions");
     }
     assert!(guided * 4 < all * 3, "{guided} expansions with the heuristic, {all} without");
 }
 
 #[test]
 fn a_budget_is_kept_to_the_last_expansion() {
-    for Subject { name, entry, planner, .. } in searching() {
+    for Subject { name, entry, settings, planner } in searching() {
         let mut spent = 0;
         for case in worlds(entry.needs).iter().step_by(3) {
             let free = plan(planner.as_ref(), case);
+            if free.ending == Ending::BudgetSpent && is_among(CIRCLE, entry, &settings) {
+                continue;
+            }
             let full = count(&free, "expansions");
             for budget in BTreeSet::from([0, 1, 2, full / 2, full.saturating_sub(1), full, full + 1]) {
                 let plan = planner.plan(&request(case, budget, false)).unwrap();
@@ -243,7 +326,7 @@ fn counters_are_what_the_world_saw() {
     for subject in searching() {
         let (mut exhausted, mut is_counted) = (0, false);
         for case in worlds(subject.entry.needs) {
-            let plan = subject.planner.plan(&request(&case, PLENTY, true)).unwrap();
+            let plan = subject.planner.plan(&request(case, PLENTY, true)).unwrap();
             let what = format!("{} on {}: {:?}", subject.name, case.name, plan.counts);
             for list in ["opened", "closed"] {
                 let shown: Vec<_> = plan.exhibits.iter().filter(|e| e.name.starts_with(list)).collect();
@@ -256,7 +339,11 @@ fn counters_are_what_the_world_saw() {
                     assert_eq!(distinct.len() * side.width, side.values.len(), "{what}: twice in {list}");
                 }
             }
-            assert!(count(&plan, "closed") <= count(&plan, "opened"), "{what}");
+            let columns = subject.entry.columns;
+            assert!(plan.counts.keys().all(|column| columns.contains(column)), "{what}: of {columns:?}");
+            if columns.contains(&"closed") {
+                assert!(count(&plan, "closed") <= count(&plan, "opened"), "{what}");
+            }
             let reachable = case.truth(&subject).reachable;
             is_counted |= reachable.is_some();
             if let (Ending::NoPath, Some((nodes, moves))) = (plan.ending, reachable) {
@@ -285,28 +372,42 @@ fn a_start_or_goal_that_is_blocked_or_outside_is_invalid() {
     }
 }
 
+/// Every planner that searches, whose paths are accepted and are what the stage takes.
+fn feeding(entry: &Entry) -> Vec<Subject> {
+    let kind = FED_BY.iter().find(|(fed, _)| *fed == entry.name).map_or(entry.needs, |(_, kind)| *kind);
+    let mut feeding = searching();
+    feeding.retain(|s| s.entry.needs == kind && !is_among(LOOK_AT_POINTS, s.entry, &s.settings));
+    feeding
+}
+
 #[test]
 fn stages_keep_the_ends_and_the_truth_and_never_lengthen() {
-    for (name, kind, stage) in stages() {
-        let (mut solved, mut shorter) = (0, 0);
-        let fitting = searching().into_iter().filter(|subject| subject.entry.needs == kind);
-        let planner = fitting.into_iter().nth(1).expect("a stage's kind of world has a planner").planner;
-        for case in worlds(kind) {
-            let raw = plan(planner.as_ref(), &case);
-            let posed = request(&case, PLENTY, false);
+    for Tidier { name, entry, settings, stage } in stages() {
+        let (mut solved, mut better) = (0, 0);
+        let feeding = feeding(entry);
+        let (follows, drifts) = (FOLLOWING.contains(&entry.name), is_among(DRIFT, entry, &settings));
+        for (subject, case) in feeding.iter().flat_map(|s| worlds(entry.needs).iter().map(move |c| (s, c))) {
+            let raw = plan(subject.planner.as_ref(), case);
+            let posed = request(case, PLENTY, false);
             let tidied = stage.refine(&posed, raw.clone());
-            assert_eq!(tidied, stage.refine(&posed, raw.clone()), "{name} on {}", case.name);
+            let what = format!("{name} after {} on {}", subject.name, case.name);
+            assert_eq!(tidied, stage.refine(&posed, raw.clone()), "{what}");
             if raw.ending != Ending::Solved {
-                assert_eq!(tidied, raw, "{name} on {}: an unsolved plan was touched", case.name);
+                assert_eq!(tidied, raw, "{what}: an unsolved plan was touched");
                 continue;
             }
-            assert_eq!(case.refusal_off_graph(&tidied), None, "{name} on {}", case.name);
-            assert!(tidied.cost.unwrap() < raw.cost.unwrap() + 1e-9, "{name} on {}", case.name);
-            let kept = raw.counts.iter().all(|(column, value)| tidied.counts.get(column) == Some(value));
-            assert!(kept, "{name} on {}: {:?} from {:?}", case.name, tidied.counts, raw.counts);
             solved += 1;
-            shorter += usize::from(tidied.cost.unwrap() < raw.cost.unwrap() - 1e-9);
+            let kept = raw.counts.iter().all(|(column, value)| tidied.counts.get(column) == Some(value));
+            assert!(kept, "{what}: {:?} from {:?}", tidied.counts, raw.counts);
+            if follows && tidied.ending == Ending::NoPath {
+                assert_eq!((tidied.cost, tidied.path.len()), (None, 0), "{what}");
+                continue;
+            }
+            assert_eq!(case.refusal_off_graph(&tidied), None, "{what}");
+            let (now, before) = (tidied.cost.unwrap(), raw.cost.unwrap());
+            assert!(now < before + 1e-9 || drifts, "{what}: {now} from {before}");
+            better += usize::from(follows || now < before - 1e-9);
         }
-        assert!(shorter * 4 > solved, "{name}: shortened {shorter} paths of {solved} only");
+        assert!(better * 4 > solved, "{name}: {better} paths of {solved} were tidied");
     }
 }

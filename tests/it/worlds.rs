@@ -2,7 +2,9 @@
 
 mod arm;
 mod lattice;
+pub mod polyhedra;
 mod roadmap;
+pub mod rods;
 
 use replan::planner::{Entry, Plan, Planner};
 use replan::settings::Settings;
@@ -10,6 +12,7 @@ use replan::space::{World, WorldKind};
 use replan::verify::plane;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
+use std::sync::LazyLock;
 
 /// A planner with the settings that it was built from.
 pub struct Subject {
@@ -37,11 +40,16 @@ enum Posed {
     Arm(Vec<[f64; 2]>),
     /// The samples, and the verifier's map.
     Roadmap(Vec<Vec<f64>>, plane::Case),
+    /// The obstacles.
+    Polyhedra(polyhedra::Scene),
+    /// The obstacles.
+    Rods(rods::Scene),
 }
 
 /// What is true of a query in the graph that a planner searches.
+#[derive(Clone, Copy)]
 pub struct Truth {
-    /// The least cost; absent if the goal cannot be reached.
+    /// The least cost, or a bound below it where no oracle finds it; absent if the goal cannot be reached.
     pub optimum: Option<f64>,
     /// The planner must find a path exactly if there is one.
     pub is_exact: bool,
@@ -49,19 +57,26 @@ pub struct Truth {
     pub reachable: Option<(u64, u64)>,
 }
 
-/// A sample of worlds of `kind`, some with the goal walled off.
-pub fn worlds(kind: WorldKind) -> Vec<Case> {
+/// A sample of worlds of `kind`, some with the goal walled off; drawn once for all tests.
+pub fn worlds(kind: WorldKind) -> &'static [Case] {
+    static ARM: LazyLock<Vec<Case>> = LazyLock::new(|| (0..48).map(arm::arm).collect());
+    static LATTICE: LazyLock<Vec<Case>> = LazyLock::new(|| (0..150).map(lattice::lattice).collect());
+    static POLYHEDRA: LazyLock<Vec<Case>> = LazyLock::new(|| (0..60).map(polyhedra::polyhedra).collect());
+    static ROADMAP: LazyLock<Vec<Case>> = LazyLock::new(|| (0..60).map(roadmap::roadmap).collect());
+    static RODS: LazyLock<Vec<Case>> = LazyLock::new(|| (0..24).map(rods::rods).collect());
     match kind.name() {
-        "arm" => (0..48).map(arm::arm).collect(),
-        "lattice" => (0..150).map(lattice::lattice).collect(),
-        "roadmap" => (0..60).map(roadmap::roadmap).collect(),
+        "arm" => &ARM,
+        "arm among polyhedra" => &RODS,
+        "lattice" => &LATTICE,
+        "polyhedra" => &POLYHEDRA,
+        "roadmap" => &ROADMAP,
         other => panic!("conformance has no sample of {other} worlds; add one to tests/it/worlds"),
     }
 }
 
 /// The least cost of every node that can be reached from `start`, and how many moves leave them: Dijkstra's algorithm.
-fn flood(start: u32, moves: impl Fn(u32) -> Vec<(u32, f64)>) -> (BTreeMap<u32, f64>, u64) {
-    let (mut found, mut count): (BTreeMap<u32, f64>, u64) = (BTreeMap::new(), 0);
+fn flood<N: Copy + Ord>(start: N, moves: impl Fn(N) -> Vec<(N, f64)>) -> (BTreeMap<N, f64>, u64) {
+    let (mut found, mut count): (BTreeMap<N, f64>, u64) = (BTreeMap::new(), 0);
     // Costs are not negative, so that their bits are in their order.
     let mut open = BinaryHeap::from([(Reverse(0_u64), start)]);
     while let Some((Reverse(cost), node)) = open.pop() {
@@ -84,6 +99,8 @@ impl Case {
             Posed::Lattice(optimum) => lattice::truth(self, *optimum, subject),
             Posed::Arm(_) => arm::truth(self, subject),
             Posed::Roadmap(places, plane) => roadmap::truth(self, places, plane, subject),
+            Posed::Polyhedra(scene) => polyhedra::truth(self, scene, subject),
+            Posed::Rods(scene) => rods::truth(self, scene),
         }
     }
 
@@ -94,6 +111,8 @@ impl Case {
             Posed::Lattice(optimum) => lattice::refusal(self, *optimum, plan, [true, optimal]),
             Posed::Arm(discs) => arm::refusal(self, discs, plan, steps, optimal),
             Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, Some(subject)),
+            Posed::Polyhedra(scene) => polyhedra::refusal(self, scene, plan),
+            Posed::Rods(scene) => rods::refusal(self, scene, plan),
         }
     }
 
@@ -103,6 +122,8 @@ impl Case {
             Posed::Lattice(optimum) => lattice::refusal(self, *optimum, plan, [false; 2]),
             Posed::Arm(discs) => arm::refusal(self, discs, plan, None, false),
             Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, None),
+            Posed::Polyhedra(scene) => polyhedra::refusal(self, scene, plan),
+            Posed::Rods(scene) => rods::refusal(self, scene, plan),
         }
     }
 
@@ -112,6 +133,8 @@ impl Case {
             Posed::Lattice(_) => lattice::impossible(self),
             Posed::Arm(discs) => arm::impossible(discs),
             Posed::Roadmap(..) => roadmap::impossible(),
+            Posed::Polyhedra(_) => polyhedra::impossible(self),
+            Posed::Rods(_) => rods::impossible(self),
         };
         let both = |point: Vec<f64>| [(point.clone(), self.goal.clone()), (self.start.clone(), point)];
         points.into_iter().flat_map(both).collect()

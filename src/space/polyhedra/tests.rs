@@ -97,6 +97,23 @@ fn the_first_obstacle_met_is_found_and_a_face_is_part_of_it() {
     assert!(world.is_clear(&Segment::new(Vec3::new(0.0, 6.1, 5.0), Vec3::new(10.0, 6.1, 5.0))));
 }
 
+#[test]
+fn a_point_that_cannot_be_an_end_is_refused_with_what_is_wrong() {
+    let bodies = vec![Convex::cuboid(Vec3::repeat(5.0), Vec3::repeat(2.0)).unwrap()];
+    let domain = Aabb { min: Vec3::zeros(), max: Vec3::repeat(10.0) };
+    let world = PolyhedraWorld::new(bodies, domain, 1.0, 0.0).unwrap();
+    for (point, part) in [
+        (vec![-1.0, 3.0, 3.0], "the goal [-1.0, 3.0, 3.0] is outside the domain; it goes from"),
+        (vec![f64::NAN, 3.0, 3.0], "is outside the domain"),
+        (vec![5.0, 5.0, 6.0], "the goal [5.0, 5.0, 6.0] is inside obstacle 1"),
+        (vec![3.0, 3.0], "the goal [3.0, 3.0] is not a point in space; [x, y, z] is accepted"),
+    ] {
+        let refusal = world.free_point("goal", &point).unwrap_err();
+        assert!(refusal.contains(part), "{refusal}");
+    }
+    assert_eq!(world.free_point("goal", &[3.0; 3]), Ok(Vec3::repeat(3.0)));
+}
+
 fn aubo() -> Robot {
     Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/robots/aubo_i10.toml")).unwrap()
 }
