@@ -141,7 +141,7 @@ pub fn truth(case: &Case, scene: &Scene, subject: &Subject) -> Truth {
     if subject.entry.name == "lattice26_astar" {
         return on_lattice;
     }
-    let searches_last = table.get("last_resort").and_then(|last| last.as_bool()) == Some(true);
+    let searches_last = table.get("last_resort").and_then(toml::Value::as_bool) == Some(true);
     let optimum = on_lattice.optimum.map(|_| distance(start, goal));
     Truth { optimum, is_exact: searches_last, reachable: None }
 }

@@ -13,6 +13,7 @@ use replan::space::{PolyhedraWorld, World};
 use replan::verify::polyhedra::{Point, Solid};
 use replan::verify::rods::{Arm, Case as Query, Rod, Row};
 use std::cell::Cell;
+use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 
@@ -24,10 +25,10 @@ const STEP_CM: f64 = 5.0;
 /// A cage with more states than this has a hole.
 const MOST_STATES: u32 = 200;
 
-/// The obstacles, and whether the tip is caged.
+/// The obstacles, and in how many states a caged arm can be.
 pub struct Scene {
     solids: Vec<Solid>,
-    is_caged: bool,
+    caged: Option<u64>,
 }
 
 /// The arm of the paper from the maker's table, for the verifier: centimetres.
@@ -75,7 +76,7 @@ pub fn rods(number: u64) -> Case {
 fn drawn(number: u64, mut stream: seed::Stream) -> Option<Case> {
     let is_caged = number % 4 == 3;
     let mut within = |low: [f64; 3], high: [f64; 3]| [0, 1, 2].map(|i| stream.random_range(low[i]..high[i]));
-    let mut bodies: Vec<Convex> = (0..1 + number % 3)
+    let mut bodies: Vec<Convex> = (0..=number % 3)
         .map(|_| {
             let (center, size) = (within([45.0, -8.0, 20.0], [75.0, 8.0, 80.0]), within([4.0; 3], [14.0; 3]));
             Convex::cuboid(center.into(), size.into()).unwrap()
@@ -91,13 +92,17 @@ fn drawn(number: u64, mut stream: seed::Stream) -> Option<Case> {
     let growth = if is_caged { 4.0 } else { 7.0 };
     let domain = Aabb { min: Vec3::new(0.0, -90.0, 0.0), max: Vec3::new(100.0, 90.0, 120.0) };
     let arm = carried();
-    let scene = Scene { solids: solids(&bodies), is_caged };
+    let mut scene = Scene { solids: solids(&bodies), caged: None };
     let ends = scene.postures(&arm, start, goal);
-    let is_shut = || ends.iter().all(|ends| scene.is_shut(*ends));
     let world = PolyhedraWorld::new(bodies, domain, STEP_CM, growth).unwrap();
     let are_free = [start, goal].iter().all(|end| world.is_free(&Vec3::from(*end)));
-    if !are_free || ends.is_empty() || (is_caged && !is_shut()) {
+    if !are_free || ends.is_empty() {
         return None;
+    }
+    if is_caged {
+        // Which branch a planner starts on is its own affair.
+        let states: BTreeSet<Option<u64>> = ends.iter().map(|ends| scene.states(*ends)).collect();
+        scene.caged = Some(states.into_iter().reduce(|_, _| None)??);
     }
     let [start, goal] = [start, goal].map(|end| end.to_vec());
     let name = format!("rods {number}, {start:?} to {goal:?}");
@@ -134,8 +139,8 @@ impl Scene {
         solved.iter().filter_map(on_branch).collect()
     }
 
-    /// Whether steps of one joint lead from `start` to a few states only, and from none of them to `goal`.
-    fn is_shut(&self, [start, goal]: [Joints; 2]) -> bool {
+    /// To how many states steps of one joint lead from `start`, if they are few and none leads to `goal`.
+    fn states(&self, [start, goal]: [Joints; 2]) -> Option<u64> {
         let (arm, delta, taken) = (aubo(), DELTA_DEG.to_radians(), Cell::new(0));
         let hops = |state: Option<[i8; 6]>| {
             let Some(state) = state.filter(|_| taken.replace(taken.get() + 1) < MOST_STATES) else {
@@ -155,15 +160,17 @@ impl Scene {
             (0..6).flat_map(|joint| [turned(joint, -1), turned(joint, 1)]).chain([last]).flatten().collect()
         };
         let (found, _) = flood(Some([0; 6]), hops);
-        !found.contains_key(&None) && taken.get() < MOST_STATES
+        (!found.contains_key(&None) && taken.get() < MOST_STATES).then_some(found.len() as u64)
     }
 }
 
-/// A caged tip reaches nothing. Otherwise the search over joints is too wide for an oracle, and all that is known is
-/// that no path of the tip is shorter than the straight one.
+/// In a cage only the last joint turns: each state is reached once, and moves that lower no cost are not generated.
+/// Outside, the search over joints is too wide for an oracle, and all that is known is that no path of the tip is
+/// shorter than the straight one.
 pub fn truth(case: &Case, scene: &Scene) -> Truth {
     let straight = (Vec3::from(point(&case.start)) - Vec3::from(point(&case.goal))).norm();
-    Truth { optimum: (!scene.is_caged).then_some(straight), is_exact: false, reachable: None }
+    let optimum = scene.caged.is_none().then_some(straight);
+    Truth { optimum, is_exact: false, reachable: scene.caged.map(|states| (states, states - 1)) }
 }
 
 /// Why the verifier refuses `plan`'s path.

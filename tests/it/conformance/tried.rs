@@ -1,0 +1,135 @@
+//! With which settings every entry is tried, and what is not asked of which: each exception is the smallest that its
+//! entry needs, and one that nothing needs any more fails.
+
+use replan::planner::Entry;
+use replan::settings::Settings;
+use replan::space::WorldKind;
+use std::collections::BTreeSet;
+
+/// The settings that each entry is tried with.
+pub const SETTINGS: &[(&str, &[&str])] = &[
+    (
+        "astar",
+        &[
+            "weight = 0\nties = 'fifo'",
+            "weight = 1\nties = 'fifo'",
+            "weight = 1\nties = 'lifo'",
+            "weight = 1\nties = 'larger_g'",
+            "weight = 3\nties = 'fifo'",
+        ],
+    ),
+    ("astar_octile", &[""]),
+    (
+        "bidirectional",
+        &[
+            "weight = 'one'\nmeeting = 'optimal_stop'\nside = 'alternate'\nties = 'fifo'",
+            "weight = 'one'\nmeeting = 'optimal_stop'\nside = 'smaller_f'\nties = 'larger_g'",
+            "weight = 'one'\nmeeting = 'both_closed'\nside = 'smaller_f'\nties = 'lifo'",
+            "weight = 'falling'\nmeeting = 'generated_any'\nside = 'alternate'\nties = 'fifo'",
+            "weight = 'falling'\nmeeting = 'closed_by_other'\nside = 'alternate'\nties = 'fifo'",
+        ],
+    ),
+    (
+        "bspline",
+        &[
+            "control = 'steps'\nguarded = true\npoints_per_span = 2",
+            "control = 'nodes'\nguarded = true\npoints_per_span = 5",
+        ],
+    ),
+    (
+        "chaos_astar",
+        &[
+            "region_shape = 'square'\nregion_radius_cells = 2\nneighbours = 16\ndrawn = 'each_expansion'\nsource = \
+             'uniform'\ngoal_in_region = 'included'\nopen_node = 'lowered'\nties = 'fifo'",
+            "region_shape = 'square'\nregion_radius_cells = 2\nneighbours = 20\ndrawn = 'once_per_run'\nsource = \
+             'logistic'\ngoal_in_region = 'as_drawn'\nopen_node = 'never'\nties = 'lifo'",
+        ],
+    ),
+    ("delete_inflections", &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'"]),
+    ("direct", &[""]),
+    ("joint_astar", &["delta_deg = 12.0\nneighbours = 12"]),
+    (
+        "keynode_astar",
+        &[
+            "search = 'open_list'\ncluster = true\nlast_resort = true",
+            "search = 'open_list'\ncluster = false\nlast_resort = false",
+            "search = 'greedy'\ncluster = false\nlast_resort = false",
+            "search = 'literal'\ncluster = false\nlast_resort = false",
+        ],
+    ),
+    (
+        "lattice26_astar",
+        &[
+            "checked = 'segments'\nties = 'fifo'",
+            "checked = 'segments'\nties = 'larger_g'",
+            "checked = 'nodes'\nties = 'lifo'",
+        ],
+    ),
+    (
+        "lattice_astar",
+        &[
+            "neighbourhood = { shape = 'square', radius_cells = 1 }\nopen_node = 'lowered'\nties = 'fifo'",
+            "neighbourhood = { shape = 'disc', radius_cells = 2 }\nopen_node = 'lowered'\nties = 'larger_g'",
+            "neighbourhood = { shape = 'square', radius_cells = 2 }\nopen_node = 'never'\nties = 'lifo'",
+        ],
+    ),
+    (
+        "posture",
+        &[
+            "adjust = true\nsign = 'down'\nclamp = 'floor'\ndistance = 'exact'\npose = 'inverse'\ndamping = 0.02\n\
+             act_cm = 2.0\nd0_cm = 5.0\nstep_rad = 0.03\niterations = 20\nbounds_rad = [0.2, 0.2, 0.1]\n\
+             bounds = 'per_node'\nrecovery_rad = 0.02\nbranches = 'all'\ndiagnose = false",
+            "adjust = true\nsign = 'as_printed'\nclamp = 'literal'\ndistance = 'exact'\npose = 'jacobian'\n\
+             damping = 0.0\nact_cm = 2.0\nd0_cm = 5.0\nstep_rad = 0.03\niterations = 5\n\
+             bounds_rad = [0.2, 0.2, 0.1]\nbounds = 'from_start'\nrecovery_rad = 0.02\nbranches = 'clearest'\n\
+             diagnose = true",
+        ],
+    ),
+    (
+        "roadmap_astar",
+        &[
+            "samples = 40\nneighbour_mm = 30.0\ncost = 'hops'\ngoal_shot = 'never'\npath = 'parents'",
+            "samples = 40\nneighbour_mm = 30.0\ncost = 'length'\ngoal_shot = 'never'\npath = 'parents'",
+            "samples = 40\nneighbour_mm = 30.0\ncost = 'hops'\ngoal_shot = 'before_expansion'\npath = 'parents'",
+        ],
+    ),
+    ("shorten_best", &["least = 'length'", "least = 'nodes'"]),
+    ("straighten", &["last = 'as_printed'", "last = 'goal'"]),
+    ("straighten_from_previous", &["resume = 'last_joined'", "resume = 'first_refused'"]),
+    ("visibility_edges", &["spacing_cm = 2.0"]),
+];
+
+/// Planners that have nothing to show but their path.
+pub const WITHOUT_EXHIBITS: &[&str] =
+    &["astar_octile", "direct", "keynode_astar", "lattice26_astar", "visibility_edges"];
+
+/// An entry, one of its settings, and the value under which a property is not asked of it.
+pub type Exception = (&'static str, &'static str, &'static str);
+
+/// As their papers print them, these look at points only: what is between them may be refused.
+pub const LOOK_AT_POINTS: &[Exception] =
+    &[("keynode_astar", "search", "literal"), ("lattice26_astar", "checked", "nodes")];
+
+/// As printed, the walk may go round in circles until its budget is spent.
+pub const CIRCLE: &[Exception] = &[("keynode_astar", "search", "literal")];
+
+/// The tip drifts where joints follow the Jacobian, so that its path may be longer than the one it follows.
+pub const DRIFT: &[Exception] = &[("posture", "pose", "jacobian")];
+
+/// Stages that take the paths of another kind of world's planners: `posture` makes joint angles of a tip's path.
+pub const FED_BY: &[(&str, WorldKind)] = &[("posture", WorldKind::Polyhedra)];
+
+/// Stages that follow a path instead of shortening it, and have none to give where they cannot.
+pub const FOLLOWING: &[&str] = &["posture"];
+
+/// Whether an exception is made for the entry under these settings.
+pub fn is_among(exceptions: &[Exception], entry: &Entry, settings: &Settings) -> bool {
+    let is_set = |&(name, key, value): &Exception| {
+        name == entry.name && settings.table().get(key).and_then(|found| found.as_str()) == Some(value)
+    };
+    exceptions.iter().any(is_set)
+}
+
+pub fn names(exceptions: &[Exception]) -> BTreeSet<&'static str> {
+    exceptions.iter().map(|(name, ..)| *name).collect()
+}
