@@ -34,6 +34,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
         &[
             "control = 'steps'\nguarded = true\npoints_per_span = 2",
             "control = 'nodes'\nguarded = true\npoints_per_span = 5",
+            "control = 'nodes'\nguarded = false\npoints_per_span = 3",
         ],
     ),
     (
@@ -83,6 +84,9 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
              damping = 0.0\nact_cm = 2.0\nd0_cm = 5.0\nstep_rad = 0.03\niterations = 5\n\
              bounds_rad = [0.2, 0.2, 0.1]\nbounds = 'from_start'\nrecovery_rad = 0.02\nbranches = 'clearest'\n\
              diagnose = true",
+            "adjust = false\nsign = 'down'\nclamp = 'floor'\ndistance = 'printed'\npose = 'inverse'\ndamping = 0.02\n\
+             act_cm = 2.0\nd0_cm = 5.0\nstep_rad = 0.03\niterations = 5\nbounds_rad = [0.2, 0.2, 0.1]\n\
+             bounds = 'per_node'\nrecovery_rad = 0.02\nbranches = 'all'\ndiagnose = false",
         ],
     ),
     (
@@ -110,6 +114,9 @@ pub type Exception = (&'static str, &'static str, &'static str);
 pub const LOOK_AT_POINTS: &[Exception] =
     &[("keynode_astar", "search", "literal"), ("lattice26_astar", "checked", "nodes")];
 
+/// A spline that nothing guards cuts corners: what it makes of an accepted path may be refused.
+pub const CUT_IN: &[Exception] = &[("bspline", "guarded", "false")];
+
 /// As printed, the walk may go round in circles until its budget is spent.
 pub const CIRCLE: &[Exception] = &[("keynode_astar", "search", "literal")];
 
@@ -125,7 +132,8 @@ pub const FOLLOWING: &[&str] = &["posture"];
 /// Whether an exception is made for the entry under these settings.
 pub fn is_among(exceptions: &[Exception], entry: &Entry, settings: &Settings) -> bool {
     let is_set = |&(name, key, value): &Exception| {
-        name == entry.name && settings.table().get(key).and_then(|found| found.as_str()) == Some(value)
+        let text = |found: &toml::Value| found.as_str().map_or_else(|| found.to_string(), str::to_owned);
+        name == entry.name && settings.table().get(key).map(text).as_deref() == Some(value)
     };
     exceptions.iter().any(is_set)
 }
