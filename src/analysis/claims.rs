@@ -8,6 +8,7 @@ use crate::settings::SettingsError;
 use crate::study::Point;
 use crate::study::paper::{Claim, Paper};
 use crate::study::store::sha256;
+use rayon::prelude::*;
 
 /// Builds every check of every claim, so that `replan check` finds what is wrong before anything runs.
 ///
@@ -42,9 +43,11 @@ pub fn claims_hash(paper: &Paper) -> String {
 /// Those of [`validate`].
 pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     let paper = evidence.paper;
-    let claims = paper.claims.iter().map(|claim| judge_claim(evidence, claim));
+    // Gathered in order before any error is passed on, so that it is the first claim's.
+    let claims = || paper.claims.par_iter().map(|claim| judge_claim(evidence, claim)).collect::<Vec<_>>();
+    let (claims, sets) = rayon::join(claims, || together(evidence));
+    let (together, together_sets) = sets?;
     let hash = claims_hash(paper);
-    let (together, together_sets) = together(evidence)?;
     let changed = evidence.runs().filter(|run| run.manifest.claims != hash);
     Ok(Verdicts {
         paper: paper.id.clone(),
@@ -52,7 +55,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         quick: evidence.runs().any(|run| run.manifest.quick),
         reading: evidence.point.choices().clone(),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
-        claims: claims.collect::<Result<_, _>>()?,
+        claims: claims.into_iter().collect::<Result<_, _>>()?,
         together,
         together_sets,
     })

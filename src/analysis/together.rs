@@ -4,7 +4,7 @@
 //! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes one
 //! of its problems. Every choice of problems is looked at.
 
-use super::check::{Context, attained_problems};
+use super::check::{Attained, Context};
 use super::claims::checks;
 use super::evidence::Evidence;
 use super::verdict::Together;
@@ -37,8 +37,9 @@ struct Met {
 /// A settings error of a check.
 pub fn together(evidence: &Evidence<'_>) -> Result<(Vec<Together>, usize), SettingsError> {
     let mut sets = Vec::new();
+    let looked_for = looked_for(evidence)?;
     for point in points(evidence) {
-        let met = met(&evidence.under(point.clone()))?;
+        let met = met(&looked_for, &evidence.under(point.clone()));
         sets.extend(met.iter().flat_map(|(study, met)| sets_of(study, met, point.name())));
         sets.extend(held(&evidence.under(point))?);
     }
@@ -62,12 +63,20 @@ fn points(evidence: &Evidence<'_>) -> Vec<Point> {
     points
 }
 
-fn met(view: &Evidence<'_>) -> Result<BTreeMap<String, Met>, SettingsError> {
+/// The claims whose numbers are looked for in stored trials, with where.
+fn looked_for<'a>(evidence: &'a Evidence<'a>) -> Result<Vec<(&'a Claim, Attained<'a>)>, SettingsError> {
+    let (paper, point) = (evidence.paper, &evidence.point);
+    let asked = paper.claims.iter().filter_map(|claim| Some((claim, claim.checks.get("attained")?)));
+    let built = asked.map(|(claim, settings)| {
+        Attained::new(&Context { claim, settings, paper, point }).map(|check| (claim, check))
+    });
+    built.collect()
+}
+
+fn met(looked_for: &[(&Claim, Attained<'_>)], view: &Evidence<'_>) -> BTreeMap<String, Met> {
     let mut all: BTreeMap<String, Met> = BTreeMap::new();
-    for claim in &view.paper.claims {
-        let Some(settings) = claim.checks.get("attained") else { continue };
-        let context = Context { claim, settings, paper: view.paper, point: &view.point };
-        for seen in attained_problems(&context, view)? {
+    for (claim, check) in looked_for {
+        for seen in check.problems(view) {
             let (study, problem) = seen.problem;
             let met = all.entry(study).or_default();
             met.readings.insert(seen.contender.clone(), seen.reading);
@@ -75,7 +84,7 @@ fn met(view: &Evidence<'_>) -> Result<BTreeMap<String, Met>, SettingsError> {
             by_contender.entry(seen.contender).or_default().insert(claim.id.clone(), seen.is_met);
         }
     }
-    Ok(all)
+    all
 }
 
 /// One set per study that explores readings: the claims that hold there under the evidence's reading, each by the

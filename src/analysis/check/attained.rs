@@ -44,7 +44,8 @@ struct Place {
     selected: bool,
 }
 
-struct Attained<'a> {
+/// Where a claim's number is looked for.
+pub struct Attained<'a> {
     settings: Settings,
     metric: &'static Metric,
     printed: Printed,
@@ -76,23 +77,12 @@ pub struct Outcome {
     pub is_met: bool,
 }
 
-/// Every problem on which the claim of `context` was looked for, and whether it is met there.
-///
-/// # Errors
-/// A settings error of the check.
-pub fn problems(context: &Context<'_>, evidence: &Evidence<'_>) -> Result<Vec<Outcome>, SettingsError> {
-    let attained = Attained::new(context)?;
-    let outcome = |seen: Seen| Outcome {
-        is_met: attained.is_met(seen.value),
-        problem: seen.problem,
-        contender: seen.contender,
-        reading: seen.reading,
-    };
-    Ok(attained.seen(evidence).into_iter().map(outcome).collect())
-}
-
 impl<'a> Attained<'a> {
-    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+    /// The check of the claim of `context`.
+    ///
+    /// # Errors
+    /// A settings error of the check.
+    pub fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
         let mut metric = None;
         for place in &settings.r#in {
@@ -130,6 +120,17 @@ impl<'a> Attained<'a> {
         Ok(Self { settings, metric, printed, digits, given, claim, context })
     }
 
+    /// Every problem on which the claim was looked for under the evidence's reading, and whether it is met there.
+    pub fn problems(&self, evidence: &Evidence<'_>) -> Vec<Outcome> {
+        let outcome = |seen: Seen| Outcome {
+            is_met: self.is_met(seen.value),
+            problem: seen.problem,
+            contender: seen.contender,
+            reading: seen.reading,
+        };
+        self.seen(evidence).into_iter().map(outcome).collect()
+    }
+
     fn is_met(&self, value: f64) -> bool {
         self.printed.agrees(value, self.digits)
     }
@@ -137,12 +138,14 @@ impl<'a> Attained<'a> {
     fn seen(&self, evidence: &Evidence<'_>) -> Vec<Seen> {
         let mut seen = Vec::new();
         for place in &self.settings.r#in {
-            let Some(run) = evidence.run(&place.study).filter(|run| self.is_asked_of(run.study)) else {
+            let Some(run) =
+                evidence.run(&place.study).filter(|run| self.is_asked_of(run.study, &evidence.point))
+            else {
                 continue;
             };
             for group in &place.problems {
                 for contender in &self.settings.contenders {
-                    let found = self.seen_in(run, group, contender);
+                    let found = self.seen_in(run, &evidence.point, group, contender);
                     seen.extend(found.into_iter().map(|seen| Seen { selected: place.selected, ..seen }));
                 }
             }
@@ -151,9 +154,9 @@ impl<'a> Attained<'a> {
     }
 
     /// Whether the trials of `study` can run under the reading at all: it has every axis along which that departs.
-    fn is_asked_of(&self, study: &Study) -> bool {
+    fn is_asked_of(&self, study: &Study, point: &Point) -> bool {
         let departs = |reading: &Reading| {
-            let taken = self.context.point.choices().get(&reading.id);
+            let taken = point.choices().get(&reading.id);
             reading.touches_trials() && taken.is_some_and(|option| *option != reading.default)
         };
         let has = |reading: &Reading| study.readings.iter().any(|own| own.id == reading.id);
@@ -161,16 +164,16 @@ impl<'a> Attained<'a> {
     }
 
     /// The reading that the contender called `label` runs under.
-    fn reading_of(&self, study: &Study, label: &str) -> String {
-        let mut choices = self.context.point.choices().clone();
+    fn reading_of(&self, study: &Study, point: &Point, label: &str) -> String {
+        let mut choices = point.choices().clone();
         let contender = study.contenders.iter().find(|contender| contender.label == label);
         choices.extend(contender.into_iter().flat_map(|contender| contender.departs.clone()));
         let point = Point::new(&self.context.paper.readings(), &choices);
         point.expect("departures were looked up when the check was built").name().to_owned()
     }
 
-    fn seen_in(&self, run: &Run<'_>, group: &str, contender: &str) -> Vec<Seen> {
-        let reading = self.reading_of(run.study, contender);
+    fn seen_in(&self, run: &Run<'_>, point: &Point, group: &str, contender: &str) -> Vec<Seen> {
+        let reading = self.reading_of(run.study, point, contender);
         let base = self.settings.against.as_deref().unwrap_or(contender);
         let value = |pair: &Pair<'_>| {
             let other = run.value(pair.other, self.metric)?;

@@ -177,7 +177,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 mod tests;
 
 pub use across_readings::Outcome;
-pub use attained::{Outcome as Attainment, problems as attained_problems};
+pub use attained::{Attained, Outcome as Attainment};
 pub use row_among_draws::Draws;
 
 /// The draws that the claim called `id` is ranked among, as its check `row_among_draws` says.
