@@ -82,7 +82,7 @@ pub const NEAR_M: f64 = 1e-3;
 /// The nearest of them; nearer ones would be within the tolerance.
 const NEAREST_M: f64 = 2e-6;
 /// Draws per wanted configuration after which a search ends.
-const DRAWS: u32 = 400;
+const DRAWS: u32 = 40;
 /// Halvings of a bisection.
 const HALVINGS: u32 = 60;
 /// How far beyond a limit the limit questions go, and how near to it.
