@@ -7,7 +7,7 @@
 use serde::de::{DeserializeOwned, IntoDeserializer as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
 
@@ -57,10 +57,20 @@ impl SettingsError {
 }
 
 /// A TOML file held in memory with its path.
-#[derive(Debug, PartialEq)]
+///
+/// Its text stays until the program ends: tables of it are read again and again under one reading after another, and
+/// what was parsed once refers to the text.
+#[derive(Debug)]
 pub struct Document {
     path: PathBuf,
-    text: String,
+    text: &'static str,
+    parsed: OnceLock<Result<Spanned<DeValue<'static>>, toml::de::Error>>,
+}
+
+impl PartialEq for Document {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.path, self.text) == (&other.path, other.text)
+    }
 }
 
 impl Document {
@@ -80,7 +90,7 @@ impl Document {
 
     /// A document with the given text, as if read from `path`.
     pub fn new(path: &Path, text: String) -> Arc<Self> {
-        Arc::new(Self { path: path.to_owned(), text })
+        Arc::new(Self { path: path.to_owned(), text: text.leak(), parsed: OnceLock::new() })
     }
 
     /// The path it was read from.
@@ -90,7 +100,7 @@ impl Document {
 
     /// The text as read.
     pub fn text(&self) -> &str {
-        &self.text
+        self.text
     }
 
     /// The whole document as a `T`.
@@ -101,13 +111,12 @@ impl Document {
         if self.text.trim().is_empty() {
             return Err(self.error(0..0, "the file is empty; a TOML table is expected"));
         }
-        self.deserialize()
+        let value = self.parsed()?.clone();
+        T::deserialize(value.into_deserializer()).map_err(|e| self.toml_error(&e, None))
     }
 
-    fn deserialize<T: DeserializeOwned>(&self) -> Result<T, SettingsError> {
-        let whole = DeTable::parse(&self.text).map_err(|e| self.toml_error(&e, None))?;
-        let value = Spanned::new(whole.span(), DeValue::Table(whole.into_inner()));
-        T::deserialize(value.into_deserializer()).map_err(|e| self.toml_error(&e, None))
+    fn parsed(&self) -> Result<&Spanned<DeValue<'static>>, SettingsError> {
+        self.parsed.get_or_init(|| parse(self.text)).as_ref().map_err(|e| self.toml_error(e, None))
     }
 
     /// An error at the byte range `span` of this document.
@@ -207,15 +216,16 @@ impl Settings {
             Origin::Composed(origin) => {
                 // Through text, so that every type is deserialized from one kind of value only: half the code.
                 let text = toml::to_string(&self.table).expect("a table that was read can be written");
-                Document::new(Path::new(""), text)
-                    .deserialize()
-                    .map_err(|e| SettingsError::Composed { origin: origin.clone(), message: e.message() })
+                let value = parse(&text).and_then(|value| T::deserialize(value.into_deserializer()));
+                value.map_err(|e| SettingsError::Composed {
+                    origin: origin.clone(),
+                    message: in_words(e.message()),
+                })
             }
             Origin::Written { document, span } => {
-                let whole = DeTable::parse(&document.text).map_err(|e| document.toml_error(&e, None))?;
-                let value = find(Spanned::new(whole.span(), DeValue::Table(whole.into_inner())), span);
+                let value = find(document.parsed()?, span);
                 let value = value.ok_or_else(|| self.error("the table is no longer where it was read"))?;
-                T::deserialize(value.into_deserializer())
+                T::deserialize(value.clone().into_deserializer())
                     .map_err(|e| document.toml_error(&e, Some(span.clone())))
             }
         }
@@ -242,14 +252,19 @@ impl Settings {
     }
 }
 
+fn parse(text: &str) -> Result<Spanned<DeValue<'_>>, toml::de::Error> {
+    let whole = DeTable::parse(text)?;
+    Ok(Spanned::new(whole.span(), DeValue::Table(whole.into_inner())))
+}
+
 /// The table inside `value` that has exactly this span.
-fn find<'a>(value: Spanned<DeValue<'a>>, span: &Range<usize>) -> Option<Spanned<DeValue<'a>>> {
+fn find<'a, 't>(value: &'a Spanned<DeValue<'t>>, span: &Range<usize>) -> Option<&'a Spanned<DeValue<'t>>> {
     if value.span() == *span && value.get_ref().is_table() {
         return Some(value);
     }
-    match value.into_inner() {
-        DeValue::Table(table) => table.into_iter().find_map(|(_, v)| find(v, span)),
-        DeValue::Array(array) => array.into_iter().find_map(|v| find(v, span)),
+    match value.get_ref() {
+        DeValue::Table(table) => table.iter().find_map(|(_, v)| find(v, span)),
+        DeValue::Array(array) => array.iter().find_map(|v| find(v, span)),
         _ => None,
     }
 }

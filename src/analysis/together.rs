@@ -11,6 +11,7 @@ use super::verdict::Together;
 use crate::settings::SettingsError;
 use crate::study::paper::Claim;
 use crate::study::{Point, StudyError};
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How many sets are listed, the largest first.
@@ -36,14 +37,16 @@ struct Met {
 /// # Errors
 /// A settings error of a check.
 pub fn together(evidence: &Evidence<'_>) -> Result<(Vec<Together>, usize), SettingsError> {
-    let mut sets = Vec::new();
-    let looked_for = looked_for(evidence)?;
-    for point in points(evidence) {
-        let met = met(&looked_for, &evidence.under(point.clone()));
-        sets.extend(met.iter().flat_map(|(study, met)| sets_of(study, met, point.name())));
-        sets.extend(held(&evidence.under(point))?);
-    }
-    let mut sets = greatest(sets);
+    let under = |point| {
+        let view = evidence.under(point);
+        let mut sets = held(&view)?;
+        sets.extend(met(&view)?.iter().flat_map(|(study, met)| sets_of(study, met, view.point.name())));
+        Ok(sets)
+    };
+    // Gathered in order before any error is passed on, so that it is the first reading's.
+    let found: Vec<Result<Vec<Together>, SettingsError>> =
+        points(evidence).into_par_iter().map(under).collect();
+    let mut sets = greatest(found.into_iter().collect::<Result<Vec<_>, _>>()?.concat());
     let count = sets.len();
     sets.truncate(LISTED_SETS);
     Ok((sets, count))
@@ -63,20 +66,12 @@ fn points(evidence: &Evidence<'_>) -> Vec<Point> {
     points
 }
 
-/// The claims whose numbers are looked for in stored trials, with where.
-fn looked_for<'a>(evidence: &'a Evidence<'a>) -> Result<Vec<(&'a Claim, Attained<'a>)>, SettingsError> {
-    let (paper, point) = (evidence.paper, &evidence.point);
-    let asked = paper.claims.iter().filter_map(|claim| Some((claim, claim.checks.get("attained")?)));
-    let built = asked.map(|(claim, settings)| {
-        Attained::new(&Context { claim, settings, paper, point }).map(|check| (claim, check))
-    });
-    built.collect()
-}
-
-fn met(looked_for: &[(&Claim, Attained<'_>)], view: &Evidence<'_>) -> BTreeMap<String, Met> {
+fn met(view: &Evidence<'_>) -> Result<BTreeMap<String, Met>, SettingsError> {
     let mut all: BTreeMap<String, Met> = BTreeMap::new();
-    for (claim, check) in looked_for {
-        for seen in check.problems(view) {
+    for claim in &view.paper.claims {
+        let Some(settings) = claim.checks.get("attained") else { continue };
+        let context = Context { claim, settings, paper: view.paper, point: &view.point };
+        for seen in Attained::new(&context)?.problems(view) {
             let (study, problem) = seen.problem;
             let met = all.entry(study).or_default();
             met.readings.insert(seen.contender.clone(), seen.reading);
@@ -84,7 +79,7 @@ fn met(looked_for: &[(&Claim, Attained<'_>)], view: &Evidence<'_>) -> BTreeMap<S
             by_contender.entry(seen.contender).or_default().insert(claim.id.clone(), seen.is_met);
         }
     }
-    all
+    Ok(all)
 }
 
 /// One set per study that explores readings: the claims that hold there under the evidence's reading, each by the
