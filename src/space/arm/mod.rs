@@ -6,6 +6,7 @@
 //! says ([`Touch`]). A motion is a hop between two free states: its end points alone are looked at, or the joints
 //! are moved evenly from one posture to the other and both links swept ([`HopRule`]).
 
+mod hops;
 mod lattice;
 mod obstacle;
 mod sweep;
@@ -19,6 +20,7 @@ use crate::geometry::Vec2;
 use crate::geometry::planar::{Segment2, Touch};
 use crate::grid::{CornerRule, DIRECTIONS, Grid2, Moves};
 use crate::kinematics::planar_2r::{ElbowRule, Planar2r};
+use hops::Hops;
 use sweep::Sweep;
 
 /// What decides whether a hop between free states is free.
@@ -73,6 +75,8 @@ pub struct ArmWorld {
     postures: Vec<[f64; 2]>,
     clearances_cm: Vec<f64>,
     grid: Grid2,
+    /// The swept hops that were looked at; none where end points are enough.
+    hops: Hops,
 }
 
 impl ArmWorld {
@@ -92,7 +96,8 @@ impl ArmWorld {
             HopRule::Continuous | HopRule::EndPoints => 0.0,
         };
         let clearances_cm = (0..grid.cell_count()).map(clearance).collect();
-        Self { rules, obstacles, zones, postures, clearances_cm, grid }
+        let hops = Hops::new(if rules.hop == HopRule::Continuous { grid.cell_count() } else { 0 });
+        Self { rules, obstacles, zones, postures, clearances_cm, grid, hops }
     }
 
     /// Everything but the obstacles.
@@ -132,7 +137,7 @@ impl ArmWorld {
         }
         match self.rules.hop {
             HopRule::EndPoints => true,
-            HopRule::Continuous => self.is_swept_free(from, to),
+            HopRule::Continuous => self.hops.is_free(from, [dx, dy], || self.is_swept_free(from, to)),
         }
     }
 
