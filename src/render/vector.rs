@@ -1,5 +1,6 @@
-//! The two files of a figure: SVG as drawn, and PNG rasterised from that very SVG at 300 dpi.
+//! The two files of a figure: SVG as drawn, and PNG rasterised from that very SVG at 220 dpi.
 //!
+//! Print takes the SVG; screens need no more pixels, and pictures are committed.
 //! Both carry the command that made them and the hash of the spec behind them. The PNG is indexed when
 //! 256 colours describe it to within [`PALETTE_TOLERANCE`] levels, else plain 8-bit RGB.
 
@@ -11,7 +12,7 @@ use resvg::usvg;
 use std::collections::BTreeMap;
 
 /// Pixels in an inch of PNG.
-pub const DPI: f64 = 300.0;
+pub const DPI: f64 = 220.0;
 
 /// Largest change of a colour level that an indexed PNG may make.
 pub const PALETTE_TOLERANCE: u8 = 10;

@@ -63,11 +63,11 @@ fn both_files_tell_command_and_spec() {
 }
 
 #[test]
-fn a_single_column_is_85_mm_wide_and_1004_pixels() {
+fn a_single_column_is_85_mm_wide_and_736_pixels() {
     let figure = drawn();
     assert!(figure.svg.contains("width=\"85mm\""), "{}", &figure.svg[..300]);
     let (pixels, width) = pixels(&figure.png);
-    assert_eq!((width, pixels.len() / width), (1004, 417));
+    assert_eq!((width, pixels.len() / width), (736, 306));
 }
 
 #[test]
