@@ -172,6 +172,14 @@ impl How {
         }
     }
 
+    /// That every study has the readings asked for: before anything is written.
+    ///
+    /// # Errors
+    /// Those of [`points`](Self::points).
+    pub fn check_points(&self, paper: &Paper) -> Result<(), Failure> {
+        paper.studies.iter().try_for_each(|study| self.points(study).map(|_| ()))
+    }
+
     /// The reading that claims are judged under, over `readings`.
     ///
     /// # Errors

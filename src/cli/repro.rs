@@ -34,6 +34,7 @@ impl Repro {
             return trial::run(&paper, &places, &self.how, name);
         }
         render::check_report(&paper, &places)?;
+        self.how.check_points(&paper)?;
         let (lock, stop) = (Lock::take(&places.runs)?, stop_flag());
         for report in run_studies(&paper, &places, &self.how, &lock, self.fresh)? {
             say!("{}", summary(&report, false));

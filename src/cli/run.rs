@@ -31,6 +31,7 @@ impl Run {
         MadeBy::here();
         let places = Places::find(&self.which, &self.how.variant())?;
         let paper = load(&places, &self.how)?;
+        self.how.check_points(&paper)?;
         let lock = Lock::take(&places.runs)?;
         for report in run_studies(&paper, &places, &self.how, &lock, self.fresh)? {
             say!("{}", summary(&report, self.why));

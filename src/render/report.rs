@@ -15,8 +15,9 @@ use std::path::Path;
 
 const OPENING: &str = "# What the papers claim and what we found
 
-Every chapter is written by `replan repro <paper>` from its specs and stored runs, and stands between markers; do not
-edit it by hand. `replan render <paper> --check` says whether it is current. How to read a verdict stands in README.md.
+Every chapter stands between markers and is written by a command; do not edit it by hand. `cargo run -- repro <paper>` writes a
+paper's chapter, and `cargo run -- render <paper> --check` says whether it is current; `cargo run -- crosscheck <paper>` writes
+what MuJoCo says of it, and `crosscheck --check` compares. How to read a verdict stands in README.md.
 ";
 
 /// The report at `path`; empty if there is none.

@@ -108,6 +108,7 @@ fn papers_and_flags_that_do_not_exist_are_told() {
         assert!(said.err.contains(complaint), "{arguments:?} is answered: {}", said.err);
     }
     assert!(!bench.at("mini/out").exists(), "a refused command wrote something");
+    assert!(!bench.at("target").exists(), "a refused command wrote below target");
 }
 
 #[test]

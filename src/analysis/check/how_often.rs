@@ -3,6 +3,7 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
+use crate::analysis::stats::paired::EQUAL;
 use crate::analysis::stats::proportion::wilson;
 use crate::analysis::verdict::Finding;
 use serde::Deserialize;
@@ -46,9 +47,6 @@ struct HowOften {
     settings: Settings,
     metric: &'static Metric,
 }
-
-/// Values closer than this differ by the order of a sum alone.
-const EQUAL: f64 = 1e-9;
 
 impl HowOften {
     fn said(&self, set: &SetSpec, evidence: &Evidence<'_>) -> String {

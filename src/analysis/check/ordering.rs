@@ -4,7 +4,7 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::stats::bootstrap::Plan;
-use crate::analysis::stats::paired::{mean_difference, signs};
+use crate::analysis::stats::paired::{EQUAL, mean_difference, signs};
 use crate::analysis::stats::proportion::{units_for_margin, wilson};
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
@@ -125,7 +125,7 @@ impl Check for Ordering<'_> {
             signs.higher,
             pairs.len()
         ));
-        finding.trial = found.iter().find(|m| m.values.1 > m.values.0).map(|m| m.trial.clone());
+        finding.trial = found.iter().find(|m| m.values.1 > m.values.0 + EQUAL).map(|m| m.trial.clone());
         match self.settings.on {
             On::Every => self.on_every(&pairs, &mut finding),
             On::Average => self.on_average(&pairs, &mut finding),

@@ -2,6 +2,9 @@
 
 use super::bootstrap::{self, Estimate, Plan};
 
+/// Values that differ by no more are equal: sums of the same steps in another order differ in their last digits.
+pub const EQUAL: f64 = 1e-9;
+
 /// How many pairs went which way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Signs {
@@ -19,8 +22,9 @@ pub struct Signs {
 /// If a value is NaN.
 pub fn signs(pairs: &[(f64, f64)]) -> Signs {
     assert!(pairs.iter().all(|(a, b)| !a.is_nan() && !b.is_nan()), "NaN in a pair");
-    let count = |is: fn(f64, f64) -> bool| pairs.iter().filter(|&&(a, b)| is(a, b)).count();
-    Signs { lower: count(|a, b| b < a), equal: count(|a, b| a == b), higher: count(|a, b| b > a) }
+    let lower = pairs.iter().filter(|(a, b)| *b < a - EQUAL).count();
+    let higher = pairs.iter().filter(|(a, b)| *b > a + EQUAL).count();
+    Signs { lower, equal: pairs.len() - lower - higher, higher }
 }
 
 /// The mean of `second - first`, bootstrapped over pairs; none below two pairs.
@@ -83,6 +87,12 @@ mod tests {
     fn the_ratio_weighs_units_by_their_size() {
         let found = ratio_of_means(&[(1.0, 2.0), (9.0, 3.0)], PLAN).unwrap();
         assert_eq!(found.value, 0.5);
+    }
+
+    #[test]
+    fn one_sum_in_two_orders_is_equal() {
+        let pairs = [(15.485_281_374_238_573, 15.485_281_374_238_571), (1.0, 1.0 + 1e-8), (1.0, 1.0 - 1e-8)];
+        assert_eq!(signs(&pairs), Signs { lower: 1, equal: 1, higher: 1 });
     }
 
     #[test]

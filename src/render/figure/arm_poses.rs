@@ -27,8 +27,11 @@ const PLOT_PT: f64 = 220.0;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ArmPoses {
-    /// The problem group; its first draw is shown.
+    /// The problem group; its first draw is shown, or the first that only the first contender solves.
     problem: String,
+    /// Whether it is the latter, if there is one whose arm is stored.
+    #[serde(default)]
+    first_alone: bool,
     /// One row each.
     contenders: Vec<String>,
     /// One panel each.
@@ -74,9 +77,28 @@ impl Kind for ArmPoses {
 }
 
 impl ArmPoses {
+    /// The first draw with a stored arm that only the first contender solves.
+    fn chosen(&self, scene: &Scene<'_>) -> Option<u32> {
+        let rows = |contender: &String| scene.run.rows(&self.problem, contender).into_iter();
+        let (first, others) = self.contenders.split_first()?;
+        let fails = |replicate: u32, other: &String| {
+            rows(other).any(|row| row.replicate == replicate && row.status != Status::Solved)
+        };
+        let is_chosen = |row: &&Row| {
+            row.status == Status::Solved
+                && scene.run.exhibit(&row.trial, "rods").is_some()
+                && others.iter().all(|other| fails(row.replicate, other))
+        };
+        rows(first).find(is_chosen).map(|row| row.replicate)
+    }
+
     fn row<'a>(&self, scene: &'a Scene<'_>, contender: &str) -> Result<&'a Row, RenderError> {
         let rows = scene.run.rows(&self.problem, contender);
-        let is_asked = |row: &&Row| self.sweep.as_ref().is_none_or(|sweep| row.sweep == *sweep);
+        let chosen = if self.first_alone { self.chosen(scene) } else { None };
+        let is_asked = |row: &&Row| {
+            self.sweep.as_ref().is_none_or(|sweep| row.sweep == *sweep)
+                && chosen.is_none_or(|replicate| row.replicate == replicate)
+        };
         rows.into_iter().find(is_asked).ok_or_else(|| RenderError::NotStored {
             what: format!("a trial of `{contender}` on `{}`", self.problem),
         })
