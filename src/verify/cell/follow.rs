@@ -28,7 +28,7 @@ pub struct Leg {
     pub duration_s: f64,
     /// The configuration in which the arm arrives.
     pub end: Angles,
-    /// Where the arm is every [`STOP_S`], both ends included.
+    /// Where the arm is every `STOP_S`, both ends included.
     pub stops: Vec<Stop>,
 }
 
