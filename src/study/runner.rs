@@ -252,7 +252,7 @@ impl<'a> Field<'a> {
     ///
     /// They time the first draws of every group under the first point, every contender and sweep. A machine that gets
     /// slower or faster meanwhile must not favour anyone: contenders take turns within each repeat, forwards and backwards,
-    /// and the repeats are spread over [`PASSES`] passes through the whole sample.
+    /// and the repeats are spread over several passes through the whole sample.
     ///
     /// # Errors
     /// [`StudyError::Interrupted`] if `stop` was set: half a sample would favour the first groups.
