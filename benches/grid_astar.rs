@@ -4,7 +4,7 @@
 //! named by `REPLAN_BENCH_MAP`. In each group every entry answers the same queries, drawn among cells that are
 //! joined, and all are held to equal costs before anything is timed:
 //!
-//! - `astar_octile`: [`OctileAstar`], which studies call;
+//! - `astar_octile`: the planner of that name as studies call it, from request to plan, on a map it has seen before;
 //! - `general`: the kernel it specialises, over the same buckets;
 //! - `pathfinding_u32`: the crate with `u32` nodes and costs and successors from legal-move masks, unallocated;
 //! - `pathfinding_typical`: the crate with `(x, y)` nodes, `f64` costs and a `Vec` of successors.
@@ -13,13 +13,13 @@ use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, meas
 use pathfinding::{num_traits::Zero, prelude::astar};
 use rand::RngExt as _;
 use replan::grid::{
-    Components, CornerRule, DIRECTIONS, Grid2, Moves, components, independent_cells, read_movingai_map,
-    rectangles,
+    Components, CornerRule, DIRECTIONS, Grid2, components, independent_cells, read_movingai_map, rectangles,
 };
-use replan::search::{
-    Buckets, Cost, GridGraph, Octile, OctileAstar, Offer, Rules, ScaledOctile, Search, Terms, Update,
-};
+use replan::planner::{self, Build, Planner, Request};
+use replan::search::{Best, Buckets, GridGraph, Octile, Rules, ScaledOctile, Search, Terms, Update};
 use replan::seed;
+use replan::settings::Settings;
+use replan::space::{LatticeWorld, World};
 use std::{cmp::Ordering, hint::black_box, ops::Add, path::Path, time::Duration};
 
 /// An `f64` in total order, as the crate asks of costs.
@@ -59,16 +59,18 @@ impl Zero for Total {
 }
 
 /// A map and queries on it; each solver returns the sum of their costs, in units of 985 and 1393 or in cells.
-struct World {
-    grid: Grid2,
-    moves: Moves,
+struct Posed {
+    world: World,
     queries: Vec<[u32; 2]>,
+    /// The queries' ends as planners take them.
+    ends: Vec<[Vec<f64>; 2]>,
 }
 
-impl World {
+impl Posed {
     fn new(grid: Grid2, query_count: usize) -> Self {
-        let moves = Moves::new(&grid, CornerRule::ForbidAny);
-        let parts: Components = components(&grid, &moves);
+        let lattice = LatticeWorld::new(grid, CornerRule::ForbidAny);
+        let grid = lattice.grid();
+        let parts: Components = components(grid, lattice.moves());
         let mut stream = seed::stream(30);
         let mut queries = Vec::new();
         while queries.len() < query_count {
@@ -77,18 +79,29 @@ impl World {
                 queries.push(ends);
             }
         }
-        Self { grid, moves, queries }
+        let point = |cell: u32| grid.xy(cell).map(f64::from).to_vec();
+        let ends = queries.iter().map(|ends| ends.map(point)).collect();
+        Self { world: World::Lattice(lattice), queries, ends }
     }
 
-    fn octile(&self, search: &mut OctileAstar) -> u64 {
-        let solve = |&[start, goal]: &[u32; 2]| search.solve(start, goal, u64::MAX);
-        self.queries.iter().map(solve).map(|report| scaled(report.outcome.route().unwrap().cost)).sum()
+    fn lattice(&self) -> &LatticeWorld {
+        self.world.as_lattice().unwrap()
     }
 
-    fn general(&self, search: &mut Search<Octile, Buckets<Offer>>) -> u64 {
+    fn octile(&self, planner: &dyn Planner) -> f64 {
+        let plan = |[start, goal]: &[Vec<f64>; 2]| {
+            let request =
+                Request { world: &self.world, start, goal, expansions: u64::MAX, seed: 0, trace: false };
+            planner.plan(&request).unwrap().cost.unwrap()
+        };
+        self.ends.iter().map(plan).sum()
+    }
+
+    fn general(&self, search: &mut Search<Octile, Buckets<Best>>) -> u64 {
         let mut solve = |&[start, goal]: &[u32; 2]| {
-            let (graph, observer, update) = (&mut GridGraph::new(&self.moves), &mut (), Update::default());
-            let estimate = &ScaledOctile::new(self.grid.width(), Some(goal));
+            let (graph, observer, update) =
+                (&mut GridGraph::new(self.lattice().moves()), &mut (), Update::default());
+            let estimate = &ScaledOctile::new(self.lattice().grid().width(), Some(goal));
             let terms = Terms { graph, estimate, observer, update };
             let report = search.run(terms, start, |node| node == goal, Rules::default(), &mut ());
             scaled(report.outcome.route().unwrap().cost)
@@ -97,10 +110,9 @@ impl World {
     }
 
     fn crate_best(&self) -> u64 {
-        let width = self.grid.width();
-        let successors = |&cell: &u32| {
-            self.moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393 } else { 985 }))
-        };
+        let (width, moves) = (self.lattice().grid().width(), self.lattice().moves());
+        let successors =
+            |&cell: &u32| moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393 } else { 985 }));
         let solve = |&[start, goal]: &[u32; 2]| {
             let [x, y] = [goal % width, goal / width];
             let h = |&cell: &u32| {
@@ -114,7 +126,7 @@ impl World {
     }
 
     fn crate_typical(&self) -> f64 {
-        let grid = &self.grid;
+        let grid = self.lattice().grid();
         let successors = |&(x, y): &(i32, i32)| {
             let mut found = Vec::new();
             for [dx, dy] in DIRECTIONS {
@@ -147,21 +159,24 @@ fn scaled(cost: Octile) -> u64 {
     u64::from(cost.straight) * 985 + u64::from(cost.diagonal) * 1393
 }
 
-fn compare(group: &mut BenchmarkGroup<'_, WallTime>, world: &World) {
-    let mut fast = OctileAstar::new(&world.moves).unwrap();
-    let mut general = Search::new(Buckets::default());
-    let truth = world.octile(&mut fast);
-    assert_eq!([world.general(&mut general), world.crate_best()], [truth; 2]);
-    let exact: f64 = world
-        .queries
-        .iter()
-        .map(|&[start, goal]| fast.solve(start, goal, u64::MAX).outcome.route().unwrap().cost.value())
-        .sum();
-    assert!((exact - world.crate_typical()).abs() < 1e-6 * exact);
-    group.bench_function("astar_octile", |bencher| bencher.iter(|| world.octile(&mut fast)));
-    group.bench_function("general", |bencher| bencher.iter(|| world.general(&mut general)));
-    group.bench_function("pathfinding_u32", |bencher| bencher.iter(|| world.crate_best()));
-    group.bench_function("pathfinding_typical", |bencher| bencher.iter(|| world.crate_typical()));
+fn planner() -> Box<dyn Planner> {
+    let Build::Planner(build) = planner::find("astar_octile").unwrap().build else {
+        panic!("it is a planner")
+    };
+    build(&Settings::composed("a bench", toml::Table::new())).unwrap()
+}
+
+fn compare(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {
+    let (planner, mut general) = (planner(), Search::new(Buckets::default()));
+    assert_eq!(posed.general(&mut general), posed.crate_best());
+    let exact = posed.octile(planner.as_ref());
+    assert!((exact - posed.crate_typical()).abs() < 1e-6 * exact);
+    let in_units = posed.crate_best() as f64 / f64::from(ScaledOctile::STRAIGHT);
+    assert!((exact - in_units).abs() < 1e-5 * exact, "1393 / 985 is √2 to a millionth");
+    group.bench_function("astar_octile", |bencher| bencher.iter(|| posed.octile(planner.as_ref())));
+    group.bench_function("general", |bencher| bencher.iter(|| posed.general(&mut general)));
+    group.bench_function("pathfinding_u32", |bencher| bencher.iter(|| posed.crate_best()));
+    group.bench_function("pathfinding_typical", |bencher| bencher.iter(|| posed.crate_typical()));
 }
 
 fn grid_astar(criterion: &mut Criterion) {
@@ -183,7 +198,7 @@ fn grid_astar(criterion: &mut Criterion) {
             .sample_size(10)
             .warm_up_time(Duration::from_millis(500))
             .measurement_time(Duration::from_secs(2));
-        compare(&mut group, &World::new(grid, query_count));
+        compare(&mut group, &Posed::new(grid, query_count));
         group.finish();
     }
 }

@@ -66,10 +66,17 @@ impl Grid2 {
         self.width * self.height
     }
 
+    /// Whether column `x`, row `y` is inside the grid.
+    #[inline]
+    pub fn holds(&self, x: i32, y: i32) -> bool {
+        // A negative number is far beyond any side once its sign is read as a digit.
+        (x as u32) < self.width && (y as u32) < self.height
+    }
+
     /// The cell at column `x` and row `y`, or `None` outside the grid.
+    #[inline]
     pub fn cell(&self, x: i32, y: i32) -> Option<u32> {
-        let (x, y) = (u32::try_from(x).ok()?, u32::try_from(y).ok()?);
-        (x < self.width && y < self.height).then(|| y * self.width + x)
+        self.holds(x, y).then(|| y as u32 * self.width + x as u32)
     }
 
     /// Column and row of `cell`.

@@ -1,5 +1,6 @@
 //! A* on a lattice with the Euclidean heuristic.
 
+use super::idle::Idle;
 use super::lattice::{self, COLUMNS, Posed, TiesSetting, UPDATE};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
@@ -37,6 +38,8 @@ struct Astar {
     weight: Weight,
     /// The order among equal f.
     ties: TiesSetting,
+    #[serde(skip)]
+    idle: Idle<Search<Octile, Heap>>,
 }
 
 #[derive(Deserialize, Clone, Copy, PartialEq)]
@@ -83,7 +86,10 @@ impl Astar {
             update: UPDATE,
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
-        Search::new(Heap::new(self.ties.into())).run(terms, posed.start, |cell| cell == goal, rules, &mut ())
+        let mut search = self.idle.any(|| Search::new(Heap::new(self.ties.into())));
+        let report = search.run(terms, posed.start, |cell| cell == goal, rules, &mut ());
+        self.idle.keep(search);
+        report
     }
 }
 

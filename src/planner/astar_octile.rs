@@ -1,10 +1,13 @@
 //! The fast A* for 8-connected grids with the octile heuristic.
 
+use super::idle::Idle;
 use super::lattice::{self, COLUMNS, Posed};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::grid::Moves;
 use crate::search::OctileAstar;
 use crate::space::WorldKind;
 use serde::Deserialize;
+use std::sync::Arc;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -21,13 +24,29 @@ pub static ENTRY: Entry = Entry {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct AstarOctile {}
+struct AstarOctile {
+    #[serde(skip)]
+    idle: Idle<Built>,
+}
+
+/// A search with the moves that it was built for, which takes longer than many a query on them.
+struct Built {
+    moves: Arc<Moves>,
+    search: OctileAstar,
+}
 
 impl Planner for AstarOctile {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let Posed { world, start, goal } = Posed::new(request)?;
-        let mut search = OctileAstar::new(world.moves()).map_err(|e| Invalid(e.to_string()))?;
-        let report = search.solve(start, goal, request.expansions);
+        let mut built = match self.idle.take(|built| Arc::ptr_eq(&built.moves, world.moves())) {
+            Some(built) => built,
+            None => Built {
+                moves: Arc::clone(world.moves()),
+                search: OctileAstar::new(world.moves()).map_err(|e| Invalid(e.to_string()))?,
+            },
+        };
+        let report = built.search.solve(start, goal, request.expansions);
+        self.idle.keep(built);
         Ok(lattice::plan(world.grid(), &report.outcome, &[report.counters], Vec::new()))
     }
 

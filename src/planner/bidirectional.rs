@@ -1,5 +1,6 @@
 //! Bidirectional A* on a lattice, with Zhang's falling weight or a constant one.
 
+use super::idle::Idle;
 use super::lattice::{self, COLUMNS, Posed, TiesSetting, UPDATE};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
@@ -33,7 +34,11 @@ struct TwoSided {
     side: SideSetting,
     /// The order among equal f.
     ties: TiesSetting,
+    #[serde(skip)]
+    idle: Idle<Memory>,
 }
+
+type Memory = Bidirectional<Octile, Heap>;
 
 #[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
@@ -80,18 +85,17 @@ impl TwoSided {
 
     fn run(
         &self,
+        memory: &mut Memory,
         posed: &Posed<'_>,
         combine: impl Fn(f64, f64) -> f64 + Copy,
         expansions: u64,
-    ) -> (BidirectionalReport<Octile>, [Vec<u32>; 2]) {
+    ) -> BidirectionalReport<Octile> {
         let grid = posed.world.grid();
         let estimates =
             [posed.goal, posed.start].map(|target| Combined { h: euclidean_to(grid, target), combine });
-        let mut search = Bidirectional::new(Heap::new(self.ties.into()));
         let mut graph = GridGraph::new(posed.world.moves());
         let ends = [posed.start, posed.goal];
-        let report = search.run(&mut graph, &estimates, &mut [(), ()], ends, self.rules(expansions));
-        (report, [0, 1].map(|side| search.opened(side).to_vec()))
+        memory.run(&mut graph, &estimates, &mut [(), ()], ends, self.rules(expansions))
     }
 }
 
@@ -99,20 +103,22 @@ impl Planner for TwoSided {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
         let grid = posed.world.grid();
-        let (report, opened) = match self.weight {
-            Weight::One => self.run(&posed, sum, request.expansions),
+        let mut memory = self.idle.any(|| Bidirectional::new(Heap::new(self.ties.into())));
+        let report = match self.weight {
+            Weight::One => self.run(&mut memory, &posed, sum, request.expansions),
             Weight::Falling => {
                 let apart = euclidean_to(grid, posed.goal)(posed.start);
                 let combine = falling(apart);
-                self.run(&posed, &combine, request.expansions)
+                self.run(&mut memory, &posed, &combine, request.expansions)
             }
         };
         let mut exhibits = Vec::new();
         if request.trace {
-            exhibits.push(lattice::cells(grid, "opened_start_side", &opened[0]));
-            exhibits.push(lattice::cells(grid, "opened_goal_side", &opened[1]));
+            exhibits.push(lattice::cells(grid, "opened_start_side", memory.opened(0)));
+            exhibits.push(lattice::cells(grid, "opened_goal_side", memory.opened(1)));
             exhibits.extend(report.meeting.map(|cell| lattice::cells(grid, "meeting", &[cell])));
         }
+        self.idle.keep(memory);
         Ok(lattice::plan(grid, &report.outcome, &report.sides, exhibits))
     }
 

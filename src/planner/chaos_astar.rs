@@ -1,7 +1,8 @@
 //! A* over the tip positions of a planar arm that looks at a random part of a neighbourhood.
 
+use super::idle::Idle;
 use super::lattice::TiesSetting;
-use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting, RegionShape};
+use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting, RegionShape, TipSearch};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::grid::Offsets;
 use crate::search::Graph;
@@ -29,7 +30,7 @@ pub static ENTRY: Entry = Entry {
             );
             return Err(settings.error(message));
         }
-        Ok(Box::new(Ready { read, offsets }))
+        Ok(Box::new(Ready { read, offsets, idle: Idle::default() }))
     }),
 };
 
@@ -78,6 +79,7 @@ enum GoalInRegion {
 struct Ready {
     read: ChaosAstar,
     offsets: Offsets,
+    idle: Idle<TipSearch>,
 }
 
 /// Numbers in (0, 1).
@@ -176,7 +178,7 @@ impl Graph for ChaosGraph<'_> {
         self.choose([goal[0] - x, goal[1] - y]);
         for (&[dx, dy], _) in self.region.iter().zip(&self.is_tried).filter(|(_, is_tried)| **is_tried) {
             let Some(to) = grid.cell(x + dx, y + dy) else { continue };
-            if grid.is_free(to) && self.world.may_hop(node, to) {
+            if grid.is_free(to) && self.world.may_step(node, [dx, dy]) {
                 visit(to, step_cm * f64::from(dx * dx + dy * dy).sqrt());
             }
         }
@@ -196,8 +198,10 @@ impl Planner for Ready {
             is_tried: vec![false; self.offsets.steps().len()],
             first: Vec::new(),
         };
-        let (ties, update) = (self.read.ties, self.read.open_node.into());
-        let (report, scans) = posed.search(&mut graph, ties, update, request.expansions);
+        let mut search = self.idle.any(|| tips::search(self.read.ties));
+        let (report, scans) =
+            posed.search(&mut search, &mut graph, self.read.open_node.into(), request.expansions);
+        self.idle.keep(search);
         let mut plan = posed.plan(&report, scans, request.trace);
         if request.trace {
             plan.exhibits.push(tips::steps("region", self.offsets.steps()));

@@ -1,5 +1,6 @@
 //! A* on the cubic lattice with 26 neighbours, among polyhedra.
 
+use super::idle::Idle;
 use super::lattice::{COLUMNS, TiesSetting, UPDATE};
 use super::polyhedra::{Posed, plan};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
@@ -8,7 +9,6 @@ use crate::grid::STEPS_26;
 use crate::search::{Combined, Graph, Heap, Outcome, Report, Rules, Search, Stop, Terms, sum};
 use crate::space::{PolyhedraWorld, WorldKind};
 use serde::Deserialize;
-use std::sync::Mutex;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -19,7 +19,7 @@ pub static ENTRY: Entry = Entry {
     columns: COLUMNS,
     build: Build::Planner(|settings| {
         let read: Lattice26 = settings.read()?;
-        Ok(Box::new(Pooled { settings: read, idle: Mutex::new(Vec::new()) }))
+        Ok(Box::new(read))
     }),
 };
 
@@ -40,16 +40,12 @@ struct Lattice26 {
     checked: Checked,
     /// The order among equal f.
     ties: TiesSetting,
+    #[serde(skip)]
+    idle: Idle<LatticeSearch>,
 }
 
 /// Memory that serves one query after another.
 pub(super) type LatticeSearch = Search<f64, Heap>;
-
-/// The planner with the memory of searches that are not at work; a search forgets only what it touched.
-struct Pooled {
-    settings: Lattice26,
-    idle: Mutex<Vec<LatticeSearch>>,
-}
 
 /// The free nodes with their 26 neighbours.
 struct Neighbours<'a> {
@@ -144,15 +140,14 @@ fn entrance(world: &PolyhedraWorld, start: &Vec3) -> Option<u32> {
     })
 }
 
-impl Planner for Pooled {
+impl Planner for Lattice26 {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let idle = self.idle.lock().expect("no thread panics while it takes a search").pop();
-        let mut memory = idle.unwrap_or_else(|| Search::new(Heap::new(self.settings.ties.into())));
-        let found = search(&posed, self.settings.checked, &mut memory, request.expansions)?;
-        let plan = plan(found.ending, &found.points, counts(&found.report));
-        self.idle.lock().expect("no thread panics while it returns a search").push(memory);
-        Ok(plan)
+        let mut memory = self.idle.any(|| Search::new(Heap::new(self.ties.into())));
+        let found = search(&posed, self.checked, &mut memory, request.expansions);
+        self.idle.keep(memory);
+        let found = found?;
+        Ok(plan(found.ending, &found.points, counts(&found.report)))
     }
 
     fn is_optimal(&self) -> bool {

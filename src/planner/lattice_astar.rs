@@ -1,7 +1,8 @@
 //! A* over the tip positions of a planar arm, with a neighbourhood of any size.
 
+use super::idle::Idle;
 use super::lattice::TiesSetting;
-use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting};
+use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting, TipSearch};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::grid::Offsets;
 use crate::search::LatticeGraph;
@@ -18,7 +19,7 @@ pub static ENTRY: Entry = Entry {
     build: Build::Planner(|settings| {
         let read: LatticeAstar = settings.read()?;
         let offsets = read.neighbourhood.offsets(settings)?;
-        Ok(Box::new(Ready { read, offsets }))
+        Ok(Box::new(Ready { read, offsets, idle: Idle::default() }))
     }),
 };
 
@@ -36,6 +37,7 @@ struct LatticeAstar {
 struct Ready {
     read: LatticeAstar,
     offsets: Offsets,
+    idle: Idle<TipSearch>,
 }
 
 impl Planner for Ready {
@@ -43,9 +45,11 @@ impl Planner for Ready {
         let posed = Posed::new(request)?;
         let (world, step_cm) = (posed.world, posed.world.rules().lattice.step_cm());
         let mut graph =
-            LatticeGraph::new(world.grid(), &self.offsets, step_cm, |from, to| world.may_hop(from, to));
+            LatticeGraph::new(world.grid(), &self.offsets, step_cm, |from, by| world.may_step(from, by));
         let LatticeAstar { ties, open_node, .. } = self.read;
-        let (report, scans) = posed.search(&mut graph, ties, open_node.into(), request.expansions);
+        let mut search = self.idle.any(|| tips::search(ties));
+        let (report, scans) = posed.search(&mut search, &mut graph, open_node.into(), request.expansions);
+        self.idle.keep(search);
         let mut plan = posed.plan(&report, scans, request.trace);
         if request.trace {
             plan.exhibits.push(tips::steps("region", self.offsets.steps()));

@@ -12,6 +12,7 @@ mod chaos_astar;
 mod delete_inflections;
 mod direct;
 mod entry;
+mod idle;
 mod joint_astar;
 mod key_nodes;
 mod keynode_astar;

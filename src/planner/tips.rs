@@ -74,6 +74,14 @@ impl From<OpenSetting> for Update {
     }
 }
 
+/// A search over tip positions; its memory serves one query after another.
+pub(super) type TipSearch = Search<f64, Heap>;
+
+/// A search that takes open nodes of equal f in the order of `ties`.
+pub(super) fn search(ties: TiesSetting) -> TipSearch {
+    Search::new(Heap::new(ties.into()))
+}
+
 /// The workspace of a request with its start and goal cells.
 pub(super) struct Posed<'a> {
     pub(super) world: &'a ArmWorld,
@@ -93,8 +101,8 @@ impl<'a> Posed<'a> {
     /// A* with f = g + Euclidean distance, both in centimetres; ends when the goal is popped.
     pub(super) fn search(
         &self,
+        search: &mut TipSearch,
         graph: &mut impl Graph<Cost = f64>,
-        ties: TiesSetting,
         update: Update,
         expansions: u64,
     ) -> (Report<f64>, ListScans) {
@@ -105,8 +113,7 @@ impl<'a> Posed<'a> {
         let terms = Terms { graph, estimate: &estimate, observer: &mut scans, update };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
         let is_goal = |cell| cell == self.goal;
-        let report = Search::new(Heap::new(ties.into())).run(terms, self.start, is_goal, rules, &mut ());
-        (report, scans)
+        (search.run(terms, self.start, is_goal, rules, &mut ()), scans)
     }
 
     /// The plan that a search's report amounts to; with `trace`, the arm's stations along its path.

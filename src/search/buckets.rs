@@ -1,6 +1,6 @@
 //! A circular bucket queue for integer keys that lie close together.
 
-use super::frontier::{Frontier, Offer};
+use super::frontier::{Best, Frontier, Offer};
 
 const BUCKETS: usize = 4096;
 const NONE: u32 = u32::MAX;
@@ -116,22 +116,22 @@ impl<T: Copy> Buckets<T> {
     }
 }
 
-impl Frontier for Buckets<Offer> {
+impl Frontier for Buckets<Best> {
     fn clear(&mut self) {
         Buckets::clear(self);
     }
 
-    fn push(&mut self, offer: Offer) {
-        Buckets::push(self, offer.f, offer);
+    fn push(&mut self, Offer { f, stamp, node, .. }: Offer) {
+        Buckets::push(self, f, Best { f, stamp, node });
     }
 
-    fn first(&self) -> Option<Offer> {
+    fn first(&self) -> Option<Best> {
         let slot = self.first_key()? as usize % BUCKETS;
         Some(self.links[self.heads[slot] as usize].item)
     }
 
-    fn pop(&mut self) -> Option<Offer> {
-        Buckets::pop(self).map(|(_, offer)| offer)
+    fn pop(&mut self) -> Option<Best> {
+        Buckets::pop(self).map(|(_, best)| best)
     }
 }
 

@@ -16,6 +16,11 @@ pub trait Cost: Copy + Debug {
     /// The order of the two values, exact for exact costs.
     fn compare(self, other: Self) -> Ordering;
 
+    /// Whether this cost is below `other`.
+    fn is_below(self, other: Self) -> bool {
+        self.compare(other).is_lt()
+    }
+
     /// The cost as a number.
     fn value(self) -> f64;
 }
@@ -29,6 +34,10 @@ impl Cost for f64 {
 
     fn compare(self, other: Self) -> Ordering {
         self.total_cmp(&other)
+    }
+
+    fn is_below(self, other: Self) -> bool {
+        self < other
     }
 
     fn value(self) -> f64 {
@@ -85,8 +94,8 @@ impl Cost for Octile {
 /// `value` in units of 1e-9, rounded to the nearest: the key by which floating-point estimates are ordered.
 /// Negative values and NaN give 0.
 pub fn quantised(value: f64) -> u64 {
-    // A cast truncates; `round` would be a call on processors without an instruction for it.
-    (value * 1e9 + 0.5) as u64
+    // A cast truncates; `round` would be a call on processors without an instruction for it, and a cast to u64 takes two.
+    ((value * 1e9 + 0.5) as i64).max(0) as u64
 }
 
 #[cfg(test)]

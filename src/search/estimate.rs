@@ -6,8 +6,11 @@ use std::f64::consts::SQRT_2;
 
 /// The key by which open nodes are ordered.
 pub trait Estimate<C> {
-    /// The key of `node` when the way to it costs `g`.
-    fn key(&self, node: u32, g: C) -> u64;
+    /// The heuristic of `node`; asked once for each node that a search opens.
+    fn h(&self, node: u32) -> f64;
+
+    /// The key of a node with heuristic `h` when the way to it costs `g`.
+    fn key(&self, g: C, h: f64) -> u64;
 
     /// The key of a finished path of this cost, comparable with [`key`](Self::key).
     fn finished(&self, cost: C) -> u64;
@@ -25,8 +28,12 @@ pub struct Combined<H, F> {
 }
 
 impl<C: Cost, H: Fn(u32) -> f64, F: Fn(f64, f64) -> f64> Estimate<C> for Combined<H, F> {
-    fn key(&self, node: u32, g: C) -> u64 {
-        quantised((self.combine)(g.value(), (self.h)(node)))
+    fn h(&self, node: u32) -> f64 {
+        (self.h)(node)
+    }
+
+    fn key(&self, g: C, h: f64) -> u64 {
+        quantised((self.combine)(g.value(), h))
     }
 
     fn finished(&self, cost: C) -> u64 {
@@ -106,11 +113,16 @@ impl ScaledOctile {
 }
 
 impl Estimate<Octile> for ScaledOctile {
-    fn key(&self, node: u32, g: Octile) -> u64 {
-        let h = self.target.map_or(0, |[x, y]| {
+    fn h(&self, node: u32) -> f64 {
+        let distance = self.target.map_or(0, |[x, y]| {
             Self::distance([(node % self.width).abs_diff(x), (node / self.width).abs_diff(y)])
         });
-        self.finished(g) + u64::from(h)
+        f64::from(distance)
+    }
+
+    fn key(&self, g: Octile, h: f64) -> u64 {
+        // h is a u32.
+        self.finished(g) + h as u64
     }
 
     fn finished(&self, cost: Octile) -> u64 {
@@ -152,7 +164,8 @@ mod tests {
         let (from, to) = (grid.cell(1, 1).unwrap(), grid.cell(5, 4).unwrap());
         assert_eq!(euclidean_to(&grid, to)(from), 5.0);
         assert_eq!(octile_to(&grid, to)(from), 1.0 + 3.0 * SQRT_2);
-        let key = ScaledOctile::new(9, Some(to)).key(from, Octile::DIAGONAL);
+        let estimate = ScaledOctile::new(9, Some(to));
+        let key = estimate.key(Octile::DIAGONAL, estimate.h(from));
         assert_eq!(key, u64::from(1393 + 985 + 3 * 1393_u32));
     }
 }

@@ -1,7 +1,7 @@
 //! OPEN lists: which of the open nodes is taken next.
 
 use super::cost::quantised;
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// A node with what may order it.
@@ -19,6 +19,17 @@ pub struct Offer {
     pub node: u32,
 }
 
+/// What an OPEN list gives back of an offer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Best {
+    /// The offer's key.
+    pub f: u64,
+    /// Its stamp.
+    pub stamp: u32,
+    /// Its node.
+    pub node: u32,
+}
+
 /// An OPEN list.
 ///
 /// A node whose g is lowered is offered again; the search ignores offers that are no longer the node's last, so a
@@ -31,10 +42,10 @@ pub trait Frontier {
     fn push(&mut self, offer: Offer);
 
     /// The offer that [`pop`](Self::pop) would take.
-    fn first(&self) -> Option<Offer>;
+    fn first(&self) -> Option<Best>;
 
     /// Takes the offer that comes first in the frontier's order.
-    fn pop(&mut self) -> Option<Offer>;
+    fn pop(&mut self) -> Option<Best>;
 }
 
 /// The order among offers with equal f.
@@ -53,71 +64,77 @@ pub enum Ties {
 #[derive(Clone, Debug, Default)]
 pub struct Heap {
     ties: Ties,
-    offers: BinaryHeap<Reverse<Ordered>>,
+    keys: Keys,
+    /// The node of each offer, by stamp: keys are moved about, so they hold no more than what orders them.
+    nodes: Vec<u32>,
 }
 
-/// An offer with the rest of its key: among equal f the smaller `depth` comes first, then the smaller `place`, then
-/// the older offer.
-#[derive(Clone, Copy, Debug)]
-struct Ordered {
-    depth: u64,
-    place: u32,
-    offer: Offer,
+/// Keys from the smallest on; the last 32 bits of each are an offer's stamp, which makes keys unique.
+#[derive(Clone, Debug)]
+enum Keys {
+    /// f, place, stamp.
+    Flat(BinaryHeap<Reverse<u128>>),
+    /// f, then depth, then place and stamp.
+    Deep(BinaryHeap<Reverse<[u64; 3]>>),
 }
 
-impl Ordered {
-    fn key(&self) -> (u64, u64, u32, u32) {
-        (self.offer.f, self.depth, self.place, self.offer.stamp)
-    }
-}
-
-impl PartialEq for Ordered {
-    fn eq(&self, other: &Self) -> bool {
-        self.key() == other.key()
-    }
-}
-
-impl Eq for Ordered {}
-
-impl PartialOrd for Ordered {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Ordered {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.key().cmp(&other.key())
+impl Default for Keys {
+    fn default() -> Self {
+        Self::Flat(BinaryHeap::new())
     }
 }
 
 impl Heap {
     /// An empty heap with the given order among equals.
     pub fn new(ties: Ties) -> Self {
-        Self { ties, offers: BinaryHeap::new() }
+        let keys = match ties {
+            Ties::Fifo | Ties::Lifo => Keys::default(),
+            Ties::LargerG => Keys::Deep(BinaryHeap::new()),
+        };
+        Self { ties, keys, nodes: Vec::new() }
+    }
+
+    fn best(&self, f: u64, stamp: u32) -> Best {
+        Best { f, stamp, node: self.nodes[stamp as usize] }
     }
 }
 
 impl Frontier for Heap {
     fn clear(&mut self) {
-        self.offers.clear();
+        match &mut self.keys {
+            Keys::Flat(keys) => keys.clear(),
+            Keys::Deep(keys) => keys.clear(),
+        }
     }
 
-    fn push(&mut self, offer: Offer) {
-        let (depth, place) = match self.ties {
-            Ties::Fifo => (0, offer.rank),
-            Ties::Lifo => (0, !offer.rank),
-            Ties::LargerG => (!quantised(offer.g), offer.rank),
-        };
-        self.offers.push(Reverse(Ordered { depth, place, offer }));
+    fn push(&mut self, Offer { f, g, rank, stamp, node }: Offer) {
+        let at = stamp as usize;
+        if self.nodes.len() <= at {
+            self.nodes.resize(at + 1, 0);
+        }
+        self.nodes[at] = node;
+        let place = if self.ties == Ties::Lifo { !rank } else { rank };
+        let last = u64::from(place) << 32 | u64::from(stamp);
+        match &mut self.keys {
+            Keys::Flat(keys) => keys.push(Reverse(u128::from(f) << 64 | u128::from(last))),
+            Keys::Deep(keys) => keys.push(Reverse([f, !quantised(g), last])),
+        }
     }
 
-    fn first(&self) -> Option<Offer> {
-        self.offers.peek().map(|Reverse(ordered)| ordered.offer)
+    fn first(&self) -> Option<Best> {
+        match &self.keys {
+            Keys::Flat(keys) => keys.peek().map(|Reverse(key)| self.best((key >> 64) as u64, *key as u32)),
+            Keys::Deep(keys) => keys.peek().map(|Reverse([f, _, last])| self.best(*f, *last as u32)),
+        }
     }
 
-    fn pop(&mut self) -> Option<Offer> {
-        self.offers.pop().map(|Reverse(ordered)| ordered.offer)
+    fn pop(&mut self) -> Option<Best> {
+        let first = self.first();
+        match &mut self.keys {
+            Keys::Flat(keys) => drop(keys.pop()),
+            Keys::Deep(keys) => drop(keys.pop()),
+        }
+        first
     }
 }
 
@@ -140,8 +157,8 @@ mod tests {
             }
             for rank in ranks {
                 let first = heap.first();
-                let (f, g) = offers[rank as usize];
-                assert_eq!(first, Some(Offer { f, g, rank, stamp: rank + 10, node: rank + 20 }), "{ties:?}");
+                let (f, _) = offers[rank as usize];
+                assert_eq!(first, Some(Best { f, stamp: rank + 10, node: rank + 20 }), "{ties:?}");
                 assert_eq!(heap.pop(), first);
             }
             assert_eq!(heap.pop(), None);

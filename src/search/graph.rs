@@ -53,25 +53,36 @@ impl Graph for GridGraph<'_> {
 
 /// The free cells of a grid with a neighbourhood of any shape; a step costs its Euclidean length.
 ///
-/// `may_hop(from, to)` decides whether the way between two free cells may be taken: always, for a check of end
+/// `may_hop(from, step)` decides whether the way between two free cells may be taken: always, for a check of end
 /// points only, or by a line of sight or a swept body.
 #[derive(Debug)]
 pub struct LatticeGraph<'a, F> {
     grid: &'a Grid2,
-    steps: Vec<([i32; 2], f64)>,
+    steps: Vec<Step>,
     may_hop: F,
 }
 
-impl<'a, F: FnMut(u32, u32) -> bool> LatticeGraph<'a, F> {
+/// A step to a neighbour: in columns and rows, in cells of the row-major order, and in length.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    by: [i32; 2],
+    offset: i32,
+    length: f64,
+}
+
+impl<'a, F: FnMut(u32, [i32; 2]) -> bool> LatticeGraph<'a, F> {
     /// The lattice on `grid` whose cells are `spacing` apart; costs are in the unit of `spacing`.
     pub fn new(grid: &'a Grid2, offsets: &Offsets, spacing: f64, may_hop: F) -> Self {
-        let length = |[dx, dy]: [i32; 2]| spacing * f64::from(dx * dx + dy * dy).sqrt();
-        let steps = offsets.steps().iter().map(|&step| (step, length(step))).collect();
-        Self { grid, steps, may_hop }
+        let step = |&[dx, dy]: &[i32; 2]| Step {
+            by: [dx, dy],
+            offset: dy * grid.width() as i32 + dx,
+            length: spacing * f64::from(dx * dx + dy * dy).sqrt(),
+        };
+        Self { grid, steps: offsets.steps().iter().map(step).collect(), may_hop }
     }
 }
 
-impl<F: FnMut(u32, u32) -> bool> Graph for LatticeGraph<'_, F> {
+impl<F: FnMut(u32, [i32; 2]) -> bool> Graph for LatticeGraph<'_, F> {
     type Cost = f64;
 
     fn node_count(&self) -> usize {
@@ -80,9 +91,12 @@ impl<F: FnMut(u32, u32) -> bool> Graph for LatticeGraph<'_, F> {
 
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
         let [x, y] = self.grid.xy(node);
-        for &([dx, dy], length) in &self.steps {
-            let Some(to) = self.grid.cell(x + dx, y + dy) else { continue };
-            if self.grid.is_free(to) && (self.may_hop)(node, to) {
+        for &Step { by, offset, length } in &self.steps {
+            if !self.grid.holds(x + by[0], y + by[1]) {
+                continue;
+            }
+            let to = node.wrapping_add_signed(offset);
+            if self.grid.is_free(to) && (self.may_hop)(node, by) {
                 visit(to, length);
             }
         }

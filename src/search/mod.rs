@@ -42,7 +42,7 @@ pub use bidirectional::{Bidirectional, BidirectionalReport, BidirectionalRules, 
 pub use buckets::Buckets;
 pub use cost::{Cost, Octile, quantised};
 pub use estimate::{Combined, Estimate, ScaledOctile, euclidean_to, falling, octile_to, sum, weighted};
-pub use frontier::{Frontier, Heap, Offer, Ties};
+pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
 pub use observe::{ListScans, Lists, Observer, Place, Trace};
 pub use octile::{OctileAstar, SearchError};

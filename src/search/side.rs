@@ -3,7 +3,7 @@
 use super::Counters;
 use super::cost::Cost;
 use super::estimate::Estimate;
-use super::frontier::{Frontier, Offer};
+use super::frontier::{Best, Frontier, Offer};
 use super::graph::Graph;
 use super::observe::{Lists, Observer, Place};
 
@@ -41,6 +41,8 @@ pub struct Terms<'a, G, E, O> {
 #[derive(Clone, Copy, Debug)]
 struct Record<C> {
     g: C,
+    /// The heuristic, once the node was opened.
+    h: f64,
     parent: u32,
     /// How many nodes were opened before, or `NONE` if the node was never opened.
     rank: u32,
@@ -49,7 +51,15 @@ struct Record<C> {
 }
 
 impl<C: Cost> Record<C> {
-    const UNSEEN: Self = Self { g: C::ZERO, parent: NONE, rank: NONE, stamp: 0 };
+    const UNSEEN: Self = Self { g: C::ZERO, h: 0.0, parent: NONE, rank: NONE, stamp: 0 };
+
+    fn place(&self) -> Place {
+        match self {
+            Self { stamp: 1.., .. } => Place::Open,
+            Self { rank: NONE, .. } => Place::Unseen,
+            _ => Place::Closed,
+        }
+    }
 }
 
 /// Records and frontier of one side; memory is kept from search to search.
@@ -89,11 +99,11 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
     }
 
     /// The best open node, still open.
-    pub(super) fn best(&mut self) -> Option<Offer> {
+    pub(super) fn best(&mut self) -> Option<Best> {
         loop {
-            let offer = self.frontier.first()?;
-            if self.records[offer.node as usize].stamp == offer.stamp {
-                return Some(offer);
+            let best = self.frontier.first()?;
+            if self.records[best.node as usize].stamp == best.stamp {
+                return Some(best);
             }
             self.frontier.pop();
         }
@@ -131,6 +141,8 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         self.counters.peak_open = self.counters.peak_open.max(self.open);
     }
 
+    /// Deals with a way to `node`. Most ways lead to nodes that have a better one: those end here.
+    #[inline]
     fn receive(
         &mut self,
         node: u32,
@@ -143,31 +155,53 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         if self.records.len() <= node as usize {
             self.records.resize(node as usize + 1, Record::UNSEEN);
         }
-        let place = self.place(node);
+        let lists = self.lists();
+        let record = &self.records[node as usize];
+        let place = record.place();
         if parent != NONE {
-            observer.generated(place, self.lists());
+            observer.generated(place, lists);
         }
-        let better = g.compare(self.records[node as usize].g).is_lt();
+        let is_taken = match place {
+            Place::Unseen => true,
+            Place::Open => update.lower_open && g.is_below(record.g),
+            Place::Closed => update.reopen_closed && g.is_below(record.g),
+        };
+        if is_taken {
+            if place == Place::Unseen {
+                self.records[node as usize].h = estimate.h(node);
+            }
+            let Record { h, rank, stamp, .. } = self.take(node, place, parent, g, observer);
+            self.frontier.push(Offer { f: estimate.key(g, h), g: g.value(), rank, stamp, node });
+        }
+    }
+
+    /// Notes the way to `node` over `parent` at cost `g`; the node was in `place` and is open now.
+    fn take(
+        &mut self,
+        node: u32,
+        place: Place,
+        parent: u32,
+        g: C,
+        observer: &mut impl Observer,
+    ) -> Record<C> {
+        let record = &mut self.records[node as usize];
         match place {
+            Place::Open => {}
+            Place::Closed => {
+                self.counters.closed -= 1;
+                self.open += 1;
+            }
             Place::Unseen => {
-                self.records[node as usize].rank = self.opened.len() as u32;
+                record.rank = self.opened.len() as u32;
                 self.opened.push(node);
                 self.counters.opened += 1;
                 self.open += 1;
                 observer.opened(node);
             }
-            Place::Open if better && update.lower_open => {}
-            Place::Closed if better && update.reopen_closed => {
-                self.counters.closed -= 1;
-                self.open += 1;
-            }
-            Place::Open | Place::Closed => return,
         }
         self.stamp += 1;
-        let record = &mut self.records[node as usize];
         (record.g, record.parent, record.stamp) = (g, parent, self.stamp);
-        let (rank, stamp) = (record.rank, self.stamp);
-        self.frontier.push(Offer { f: estimate.key(node, g), g: g.value(), rank, stamp, node });
+        *record
     }
 
     fn lists(&self) -> Lists {
@@ -176,11 +210,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
 
     /// Where `node` is.
     pub(super) fn place(&self, node: u32) -> Place {
-        match self.records.get(node as usize) {
-            Some(record) if record.stamp != 0 => Place::Open,
-            Some(record) if record.rank != NONE => Place::Closed,
-            _ => Place::Unseen,
-        }
+        self.records.get(node as usize).map_or(Place::Unseen, Record::place)
     }
 
     /// The cost of the best way known to `node`, if it was opened.

@@ -1,19 +1,20 @@
 //! The lattice of square cells: a map, its corner rule, and the moves that both leave.
 
 use crate::grid::{CornerRule, Grid2, Moves};
+use std::sync::Arc;
 
 /// A map with the moves that its corner rule leaves.
 #[derive(Debug)]
 pub struct LatticeWorld {
     grid: Grid2,
     corner_rule: CornerRule,
-    moves: Moves,
+    moves: Arc<Moves>,
 }
 
 impl LatticeWorld {
     /// The world of `grid` under `corner_rule`.
     pub fn new(grid: Grid2, corner_rule: CornerRule) -> Self {
-        let moves = Moves::new(&grid, corner_rule);
+        let moves = Arc::new(Moves::new(&grid, corner_rule));
         Self { grid, corner_rule, moves }
     }
 
@@ -28,7 +29,7 @@ impl LatticeWorld {
     }
 
     /// The legal moves of every cell.
-    pub fn moves(&self) -> &Moves {
+    pub fn moves(&self) -> &Arc<Moves> {
         &self.moves
     }
 

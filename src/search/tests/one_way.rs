@@ -88,7 +88,7 @@ fn wide_neighbourhoods_give_the_lengths_of_their_own_shortest_paths() {
 #[test]
 fn a_hop_that_is_refused_is_not_taken() {
     let grid = crate::grid::parse_text_map(".....\n").unwrap();
-    let mut graph = LatticeGraph::new(&grid, &Offsets::square(2), 1.0, |from, to| (from, to) != (1, 2));
+    let mut graph = LatticeGraph::new(&grid, &Offsets::square(2), 1.0, |from, by| (from, by) != (1, [1, 0]));
     let estimate = Combined { h: |_| 0.0, combine: sum };
     let report = solve(&mut Search::new(Heap::default()), &mut graph, &estimate, [1, 2]);
     let route = report.outcome.route().unwrap();

@@ -128,16 +128,23 @@ impl ArmWorld {
     /// Whether the hop between two free cells may be made.
     pub fn may_hop(&self, from: u32, to: u32) -> bool {
         let [[x, y], [to_x, to_y]] = [self.grid.xy(from), self.grid.xy(to)];
-        let [dx, dy] = [to_x - x, to_y - y];
-        if dx.abs() == 1 && dy.abs() == 1 {
+        self.may_step(from, [to_x - x, to_y - y])
+    }
+
+    /// Whether the hop by `[dx, dy]` cells from one free cell to another may be made.
+    #[inline]
+    pub fn may_step(&self, from: u32, [dx, dy]: [i32; 2]) -> bool {
+        if dx.abs() == 1 && dy.abs() == 1 && self.rules.corner_rule != CornerRule::Allow {
+            let [x, y] = self.grid.xy(from);
             let flanks = [self.grid.is_free_xy(x + dx, y), self.grid.is_free_xy(x, y + dy)];
             if !self.rules.corner_rule.permits(flanks) {
                 return false;
             }
         }
+        let to = || from.wrapping_add_signed(dy * self.grid.width() as i32 + dx);
         match self.rules.hop {
             HopRule::EndPoints => true,
-            HopRule::Continuous => self.hops.is_free(from, [dx, dy], || self.is_swept_free(from, to)),
+            HopRule::Continuous => self.hops.is_free(from, [dx, dy], || self.is_swept_free(from, to())),
         }
     }
 
