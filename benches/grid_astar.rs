@@ -4,7 +4,8 @@
 //! named by `REPLAN_BENCH_MAP`. In each group every entry answers the same queries, drawn among cells that are
 //! joined, and all are held to equal costs before anything is timed:
 //!
-//! - `astar_octile`: the planner of that name as studies call it, from request to plan, on a map it has seen before;
+//! - `astar_octile`: [`OctileAstar`] on a map it has seen before;
+//! - `planner`: the planner of that name as studies call it, from request to plan, over the same search;
 //! - `general`: the kernel it specialises, over the same buckets;
 //! - `pathfinding_u32`: the crate with `u32` nodes and costs and successors from legal-move masks, unallocated;
 //! - `pathfinding_typical`: the crate with `(x, y)` nodes, `f64` costs and a `Vec` of successors.
@@ -16,7 +17,9 @@ use replan::grid::{
     Components, CornerRule, DIRECTIONS, Grid2, components, independent_cells, read_movingai_map, rectangles,
 };
 use replan::planner::{self, Build, Planner, Request};
-use replan::search::{Best, Buckets, GridGraph, Octile, Rules, ScaledOctile, Search, Terms, Update};
+use replan::search::{
+    Best, Buckets, GridGraph, Octile, OctileAstar, Rules, ScaledOctile, Search, Terms, Update,
+};
 use replan::seed;
 use replan::settings::Settings;
 use replan::space::{LatticeWorld, World};
@@ -88,7 +91,16 @@ impl Posed {
         self.world.as_lattice().unwrap()
     }
 
-    fn octile(&self, planner: &dyn Planner) -> f64 {
+    fn octile(&self, search: &mut OctileAstar) -> u64 {
+        let solve = |&[start, goal]: &[u32; 2]| search.solve(start, goal, u64::MAX);
+        self.queries
+            .iter()
+            .map(solve)
+            .map(|report| u64::from(ScaledOctile::scaled(report.outcome.route().unwrap().cost)))
+            .sum()
+    }
+
+    fn planned(&self, planner: &dyn Planner) -> f64 {
         let plan = |[start, goal]: &[Vec<f64>; 2]| {
             let request =
                 Request { world: &self.world, start, goal, expansions: u64::MAX, seed: 0, trace: false };
@@ -104,7 +116,7 @@ impl Posed {
             let estimate = &ScaledOctile::new(self.lattice().grid().width(), Some(goal));
             let terms = Terms { graph, estimate, observer, update };
             let report = search.run(terms, start, |node| node == goal, Rules::default(), &mut ());
-            scaled(report.outcome.route().unwrap().cost)
+            u64::from(ScaledOctile::scaled(report.outcome.route().unwrap().cost))
         };
         self.queries.iter().map(&mut solve).sum()
     }
@@ -155,10 +167,6 @@ impl Posed {
     }
 }
 
-fn scaled(cost: Octile) -> u64 {
-    u64::from(cost.straight) * 985 + u64::from(cost.diagonal) * 1393
-}
-
 fn planner() -> Box<dyn Planner> {
     let Build::Planner(build) = planner::find("astar_octile").unwrap().build else {
         panic!("it is a planner")
@@ -168,12 +176,15 @@ fn planner() -> Box<dyn Planner> {
 
 fn compare(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {
     let (planner, mut general) = (planner(), Search::new(Buckets::default()));
-    assert_eq!(posed.general(&mut general), posed.crate_best());
-    let exact = posed.octile(planner.as_ref());
+    let mut fast = OctileAstar::new(posed.lattice().moves()).unwrap();
+    let truth = posed.octile(&mut fast);
+    assert_eq!([posed.general(&mut general), posed.crate_best()], [truth; 2]);
+    let exact = posed.planned(planner.as_ref());
     assert!((exact - posed.crate_typical()).abs() < 1e-6 * exact);
-    let in_units = posed.crate_best() as f64 / f64::from(ScaledOctile::STRAIGHT);
-    assert!((exact - in_units).abs() < 1e-5 * exact, "1393 / 985 is √2 to a millionth");
-    group.bench_function("astar_octile", |bencher| bencher.iter(|| posed.octile(planner.as_ref())));
+    let in_cells = truth as f64 / f64::from(ScaledOctile::STRAIGHT);
+    assert!((exact - in_cells).abs() < 1e-5 * exact, "1393 / 985 is √2 to a millionth");
+    group.bench_function("astar_octile", |bencher| bencher.iter(|| posed.octile(&mut fast)));
+    group.bench_function("planner", |bencher| bencher.iter(|| posed.planned(planner.as_ref())));
     group.bench_function("general", |bencher| bencher.iter(|| posed.general(&mut general)));
     group.bench_function("pathfinding_u32", |bencher| bencher.iter(|| posed.crate_best()));
     group.bench_function("pathfinding_typical", |bencher| bencher.iter(|| posed.crate_typical()));

@@ -4,7 +4,8 @@
 //! [`Buckets`](super::Buckets) with everything generic folded in, and returns the same costs and counters; a test
 //! holds the two equal. What makes it fast: g lies above a base that falls from query to query, so that whatever an
 //! earlier query left behind is larger than any g of this one and nothing is cleared; parents are recovered from
-//! g; a row is padded to a power of two, so that columns and rows are bits of an index.
+//! g; a row is padded to a power of two, so that columns and rows are bits of an index; a row below and above keeps
+//! every neighbour inside the arrays, so that a forbidden move is one that improves nothing and costs no branch.
 //!
 //! Costs are ordered in units of 985 and 1393, which is exact while ways to one cell differ by less than 985 in
 //! their diagonal moves ([`ScaledOctile`]).
@@ -54,7 +55,7 @@ pub enum SearchError {
 #[derive(Clone, Debug)]
 pub struct OctileAstar {
     width: u32,
-    /// Log₂ of the padded row length; padded index = y << shift | x.
+    /// Log₂ of the padded row length; padded index = (y + 1) << shift | x.
     shift: u32,
     masks: Vec<u8>,
     /// `base + g` for the cells opened by this query; anything above `base + longest` is from before.
@@ -74,13 +75,13 @@ impl OctileAstar {
     pub fn new(moves: &Moves) -> Result<Self, SearchError> {
         let (width, height) = (moves.width(), moves.cell_count() / moves.width());
         let shift = width.next_power_of_two().trailing_zeros();
-        let padded = (height as usize) << shift;
+        let padded = ((height as usize + 2) << shift) + 1;
         if padded > MAX_CELLS {
             return Err(SearchError::GridTooLarge { width, height, padded });
         }
         let mut masks = vec![0; padded];
         for cell in 0..moves.cell_count() {
-            masks[(((cell / width) << shift) + cell % width) as usize] = moves.mask(cell);
+            masks[(((cell / width + 1) << shift) + cell % width) as usize] = moves.mask(cell);
         }
         Ok(Self {
             width,
@@ -94,6 +95,16 @@ impl OctileAstar {
         })
     }
 
+    /// The padded index of `cell`.
+    fn padded(&self, cell: u32) -> u32 {
+        ((cell / self.width + 1) << self.shift) + cell % self.width
+    }
+
+    /// The cell at a padded index.
+    fn cell(&self, node: u32) -> u32 {
+        ((node >> self.shift) - 1) * self.width + (node & ((1 << self.shift) - 1))
+    }
+
     /// A shortest path from `start` to `goal`; the search ends when the goal is popped.
     ///
     /// Among equal f the cell offered last is expanded first; among shortest paths the one is returned whose
@@ -103,7 +114,7 @@ impl OctileAstar {
     /// If either cell is outside the grid.
     pub fn solve(&mut self, start: u32, goal: u32, max_expansions: u64) -> Report<Octile> {
         self.begin();
-        let [start, goal] = [start, goal].map(|cell| ((cell / self.width) << self.shift) + cell % self.width);
+        let [start, goal] = [start, goal].map(|cell| self.padded(cell));
         let target = [goal & ((1 << self.shift) - 1), goal >> self.shift];
         let mut counters = Counters { opened: 1, peak_open: 1, ..Counters::default() };
         let mut query = Query {
@@ -146,8 +157,7 @@ impl OctileAstar {
 
     /// Walks back from the goal over cells whose g is less by just the cost of the move.
     fn route(&self, start: u32, goal: u32) -> Route<Octile> {
-        let unpadded = |node: u32| (node >> self.shift) * self.width + (node & ((1 << self.shift) - 1));
-        let (mut at, mut nodes, mut cost) = (goal, vec![unpadded(goal)], Octile::ZERO);
+        let (mut at, mut nodes, mut cost) = (goal, vec![self.cell(goal)], Octile::ZERO);
         while at != start {
             let (before, step) = (0..8)
                 .filter(|bit| self.masks[at as usize] >> bit & 1 == 1)
@@ -159,7 +169,7 @@ impl OctileAstar {
             cost =
                 cost.plus(if step == ScaledOctile::STRAIGHT { Octile::STRAIGHT } else { Octile::DIAGONAL });
             at = before;
-            nodes.push(unpadded(at));
+            nodes.push(self.cell(at));
         }
         nodes.reverse();
         Route { nodes, cost }
@@ -186,12 +196,9 @@ impl Query<'_> {
         counters.generated += u64::from(mask.count_ones());
         // A loop of fixed length unrolls; walking the set bits is slower by a fifth on open maps.
         for (bit, (step, cost)) in self.steps.into_iter().zip(COSTS).enumerate() {
-            if mask >> bit & 1 == 0 {
-                continue;
-            }
             let (to, reached) = (node.wrapping_add_signed(step), value + cost);
             let known = self.values[to as usize];
-            if reached < known {
+            if reached < bound(mask, bit, known) {
                 counters.opened += u64::from(known - self.base > self.longest);
                 self.values[to as usize] = reached;
                 self.offer(to, reached);
@@ -206,4 +213,12 @@ impl Query<'_> {
         let h = ScaledOctile::distance([x.abs_diff(self.target[0]), y.abs_diff(self.target[1])]);
         self.open.push(u64::from(value - self.base + h), (node, value));
     }
+}
+
+/// What a way must stay below to be taken by move `bit` of `mask`: `known`, or 0 if the move is forbidden.
+///
+/// Whether a move is legal and whether it improves is each a coin toss on a crowded map; this leaves one branch of two.
+#[inline]
+fn bound(mask: u8, bit: usize, known: u32) -> u32 {
+    known & 0_u32.wrapping_sub(u32::from(mask >> bit & 1))
 }

@@ -20,7 +20,7 @@ impl OctileAstar {
     pub fn flood(&mut self, start: u32, most: u32, mut visit: impl FnMut(u32, u32)) {
         self.begin();
         let (width, shift, base) = (self.width, self.shift, self.base);
-        let root = ((start / width) << shift) + start % width;
+        let root = self.padded(start);
         let (values, masks, open) = (&mut self.values[..], &self.masks[..], &mut self.open);
         values[root as usize] = base;
         open.push(0, (root, base));
@@ -31,11 +31,11 @@ impl OctileAstar {
             if values[node as usize] != value {
                 continue;
             }
-            visit((node >> shift) * width + (node & ((1 << shift) - 1)), value - base);
+            visit(((node >> shift) - 1) * width + (node & ((1 << shift) - 1)), value - base);
             let mask = masks[node as usize];
             for (bit, (step, length)) in self.steps.into_iter().zip(super::COSTS).enumerate() {
                 let (to, reached) = (node.wrapping_add_signed(step), value + length);
-                if mask >> bit & 1 == 1 && reached < values[to as usize] {
+                if reached < super::bound(mask, bit, values[to as usize]) {
                     values[to as usize] = reached;
                     open.push(u64::from(reached - base), (to, reached));
                 }
