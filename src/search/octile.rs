@@ -4,7 +4,7 @@
 //! [`Buckets`](super::Buckets) with everything generic folded in, and returns the same costs and counters; a test
 //! holds the two equal. What makes it fast: g lies above a base that falls from query to query, so that whatever an
 //! earlier query left behind is larger than any g of this one and nothing is cleared; parents are recovered from
-//! g; a row is padded to a power of two, so that columns and rows are bits of an index; a row below and above keeps
+//! g; a row is padded to a power of two, so that columns and rows are bits of an index; empty rows below and above keep
 //! every neighbour inside the arrays, so that a forbidden move is one that improves nothing and costs no branch.
 //!
 //! Costs are ordered in units of 985 and 1393, which is exact while ways to one cell differ by less than 985 in
@@ -17,6 +17,9 @@ use super::cost::{Cost, Octile};
 use super::estimate::ScaledOctile;
 use super::{Counters, Outcome, Report, Route};
 use crate::grid::{DIRECTIONS, Moves};
+
+/// Empty rows below a grid: one for the neighbours below, one for the neighbour left of the first of these.
+const BELOW: u32 = 2;
 
 /// The most cells of a padded grid whose longest conceivable path still has a 32-bit cost.
 const MAX_CELLS: usize = (u32::MAX / ScaledOctile::DIAGONAL) as usize;
@@ -55,7 +58,7 @@ pub enum SearchError {
 #[derive(Clone, Debug)]
 pub struct OctileAstar {
     width: u32,
-    /// Log₂ of the padded row length; padded index = (y + 1) << shift | x.
+    /// Log₂ of the padded row length; padded index = (y + BELOW) << shift | x.
     shift: u32,
     masks: Vec<u8>,
     /// `base + g` for the cells opened by this query; anything above `base + longest` is from before.
@@ -75,13 +78,13 @@ impl OctileAstar {
     pub fn new(moves: &Moves) -> Result<Self, SearchError> {
         let (width, height) = (moves.width(), moves.cell_count() / moves.width());
         let shift = width.next_power_of_two().trailing_zeros();
-        let padded = ((height as usize + 2) << shift) + 1;
+        let padded = ((height as usize + BELOW as usize + 1) << shift) + 1;
         if padded > MAX_CELLS {
             return Err(SearchError::GridTooLarge { width, height, padded });
         }
         let mut masks = vec![0; padded];
         for cell in 0..moves.cell_count() {
-            masks[(((cell / width + 1) << shift) + cell % width) as usize] = moves.mask(cell);
+            masks[(((cell / width + BELOW) << shift) + cell % width) as usize] = moves.mask(cell);
         }
         Ok(Self {
             width,
@@ -97,12 +100,12 @@ impl OctileAstar {
 
     /// The padded index of `cell`.
     fn padded(&self, cell: u32) -> u32 {
-        ((cell / self.width + 1) << self.shift) + cell % self.width
+        ((cell / self.width + BELOW) << self.shift) + cell % self.width
     }
 
     /// The cell at a padded index.
     fn cell(&self, node: u32) -> u32 {
-        ((node >> self.shift) - 1) * self.width + (node & ((1 << self.shift) - 1))
+        ((node >> self.shift) - BELOW) * self.width + (node & ((1 << self.shift) - 1))
     }
 
     /// A shortest path from `start` to `goal`; the search ends when the goal is popped.

@@ -31,7 +31,7 @@ impl OctileAstar {
             if values[node as usize] != value {
                 continue;
             }
-            visit(((node >> shift) - 1) * width + (node & ((1 << shift) - 1)), value - base);
+            visit(((node >> shift) - super::BELOW) * width + (node & ((1 << shift) - 1)), value - base);
             let mask = masks[node as usize];
             for (bit, (step, length)) in self.steps.into_iter().zip(super::COSTS).enumerate() {
                 let (to, reached) = (node.wrapping_add_signed(step), value + length);
