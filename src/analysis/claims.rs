@@ -46,7 +46,6 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     // Gathered in order before any error is passed on, so that it is the first claim's.
     let claims = || paper.claims.par_iter().map(|claim| judge_claim(evidence, claim)).collect::<Vec<_>>();
     let (claims, sets) = rayon::join(claims, || together(evidence));
-    let (together, together_sets) = sets?;
     let hash = claims_hash(paper);
     let changed = evidence.runs().filter(|run| run.manifest.claims != hash);
     Ok(Verdicts {
@@ -56,8 +55,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         reading: evidence.point.choices().clone(),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
         claims: claims.into_iter().collect::<Result<_, _>>()?,
-        together,
-        together_sets,
+        together: sets?,
     })
 }
 

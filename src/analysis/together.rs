@@ -14,9 +14,6 @@ use crate::study::{Point, StudyError};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How many sets are listed, the largest first.
-const LISTED_SETS: usize = 5;
-
 /// Whether each claim is met exactly.
 type Outcomes = BTreeMap<String, bool>;
 
@@ -31,12 +28,12 @@ struct Met {
     readings: BTreeMap<String, String>,
 }
 
-/// The largest sets of claims that are met exactly together, none within another, over every reading that any study
-/// explores; and how many there are of which these are the first.
+/// The sets of claims that are met exactly together, none within another, over every reading that any study explores; the
+/// largest first.
 ///
 /// # Errors
 /// A settings error of a check.
-pub fn together(evidence: &Evidence<'_>) -> Result<(Vec<Together>, usize), SettingsError> {
+pub fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
     let under = |point| {
         let view = evidence.under(point);
         let mut sets = held(&view)?;
@@ -46,10 +43,7 @@ pub fn together(evidence: &Evidence<'_>) -> Result<(Vec<Together>, usize), Setti
     // Gathered in order before any error is passed on, so that it is the first reading's.
     let found: Vec<Result<Vec<Together>, SettingsError>> =
         points(evidence).into_par_iter().map(under).collect();
-    let mut sets = greatest(found.into_iter().collect::<Result<Vec<_>, _>>()?.concat());
-    let count = sets.len();
-    sets.truncate(LISTED_SETS);
-    Ok((sets, count))
+    Ok(greatest(found.into_iter().collect::<Result<Vec<_>, _>>()?.concat()))
 }
 
 /// The reading in hand, and those that studies explore.

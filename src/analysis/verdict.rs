@@ -1,6 +1,7 @@
 //! Verdicts: what was found about each claim, and the file that keeps them.
 
 use super::interval::Interval;
+use super::stats::proportion::units_for_margin;
 use crate::settings::Document;
 use crate::study::StudyError;
 use crate::study::store::write_whole;
@@ -137,6 +138,18 @@ impl Finding {
         self.because.push(because.into());
         self
     }
+
+    /// If it is undecided because the interval of `ours` holds one of `limits`: how many `units` would tell them apart.
+    pub fn say_what_settles(&mut self, limits: &[f64], units: &str) {
+        let (Some(Verdict::Undecided), Some(ours)) = (self.verdict, &self.ours) else { return };
+        let Some([low, high]) = ours.interval else { return };
+        let straddled = limits.iter().filter(|limit| (low..=high).contains(*limit));
+        let margin = straddled.map(|limit| (ours.value - limit).abs()).fold(f64::INFINITY, f64::min);
+        if margin > 0.0 && margin.is_finite() {
+            let needed = units_for_margin((high - low) / 2.0, ours.n, margin);
+            self.because.push(format!("about {needed} {units} would settle a value of this size"));
+        }
+    }
 }
 
 /// A claim with what was found about it.
@@ -218,12 +231,10 @@ pub struct Verdicts {
     pub reading: BTreeMap<String, String>,
     /// Studies whose claims changed after their run: a margin may have moved after seeing the data.
     pub claims_changed_since: Vec<String>,
-    /// How many sets of claims hold jointly, of which `together` lists the first.
-    pub together_sets: usize,
     /// Every claim.
     #[serde(default, rename = "claim")]
     pub claims: Vec<Judged>,
-    /// Which claims hold jointly.
+    /// Which claims hold jointly: sets none of which lies within another, the largest first.
     #[serde(default, rename = "together")]
     pub together: Vec<Together>,
 }
@@ -262,5 +273,26 @@ impl Verdicts {
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Judged> {
         self.claims.iter().find(|judged| judged.claim == id)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_an_undecided_interval_around_a_limit_asks_for_more_units() {
+        let said = |verdict, [low, value, high]: [f64; 3]| {
+            let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 10));
+            let mut finding = Finding { verdict: Some(verdict), ours, ..Finding::of("share") };
+            finding.say_what_settles(&[0.5, 1.0], "trials");
+            finding.because
+        };
+        // Half a width of 0.2 against a distance of 0.1: four times as many.
+        let needed = "about 40 trials would settle a value of this size";
+        assert_eq!(said(Verdict::Undecided, [0.2, 0.4, 0.6]), [needed]);
+        assert!(said(Verdict::Undecided, [0.6, 0.7, 0.8]).is_empty(), "no limit lies within");
+        assert!(said(Verdict::Undecided, [0.4, 0.5, 0.6]).is_empty(), "no number would");
+        assert!(said(Verdict::Reproduced, [0.2, 0.4, 0.6]).is_empty());
     }
 }

@@ -24,7 +24,12 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
         } else {
             name.to_owned()
         };
-        text += &format!("{:<width$}  {printed:>9}  {ours:<wide$}  {verdict}\n", judged.claim);
+        let what = judged
+            .ours()
+            .filter(|_| judged.printed.is_some())
+            .map(|estimate| format!("  ({})", estimate.what));
+        let what = what.unwrap_or_default();
+        text += &format!("{:<width$}  {printed:>9}  {ours:<wide$}  {verdict}{what}\n", judged.claim);
     }
     let mut counts: BTreeMap<Verdict, usize> = BTreeMap::new();
     for judged in &verdicts.claims {

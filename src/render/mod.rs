@@ -9,6 +9,7 @@ pub mod chart;
 pub mod figure;
 pub mod font;
 pub mod latex;
+mod marks;
 pub mod output;
 mod prose;
 pub mod report;
@@ -17,6 +18,8 @@ pub mod scene3;
 pub mod style;
 pub mod tables;
 pub mod vector;
+
+pub use marks::marks;
 
 /// Why a figure or a table could not be made.
 #[derive(Debug, thiserror::Error)]

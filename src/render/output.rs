@@ -1,11 +1,11 @@
 //! Everything that is drawn for a paper: figures, tables, numbers, the report's chapter.
 
-use super::RenderError;
 use super::figure::{self, Scene};
 use super::report;
 use super::results;
 use super::tables;
 use super::vector::{Figure, Provenance};
+use super::{RenderError, marks};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::study::StudyError;
@@ -37,7 +37,7 @@ pub fn outputs(
     stop: &AtomicBool,
 ) -> Result<Vec<Output>, RenderError> {
     let (paper, is_wanted) = (evidence.paper, |id: &str| only.is_none_or(|only| only == id));
-    let quick = evidence.runs().any(|run| run.manifest.quick);
+    let marks = marks(paper, verdicts);
     let mut outputs = Vec::new();
     for run in evidence.runs() {
         for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
@@ -54,10 +54,10 @@ pub fn outputs(
         write(&table.id, tables::table(evidence, table, verdicts)?);
     }
     for table in paper.results.iter().filter(|table| is_wanted(table.id.get_ref())) {
-        write(table.id.get_ref(), results::latex(evidence, table, quick)?);
+        write(table.id.get_ref(), results::latex(evidence, table, &marks)?);
     }
     if is_wanted("numbers") {
-        write("numbers", tables::numbers(paper, verdicts)?);
+        write("numbers", tables::numbers(evidence, verdicts)?);
     }
     if outputs.is_empty() {
         let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
@@ -90,8 +90,9 @@ fn figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, R
     let (paper, run, id) = (scene.evidence.paper, scene.run, spec.id.get_ref());
     let kind = figure::build(spec, run.study, paper)?;
     let sheet = kind.draw(scene)?;
-    let notes = paper.source.stand_ins.as_deref().into_iter().chain(run.manifest.quick.then_some(QUICK));
-    let sheet = sheet.noted(notes.collect::<Vec<_>>().join(" "));
+    let notes: Vec<String> =
+        paper.source.stand_ins.clone().into_iter().chain(marks(paper, scene.verdicts)).collect();
+    let sheet = sheet.noted(notes.join(" "));
     let drawn = sheet.draw(&Provenance {
         command: format!("replan render {} --only {id}", paper.id),
         spec_hash: run.manifest.spec.clone(),
@@ -113,9 +114,6 @@ fn figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, R
     }
     Ok(outputs)
 }
-
-/// What every quick figure says.
-pub const QUICK: &str = "Quick run: few replicates, not the study's result.";
 
 /// Writes `outputs` into `folder`.
 ///

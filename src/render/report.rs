@@ -4,10 +4,11 @@ mod chapters;
 
 use super::tables::short;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::verdict::{Finding, Judged, Verdict, Verdicts};
+use crate::analysis::verdict::{Finding, Judged, Together, Verdict, Verdicts};
 use crate::study::StudyError;
 use crate::study::paper::Paper;
 use crate::study::store::write_whole;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::ErrorKind;
@@ -102,8 +103,9 @@ fn heading(text: &mut String, paper: &Paper, verdicts: &Verdicts) {
         line!(text, "{}\n", source.join(". "));
     }
     line!(text, "Made by `{}`.", verdicts.command);
-    if verdicts.quick {
-        line!(text, "\n**{}**", super::output::QUICK);
+    let marks = super::marks(paper, verdicts);
+    for mark in &marks {
+        line!(text, "\n**{mark}**");
     }
     for study in &verdicts.claims_changed_since {
         line!(text, "\n**Claims or margins changed after study `{study}` was run.**");
@@ -111,10 +113,12 @@ fn heading(text: &mut String, paper: &Paper, verdicts: &Verdicts) {
     for note in &paper.source.notes {
         line!(text, "\n> {note}");
     }
-    if !paper.source.findings.is_empty() {
+    // Findings were written on the study's own run; of any other they may be false.
+    let findings = if marks.is_empty() { &paper.source.findings[..] } else { &[] };
+    if !findings.is_empty() {
         line!(text);
     }
-    for finding in &paper.source.findings {
+    for finding in findings {
         line!(text, "- {}", super::prose::prose(finding, verdicts));
     }
 }
@@ -162,20 +166,32 @@ fn together(text: &mut String, verdicts: &Verdicts) {
     line!(
         text,
         "Claims met exactly under one reading by one choice of contenders, each environment on one map of ours. Every such \
-         choice of maps was looked at; of the {} sets that lie within no other, the {} largest are listed.\n",
-        verdicts.together_sets,
-        verdicts.together.len()
+         choice of maps was looked at; of the {} sets that lie within no other, the {} largest are listed, and below them the \
+         largest of each further reading. All stand in `verdicts.toml` beside the stored run.\n",
+        verdicts.together.len(),
+        LISTED_SETS.min(verdicts.together.len())
     );
     line!(text, "| reading | study and maps | contenders | hold | fail |");
     line!(text, "|---|---|---|---|---|");
-    for set in &verdicts.together {
-        let listed =
-            |claims: &[String]| claims.iter().map(|c| format!("`{c}`")).collect::<Vec<_>>().join(", ");
-        let (hold, fail) = (listed(&set.hold), listed(&set.fail));
-        let readings = set.reading.replace(',', ", ");
-        line!(text, "| {readings} | {}: {} | {} | {hold} | {fail} |", set.study, set.problem, set.under);
+    let (first, rest) = verdicts.together.split_at(LISTED_SETS.min(verdicts.together.len()));
+    let listed = |claims: &[String]| claims.iter().map(|c| format!("`{c}`")).collect::<Vec<_>>().join(", ");
+    let readings = |set: &Together| set.reading.replace(',', ", ");
+    for set in first {
+        let (reading, hold, fail) = (readings(set), listed(&set.hold), listed(&set.fail));
+        line!(text, "| {reading} | {}: {} | {} | {hold} | {fail} |", set.study, set.problem, set.under);
+    }
+    let mut seen: BTreeSet<&str> = first.iter().map(|set| set.reading.as_str()).collect();
+    let further: Vec<&Together> = rest.iter().filter(|set| seen.insert(&set.reading)).collect();
+    if !further.is_empty() {
+        line!(text);
+    }
+    for set in further {
+        line!(text, "- {} ({}: {}): {}", readings(set), set.study, set.problem, listed(&set.hold));
     }
 }
+
+/// How many sets of claims that hold together are listed with those that fail.
+const LISTED_SETS: usize = 5;
 
 fn reasons(text: &mut String, verdicts: &Verdicts) {
     line!(text, "\n### Why\n");

@@ -111,7 +111,7 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if its study was not run.
-pub fn latex(evidence: &Evidence<'_>, table: &ResultsSpec, quick: bool) -> Result<String, RenderError> {
+pub fn latex(evidence: &Evidence<'_>, table: &ResultsSpec, marks: &[String]) -> Result<String, RenderError> {
     let (grid, paper, id) = (grid(evidence, table)?, evidence.paper, table.id.get_ref());
     let mut columns = vec![Column::Left];
     columns.extend(table.cells.iter().map(|_| Column::Right));
@@ -123,10 +123,32 @@ pub fn latex(evidence: &Evidence<'_>, table: &ResultsSpec, quick: bool) -> Resul
             text.row(row.iter().map(Cell::from).collect());
         }
     }
-    for note in paper.source.stand_ins.as_deref().into_iter().chain(quick.then_some(super::output::QUICK)) {
+    for note in paper.source.stand_ins.iter().chain(marks) {
         text.note(note);
     }
     text.latex(&format!("made by `replan render {} --only {id}`", paper.id))
+}
+
+/// Every cell of `table` under a key of block, row and column.
+///
+/// # Errors
+/// As [`latex`].
+pub fn cells(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Vec<(String, String)>, RenderError> {
+    let (grid, id) = (grid(evidence, table)?, table.id.get_ref());
+    // What stands beside a column is named after it too: "swept" alone could be of any.
+    let column = |at: usize| {
+        let (before, own) = (&grid.head[at], &grid.head[at + 1]);
+        if table.cells[at].beside { format!("{before} {own}") } else { own.clone() }
+    };
+    let columns: Vec<String> = (0..table.cells.len()).map(column).collect();
+    let mut cells = Vec::new();
+    for (title, rows) in &grid.blocks {
+        for row in rows {
+            let key = |column: &String| [id, title, &row[0], column].map(String::as_str).join(".");
+            cells.extend(columns.iter().zip(&row[1..]).map(|(column, cell)| (key(column), cell.clone())));
+        }
+    }
+    Ok(cells)
 }
 
 /// `table` in Markdown, its caption below it.

@@ -1,7 +1,7 @@
 //! The paper's tables with ours beside them, and every number as a macro.
 
-use super::RenderError;
 use super::latex::{Cell, Column, Numbers, Table};
+use super::{RenderError, marks};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Judged, Verdict, Verdicts};
 use crate::study::paper::{OursSpec, Paper, TableRow, TableSpec};
@@ -30,12 +30,12 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
     if let Some(ours) = &table.ours {
         latex.note(&ours.note);
     }
-    let claims = table.rows.iter().flat_map(|row| &row.claims);
+    let claims = table.rows.iter().flat_map(|row| &row.claims).chain(&table.jointly);
     for note in claims.filter_map(|claim| verdicts.claim(claim.get_ref())).filter_map(premises) {
         latex.note(note);
     }
-    if verdicts.quick {
-        latex.note(super::output::QUICK);
+    for mark in marks(paper, verdicts) {
+        latex.note(&mark);
     }
     latex.latex(&made(paper, &table.id, verdicts))
 }
@@ -60,7 +60,10 @@ fn lines(
     };
     let shown = |estimate: &Estimate| rounded(estimate, table.decimals.unwrap_or(2));
     let ours = match &table.ours {
-        Some(ours) => own_row(evidence, ours, row)?,
+        Some(ours) => {
+            let own = own_values(evidence, ours, row)?;
+            ["", "ours"].map(Cell::from).into_iter().chain(own.iter().map(Cell::from)).collect()
+        }
         None => line("", "ours", &|judged| judged.ours().map_or_else(dash, shown)),
     };
     let printed = line(&row.label, "printed", &|judged| judged.printed.clone().unwrap_or_else(dash));
@@ -68,7 +71,7 @@ fn lines(
 }
 
 /// The row of trials of one contender on one problem, or what it saves there of another's.
-fn own_row(evidence: &Evidence<'_>, ours: &OursSpec, row: &TableRow) -> Result<Vec<Cell>, RenderError> {
+fn own_values(evidence: &Evidence<'_>, ours: &OursSpec, row: &TableRow) -> Result<Vec<String>, RenderError> {
     let missing = |what: String| RenderError::NotStored { what };
     let study = ours.study.get_ref();
     let run = evidence.run(study).ok_or_else(|| missing(format!("a run of `{study}`")))?;
@@ -89,10 +92,9 @@ fn own_row(evidence: &Evidence<'_>, ours: &OursSpec, row: &TableRow) -> Result<V
                 own.zip(base).map(|(own, base)| format!("{:.2}", 100.0 * (base - own) / base))
             }
         };
-        Ok(Cell::from(text.unwrap_or_else(dash)))
+        Ok(text.unwrap_or_else(dash))
     };
-    let cells = ours.metrics.iter().map(cell).collect::<Result<Vec<_>, RenderError>>()?;
-    Ok([Cell::from(""), Cell::from("ours")].into_iter().chain(cells).collect())
+    ours.metrics.iter().map(cell).collect()
 }
 
 /// What a proof that a claim is impossible takes for granted.
@@ -101,16 +103,26 @@ fn premises(judged: &Judged) -> Option<String> {
         return None;
     }
     let proof = judged.findings.iter().find(|finding| finding.verdict == Some(judged.verdict))?;
-    let what = judged.printed.as_deref().unwrap_or(&judged.at);
-    Some(format!("{what} is impossible where {}.", proof.premises.join("; ")))
+    let what = match (&judged.printed, &judged.says) {
+        (Some(printed), _) => format!("{printed} is"),
+        (None, Some(says)) => format!("That {says} is"),
+        (None, None) => format!("{} is", judged.at),
+    };
+    let beside = judged.printed.as_ref().and(judged.says.as_deref()).map(|says| format!(" ({says})"));
+    Some(format!("{what} impossible{} where {}.", beside.unwrap_or_default(), proof.premises.join("; ")))
 }
 
-/// One macro for each printed number, each of ours, each end of an interval, each count of draws and each verdict.
+/// One macro for each printed number, each of ours, each end of an interval, each count of draws, each verdict, and each
+/// cell of ours in the paper's tables and in tables of results.
 ///
 /// # Errors
-/// [`RenderError::DuplicateMacro`] if two claims' names differ in punctuation only.
-pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError> {
+/// [`RenderError::DuplicateMacro`] if two names differ in punctuation only; those of [`table`].
+pub fn numbers(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Result<String, RenderError> {
+    let paper = evidence.paper;
     let mut numbers = Numbers::default();
+    for (key, cell) in own_cells(evidence)? {
+        numbers.add(&key, &cell)?;
+    }
     for judged in &verdicts.claims {
         let key = |what: &str| format!("{}.{what}", judged.claim);
         if let Some(printed) = &judged.printed {
@@ -131,7 +143,27 @@ pub fn numbers(paper: &Paper, verdicts: &Verdicts) -> Result<String, RenderError
 
 pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
     let made = format!("made by `replan render {} --only {id}`", paper.id);
-    if verdicts.quick { format!("{made}. {}", super::output::QUICK) } else { made }
+    [made].into_iter().chain(marks(paper, verdicts)).collect::<Vec<_>>().join(". ")
+}
+
+/// The cells of ours that stand in tables and belong to no one claim, under keys of table, row and column.
+fn own_cells(evidence: &Evidence<'_>) -> Result<Vec<(String, String)>, RenderError> {
+    let mut cells = Vec::new();
+    for table in &evidence.paper.tables {
+        let Some(ours) = &table.ours else { continue };
+        for row in table.rows.iter().filter(|row| !row.claims.is_empty()) {
+            let own = own_values(evidence, ours, row)?;
+            let keys = table
+                .columns
+                .iter()
+                .map(|column| [&table.id, &row.label, column].map(String::as_str).join("."));
+            cells.extend(keys.zip(own));
+        }
+    }
+    for table in &evidence.paper.results {
+        cells.extend(super::results::cells(evidence, table)?);
+    }
+    Ok(cells)
 }
 
 fn dash() -> String {

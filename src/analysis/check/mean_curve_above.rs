@@ -86,6 +86,7 @@ impl Check for MeanCurveAbove<'_> {
             found.band.iter().filter(|b| b.low > 0.0).count(),
             points.len()
         ));
+        finding.say_what_settles(&[0.0], "draws");
         finding
     }
 }

@@ -106,6 +106,7 @@ impl Check for Ratio<'_> {
         ));
         let what = format!("ratio of mean {}, bootstrap 95 %", self.metric.label.to_lowercase());
         finding.ours = Some(Estimate::new(found.value, found.interval, what, pairs.len()));
+        finding.say_what_settles(&self.settings.accepted, "pairs");
         finding
     }
 }

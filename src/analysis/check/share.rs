@@ -141,6 +141,8 @@ impl Check for Share<'_> {
             100.0 * self.settings.accepted[1]
         ));
         finding.ours = Some(estimate);
+        let units = if self.settings.of.is_some() { "draws" } else { "trials" };
+        finding.say_what_settles(&self.settings.accepted, units);
         finding
     }
 }

@@ -137,7 +137,12 @@ impl Check for SightBound {
             because.push("the bound does not hold under this reading".to_owned());
         }
         let listed = |(id, options): (&String, &Vec<String>)| format!("{id} is {}", options.join(" or "));
-        let mut premises = vec![self.settings.because.clone(), "bends are cell centres".to_owned()];
+        let mut premises = vec![
+            self.settings.because.clone(),
+            "bends are cell centres".to_owned(),
+            "every segment is free in all cells whose inside it crosses, or in all cells of Bresenham's line"
+                .to_owned(),
+        ];
         premises.extend(self.settings.under.iter().map(listed));
         let verdict = (is_beyond && self.holds).then_some(Verdict::Impossible);
         Finding { check: ENTRY.name.to_owned(), verdict, because, premises, ..Finding::default() }

@@ -85,7 +85,7 @@ impl Check for TableCell<'_> {
         if !has_power {
             finding.because.push(format!(
                 "no power: the interval covers {NO_POWER_POINTS} points or more of the 100 there are, so hardly any printed value \
-                 could be refused"
+                 could be refused; no number of draws of ours narrows it, for the printed row is one draw"
             ));
         }
         finding

@@ -107,6 +107,7 @@ impl Check for Trend<'_> {
         ));
         let what = format!("slope of the saving along {}, points each, bootstrap 95 %", self.settings.over);
         finding.ours = Some(Estimate::new(found.value, found.interval, what, points.len()));
+        finding.say_what_settles(&[0.0], "pairs");
         finding
     }
 }

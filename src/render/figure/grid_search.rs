@@ -36,11 +36,11 @@ struct GridSearch {
 }
 
 pub(super) fn start_side() -> Rgb {
-    SKY.mixed(WHITE, 0.45)
+    SKY.mixed(WHITE, 0.6)
 }
 
 pub(super) fn goal_side() -> Rgb {
-    ORANGE.mixed(WHITE, 0.45)
+    ORANGE.mixed(WHITE, 0.2)
 }
 
 pub(super) fn blocked() -> Rgb {
@@ -182,4 +182,17 @@ fn cells(scene: &Scene<'_>, row: &Row, map: &Map<'_>) -> Cells {
         cell_key("opened by the goal's side", goal_side()),
     ];
     painted(map, &layers, keys)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::style::SERIES_MARGIN;
+
+    #[test]
+    fn walls_both_sides_and_bare_paper_differ_in_grey() {
+        let mut greys = [blocked(), start_side(), goal_side(), WHITE].map(Rgb::luminance);
+        greys.sort_by(f64::total_cmp);
+        assert!(greys.windows(2).all(|pair| pair[1] - pair[0] >= SERIES_MARGIN), "{greys:?}");
+    }
 }

@@ -2,10 +2,10 @@
 
 use super::*;
 
-const MEETINGS: [Meeting; 4] =
+pub(super) const MEETINGS: [Meeting; 4] =
     [Meeting::GeneratedAny, Meeting::ClosedByOther, Meeting::BothClosed, Meeting::OptimalStop];
 
-fn rules(meeting: Meeting, choice: SideChoice) -> BidirectionalRules {
+pub(super) fn rules(meeting: Meeting, choice: SideChoice) -> BidirectionalRules {
     BidirectionalRules { meeting, choice, update: Update::default(), max_expansions: u64::MAX }
 }
 

@@ -4,6 +4,7 @@ mod bidirectional;
 mod octile;
 mod one_way;
 mod parts;
+mod two_lists;
 mod witness;
 
 use super::*;

@@ -34,6 +34,7 @@ pub static ENTRY: Entry = Entry {
         let refused = |e: crate::grid::GridError| settings.error(e.to_string());
         let grid = read_movingai_map(&files[0]).map_err(refused)?;
         let all = read_scenarios(&files[1], &grid).map_err(refused)?;
+        read.check_names(&all).map_err(|message| settings.error(message))?;
         let scenarios = read.picked(all).map_err(|message| settings.error(message))?;
         let point = |cell: u32| grid.xy(cell).map(f64::from).to_vec();
         let query = |s: &Scenario| Query {
@@ -69,6 +70,18 @@ fn every_query() -> usize {
 }
 
 impl MovingAi {
+    /// Whether every query is asked of this map; files may stand in different folders.
+    fn check_names(&self, all: &[Scenario]) -> Result<(), String> {
+        let name = |path: &str| path.rsplit('/').next().map(str::to_owned);
+        match all.iter().find(|scenario| name(&scenario.map) != name(&self.map)) {
+            None => Ok(()),
+            Some(other) => Err(format!(
+                "line {} of {} asks of map `{}`; {} is accepted",
+                other.line, self.scenarios, other.map, self.map
+            )),
+        }
+    }
+
     fn picked(&self, all: Vec<Scenario>) -> Result<Vec<Scenario>, String> {
         if self.every == 0 {
             return Err("every is 0; 1 or more is accepted".to_owned());
@@ -156,6 +169,14 @@ mod tests {
             ),
             (MAP, &SCENARIOS.replace("\t4\t3", "\t5\t3")[..], "", "m.scen: line 2: found `5 3`"),
             (MAP, "version 1\n", "", "m.scen holds no query"),
+            (
+                MAP,
+                &SCENARIOS
+                    .replace("1\tm.map", "1\tother/n.map")
+                    .replace("0\tm.map\t4\t3\t0\t0\t1", "0\tn.map\t4\t3\t0\t0\t1")[..],
+                "",
+                "line 3 of m.scen asks of map `n.map`; m.map is accepted",
+            ),
             (MAP, SCENARIOS, "every = 0", "every is 0; 1 or more is accepted"),
             (MAP, SCENARIOS, "corner = 1", "unknown field `corner`"),
         ] {

@@ -35,6 +35,9 @@ impl Paper {
         for row in self.tables.iter().flat_map(|table| &table.rows) {
             self.known("claim", &row.claims, &claims)?;
         }
+        for table in &self.tables {
+            self.known("claim", &table.jointly, &claims)?;
+        }
         self.check_findings(&claims)?;
         self.check_tables()?;
         self.check_results()?;

@@ -20,6 +20,9 @@ pub struct TableSpec {
     /// Its rows.
     #[serde(rename = "row")]
     pub rows: Vec<TableRow>,
+    /// Claims about several of its cells together, which are noted below it where they are impossible.
+    #[serde(default)]
+    pub jointly: Vec<Spanned<String>>,
     /// One problem of ours whose trials stand beside the printed rows; without it, each cell takes its own claim's.
     pub ours: Option<OursSpec>,
 }
