@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub const DPI: f64 = 220.0;
 
 /// Largest change of a colour level that an indexed PNG may make.
-pub const PALETTE_TOLERANCE: u8 = 10;
+pub const PALETTE_TOLERANCE: u8 = 20;
 
 /// What a figure says about its own making.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,6 +6,7 @@ mod cli_input;
 mod cli_places;
 mod cli_run;
 mod cli_stop;
+mod committed;
 mod conformance;
 mod crosscheck;
 mod floors;

@@ -1,0 +1,33 @@
+//! What is committed beside the code: stored runs, plots and the report.
+
+use std::fs;
+use std::path::Path;
+
+/// The bytes of every file below `path`.
+fn size(path: &Path) -> u64 {
+    let found = fs::metadata(path).unwrap();
+    if found.is_file() {
+        return found.len();
+    }
+    fs::read_dir(path).unwrap().map(|entry| size(&entry.unwrap().path())).sum()
+}
+
+#[test]
+fn runs_plots_and_report_stay_small_enough_to_clone() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let total: u64 = ["data/runs", "plots", "paper_repro.md"].iter().map(|name| size(&root.join(name))).sum();
+    assert!((1_000_000..20_000_000).contains(&total), "{total} bytes; 20 MB are accepted");
+}
+
+#[test]
+fn the_report_has_a_chapter_for_every_paper_in_the_order_of_their_names() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let report = fs::read_to_string(root.join("paper_repro.md")).unwrap();
+    let begun = |line: &str| line.strip_prefix("<!-- replan begin ")?.strip_suffix(" -->").map(str::to_owned);
+    let chapters: Vec<String> = report.lines().filter_map(begun).collect();
+    assert!(chapters.is_sorted(), "{chapters:?}");
+    for paper in fs::read_dir(root.join("experiments")).unwrap() {
+        let name = paper.unwrap().file_name().into_string().unwrap();
+        assert!(chapters.contains(&name), "no chapter of {name} in {chapters:?}");
+    }
+}
