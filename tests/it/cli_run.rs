@@ -123,6 +123,27 @@ fn what_is_stored_and_unchanged_is_reused_and_why_says_what_changed() {
 }
 
 #[test]
+fn trials_that_ended_in_an_unexpected_way_are_counted_with_the_first_reason() {
+    let bench = Bench::new();
+    let whole = bench.done(&["run", "./mini"]);
+    assert!(whole.starts_with("draws: 48 trials\nroom: 1 trials\n"), "{whole}");
+    bench.edit("mini/draws.toml", "expansions = 10_000", "expansions = 3");
+    bench.edit("mini/room.toml", "goal = [6, 3]", "goal = [3, 1]");
+    for again in [false, true] {
+        let out = bench.done(&["run", "./mini"]);
+        let lines: Vec<&str> = out.lines().collect();
+        let [draws, spent, room, invalid, _] = lines[..] else { panic!("again {again}:\n{out}") };
+        assert!(draws.starts_with("draws: 48 trials") && room.starts_with("room: 1 trials"), "{out}");
+        let (count, first) = spent.trim().split_once(' ').unwrap();
+        let count: u32 = count.parse().unwrap();
+        assert!((24..=48).contains(&count), "{out}");
+        assert!(first.starts_with("budget_spent; the first is draws/drawn/"), "{out}");
+        assert!(first.ends_with(": budget of 3 expansions spent"), "{out}");
+        assert!(invalid.starts_with("  1 invalid_problem; the first is room/room/a-star: the goal"), "{out}");
+    }
+}
+
+#[test]
 fn a_figure_or_keep_added_later_gets_its_exhibits_and_another_timing_its_readings() {
     let bench = Bench::new();
     bench.done(&["run", "./mini"]);
