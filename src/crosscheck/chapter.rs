@@ -71,14 +71,24 @@ fn row(text: &mut String, width: usize, case: &str, cells: &[String; 7], verdict
     );
 }
 
-/// The chapter of the paper `paper`: `command` made it, `view` opens the scene in MuJoCo's viewer, and `picture` is
-/// where its picture is as seen from the report, or why there is none.
+/// Where the scene's picture is, as seen from the report.
+#[derive(Debug, Clone, Copy)]
+pub enum Depicted<'a> {
+    /// Here, drawn with the rest.
+    Now(&'a str),
+    /// Here, from an earlier run; the reason why there is no new one.
+    Before(&'a str, &'a str),
+    /// Nowhere, and why.
+    Not(&'a str),
+}
+
+/// The chapter of the paper `paper`: `command` made it, and `view` opens the scene in MuJoCo's viewer.
 pub fn chapter(
     paper: &str,
     outcomes: &[Outcome],
     command: &str,
     view: &str,
-    picture: Result<&str, &str>,
+    picture: Depicted<'_>,
 ) -> String {
     let mut text = String::new();
     line!(text, "## {paper}: the same robots, scenes and paths judged by MuJoCo\n");
@@ -89,8 +99,14 @@ pub fn chapter(
     );
     line!(text, "**{}**\n", summary(outcomes));
     match picture {
-        Ok(path) => line!(text, "![the scene as MuJoCo sees it]({path})\n"),
-        Err(why) => line!(text, "No picture: {why}.\n"),
+        Depicted::Now(path) => line!(text, "![the scene as MuJoCo sees it]({path})\n"),
+        Depicted::Before(path, why) => {
+            line!(
+                text,
+                "![the scene as MuJoCo sees it]({path})\n\nThe picture is of an earlier run: {why}.\n"
+            );
+        }
+        Depicted::Not(why) => line!(text, "No picture: {why}.\n"),
     }
     line!(text, "In MuJoCo's own viewer, with keyframes: `{view}`.\n");
     tolerances(&mut text);
