@@ -82,6 +82,17 @@ pub enum Depicted<'a> {
     Not(&'a str),
 }
 
+impl Depicted<'_> {
+    fn paragraph(self) -> String {
+        let image = |path: &str| format!("![the scene as MuJoCo sees it]({path})\n\n");
+        match self {
+            Self::Now(path) => image(path),
+            Self::Before(path, why) => image(path) + &format!("The picture is of an earlier run: {why}.\n\n"),
+            Self::Not(why) => format!("No picture: {why}.\n\n"),
+        }
+    }
+}
+
 /// The chapter of the paper `paper`: `command` made it, and `view` opens the scene in MuJoCo's viewer.
 pub fn chapter(
     paper: &str,
@@ -98,16 +109,7 @@ pub fn chapter(
          configurations below; it shares no code with us.\n"
     );
     line!(text, "**{}**\n", summary(outcomes));
-    match picture {
-        Depicted::Now(path) => line!(text, "![the scene as MuJoCo sees it]({path})\n"),
-        Depicted::Before(path, why) => {
-            line!(
-                text,
-                "![the scene as MuJoCo sees it]({path})\n\nThe picture is of an earlier run: {why}.\n"
-            );
-        }
-        Depicted::Not(why) => line!(text, "No picture: {why}.\n"),
-    }
+    text += &picture.paragraph();
     line!(text, "In MuJoCo's own viewer, with keyframes: `{view}`.\n");
     tolerances(&mut text);
     line!(
