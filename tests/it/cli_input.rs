@@ -250,31 +250,11 @@ fn one_broken_paper_does_not_hide_the_others() {
     assert!(bench.done(&["list", "planners"]).contains("  astar "), "planners need no paper");
 }
 
-const PLANE: &str = r#"paper = "mini"
-question = "Is there a way round?"
-seed = 9
-[budget]
-expansions = 1_000
-[quick]
-replicates = 1
-[[problems]]
-label = "plane"
-family = "plane_queries"
-replicates = 2
-settings = { map = "plane.toml", samples = 30, radius_mm = 40 }
-[[contender]]
-label = "Improved A*"
-planner = "roadmap_astar"
-settings = { samples = 30, neighbour_mm = 40, cost = "hops", goal_shot = "never", path = "parents" }
-"#;
-
 #[test]
 fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_any_trial() {
     let bench = Bench::new();
-    let map =
-        "name = \"empty\"\nsize_mm = [100, 100]\nstart_mm = [5, 5]\ngoal_mm = [95, 95]\nobstacle = []\n";
-    bench.write("plane.toml", map.as_bytes());
-    bench.write("mini/plane.toml", PLANE.as_bytes());
+    bench.add_plane("[5, 5]");
+    let whole = fs::read(bench.at("mini/plane.toml")).unwrap();
     assert!(bench.done(&["check", "./mini"]).starts_with("mini: 3 studies"));
     let sweep = |values: &str| {
         format!("[[sweep]]\nkey = \"samples\"\nof = \"roadmap_astar\"\nvalues = [{values}]\n[budget]")
@@ -304,7 +284,7 @@ fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_a
             assert_eq!(answer.code, Some(2), "{}{}", answer.out, answer.err);
             assert!(answer.err.contains(said), "should be said: {said}\nis said: {}", answer.err);
         }
-        bench.write("mini/plane.toml", PLANE.as_bytes());
+        bench.write("mini/plane.toml", &whole);
     }
     // A sweep's own values count, not what it takes the place of.
     bench.edit("mini/plane.toml", "samples = 30, n", "samples = 31, n");
