@@ -1,5 +1,6 @@
 """The judge on a two-link arm whose answers can be worked out by hand."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import pytest
 
 from judge.answers import Answers, Questions, answer, answer_model
 from judge.model import load
-from judge.picture import ball_around, png
+from judge.picture import View, ball_around, draw, png
 from judge.tables import read_questions
 
 FIXTURES = Path(__file__).parent / "fixtures"
@@ -109,3 +110,39 @@ def test_a_png_has_its_size_and_no_clock() -> None:
     pixels = np.zeros((2, 3, 3), dtype=np.uint8)
     assert png(pixels) == png(pixels)
     assert png(pixels)[16:24] == (3).to_bytes(4, "big") + (2).to_bytes(4, "big")
+
+
+def test_a_renderer_that_fails_leaves_an_older_picture_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def failing(*_: object) -> None:
+        raise RuntimeError("no display")
+
+    monkeypatch.setattr("judge.picture.mujoco.Renderer", failing)
+    picture = tmp_path / "scene.png"
+    picture.write_bytes(b"older")
+    with pytest.raises(RuntimeError, match="no display"):
+        draw(MINI, picture, "zero", View(135.0, -25.0, 1.0))
+    assert picture.read_bytes() == b"older"
+
+
+@pytest.mark.parametrize(
+    ("renderer", "key", "complaint"), [("nonsense", "zero", "MUJOCO_GL"), ("disable", "one", "one")]
+)
+def test_the_command_line_fails_with_the_reason_last_and_without_a_picture(
+    tmp_path: Path, renderer: str, key: str, complaint: str
+) -> None:
+    picture = tmp_path / "scene.png"
+    words = [sys.executable, "-m", "judge", "draw", str(MINI), str(picture), "--key", key]
+    said = subprocess.run(
+        words,
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=FIXTURES.parents[1],
+        env={**os.environ, "MUJOCO_GL": renderer},
+    )
+    assert said.returncode != 0
+    # The caller passes on the last line.
+    assert complaint in said.stderr.strip().splitlines()[-1]
+    assert not picture.exists()

@@ -5,7 +5,7 @@ mod python;
 use super::places::{Places, papers};
 use super::progress::Bar;
 use super::{Failure, Which};
-use crate::crosscheck::{self, Case, CrosscheckError, Outcome, Picture, Sources, Spec};
+use crate::crosscheck::{self, Case, CrosscheckError, Depicted, Outcome, Picture, Sources, Spec};
 use crate::render::report;
 use crate::study::runner::Progress as _;
 use crate::study::store::write_whole;
@@ -66,6 +66,9 @@ impl Crosscheck {
                 "no paper here has a crosscheck.toml; run replan from the project's own folder",
             ));
         }
+        if self.answered {
+            posed.iter().try_for_each(|(_, shown, _)| are_answered(shown))?;
+        }
         let judge =
             if self.answered { None } else { Some(Judge::ready(self.python.as_deref(), Path::new(FOLDER))?) };
         let mut differences = 0;
@@ -97,7 +100,7 @@ impl Crosscheck {
         let picture = spec.picture();
         let drawn = match judge {
             Some(judge) => self.ask(judge, &cases, shown, &picture)?,
-            None => Err("the answers were there already".to_owned()),
+            None => Drawing::Unasked,
         };
         let outcomes = compare(&id, &cases, &folder)?;
         say!("{}", crosscheck::verdict_table(&outcomes).trim_end());
@@ -105,18 +108,18 @@ impl Crosscheck {
         let listed = if all.is_empty() { String::new() } else { all.join("\n") + "\n" };
         write_whole(&folder.join("disagreements.txt"), listed.as_bytes())?;
         eprint!("{listed}");
-        self.report(shown, &outcomes, &picture.case, &drawn)?;
+        self.report(shown, &outcomes, &picture.case, drawn)?;
         Ok(all.len())
     }
 
-    /// Writes the cases, has them answered, and draws the picture: where it is, or why it is not.
+    /// Writes the cases, has them answered, and draws the picture.
     fn ask(
         &self,
         judge: &Judge,
         cases: &[Case],
         shown: &Places,
         picture: &Picture,
-    ) -> Result<Result<PathBuf, String>, Failure> {
+    ) -> Result<Drawing, Failure> {
         let (id, folder) = (id(shown), answers(shown));
         if folder.exists() {
             fs::remove_dir_all(&folder)?;
@@ -133,50 +136,89 @@ impl Crosscheck {
             key: picture.key.clone(),
             camera_deg: picture.camera_deg,
             zoom: picture.zoom,
-            to: to.clone(),
+            to,
         };
+        fs::create_dir_all(snapshot.to.parent().unwrap_or(Path::new("")))?;
         Ok(match judge.draw(&snapshot) {
-            Ok(()) => Ok(to),
+            Ok(()) => Drawing::Done,
             Err(why) => {
                 eprintln!("{id}: no picture: {why}");
-                Err(why)
+                Drawing::Failed
             }
         })
     }
 
-    /// Writes or checks the chapter; a picture that could not be drawn now stays as it is. `scene` is the case to look
-    /// around in.
+    /// Writes or checks the chapter. `scene` is the case to look around in.
     fn report(
         &self,
         shown: &Places,
         outcomes: &[Outcome],
         scene: &str,
-        drawn: &Result<PathBuf, String>,
+        drawn: Drawing,
     ) -> Result<(), Failure> {
         let id = id(shown);
-        let link = format!("plots/{id}/{PICTURE}");
-        let picture = match drawn {
-            Ok(_) => Ok(link.as_str()),
-            Err(_) if shown.plots.join(PICTURE).is_file() => Ok(link.as_str()),
-            Err(_) => Err("no renderer that needs no screen was there when this was written"),
-        };
         let place = answers(shown).join(scene).join("scene.xml");
         let view = format!("{FOLDER}/venv/bin/python -m mujoco.viewer --mjcf={}", place.display());
         let command = format!("replan crosscheck {id}");
-        let chapter = crosscheck::chapter(&id, outcomes, &command, &view, picture);
+        let chapter = |picture| crosscheck::chapter(&id, outcomes, &command, &view, picture);
+        let link = format!("plots/{id}/{PICTURE}");
+        let (now, next) = depicted(drawn, &link, shown.plots.join(PICTURE).is_file());
         let (path, name) = (&shown.report, chapter_name(shown));
         if !self.check {
-            report::put_chapter(path, &shown.report_lock(), &name, &chapter)?;
+            report::put_chapter(path, &shown.report_lock(), &name, &chapter(now))?;
             say!("the chapter is in {}; to look around the scene: {view}", path.display());
             return Ok(());
         }
         let before = report::read(path)?;
-        if report::with_chapter(path, &before, &name, &chapter)? != before {
-            return Err(Failure::stale(format!("not current: the chapter `{name}` of {}", path.display())));
+        for picture in [Some(now), next].into_iter().flatten() {
+            if report::with_chapter(path, &before, &name, &chapter(picture))? == before {
+                say!("the chapter in {} is current", path.display());
+                return Ok(());
+            }
         }
-        say!("the chapter in {} is current", path.display());
-        Ok(())
+        Err(Failure::stale(format!("not current: the chapter `{name}` of {}", path.display())))
     }
+}
+
+/// What became of the picture.
+#[derive(Clone, Copy)]
+enum Drawing {
+    Done,
+    Unasked,
+    Failed,
+}
+
+/// How the chapter shows the picture; and how else, if a check that draws none itself cannot say which of the two is right:
+/// the machine that wrote the chapter may have drawn it.
+fn depicted(drawn: Drawing, link: &str, is_there: bool) -> (Depicted<'_>, Option<Depicted<'_>>) {
+    let why = match drawn {
+        Drawing::Done => return (Depicted::Now(link), None),
+        Drawing::Unasked => "none was asked for when this was written, since the answers were there already",
+        Drawing::Failed => {
+            "it could not be drawn when this was written; most often no renderer works without a screen (Debian or \
+             Ubuntu: apt install libosmesa6)"
+        }
+    };
+    if is_there {
+        (Depicted::Before(link, why), Some(Depicted::Now(link)))
+    } else {
+        (Depicted::Not(why), None)
+    }
+}
+
+/// Refuses to judge where nothing has been answered yet.
+fn are_answered(shown: &Places) -> Result<(), Failure> {
+    let folder = answers(shown);
+    let cases = fs::read_dir(&folder).into_iter().flatten().flatten();
+    let mut files = cases.flat_map(|case| fs::read_dir(case.path()).into_iter().flatten().flatten());
+    if files.any(|file| file.file_name().to_string_lossy().ends_with(crosscheck::ANSWERED)) {
+        return Ok(());
+    }
+    Err(Failure::input(format!(
+        "{}: there are no answers to judge; run `replan crosscheck {}` without --answered, which asks for them",
+        folder.display(),
+        id(shown)
+    )))
 }
 
 /// The paper's name.

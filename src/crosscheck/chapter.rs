@@ -71,14 +71,35 @@ fn row(text: &mut String, width: usize, case: &str, cells: &[String; 7], verdict
     );
 }
 
-/// The chapter of the paper `paper`: `command` made it, `view` opens the scene in MuJoCo's viewer, and `picture` is
-/// where its picture is as seen from the report, or why there is none.
+/// Where the scene's picture is, as seen from the report.
+#[derive(Debug, Clone, Copy)]
+pub enum Depicted<'a> {
+    /// Here, drawn with the rest.
+    Now(&'a str),
+    /// Here, from an earlier run; the reason why there is no new one.
+    Before(&'a str, &'a str),
+    /// Nowhere, and why.
+    Not(&'a str),
+}
+
+impl Depicted<'_> {
+    fn paragraph(self) -> String {
+        let image = |path: &str| format!("![the scene as MuJoCo sees it]({path})\n\n");
+        match self {
+            Self::Now(path) => image(path),
+            Self::Before(path, why) => image(path) + &format!("The picture is of an earlier run: {why}.\n\n"),
+            Self::Not(why) => format!("No picture: {why}.\n\n"),
+        }
+    }
+}
+
+/// The chapter of the paper `paper`: `command` made it, and `view` opens the scene in MuJoCo's viewer.
 pub fn chapter(
     paper: &str,
     outcomes: &[Outcome],
     command: &str,
     view: &str,
-    picture: Result<&str, &str>,
+    picture: Depicted<'_>,
 ) -> String {
     let mut text = String::new();
     line!(text, "## {paper}: the same robots, scenes and paths judged by MuJoCo\n");
@@ -88,10 +109,7 @@ pub fn chapter(
          configurations below; it shares no code with us.\n"
     );
     line!(text, "**{}**\n", summary(outcomes));
-    match picture {
-        Ok(path) => line!(text, "![the scene as MuJoCo sees it]({path})\n"),
-        Err(why) => line!(text, "No picture: {why}.\n"),
-    }
+    text += &picture.paragraph();
     line!(text, "In MuJoCo's own viewer, with keyframes: `{view}`.\n");
     tolerances(&mut text);
     line!(

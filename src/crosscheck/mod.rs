@@ -25,9 +25,10 @@ mod table;
 mod tests;
 
 pub use case::{Case, Outcome};
-pub use chapter::{chapter, list, table as verdict_table};
+pub use chapter::{Depicted, chapter, list, table as verdict_table};
 pub use compare::{Disagreement, FRAME_TOLERANCE, Line, TIE_M};
 pub use spec::{Picture, SPEC, Sources, Spec};
+pub use table::ANSWERED;
 
 use crate::settings::SettingsError;
 use crate::study::StudyError;

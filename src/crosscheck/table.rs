@@ -18,6 +18,9 @@ use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
+/// How the name of the table ends that every answered model has.
+pub const ANSWERED: &str = ".touch.parquet";
+
 /// A table that was read.
 pub struct Table {
     path: PathBuf,

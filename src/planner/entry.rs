@@ -1,6 +1,7 @@
 //! What a planner is given, what it gives back, and what it says of itself.
 
 use crate::settings::{Settings, SettingsError};
+use crate::space::roadmap::Extent;
 use crate::space::{World, WorldKind};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -104,6 +105,12 @@ pub trait Planner: Send + Sync {
     /// The steps, in columns and rows, that its graph may have, if it moves over a lattice by steps of its own; the
     /// verifier holds its path to them.
     fn steps(&self) -> Option<&[[i32; 2]]> {
+        None
+    }
+
+    /// How large a roadmap must at least be, if it searches a part of one that its settings name; a study is refused if
+    /// its problems have less.
+    fn asks(&self) -> Option<Extent> {
         None
     }
 }

@@ -7,7 +7,7 @@ use crate::search::{
 };
 use crate::settings::{Settings, SettingsError};
 use crate::space::WorldKind;
-use crate::space::roadmap::Roadmap;
+use crate::space::roadmap::{Extent, Roadmap};
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -94,13 +94,15 @@ impl RoadmapAstar {
         Ok(())
     }
 
+    fn extent(&self) -> Extent {
+        Extent { samples: self.samples, radius_mm: self.neighbour_mm }
+    }
+
     fn part<'a>(&self, posed: &Posed<'a>) -> Result<Part<'a>, Invalid> {
         let prefix = posed.map.prefix(self.samples).map_err(Invalid)?;
-        if self.neighbour_mm > posed.map.radius_mm() {
-            let (wanted, built) = (self.neighbour_mm, posed.map.radius_mm());
-            return Err(Invalid(format!(
-                "neighbours up to {wanted} mm are asked for; the roadmap was built up to {built} mm"
-            )));
+        let built = Extent { samples: self.samples, radius_mm: posed.map.radius_mm() };
+        if let Some(lack) = built.lacks(&self.extent()) {
+            return Err(Invalid(lack));
         }
         let cost = match self.cost {
             CostSetting::Hops => EdgeCost::Hop,
@@ -190,12 +192,19 @@ impl Planner for RoadmapAstar {
         Ok(plan)
     }
 
+    /// The graph is what its settings leave of the roadmap; the straight distance never lies above the rest of a way and
+    /// falls by no more than an edge is long, so that no closed node could be reached cheaper.
     fn is_optimal(&self) -> bool {
-        false
+        let searches_alone = self.goal_shot == ShotSetting::Never && self.path == PathSetting::Parents;
+        searches_alone && self.nearest.is_none() && matches!(self.cost, CostSetting::Length)
     }
 
     fn is_complete(&self) -> bool {
         false
+    }
+
+    fn asks(&self) -> Option<Extent> {
+        Some(self.extent())
     }
 }
 

@@ -4,7 +4,7 @@ use super::checked::Study;
 use super::lock::Lock;
 use super::manifest::{Manifest, key};
 use super::reading::Point;
-use super::record::{Batch, Row};
+use super::record::{Batch, Row, Status};
 use super::runner::{Field, Progress, Unit};
 use super::store::{Journal, Records, Staged, read_records, remove_temporaries, stage_records};
 use super::{Inputs, StudyError};
@@ -54,6 +54,35 @@ pub struct Report {
     pub why: Vec<String>,
     /// Trials that were run again and now differ from what was stored under equal dependencies.
     pub moved: Vec<String>,
+    /// Trials that brought neither a path nor the answer that there is none, by status.
+    pub odd: Vec<Odd>,
+}
+
+/// Trials of one status that a reader may not have expected.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Odd {
+    /// The status.
+    pub status: Status,
+    /// How many there are.
+    pub count: usize,
+    /// The first of them.
+    pub trial: String,
+    /// Why it ended so.
+    pub reason: String,
+}
+
+impl Odd {
+    /// Those among `rows`, in the order of [`Status::ALL`].
+    fn among(rows: &[Row]) -> Vec<Self> {
+        let is_odd = |status: &Status| ![Status::Solved, Status::NoPath].contains(status);
+        let of = |status: Status| {
+            let all: Vec<&Row> = rows.iter().filter(|row| row.status == status).collect();
+            let first = all.first()?;
+            let reason = first.reason.clone().unwrap_or_default();
+            Some(Self { status, count: all.len(), trial: first.trial.clone(), reason })
+        };
+        Status::ALL.into_iter().filter(is_odd).filter_map(of).collect()
+    }
 }
 
 /// Runs what is stale of `study`; where nothing is, the stored run stays as it is.
@@ -79,8 +108,9 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         && (&before.spec, &before.depends) == (&manifest.spec, &manifest.depends)
     {
         journal.remove()?;
-        let (manifest, trials) = (before.clone(), records.batch.rows.len());
-        return Ok(Report { manifest, trials, resumed, reused, units, why, moved: Vec::new() });
+        let (manifest, rows) = (before.clone(), &records.batch.rows);
+        let (trials, odd) = (rows.len(), Odd::among(rows));
+        return Ok(Report { manifest, trials, resumed, reused, units, why, moved: Vec::new(), odd });
     }
     if let Some((before, _)) = stored.as_ref().filter(|_| reused > 0) {
         // These trials were seen under the former claims, so that a margin which has moved since stays marked.
@@ -95,7 +125,8 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let records = Records { batch, times };
     write(study, folder, &mut manifest, &records)?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
-    Ok(Report { manifest, trials: records.batch.rows.len(), resumed, reused, units, why, moved })
+    let (trials, odd) = (records.batch.rows.len(), Odd::among(&records.batch.rows));
+    Ok(Report { manifest, trials, resumed, reused, units, why, moved, odd })
 }
 
 /// What is stored of a study, and why it cannot stand for the run that `manifest` describes.

@@ -249,3 +249,45 @@ fn one_broken_paper_does_not_hide_the_others() {
     }
     assert!(bench.done(&["list", "planners"]).contains("  astar "), "planners need no paper");
 }
+
+#[test]
+fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_any_trial() {
+    let bench = Bench::new();
+    bench.add_plane("[5, 5]");
+    let whole = fs::read(bench.at("mini/plane.toml")).unwrap();
+    assert!(bench.done(&["check", "./mini"]).starts_with("mini: 3 studies"));
+    let sweep = |values: &str| {
+        format!("[[sweep]]\nkey = \"samples\"\nof = \"roadmap_astar\"\nvalues = [{values}]\n[budget]")
+    };
+    for (from, to, said) in [
+        (
+            "samples = 30, n",
+            "samples = 31, n".to_owned(),
+            "mini/plane.toml:16:12: contender `Improved A*` on problems `plane`: 31 samples are asked for; the roadmap \
+             was built with 30",
+        ),
+        (
+            "neighbour_mm = 40",
+            "neighbour_mm = 40.5".to_owned(),
+            "contender `Improved A*` on problems `plane`: neighbours up to 40.5 mm are asked for; the roadmap was built \
+             up to 40 mm",
+        ),
+        (
+            "[budget]",
+            sweep("20, 31"),
+            "contender `Improved A*` at samples=31 on problems `plane`: 31 samples are asked for",
+        ),
+    ] {
+        bench.edit("mini/plane.toml", from, &to);
+        for command in ["check", "run"] {
+            let answer = bench.run(&[command, "./mini"]);
+            assert_eq!(answer.code, Some(2), "{}{}", answer.out, answer.err);
+            assert!(answer.err.contains(said), "should be said: {said}\nis said: {}", answer.err);
+        }
+        bench.write("mini/plane.toml", &whole);
+    }
+    // A sweep's own values count, not what it takes the place of.
+    bench.edit("mini/plane.toml", "samples = 30, n", "samples = 31, n");
+    bench.edit("mini/plane.toml", "[budget]", &sweep("20, 30"));
+    bench.done(&["check", "./mini"]);
+}

@@ -123,6 +123,29 @@ fn what_is_stored_and_unchanged_is_reused_and_why_says_what_changed() {
 }
 
 #[test]
+fn trials_that_ended_in_an_unexpected_way_are_counted_with_the_first_reason() {
+    let bench = Bench::new();
+    let whole = bench.done(&["run", "./mini"]);
+    assert!(whole.starts_with("draws: 48 trials\nroom: 1 trials\n"), "{whole}");
+    bench.edit("mini/draws.toml", "expansions = 10_000", "expansions = 3");
+    bench.add_plane("[50, 25]");
+    for again in [false, true] {
+        let out = bench.done(&["run", "./mini"]);
+        let lines: Vec<&str> = out.lines().collect();
+        let [draws, spent, plane, invalid, room, _] = lines[..] else { panic!("again {again}:\n{out}") };
+        let studies = [(draws, "draws: 48 trials"), (plane, "plane: 2 trials"), (room, "room: 1 trials")];
+        assert!(studies.iter().all(|(line, start)| line.starts_with(start)), "{out}");
+        let (count, first) = spent.trim().split_once(' ').unwrap();
+        assert!((24..=48).contains(&count.parse::<u32>().unwrap()), "{out}");
+        assert!(first.starts_with("budget_spent; the first is draws/drawn/"), "{out}");
+        assert!(first.ends_with(": budget of 3 expansions spent"), "{out}");
+        let (count, reason) = invalid.split_once(": ").unwrap();
+        assert!(count.starts_with("  2 invalid_problem; the first is plane/plane/"), "{out}");
+        assert_eq!(reason, "the start cannot be posed: [50.0, 25.0] is in obstacle 1");
+    }
+}
+
+#[test]
 fn a_figure_or_keep_added_later_gets_its_exhibits_and_another_timing_its_readings() {
     let bench = Bench::new();
     bench.done(&["run", "./mini"]);

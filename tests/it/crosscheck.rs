@@ -249,3 +249,79 @@ fn a_spec_that_names_what_is_not_there_is_refused_at_its_line() {
         assert!(parts.iter().all(|part| said.err.contains(part)), "{parts:?}\n{}", said.err);
     }
 }
+
+/// A picture of an earlier run.
+const PICTURE: &str = "out/plots/judged/scene_mujoco.png";
+
+fn report(bench: &Bench) -> String {
+    fs::read_to_string(bench.at("out/paper_repro.md")).unwrap()
+}
+
+#[test]
+fn a_report_without_a_new_picture_says_why_and_a_check_takes_either() {
+    let unasked = "none was asked for when this was written, since the answers were there already.";
+    let link = "![the scene as MuJoCo sees it](plots/judged/scene_mujoco.png)\n\n";
+    let bench = bench();
+    assert_eq!(judged(&bench).code, Some(0));
+    assert!(report(&bench).contains(&format!("\nNo picture: {unasked}\n")), "{}", report(&bench));
+    bench.write(PICTURE, b"older");
+    assert_eq!(judged(&bench).code, Some(0));
+    let before = format!("{link}The picture is of an earlier run: {unasked}\n\n");
+    assert!(report(&bench).contains(&before), "{}", report(&bench));
+    let check = || bench.run(&["crosscheck", "./judged", "--answered", "--out", "out", "--check"]).code;
+    assert_eq!(check(), Some(0));
+    bench.write("out/paper_repro.md", report(&bench).replace(&before, link).as_bytes());
+    assert_eq!(check(), Some(0), "a chapter written where the picture was drawn");
+    bench.write("out/paper_repro.md", report(&bench).replace(link, "").as_bytes());
+    assert_eq!(check(), Some(3));
+}
+
+#[test]
+fn a_picture_that_cannot_be_drawn_is_not_passed_off_as_a_new_one() {
+    let bench = bench();
+    bench.write("crosscheck/requirements.txt", b"mujoco==4.0.0\n");
+    // A Python whose judge gives the kept answers and has no renderer.
+    let script = "#!/bin/sh\ncase \"$2 $3\" in\n  'venv --clear') mkdir -p \"$4/bin\" && cp \"$0\" \"$4/bin/python\";;\n\
+                  \x20 'judge answer') cp kept/* \"$4/up6-in-room/\";;\n  'judge draw') echo 'no display' >&2; exit 1;;\n\
+                  \x20 pip*) ;;\n  *) echo 3 11;;\nesac\n";
+    bench.write("python", script.as_bytes());
+    let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+    fs::set_permissions(bench.at("python"), mode).unwrap();
+    for file in fs::read_dir(here().join("answers")).unwrap() {
+        let path = file.unwrap().path();
+        bench.write(&format!("kept/{}", path.file_name().unwrap().display()), &fs::read(&path).unwrap());
+    }
+    for (is_there, said) in [(false, "No picture: "), (true, "The picture is of an earlier run: ")] {
+        if is_there {
+            bench.write(PICTURE, b"older");
+        }
+        let asked = bench.run(&["crosscheck", "./judged", "--out", "out", "--python", "./python"]);
+        assert_eq!(asked.code, Some(0), "{}{}", asked.out, asked.err);
+        assert!(
+            asked.err.contains("judged: no picture: ") && asked.err.contains("no display"),
+            "{}",
+            asked.err
+        );
+        let line = format!("\n{said}it could not be drawn when this was written; most often no renderer");
+        assert!(report(&bench).contains(&line), "{}", report(&bench));
+        assert_eq!(report(&bench).contains("scene_mujoco.png"), is_there);
+    }
+}
+
+#[test]
+fn answers_that_were_never_asked_for_are_wrong_input_and_nothing_is_written() {
+    let bench = bench();
+    fs::remove_dir_all(bench.at(ANSWERS)).unwrap();
+    let said = judged(&bench);
+    assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{}", said.err);
+    let told = "there are no answers to judge; run `replan crosscheck judged` without --answered";
+    assert!(
+        said.err.contains(told) && said.err.contains("out/target/replan/crosscheck/judged: "),
+        "{}",
+        said.err
+    );
+    // Questions alone are no answers.
+    bench.write(&format!("{ANSWERS}/scene.questions.parquet"), b"");
+    assert_eq!(judged(&bench).code, Some(2));
+    assert!(!bench.at("out/paper_repro.md").exists());
+}

@@ -137,6 +137,24 @@ settings = { problem = "room", contenders = ["A*"] }
 
 const MAP: &str = "; a room with a wall\n.......\n...#...\n...#...\n...#...\n";
 
+const PLANE: &str = r#"paper = "mini"
+question = "Is there a way round?"
+seed = 9
+[budget]
+expansions = 1_000
+[quick]
+replicates = 1
+[[problems]]
+label = "plane"
+family = "plane_queries"
+replicates = 2
+settings = { map = "bar.toml", samples = 30, radius_mm = 40 }
+[[contender]]
+label = "Improved A*"
+planner = "roadmap_astar"
+settings = { samples = 30, neighbour_mm = 40, cost = "hops", goal_shot = "never", path = "parents" }
+"#;
+
 /// A folder that holds the paper `mini` and whatever is run on it.
 pub struct Bench {
     folder: TempDir,
@@ -159,6 +177,16 @@ impl Bench {
         }
         bench.write("mini/room.map.txt", MAP.as_bytes());
         bench
+    }
+
+    /// Gives the paper a third study, of roadmaps of a particle that starts at `start_mm` and goes round a bar.
+    pub fn add_plane(&self, start_mm: &str) {
+        let map = format!(
+            "name = 'bar'\nsize_mm = [100, 100]\nstart_mm = {start_mm}\ngoal_mm = [95, 95]\n[[obstacle]]\n\
+             corners_mm = [[40, 0], [60, 0], [60, 50], [40, 50]]\n"
+        );
+        self.write("bar.toml", map.as_bytes());
+        self.write("mini/plane.toml", PLANE.as_bytes());
     }
 
     /// The place called `name` in the folder.

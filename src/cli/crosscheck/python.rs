@@ -105,14 +105,11 @@ impl Judge {
         Err(Failure { code: 1, message })
     }
 
-    /// Draws a picture.
+    /// Draws a picture into a folder that is there.
     ///
     /// # Errors
-    /// Why there is no renderer without a screen, in a sentence.
+    /// What each renderer complained of, in a sentence.
     pub fn draw(&self, shown: &Snapshot) -> Result<(), String> {
-        if let Some(folder) = shown.to.parent() {
-            fs::create_dir_all(folder).map_err(|e| e.to_string())?;
-        }
         let mut whys = Vec::new();
         for renderer in RENDERERS {
             let mut command = self.module("judge");

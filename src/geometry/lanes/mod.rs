@@ -38,10 +38,17 @@ pub type Lane<S> = f64x4<S>;
 /// Numbers of four cases between two functions that may be compiled for different instructions.
 pub type Row = [f64; LANES];
 
-/// The instructions that this machine has.
+/// The instructions that this machine has; in a test, those that it asked for.
 pub fn level() -> Level {
+    #[cfg(test)]
+    if let Some(level) = tests::FORCED.get() {
+        return level;
+    }
     Level::new()
 }
+
+#[cfg(test)]
+pub use tests::{levels, on_level};
 
 /// A point or direction a case.
 #[derive(Debug, Clone, Copy)]

@@ -5,6 +5,25 @@ use crate::geometry::tests::sample;
 use crate::geometry::{HalfSpace, Segment, distance_segment_box, distance_segment_segment};
 use crate::seed::{self, Stream};
 use rand::RngExt as _;
+use std::cell::Cell;
+
+thread_local! {
+    /// What [`level`] gives on this thread instead of what the machine has.
+    pub(super) static FORCED: Cell<Option<Level>> = const { Cell::new(None) };
+}
+
+/// The instructions of this machine, and the least that its architecture has.
+pub fn levels() -> [Level; 2] {
+    [Level::new(), Level::baseline()]
+}
+
+/// What `task` gives when lanes run on the instructions of `level`, on this thread alone.
+pub fn on_level<R>(level: Level, task: impl FnOnce() -> R) -> R {
+    FORCED.set(Some(level));
+    let result = task();
+    FORCED.set(None);
+    result
+}
 
 /// The two ends of four segments as rows: x, y and z of the first, then of the second.
 type SegmentRows = [Row; 6];
@@ -26,7 +45,7 @@ fn sines_cosines_and_arc_tangents_are_right_to_two_last_places() {
         let angles: Row = std::array::from_fn(|_| stream.random_range(-20.0..20.0));
         let points: [Row; 2] =
             std::array::from_fn(|_| std::array::from_fn(|_| stream.random_range(-1.0..1.0)));
-        for level in [level(), Level::baseline()] {
+        for level in levels() {
             let (s, c, arc) = dispatch!(level, simd => {
                 let (s, c) = sincos(Lane::load_array(simd, angles));
                 let arc = atan2(Lane::load_array(simd, points[0]), Lane::load_array(simd, points[1]));
@@ -66,7 +85,7 @@ fn distances_are_those_of_the_scalar_code() {
         let shape = sample::oriented_box(&mut stream);
         let wall = HalfSpace::behind(&sample::point(&mut stream), &sample::direction(&mut stream)).unwrap();
         let (p, q) = (rows(&pairs.map(|pair| pair[0])), rows(&pairs.map(|pair| pair[1])));
-        for level in [level(), Level::baseline()] {
+        for level in levels() {
             let [between, to_box, height] = dispatch!(level, simd => {
                 let (p, q) = (axis(simd, &p), axis(simd, &q));
                 [

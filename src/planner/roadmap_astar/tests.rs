@@ -29,10 +29,14 @@ fn world(number: u64) -> World {
     World::Roadmap(Box::new(Roadmap::build(Local::Plane(map), samples, RADIUS_MM, Counted::Accepted)))
 }
 
+fn built(text: &str) -> Result<Box<dyn Planner>, SettingsError> {
+    let Build::Planner(build) = ENTRY.build else { panic!("a planner") };
+    build(&Settings::composed("test", text.parse().unwrap()))
+}
+
 fn plan(world: &World, settings: &str) -> Plan {
     let text = format!("samples = {SAMPLES}\nneighbour_mm = {RADIUS_MM}\ncost = \"hops\"\n{settings}");
-    let Build::Planner(build) = ENTRY.build else { panic!("a planner") };
-    let planner = build(&Settings::composed("test", text.parse().unwrap())).unwrap();
+    let planner = built(&text).unwrap();
     let [start, goal] = ENDS;
     let request = Request { world, start: &start, goal: &goal, expansions: 10_000, seed: 0, trace: true };
     planner.plan(&request).unwrap()
@@ -153,4 +157,41 @@ fn legs_of_the_closed_sequence_that_are_no_edges_are_counted() {
         broken += u32::from(wanted > 0);
     }
     assert!(whole >= 3 && broken >= 5, "one-sided sample: {whole} whole, {broken} broken");
+}
+
+#[test]
+fn only_a_search_by_length_for_itself_promises_a_shortest_path() {
+    let promises = |settings: &str| {
+        let text = format!("samples = {SAMPLES}\nneighbour_mm = {RADIUS_MM}\n{settings}");
+        built(&text).unwrap().is_optimal()
+    };
+    for (settings, expected) in [
+        (format!("cost = 'length'\n{NEVER}"), true),
+        (format!("cost = 'length'\nblind = true\n{NEVER}"), true),
+        (format!("cost = 'hops'\n{NEVER}"), false),
+        (format!("cost = 'hops'\nblind = true\n{NEVER}"), false),
+        (format!("cost = 'length'\n{SHOTS}"), false),
+        (format!("cost = 'length'\nnearest = 10\n{NEVER}"), false),
+        ("cost = 'length'\ngoal_shot = 'from_start'\npath = 'parents'".to_owned(), false),
+        ("cost = 'length'\ngoal_shot = 'never'\npath = 'closed_sequence'".to_owned(), false),
+    ] {
+        assert_eq!(promises(&settings), expected, "{settings}");
+    }
+}
+
+#[test]
+fn numbers_that_cannot_be_are_refused_by_name() {
+    for (samples, neighbour_mm, more, said) in [
+        ("0", "28.0", "", "samples is 0; at least 1 is accepted"),
+        ("40", "0.0", "", "neighbour_mm is 0; a length above 0 is accepted"),
+        ("40", "-1.0", "", "neighbour_mm is -1; a length above 0 is accepted"),
+        ("40", "nan", "", "neighbour_mm is NaN; a length above 0 is accepted"),
+        ("40", "inf", "", "neighbour_mm is inf; a length above 0 is accepted"),
+        ("40", "28.0", "nearest = 0", "nearest is 0; at least 1 is accepted, or leave it out"),
+    ] {
+        let text =
+            format!("samples = {samples}\nneighbour_mm = {neighbour_mm}\ncost = 'hops'\n{NEVER}\n{more}");
+        let message = built(&text).err().expect(said).to_string();
+        assert!(message.contains(said), "{said}\nis said: {message}");
+    }
 }

@@ -39,6 +39,29 @@ pub enum Counted {
     Drawn,
 }
 
+/// How large a roadmap is, or what a planner asks of one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// How many samples, or draws where draws are counted.
+    pub samples: u32,
+    /// How far apart neighbours may be.
+    pub radius_mm: f64,
+}
+
+impl Extent {
+    /// Why a roadmap of this size does not do for what is `wanted`; `None` if it does.
+    pub fn lacks(&self, wanted: &Self) -> Option<String> {
+        let (Self { samples, radius_mm }, asked) = (self, wanted.radius_mm);
+        if wanted.samples > *samples {
+            let asked = wanted.samples;
+            return Some(format!("{asked} samples are asked for; the roadmap was built with {samples}"));
+        }
+        (asked > *radius_mm).then(|| {
+            format!("neighbours up to {asked} mm are asked for; the roadmap was built up to {radius_mm} mm")
+        })
+    }
+}
+
 /// Samples, edges, and what was learned about them.
 #[derive(Debug)]
 pub struct Roadmap {

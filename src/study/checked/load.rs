@@ -3,10 +3,12 @@
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
 use super::{
-    Build, Contender, Group, Inputs, Point, Reading, Settings, StageUse, Study, StudyError, Sweep, slug,
+    Build, Contender, Family, Group, Inputs, Point, Reading, Settings, StageUse, Study, StudyError, Sweep,
+    SweepPoint, slug,
 };
 use crate::planner;
 use crate::settings::{Document, SettingsError};
+use crate::space::roadmap::Extent;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -81,13 +83,13 @@ impl Study {
     }
 
     fn check_point(&self, point: &Point, inputs: &Inputs) -> Result<(), StudyError> {
-        let mut kinds = BTreeSet::new();
-        for group in &self.groups {
-            kinds.insert(group.family(point, inputs)?.world());
-        }
+        let families: Vec<Box<dyn Family>> =
+            self.groups.iter().map(|group| group.family(point, inputs)).collect::<Result<_, _>>()?;
+        let kinds: BTreeSet<_> = families.iter().map(|family| family.world()).collect();
         for contender in &self.contenders {
             for sweep in self.sweep_points() {
-                contender.pipeline(point, &sweep)?;
+                let planner = contender.pipeline(point, &sweep)?.planner;
+                self.check_extent(contender, &sweep, planner.asks(), &families)?;
             }
             for stage in &contender.stages {
                 if let Some(kind) = kinds.iter().find(|kind| !kind.serves(stage.entry.needs)) {
@@ -101,6 +103,25 @@ impl Study {
                     return Err(stage.settings.error(message).into());
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// A planner that asks for more of a roadmap than there is would make nothing but invalid rows.
+    fn check_extent(
+        &self,
+        contender: &Contender,
+        sweep: &SweepPoint,
+        asked: Option<Extent>,
+        families: &[Box<dyn Family>],
+    ) -> Result<(), StudyError> {
+        for (group, family) in self.groups.iter().zip(families) {
+            let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));
+            let Some(lack) = lack else { continue };
+            let swept = if sweep.name.is_empty() { String::new() } else { format!(" at {}", sweep.name) };
+            let message =
+                format!("contender `{}`{swept} on problems `{}`: {lack}", contender.label, group.label);
+            return Err(contender.stages[0].settings.error(message).into());
         }
         Ok(())
     }

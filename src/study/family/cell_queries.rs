@@ -10,7 +10,7 @@ use crate::seed;
 use crate::settings::{Document, Settings, SettingsError};
 use crate::space::WorldKind;
 use crate::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Scene, SpeedRule};
-use crate::space::roadmap::{Counted, Local, Sample};
+use crate::space::roadmap::{Counted, Extent, Local, Sample};
 use crate::study::judge::roadmap::ARM_COLUMNS;
 use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::{Inputs, StudyError};
@@ -293,6 +293,10 @@ impl Family for Posed {
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn extent(&self) -> Option<Extent> {
+        Some(Extent { samples: self.read.samples, radius_mm: self.read.radius_mm })
     }
 
     fn inputs(&self) -> &[PathBuf] {

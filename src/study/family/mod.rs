@@ -19,6 +19,7 @@ use super::prepared::Prepared;
 use super::{Inputs, StudyError};
 use crate::planner::{Counts, Invalid};
 use crate::settings::Settings;
+use crate::space::roadmap::Extent;
 use crate::space::{World, WorldKind};
 use std::path::PathBuf;
 
@@ -59,6 +60,11 @@ pub trait Family: Send + Sync {
     fn queries_for(&self, seed: u64) -> Vec<Query> {
         let _ = seed;
         self.queries().to_vec()
+    }
+
+    /// How large its roadmaps are, if it poses problems on roadmaps.
+    fn extent(&self) -> Option<Extent> {
+        None
     }
 
     /// What the problem itself says about its query number `query`, for every trial's row: an optimum printed with

@@ -7,7 +7,7 @@ use crate::planner::{Exhibit, Invalid};
 use crate::seed;
 use crate::settings::{Document, SettingsError};
 use crate::space::WorldKind;
-use crate::space::roadmap::{Counted, Local, PlaneMap, Sample};
+use crate::space::roadmap::{Counted, Extent, Local, PlaneMap, Sample};
 use crate::study::StudyError;
 use crate::study::judge::roadmap::PLANE_COLUMNS;
 use crate::study::prepared::{Prepared, nested_roadmap};
@@ -132,6 +132,10 @@ impl Family for Drawn {
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn extent(&self) -> Option<Extent> {
+        Some(Extent { samples: self.read.samples, radius_mm: self.read.radius_mm })
     }
 
     fn inputs(&self) -> &[PathBuf] {

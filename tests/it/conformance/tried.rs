@@ -94,6 +94,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
         &[
             "samples = 40\nneighbour_mm = 30.0\ncost = 'hops'\ngoal_shot = 'never'\npath = 'parents'",
             "samples = 40\nneighbour_mm = 30.0\ncost = 'length'\ngoal_shot = 'never'\npath = 'parents'",
+            "samples = 40\nneighbour_mm = 30.0\ncost = 'length'\nblind = true\ngoal_shot = 'never'\npath = 'parents'",
             "samples = 40\nneighbour_mm = 30.0\ncost = 'hops'\ngoal_shot = 'before_expansion'\npath = 'parents'",
         ],
     ),

@@ -1,6 +1,7 @@
 //! Lanes against one configuration at a time: the same verdict, reason and count on every motion.
 
 use super::*;
+use crate::geometry::lanes::{Level, levels, on_level};
 use crate::kinematics::Robot;
 use crate::seed::{self, Stream};
 use crate::settings::Document;
@@ -36,22 +37,27 @@ fn partner(lines: &Lines, from: &Joints, stream: &mut Stream) -> Joints {
     }
 }
 
-/// What the lanes alone say, after holding them and [`Lines::join`] to one configuration at a time.
-fn compared(lines: &Lines, a: &Joints, b: &Joints, place: &str) -> Option<Result<(), Rejection>> {
+/// What the lanes alone say on each of [`levels`], after holding them and [`Lines::join`] to one configuration at a time.
+fn compared(lines: &Lines, a: &Joints, b: &Joints, place: &str) -> [Option<Result<(), Rejection>>; 2] {
     let [from, to] = [a, b].map(|q| lines.pose(q));
-    let (mut single, mut both) = (Scratch::default(), Scratch::default());
+    let mut single = Scratch::default();
     let expected = lines.join_singly(&from, &to, &mut single);
-    assert_eq!(lines.join(&from, &to, &mut both), expected, "{place}: {a:?} {b:?}");
-    assert_eq!(both.checked(), single.checked(), "{place}: {a:?} {b:?}");
-    if lines.parts_branches(&from, &to) {
-        return Some(Err(Rejection::Branch));
-    }
-    let (mut memory, mut checked) = (Memory::default(), 0);
-    let found = lines.join_lanes(&from, &to, &mut memory, &mut checked);
-    if found == Some(Ok(())) {
-        assert_eq!(memory.near, near(lines.cell(), &memory), "{place}: {a:?} {b:?}");
-    }
-    found
+    let one = |level: Level| {
+        let place = format!("{place} on {level:?}: {a:?} {b:?}");
+        let mut both = Scratch::default();
+        assert_eq!(lines.join(&from, &to, &mut both), expected, "{place}");
+        assert_eq!(both.checked(), single.checked(), "{place}");
+        if lines.parts_branches(&from, &to) {
+            return Some(Err(Rejection::Branch));
+        }
+        let (mut memory, mut checked) = (Memory::default(), 0);
+        let found = lines.join_lanes(&from, &to, &mut memory, &mut checked);
+        if found == Some(Ok(())) {
+            assert_eq!(memory.near, near(lines.cell(), &memory), "{place}");
+        }
+        found
+    };
+    levels().map(|level| on_level(level, || one(level)))
 }
 
 /// Which configurations of a free path come near something, by the scalar code.
@@ -79,7 +85,7 @@ fn lanes_and_one_configuration_at_a_time_agree_on_every_motion() {
         (LineRules { speed: Some(speed), end: EdgeEnd::WholeTurns, ..rules() }, 20_000),
         (LineRules { end: EdgeEnd::PoseOnly, turn_rad: 1.5, ..rules() }, 10_000),
     ];
-    let (mut seen, mut doubts) = (BTreeMap::new(), 0);
+    let (mut seen, mut doubts) = ([BTreeMap::new(), BTreeMap::new()], [0; 2]);
     for (number, (rules, count)) in readings.into_iter().enumerate() {
         let mut stream = seed::stream(seed::derive(51, &[&number.to_string()]));
         let cells = [cell.clone(), mixed.clone()].map(|cell| Lines::new(cell, rules));
@@ -87,21 +93,26 @@ fn lanes_and_one_configuration_at_a_time_agree_on_every_motion() {
             let lines = &cells[usize::from(index % 4 == 0)];
             let from = draw(&mut stream);
             let to = partner(lines, &from, &mut stream);
-            match compared(lines, &from, &to, &format!("seed 51 reading {number} motion {index}")) {
-                Some(verdict) => *seen.entry(format!("{verdict:?}")).or_insert(0) += 1,
-                None => doubts += 1,
+            let found = compared(lines, &from, &to, &format!("seed 51 reading {number} motion {index}"));
+            for (level, found) in found.into_iter().enumerate() {
+                match found {
+                    Some(verdict) => *seen[level].entry(format!("{verdict:?}")).or_insert(0) += 1,
+                    None => doubts[level] += 1,
+                }
             }
         }
     }
-    assert!(seen.len() == 9 && seen.values().all(|count| *count > 100), "one-sided sample: {seen:?}");
-    assert!(doubts < 10_000, "{doubts} motions in doubt: {seen:?}");
+    for (seen, doubts) in seen.into_iter().zip(doubts) {
+        assert!(seen.len() == 9 && seen.values().all(|count| *count > 100), "one-sided sample: {seen:?}");
+        assert!(doubts < 10_000, "{doubts} motions in doubt: {seen:?}");
+    }
 }
 
 #[test]
 fn motions_that_stop_a_nanometre_before_or_in_contact_are_left_to_the_scalar_code() {
     let lines = Lines::new(fu_cell(), LineRules { path: Path::Joints, ..rules() });
     let (cell, mut stream) = (lines.cell(), seed::stream(52));
-    let (mut cases, mut contacts, mut doubts) = (0, 0, 0);
+    let (mut cases, mut contacts, mut doubts) = (0, 0, [0; 2]);
     while cases < 4_000 {
         let [free, other] = [0; 2].map(|_| draw(&mut stream));
         if !cell.is_free(&free) || cell.is_free(&other) {
@@ -121,9 +132,38 @@ fn motions_that_stop_a_nanometre_before_or_in_contact_are_left_to_the_scalar_cod
         let place = format!("seed 52 case {cases}");
         let lanes = compared(&lines, &start, &end, &place);
         contacts += u32::from(!cell.is_free(&end));
-        doubts += u32::from(lanes.is_none());
+        for (doubts, found) in doubts.iter_mut().zip(lanes) {
+            *doubts += u32::from(found.is_none());
+        }
         cases += 1;
     }
     assert!((1_000..3_000).contains(&contacts), "one-sided sample: {contacts}");
-    assert!(doubts > 3_000, "only {doubts} of {cases} were passed on");
+    assert!(doubts.iter().all(|count| *count > 3_000), "only {doubts:?} of {cases} were passed on");
+}
+
+#[test]
+fn instructions_that_a_test_asks_for_are_those_that_lanes_run_on() {
+    let (lines, mut stream) = (Lines::new(fu_cell(), rules()), seed::stream(53));
+    let [best, least] = levels();
+    let (mut whole, mut other) = (0, 0);
+    while whole < 50 {
+        let from = draw(&mut stream);
+        let to = partner(&lines, &from, &mut stream);
+        let [from, to] = [&from, &to].map(|q| lines.pose(q));
+        let joints = |level: Level| {
+            let (mut memory, mut checked) = (Memory::default(), 0);
+            let found = on_level(level, || lines.join_lanes(&from, &to, &mut memory, &mut checked));
+            (found == Some(Ok(()))).then_some((memory.states, memory.placed))
+        };
+        if let Some((one, two)) = joints(best).zip(joints(least)) {
+            whole += 1;
+            other += u32::from(one != two);
+        }
+    }
+    let are_alike = format!("{best:?}") == format!("{least:?}");
+    assert_eq!(
+        other == 0,
+        are_alike,
+        "{other} of {whole} paths differ in a last digit between {best:?} and {least:?}"
+    );
 }

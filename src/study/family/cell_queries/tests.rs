@@ -1,6 +1,7 @@
 use super::*;
 use crate::planner::Plan;
 use crate::planner::{self, Build, Ending, Planner, Request};
+use crate::space::roadmap::Roadmap;
 use crate::study::judge;
 
 fn settings(over: &str) -> Settings {
@@ -110,6 +111,37 @@ fn regions_hold_what_they_say() {
             "around_poses" => assert!(samples.iter().all(|s| s.config[1] < -18_f64.to_radians())),
             _ => assert!(behind > 10 && others > 20, "{behind} {others}"),
         }
+    }
+}
+
+#[test]
+fn the_first_samples_of_an_arm_and_a_smaller_radius_give_the_roadmap_that_is_built_from_them() {
+    let posed = Posed::new(&settings("samples = 300\nregion = 'around_poses'"), &inputs(None)).unwrap();
+    let (samples, _) = posed.samples(11);
+    let built = |count: usize, radius_mm: f64| {
+        let local = Local::Arm(Box::new(Lines::new(posed.cell.clone(), posed.read.rules())));
+        Roadmap::build(local, samples[..count].to_vec(), radius_mm, Counted::Accepted)
+    };
+    let whole = built(300, 500.0);
+    // An end of a query leaves its trace in the memory that attempts share, and in no edge.
+    whole.number("start", &posed.queries()[0].start).unwrap();
+    let (tally, reasons) =
+        (whole.tally(), whole.tally().rejected.iter().filter(|count| **count > 20).count());
+    assert!(tally.edges > 1_000 && reasons >= 3, "one-sided sample: {tally:?}");
+    for (count, radius_mm) in [(300, 500.0), (170, 500.0), (300, 350.0), (90, 250.0)] {
+        let (part, mut edges) = (built(count, radius_mm), 0);
+        for node in 0..count as u32 {
+            let links = whole.links(node);
+            let kept = links.iter().filter(|(to, gap)| (*to as usize) < count && *gap <= radius_mm);
+            let kept: Vec<(u32, f64)> = kept.copied().collect();
+            assert_eq!(kept, *part.links(node), "seed 11, {count} samples, {radius_mm} mm, node {node}");
+            edges += kept.len() as u64;
+        }
+        assert!(
+            edges == 2 * part.tally().edges && edges > 50,
+            "{edges} with {count} samples, {radius_mm} mm"
+        );
+        assert_eq!(*whole.components(count as u32, radius_mm), *part.components(count as u32, radius_mm));
     }
 }
 
