@@ -72,13 +72,14 @@ fn row(text: &mut String, width: usize, case: &str, cells: &[String; 7], verdict
 }
 
 /// The chapter of the paper `paper`: `command` made it, `view` opens the scene in MuJoCo's viewer, and `picture` is
-/// where its picture is as seen from the report, or why there is none.
+/// where its picture is as seen from the report, or why there is none; `stand_ins` says that inputs are not the paper's own.
 pub fn chapter(
     paper: &str,
     outcomes: &[Outcome],
     command: &str,
     view: &str,
     picture: Result<&str, &str>,
+    stand_ins: Option<&str>,
 ) -> String {
     let mut text = String::new();
     line!(text, "## {paper}: the same robots, scenes and paths judged by MuJoCo\n");
@@ -87,6 +88,9 @@ pub fn chapter(
         "Made by `{command}`. MuJoCo {MUJOCO} was given the numbers of the robot and scene files and the\n\
          configurations below; it shares no code with us.\n"
     );
+    if let Some(note) = stand_ins {
+        line!(text, "{note}\n");
+    }
     line!(text, "**{}**\n", summary(outcomes));
     match picture {
         Ok(path) => line!(text, "![the scene as MuJoCo sees it]({path})\n"),
