@@ -14,6 +14,7 @@ mod laws;
 mod paper;
 mod polyhedra;
 mod registries;
+mod shapes;
 mod snapshots;
 mod source;
 mod worlds;
