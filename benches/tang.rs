@@ -2,18 +2,21 @@
 //!
 //! - `segment_polyhedron`: our exact distance against parry3d's, on the same random segments and solids, whose
 //!   answers are held equal first;
-//! - `lattice26`: the 26-connected A* on the stand-in Environment 1; its expansions are printed, to divide by;
-//! - `keynode`: the improved A* on the stand-in Environments 1 and 4;
-//! - `posture`: the arm along a path in the stand-in scene C1, adjusted; its nodes are printed.
+//! - `lattice26`: the 26-connected A* on the stand-in Environment 1; the throughput is in expansions, so that the time of
+//!   one is its inverse;
+//! - `keynode`: the improved A* on the stand-in Environments 1 and 4, whole queries;
+//! - `posture/path`: the arm along a path in the stand-in scene C1, adjusted; the throughput is in nodes of the path;
+//! - `posture/adjusted_node`: the first step of that path whose end needs another posture than its start, by itself, with
+//!   the choice of the branch that every path begins with.
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use parry3d::math::{Pose, Vector};
 use parry3d::query;
 use parry3d::shape::{self, ConvexPolyhedron};
 use rand::RngExt as _;
 use replan::geometry::{Convex, Segment, Vec3, distance_segment_convex};
 use replan::kinematics::Robot;
-use replan::planner::{self, Build, Planner, Request, Stage};
+use replan::planner::{self, Build, Ending, Plan, Planner, Request, Stage};
 use replan::seed;
 use replan::settings::Settings;
 use replan::space::polyhedra::{CarriedArm, read_scene};
@@ -88,13 +91,15 @@ fn searches(criterion: &mut Criterion) {
     let star = planner("lattice26_astar", "checked = 'segments'\nties = 'fifo'");
     let key = planner("keynode_astar", "search = 'open_list'\ncluster = true\nlast_resort = true");
     let found = star.plan(&request(&simple, &simple_ends)).unwrap();
-    println!("lattice26: {} expansions", found.counts["expansions"].as_f64());
-    let mut group = criterion.benchmark_group("search");
+    let expansions = found.counts["expansions"].as_f64() as u64;
+    let mut group = criterion.benchmark_group("lattice26");
+    group.sample_size(10).throughput(Throughput::Elements(expansions));
+    group.bench_function("e1", |b| b.iter(|| black_box(star.plan(&request(&simple, &simple_ends)))));
+    group.finish();
+    let mut group = criterion.benchmark_group("keynode");
     group.sample_size(10);
-    group
-        .bench_function("lattice26_e1", |b| b.iter(|| black_box(star.plan(&request(&simple, &simple_ends)))));
-    group.bench_function("keynode_e1", |b| b.iter(|| black_box(key.plan(&request(&simple, &simple_ends)))));
-    group.bench_function("keynode_e4", |b| b.iter(|| black_box(key.plan(&request(&many, &many_ends)))));
+    group.bench_function("e1", |b| b.iter(|| black_box(key.plan(&request(&simple, &simple_ends)))));
+    group.bench_function("e4", |b| b.iter(|| black_box(key.plan(&request(&many, &many_ends)))));
     group.finish();
 }
 
@@ -112,13 +117,19 @@ fn postures(criterion: &mut Criterion) {
     );
     let request = request(&world, &ends);
     let tip = key.plan(&request).unwrap();
-    let nodes = tip.path.len();
-    let plan = posture.refine(&request, tip.clone());
-    println!("posture: {nodes} nodes, {:?} steps of adjustment", plan.counts["adjustments"]);
-    let mut group = criterion.benchmark_group("posture");
-    group.sample_size(10);
-    group.bench_function("c1_path", |b| b.iter(|| black_box(posture.refine(&request, tip.clone()))));
-    group.finish();
+    let nodes = tip.path.len() as u64;
+    let steps = tip.path.windows(2).map(|pair| Plan { path: pair.to_vec(), ..tip.clone() });
+    let is_adjusted = |step: &Plan| {
+        let plan = posture.refine(&request, step.clone());
+        plan.ending == Ending::Solved && plan.counts["adjustments"].as_f64() > 0.0
+    };
+    let step = steps.into_iter().find(is_adjusted).expect("the path passes an obstacle");
+    for (name, path, elements) in [("path", tip, nodes), ("adjusted_node", step, 1)] {
+        let mut group = criterion.benchmark_group("posture");
+        group.sample_size(10).throughput(Throughput::Elements(elements));
+        group.bench_function(name, |b| b.iter(|| black_box(posture.refine(&request, path.clone()))));
+        group.finish();
+    }
 }
 
 criterion_group! {

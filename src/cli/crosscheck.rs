@@ -7,6 +7,7 @@ use super::progress::Bar;
 use super::{Failure, Which};
 use crate::crosscheck::{self, Case, CrosscheckError, Depicted, Outcome, Picture, Sources, Spec};
 use crate::render::report;
+use crate::study::paper::Paper;
 use crate::study::runner::Progress as _;
 use crate::study::store::write_whole;
 use clap::Args;
@@ -108,7 +109,8 @@ impl Crosscheck {
         let listed = if all.is_empty() { String::new() } else { all.join("\n") + "\n" };
         write_whole(&folder.join("disagreements.txt"), listed.as_bytes())?;
         eprint!("{listed}");
-        self.report(shown, &outcomes, &picture.case, drawn)?;
+        let stand_ins = Paper::load(&places.folder, &places.inputs)?.source.stand_ins;
+        self.report(shown, &outcomes, &picture.case, drawn, stand_ins.as_deref())?;
         Ok(all.len())
     }
 
@@ -155,12 +157,13 @@ impl Crosscheck {
         outcomes: &[Outcome],
         scene: &str,
         drawn: Drawing,
+        stand_ins: Option<&str>,
     ) -> Result<(), Failure> {
         let id = id(shown);
         let place = answers(shown).join(scene).join("scene.xml");
         let view = format!("{FOLDER}/venv/bin/python -m mujoco.viewer --mjcf={}", place.display());
         let command = format!("replan crosscheck {id}");
-        let chapter = |picture| crosscheck::chapter(&id, outcomes, &command, &view, picture);
+        let chapter = |picture| crosscheck::chapter(&id, outcomes, &command, &view, picture, stand_ins);
         let link = format!("plots/{id}/{PICTURE}");
         let (now, next) = depicted(drawn, &link, shown.plots.join(PICTURE).is_file());
         let (path, name) = (&shown.report, chapter_name(shown));

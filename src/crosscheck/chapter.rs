@@ -93,13 +93,15 @@ impl Depicted<'_> {
     }
 }
 
-/// The chapter of the paper `paper`: `command` made it, and `view` opens the scene in MuJoCo's viewer.
+/// The chapter of the paper `paper`: `command` made it, `view` opens the scene in MuJoCo's viewer, and `stand_ins` says
+/// that inputs are not the paper's own.
 pub fn chapter(
     paper: &str,
     outcomes: &[Outcome],
     command: &str,
     view: &str,
     picture: Depicted<'_>,
+    stand_ins: Option<&str>,
 ) -> String {
     let mut text = String::new();
     line!(text, "## {paper}: the same robots, scenes and paths judged by MuJoCo\n");
@@ -108,6 +110,9 @@ pub fn chapter(
         "Made by `{command}`. MuJoCo {MUJOCO} was given the numbers of the robot and scene files and the\n\
          configurations below; it shares no code with us.\n"
     );
+    if let Some(note) = stand_ins {
+        line!(text, "{note}\n");
+    }
     line!(text, "**{}**\n", summary(outcomes));
     text += &picture.paragraph();
     line!(text, "In MuJoCo's own viewer, with keyframes: `{view}`.\n");

@@ -1,6 +1,6 @@
 //! Questions and models: that the sample is worth drawing, and that MJCF says what files say.
 
-use super::chapter::MUJOCO;
+use super::chapter::{Depicted, MUJOCO, chapter};
 use super::mjcf::{Key, mjcf};
 use super::model::{Pair, Still};
 use super::path::{Path as JointPath, Pushed, drawn_paths, pushed, straight};
@@ -174,4 +174,11 @@ fn a_link_too_thin_to_be_seen_has_a_sleeve_that_touches_nothing() {
         !sleeves[0].contains("name=") && sleeves[0].contains("contype=\"0\" conaffinity=\"0\""),
         "{text}"
     );
+}
+
+#[test]
+fn a_chapter_says_that_scenes_are_stand_ins_where_they_are() {
+    let of = |note| chapter("p", &[], "c", "v", Depicted::Not("none was drawn"), note);
+    assert!(of(Some("Stand-in scenes: lost.")).contains("\nStand-in scenes: lost.\n\n**"));
+    assert!(!of(None).contains("Stand-in"));
 }

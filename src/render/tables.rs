@@ -138,7 +138,9 @@ pub fn numbers(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Result<String, R
         }
         numbers.add(&key("verdict"), judged.outcome())?;
     }
-    numbers.latex(&paper.id, &made(paper, "numbers", verdicts))
+    let made = made(paper, "numbers", verdicts);
+    let notes = paper.source.stand_ins.as_ref().map_or(made.clone(), |note| format!("{made}\n{note}"));
+    numbers.latex(&paper.id, &notes)
 }
 
 pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
@@ -199,6 +201,33 @@ pub(super) fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::{Inputs, Point};
+    use std::path::Path;
+
+    #[test]
+    fn a_file_of_numbers_says_that_inputs_are_stand_ins_where_they_are() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let inputs = Inputs { roots: vec![root.to_owned()] };
+        for (name, has) in [("tang2023", true), ("movingai_sample", false)] {
+            let mut paper = Paper::load(&root.join("experiments").join(name), &inputs).unwrap();
+            paper.claims.clear();
+            paper.tables.clear();
+            paper.results.clear();
+            paper.studies.clear();
+            let verdicts = Verdicts {
+                paper: name.to_owned(),
+                command: String::new(),
+                quick: false,
+                reading: std::collections::BTreeMap::new(),
+                claims_changed_since: Vec::new(),
+                claims: Vec::new(),
+                together: Vec::new(),
+            };
+            let evidence = Evidence::read(&paper, Point::default(), root).unwrap();
+            let text = numbers(&evidence, &verdicts).unwrap();
+            assert_eq!(text.contains("\n% Stand-in environments: "), has, "{text}");
+        }
+    }
 
     #[test]
     fn a_number_that_is_not_zero_is_not_shown_as_zero() {

@@ -247,7 +247,15 @@ impl Study {
         for contender in &mut self.contenders {
             contender.repeats = contender.repeats.min(self.quick.repeats.unwrap_or(u32::MAX));
         }
+        self.budget = self.quick.budget.unwrap_or(self.budget);
+        self.timing = self.timing.map(|full| self.quick.timing.unwrap_or(full));
+        self.task_settings = self.quick_task_settings();
         self
+    }
+
+    fn quick_task_settings(&self) -> Settings {
+        let over = self.quick.task_settings.as_ref();
+        over.map_or_else(|| self.task_settings.clone(), |over| self.task_settings.overlaid(over, "--quick"))
     }
 }
 

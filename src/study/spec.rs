@@ -188,13 +188,19 @@ pub struct TrialsSpec {
 }
 
 /// What `--quick` cuts down to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct QuickSpec {
     /// Draws kept of each problem group.
     pub replicates: u32,
     /// Seeds kept of each contender.
     pub repeats: Option<u32>,
+    /// Limits on each trial, in place of the study's.
+    pub budget: Option<BudgetSpec>,
+    /// How clocks are read, where the study reads any.
+    pub timing: Option<TimingSpec>,
+    /// Settings laid over those of the task.
+    pub task_settings: Option<Table>,
 }
 
 /// A figure: its kind and what that kind wants to know.

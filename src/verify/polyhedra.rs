@@ -1,7 +1,7 @@
 //! Judges paths of a point among convex polyhedra.
 //!
 //! The solids' planes come from parry's hull of their vertices, not from the planner's; a segment is clipped by
-//! them. A path may touch a solid to within [`TOLERANCE_CM`], the room that two ways of rounding need.
+//! them. Solids are grown as the studies mean it, by moving their planes out, so that corners stay sharp. A path may touch a solid to within [`TOLERANCE_CM`], the room that two ways of rounding need.
 
 use parry3d::math::Vector;
 use parry3d::shape::ConvexPolyhedron;

@@ -1,5 +1,6 @@
 //! The planar arm from outside: planners against the verifier, whose kinematics, distances and search are its own.
 
+use crate::shapes::{Placed, body, obstacle, shaped};
 use rand::RngExt as _;
 use replan::geometry::planar::Touch;
 use replan::grid::CornerRule;
@@ -8,21 +9,18 @@ use replan::planner::{self, Build, Ending, Plan, Planner, Request, Value};
 use replan::seed;
 use replan::settings::Settings;
 use replan::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
-use replan::study::prepared::workspace_map::ShapeSetting;
-use replan::verify::arm::{Answer, Body, Case};
+use replan::verify::arm::{Answer, Case};
 use std::collections::BTreeSet;
 
-/// A workspace with a query, and the discs in it.
+/// A workspace with a query, and the obstacles in it.
 struct Posed {
     name: String,
     world: World,
-    discs: Vec<[f64; 2]>,
+    solids: Vec<Placed>,
     ends: [Vec<f64>; 2],
 }
 
-const DIAMETER_CM: f64 = 8.0;
-
-/// Workspaces on a lattice of 2 cm with random discs; both elbow rules, both hop rules, all corner rules.
+/// Workspaces on a lattice of 2 cm with random discs, squares, hexagons and triangles; both elbow rules, both hop rules, all corner rules.
 fn sample(count: u64) -> Vec<Posed> {
     let pose = |number: u64| {
         let mut stream = seed::stream(seed::derive(2, &["arm", &number.to_string()]));
@@ -36,15 +34,15 @@ fn sample(count: u64) -> Vec<Posed> {
                 [(number % 3) as usize],
             hop: [HopRule::EndPoints, HopRule::Continuous][(number % 2) as usize],
         };
-        let discs: Vec<[f64; 2]> = (0..stream.random_range(2..6))
+        let places: Vec<[f64; 2]> = (0..stream.random_range(2..6))
             .map(|_| {
                 let angle = stream.random_range(0.0..std::f64::consts::PI);
                 let radius = stream.random_range(20.0..48.0);
                 [(radius * libm::cos(angle)).round(), (radius * libm::sin(angle)).round()]
             })
             .collect();
-        let obstacles = discs.iter().map(|at| ShapeSetting::Circle.obstacle(*at, DIAMETER_CM).unwrap());
-        let world = ArmWorld::new(rules, obstacles.collect());
+        let solids = shaped(number, places);
+        let world = ArmWorld::new(rules, solids.iter().map(obstacle).collect());
         let free: Vec<u32> =
             (0..world.grid().cell_count()).filter(|&cell| world.grid().is_free(cell)).collect();
         let ends = [0, 1].map(|_| {
@@ -52,9 +50,9 @@ fn sample(count: u64) -> Vec<Posed> {
             at.to_vec()
         });
         Posed {
-            name: format!("workspace {number}, {discs:?}, {ends:?}"),
+            name: format!("workspace {number}, {solids:?}, {ends:?}"),
             world: World::Arm(world),
-            discs,
+            solids,
             ends,
         }
     };
@@ -80,7 +78,7 @@ impl Posed {
             touching_is_contact: true,
             corner_rule: rules.corner_rule,
             hops_are_swept: rules.hop == HopRule::Continuous,
-            bodies: self.discs.iter().map(|at| Body::disc(*at, DIAMETER_CM / 2.0)).collect(),
+            bodies: self.solids.iter().map(body).collect(),
             start: &self.ends[0],
             goal: &self.ends[1],
         }
@@ -230,7 +228,7 @@ fn a_plan_that_is_tampered_with_is_refused() {
         refuse(&|plan| drop(plan.path.pop()));
         refuse(&|plan| drop(plan.path.remove(0)));
         refuse(&|plan| drop(plan.path.remove(2)));
-        refuse(&|plan| plan.path[2] = posed.discs[0].to_vec());
+        refuse(&|plan| plan.path[2] = posed.solids[0].1.to_vec());
         refuse(&|plan| plan.path[2][0] += 0.5);
         refuse(&|plan| plan.path.insert(2, plan.path[2].clone()));
         tampered += 1;

@@ -15,6 +15,7 @@ mod laws;
 mod paper;
 mod polyhedra;
 mod registries;
+mod shapes;
 mod snapshots;
 mod source;
 mod worlds;

@@ -36,8 +36,8 @@ pub struct Case {
 enum Posed {
     /// The least cost.
     Lattice(Option<f64>),
-    /// The discs.
-    Arm(Vec<[f64; 2]>),
+    /// The obstacles.
+    Arm(Vec<crate::shapes::Placed>),
     /// The samples, and the verifier's map.
     Roadmap(Vec<Vec<f64>>, plane::Case),
     /// The obstacles.
@@ -109,7 +109,7 @@ impl Case {
         let (steps, optimal) = (subject.planner.steps(), subject.planner.is_optimal());
         match &self.posed {
             Posed::Lattice(optimum) => lattice::refusal(self, *optimum, plan, [true, optimal]),
-            Posed::Arm(discs) => arm::refusal(self, discs, plan, steps, optimal),
+            Posed::Arm(solids) => arm::refusal(self, solids, plan, steps, optimal),
             Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, Some(subject)),
             Posed::Polyhedra(scene) => polyhedra::refusal(self, scene, plan),
             Posed::Rods(scene) => rods::refusal(self, scene, plan),
@@ -120,7 +120,7 @@ impl Case {
     pub fn refusal_off_graph(&self, plan: &Plan) -> Option<String> {
         match &self.posed {
             Posed::Lattice(optimum) => lattice::refusal(self, *optimum, plan, [false; 2]),
-            Posed::Arm(discs) => arm::refusal(self, discs, plan, None, false),
+            Posed::Arm(solids) => arm::refusal(self, solids, plan, None, false),
             Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, None),
             Posed::Polyhedra(scene) => polyhedra::refusal(self, scene, plan),
             Posed::Rods(scene) => rods::refusal(self, scene, plan),
@@ -131,7 +131,7 @@ impl Case {
     pub fn impossible(&self) -> Vec<(Vec<f64>, Vec<f64>)> {
         let points = match &self.posed {
             Posed::Lattice(_) => lattice::impossible(self),
-            Posed::Arm(discs) => arm::impossible(discs),
+            Posed::Arm(solids) => arm::impossible(solids),
             Posed::Roadmap(..) => roadmap::impossible(),
             Posed::Polyhedra(_) => polyhedra::impossible(self),
             Posed::Rods(_) => rods::impossible(self),

@@ -7,7 +7,6 @@ mod across_readings;
 mod all_in_draw;
 mod as_printed;
 mod attained;
-mod between_groups;
 mod clock_ticks;
 mod compare;
 mod count_bound;
@@ -124,7 +123,6 @@ pub static REGISTRY: &[&Entry] = &[
     &all_in_draw::ENTRY,
     &as_printed::ENTRY,
     &attained::ENTRY,
-    &between_groups::ENTRY,
     &clock_ticks::ENTRY,
     &compare::ENTRY,
     &count_bound::ENTRY,

@@ -143,6 +143,57 @@ fn a_rank_is_what_counting_rows_gives_and_readings_change_it() {
     });
 }
 
+const TRENDS: &str = "
+[[claim]]
+id = 'own'
+at = 'x'
+says = 's'
+check.trend = { study = 's', problems = ['maps'], metric = 'opened', contender = 'A*', over = 'optimal_cost_cells', rising = true }
+[[claim]]
+id = 'saved'
+at = 'x'
+says = 's'
+check.trend = { study = 's', problems = ['maps'], metric = 'opened', contender = 'Improved', against = 'A*', over = 'optimal_cost_cells', rising = true }
+";
+
+#[test]
+fn a_trend_is_the_slope_of_a_metric_or_of_what_is_saved_of_anothers() {
+    let folder = tempfile::tempdir().unwrap();
+    with_run(folder.path(), TRENDS, STUDY, |_, evidence| {
+        let run = evidence.run("s").unwrap();
+        let slope = |points: &[(f64, f64)]| {
+            let mean =
+                |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+            let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
+            mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x) * (p.0 - x))
+        };
+        let solved = |contender: &str| {
+            let rows = run.rows("maps", contender);
+            let values = rows.iter().map(|row| {
+                Some((
+                    row.value("path_cost_cells").and(row.value("optimal_cost_cells"))?,
+                    row.value("opened")?,
+                ))
+            });
+            values.collect::<Vec<_>>()
+        };
+        let (base, other) = (solved("A*"), solved("Improved"));
+        let own: Vec<_> = base.iter().flatten().copied().collect();
+        let both = base.iter().zip(&other).filter_map(|(a, b)| Some(((*a)?, (*b)?)));
+        let saved: Vec<_> = both.map(|((x, a), (_, b))| (x, 100.0 * (1.0 - b / a))).collect();
+        for (claim, points) in [("own", own), ("saved", saved)] {
+            let ours = finding(evidence, claim, "trend").ours.unwrap();
+            assert!((ours.value - slope(&points)).abs() < 1e-9, "{claim}: {} of {points:?}", ours.value);
+            assert!(ours.n == points.len() && ours.n > 30, "{claim}: {}", ours.n);
+        }
+        assert_eq!(
+            finding(evidence, "own", "trend").verdict,
+            Some(Verdict::Reproduced),
+            "longer ways, more nodes"
+        );
+    });
+}
+
 const AUDITED: &str = "
 [[claim]]
 id = 'count'

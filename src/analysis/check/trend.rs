@@ -1,21 +1,26 @@
-//! Whether one contender's saving over another grows, or falls, with a column of the problem.
+//! Whether a contender's metric, or its saving over another contender, grows or falls with a column of the problem.
 
 use super::{Check, Entry};
-use crate::analysis::evidence::Evidence;
+use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::stats::bootstrap::{self, Plan};
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
+use crate::study::record::Status;
 use crate::study::{Study, column};
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "trend",
-    about: "does one contender's saving over another grow, or fall, with a column of the problem?",
+    about: "does a contender's metric, or its saving over another, grow or fall with a column of the problem?",
     build: |context| {
         let settings: Settings = context.settings.read()?;
-        let contenders = [settings.contender.as_str(), settings.against.as_str()];
+        let contenders: Vec<&str> = [Some(&settings.contender), settings.against.as_ref()]
+            .into_iter()
+            .flatten()
+            .map(String::as_str)
+            .collect();
         let study = context.study(&settings.study, &settings.problems, &contenders)?;
         let metric = context.metric(&settings.metric, study)?;
         if column::find(&settings.over).is_none() {
@@ -34,8 +39,9 @@ struct Settings {
     problems: Vec<String>,
     metric: String,
     contender: String,
-    against: String,
-    /// The column along which the saving is claimed to change.
+    /// Over whom it saves; without, the metric itself is looked at.
+    against: Option<String>,
+    /// The column along which the saving or the metric is claimed to change.
     over: String,
     /// Whether it is claimed to grow; to fall otherwise.
     rising: bool,
@@ -49,19 +55,41 @@ struct Trend<'a> {
 }
 
 impl Trend<'_> {
-    /// (column, saving in %) of every pair.
+    /// (column, saving in %) of every pair, or (column, metric) of every solved trial.
     fn points(&self, evidence: &Evidence<'_>) -> Vec<(f64, f64)> {
         let Some(run) = evidence.run(&self.settings.study) else { return Vec::new() };
-        let of_group = |group: &String| {
-            let pairs = run.pairs(group, &self.settings.against, &self.settings.contender);
-            let points = pairs.iter().filter_map(|pair| {
-                let base = run.value(pair.base, self.metric).filter(|base| *base > 0.0)?;
-                let other = run.value(pair.other, self.metric)?;
-                Some((pair.base.value(&self.settings.over)?, 100.0 * (1.0 - other / base)))
-            });
-            points.collect::<Vec<_>>()
-        };
-        self.settings.problems.iter().flat_map(of_group).collect()
+        let groups = self.settings.problems.iter();
+        match &self.settings.against {
+            Some(against) => groups.flat_map(|group| self.savings(run, group, against)).collect(),
+            None => groups.flat_map(|group| self.values(run, group)).collect(),
+        }
+    }
+
+    fn savings(&self, run: &Run<'_>, group: &str, against: &str) -> Vec<(f64, f64)> {
+        let pairs = run.pairs(group, against, &self.settings.contender);
+        let points = pairs.iter().filter_map(|pair| {
+            let base = run.value(pair.base, self.metric).filter(|base| *base > 0.0)?;
+            let other = run.value(pair.other, self.metric)?;
+            Some((pair.base.value(&self.settings.over)?, 100.0 * (1.0 - other / base)))
+        });
+        points.collect()
+    }
+
+    fn values(&self, run: &Run<'_>, group: &str) -> Vec<(f64, f64)> {
+        let rows = run.rows(group, &self.settings.contender);
+        let solved = rows.iter().filter(|row| row.status == Status::Solved);
+        solved
+            .filter_map(|row| Some((row.value(&self.settings.over)?, run.value(row, self.metric)?)))
+            .collect()
+    }
+
+    /// What is looked at, and the unit of its slope.
+    fn subject(&self) -> (String, &'static str) {
+        let (own, metric) = (&self.settings.contender, self.metric.label.to_lowercase());
+        match &self.settings.against {
+            Some(against) => (format!("saving of {own} over {against} in {metric}"), "points"),
+            None => (format!("{metric} of {own}"), self.metric.unit),
+        }
     }
 }
 
@@ -81,8 +109,10 @@ impl Check for Trend<'_> {
         let mut finding = Finding::of(ENTRY.name);
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = bootstrap::percentile(&points, slope, plan) else {
-            return finding.undecided(format!("{} pairs show no slope", points.len()));
+            return finding.undecided(format!("{} problems show no slope", points.len()));
         };
+        let (subject, unit) = self.subject();
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         let claimed = if self.settings.rising { 1.0 } else { -1.0 };
         let (low, high) = (claimed * found.interval.low, claimed * found.interval.high);
         finding.verdict = Some(if low.min(high) > 0.0 {
@@ -93,10 +123,7 @@ impl Check for Trend<'_> {
             Verdict::Undecided
         });
         finding.because.push(format!(
-            "saving of {} over {} in {}, along {} on {} of {}: {:+.4} points each (95 % interval {:+.4} to {:+.4}, {} pairs)",
-            self.settings.contender,
-            self.settings.against,
-            self.metric.label.to_lowercase(),
+            "{subject}, along {} on {} of {}: {:+.4}{unit} each (95 % interval {:+.4} to {:+.4}, {} problems)",
             self.settings.over,
             self.settings.problems.join(", "),
             self.settings.study,
@@ -105,7 +132,7 @@ impl Check for Trend<'_> {
             found.interval.high,
             points.len()
         ));
-        let what = format!("slope of the saving along {}, points each, bootstrap 95 %", self.settings.over);
+        let what = format!("slope of {subject} along {}:{unit} each, bootstrap 95 %", self.settings.over);
         finding.ours = Some(Estimate::new(found.value, found.interval, what, points.len()));
         finding.say_what_settles(&[0.0], "pairs");
         finding

@@ -11,6 +11,8 @@ use crate::settings::Settings;
 use crate::space::World;
 use std::path::Path;
 
+mod options;
+
 const RECIPE: &str = "adjust = true\nsign = 'down'\nclamp = 'floor'\ndistance = 'exact'\npose = 'inverse'\n\
     damping = 0.02\nact_cm = 2.0\nd0_cm = 5.0\nstep_rad = 0.03\niterations = 20\nbounds_rad = [0.2, 0.2, 0.1]\n\
     bounds = 'per_node'\nrecovery_rad = 0.02\nbranches = 'all'\ndiagnose = true\n";

@@ -24,9 +24,10 @@ fn square(x: f64, y: f64) -> Obstacle {
     Obstacle::Polygon(ConvexPolygon::rectangle(low, high).unwrap())
 }
 
+const CASE_1: [[f64; 2]; 4] = [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]];
+
 fn case_1(hop: HopRule) -> ArmWorld {
-    let at = [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]];
-    ArmWorld::new(rules(hop), at.into_iter().map(|[x, y]| circle(x, y)).collect())
+    ArmWorld::new(rules(hop), CASE_1.into_iter().map(|[x, y]| circle(x, y)).collect())
 }
 
 #[test]
@@ -49,37 +50,83 @@ fn without_obstacles_the_free_points_are_the_upper_half_of_the_ring() {
     assert_eq!(world.grid().free_count(), counts[2] as u32);
 }
 
-#[test]
-fn every_free_posture_puts_the_tip_on_its_point_and_keeps_sampled_link_points_clear() {
-    let world = case_1(HopRule::EndPoints);
+/// The obstacles of case 1 as regular polygons on circles of 5 cm, or as squares 10 cm wide.
+fn polygons(sides: usize) -> Vec<ConvexPolygon> {
+    let polygon = |at: [f64; 2]| match (sides, Vec2::from(at)) {
+        (4, at) => ConvexPolygon::rectangle(at - Vec2::new(5.0, 5.0), at + Vec2::new(5.0, 5.0)).unwrap(),
+        (_, at) => ConvexPolygon::regular(at, 5.0, sides, std::f64::consts::FRAC_PI_2).unwrap(),
+    };
+    CASE_1.map(polygon).to_vec()
+}
+
+/// How far `at` is in front of the polygon's sides: below its distance where a corner is nearest, but of the same sign.
+fn height(polygon: &ConvexPolygon, at: &Vec2) -> f64 {
+    let corners = polygon.vertices();
+    let side = |i: usize| {
+        let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+        let (way, off) = (b - a, at - a);
+        (off.x * way.y - off.y * way.x) / way.norm()
+    };
+    (0..corners.len()).map(side).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The least `gap` of points every 0.05 cm of the links.
+fn nearest(world: &ArmWorld, cell: u32, gap: impl Fn(&Vec2) -> f64) -> f64 {
+    let (arm, posture) = (world.rules().arm, world.posture(cell));
+    let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
+    assert!((tip - world.rules().lattice.point(cell)).norm() < 1e-9);
+    let points = (0..=1000).map(|k| {
+        let s = f64::from(k) / 20.0;
+        if s <= 30.0 { elbow * (s / 30.0) } else { elbow + (tip - elbow) * ((s - 30.0) / 20.0) }
+    });
+    points.map(|at| gap(&at)).fold(f64::INFINITY, f64::min)
+}
+
+/// Free postures keep sampled points out, postures with a link in an obstacle come within `slack` of it.
+fn assert_zones(world: &ArmWorld, slack: f64, gap: impl Fn(&Vec2) -> f64) {
     let (mut free, mut hit) = (0, 0);
     for cell in 0..world.grid().cell_count() {
-        let zone = world.zones()[cell as usize];
-        if !matches!(zone, Zone::Free | Zone::Link) {
-            continue;
-        }
-        let (arm, posture) = (world.rules().arm, world.posture(cell));
-        let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
-        assert!((tip - world.rules().lattice.point(cell)).norm() < 1e-9);
-        // Points every 0.05 cm of the links, against the circles' own equation.
-        let nearest = (0..=1000).map(|k| {
-            let s = f64::from(k) / 20.0;
-            let at = if s <= 30.0 { elbow * (s / 30.0) } else { elbow + (tip - elbow) * ((s - 30.0) / 20.0) };
-            [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]]
-                .map(|c| (at - Vec2::from(c)).norm())
-                .into_iter()
-                .fold(f64::INFINITY, f64::min)
-        });
-        let nearest = nearest.fold(f64::INFINITY, f64::min);
-        if zone == Zone::Free {
-            assert!(nearest > 5.0, "{cell}: {nearest}");
-            free += 1;
-        } else {
-            assert!(nearest < 5.001, "{cell}: {nearest}");
-            hit += 1;
+        match world.zones()[cell as usize] {
+            Zone::Free => {
+                assert!(nearest(world, cell, &gap) > 0.0, "{cell} is not free");
+                free += 1;
+            }
+            Zone::Link => {
+                assert!(nearest(world, cell, &gap) < slack, "{cell} is not hit");
+                hit += 1;
+            }
+            _ => {}
         }
     }
-    assert!(free > 500 && hit > 500, "one-sided workspace: {free} free, {hit} hit");
+    assert!(free > 400 && hit > 400, "one-sided workspace: {free} free, {hit} hit");
+}
+
+#[test]
+fn every_free_posture_puts_the_tip_on_its_point_and_keeps_sampled_link_points_clear() {
+    // Against the circles' own equation.
+    assert_zones(&case_1(HopRule::EndPoints), 0.001, |at| {
+        CASE_1.map(|c| (at - Vec2::from(c)).norm() - 5.0).into_iter().fold(f64::INFINITY, f64::min)
+    });
+}
+
+#[test]
+fn squares_hexagons_and_triangles_block_the_postures_whose_sampled_link_points_they_hold() {
+    for sides in [3, 4, 6] {
+        let solids = polygons(sides);
+        let obstacles = solids.iter().cloned().map(Obstacle::Polygon).collect();
+        let world = ArmWorld::new(rules(HopRule::EndPoints), obstacles);
+        // A link that cuts a corner between two samples is half their distance from one of them.
+        assert_zones(&world, 0.026, |at| {
+            solids.iter().map(|polygon| height(polygon, at)).fold(f64::INFINITY, f64::min)
+        });
+        let inside = |cell: u32| {
+            let at = world.rules().lattice.point(cell);
+            solids.iter().any(|polygon| height(polygon, &at) < -1e-9)
+        };
+        let reached = (0..world.grid().cell_count()).filter(|&cell| inside(cell));
+        let zones: Vec<Zone> = reached.map(|cell| world.zones()[cell as usize]).collect();
+        assert!(zones.len() > 100 && zones.iter().all(|zone| *zone != Zone::Free), "{sides} sides");
+    }
 }
 
 #[test]

@@ -2,8 +2,7 @@
 //!
 //! Obstacles are closed: a point of a face is in contact, so that two boxes that touch leave no gap. What the
 //! point must keep clear of are the obstacles grown by a margin, every plane moved out by it; the arm's rods must
-//! keep clear of the obstacles themselves. Lengths are in the scene's unit, which is a centimetre where there is
-//! an arm.
+//! keep clear of the obstacles themselves. Lengths are centimetres.
 
 mod arm;
 mod error;
@@ -202,6 +201,10 @@ impl PolyhedraWorld {
             return Err(error::outside(what, &at, min, max));
         }
         match self.obstacles.iter().position(|obstacle| obstacle.contains(&at)) {
+            Some(index) if self.growth > 0.0 => {
+                let grown = format!("grown by {} cm", self.growth);
+                Err(format!("the {what} {point:?} is inside obstacle {} {grown}", index + 1))
+            }
             Some(index) => Err(format!("the {what} {point:?} is inside obstacle {}", index + 1)),
             None => Ok(at),
         }
@@ -212,7 +215,8 @@ fn obstacle(index: usize, source: crate::geometry::GeometryError) -> PolyhedraEr
     PolyhedraError::Obstacle { index: index + 1, source }
 }
 
-/// `body` with every plane moved out by `growth`.
+/// `body` with every plane moved out by `growth`: corners stay sharp, and are farther from the body's than `growth`. Key
+/// nodes lie on edges, which a true offset has none of.
 fn grown(body: &Convex, growth: f64) -> Result<Convex, crate::geometry::GeometryError> {
     if growth == 0.0 {
         return Ok(body.clone());

@@ -114,6 +114,23 @@ fn a_point_that_cannot_be_an_end_is_refused_with_what_is_wrong() {
     assert_eq!(world.free_point("goal", &[3.0; 3]), Ok(Vec3::repeat(3.0)));
 }
 
+#[test]
+fn a_grown_box_keeps_its_corners_and_is_said_to_be_grown() {
+    let body = Convex::cuboid(Vec3::repeat(10.0), Vec3::repeat(2.0)).unwrap();
+    let domain = Aabb { min: Vec3::zeros(), max: Vec3::repeat(20.0) };
+    let world = PolyhedraWorld::new(vec![body.clone()], domain, 1.0, 3.0).unwrap();
+    // 5 cm from the body, and yet in the corner of the grown one, which reaches to 14 on every axis.
+    let corner = [11.0 + 5.0 / 3.0_f64.sqrt(); 3];
+    let at = Vec3::from(corner);
+    assert!((crate::geometry::distance_point_convex(&at, &body) - 5.0).abs() < 1e-9);
+    assert_eq!(
+        world.free_point("start", &corner).unwrap_err(),
+        format!("the start {corner:?} is inside obstacle 1 grown by 3 cm")
+    );
+    assert_eq!(world.obstacles()[0].edges().len(), 12);
+    assert!(world.free_point("start", &[14.01, 10.0, 10.0]).is_ok());
+}
+
 fn aubo() -> Robot {
     Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/robots/aubo_i10.toml")).unwrap()
 }

@@ -72,11 +72,12 @@ impl Study {
                 format!("`paper` is `{}`, but the study lies in the folder of `{folder}`", self.paper);
             return Err(self.document.error(self.key_span("paper"), message).into());
         }
-        if self.budget.expansions == 0 {
+        if [Some(self.budget), self.quick.budget].iter().flatten().any(|budget| budget.expansions == 0) {
             let message = "expansions is 0; a budget of at least 1 is accepted";
             return Err(self.document.error(self.key_span("expansions"), message).into());
         }
         (self.task.build)(&self.task_settings)?;
+        (self.task.build)(&self.quick_task_settings())?;
         self.check_sweeps()?;
         self.check_selections()?;
         self.single_options()?.iter().try_for_each(|point| self.check_point(point, inputs))

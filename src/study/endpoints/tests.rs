@@ -84,6 +84,45 @@ fn free_shapes_include_what_uniform_shapes_give() {
             assert!(free.pairs.contains(&pair), "{shape:?}: {:?}", points(&[pair]));
         }
     }
-    println!("{} candidates, {:?}", free.candidates, points(&free.pairs));
-    assert!(free.pairs.len() > 2);
+    // Which four shapes there are decides the number: a square on its corner and a triangle 10 cm wide and high would make
+    // it 30.
+    assert_eq!(free.pairs.len(), 26, "{:?}", points(&free.pairs));
+    assert!(free.candidates > free.pairs.len(), "nothing was left to try choice by choice");
+}
+
+/// The free hops where each obstacle of `case` has the shape that `choice` says, as worlds are built for planners.
+fn chosen(case: &Case, choice: usize) -> Moves {
+    let shape = |index: usize| ShapeSetting::ALL[choice / 4_usize.pow(index as u32) % 4];
+    let obstacles = case.obstacles_cm.iter().enumerate();
+    let obstacles = obstacles.map(|(index, at)| shape(index).obstacle(*at, 10.0).unwrap());
+    ArmWorld::new(base(), obstacles.collect()).eight_moves()
+}
+
+#[test]
+fn free_shapes_are_the_pairs_that_worlds_built_choice_by_choice_have() {
+    let free = FreeShapes::find(&variant("shape = 'free'"), &base(), &cases()).unwrap().pairs;
+    // Each pair has both lengths under some choice in each case …
+    for case in &cases() {
+        let mut met = vec![false; free.len()];
+        for choice in 0..4_usize.pow(case.obstacles_cm.len() as u32) {
+            let moves = chosen(case, choice);
+            let mut search = search(&moves);
+            for ([start, goal], met) in free.iter().zip(&mut met).filter(|(_, met)| !**met) {
+                search.flood(*start, case.target(), |cell, cost| {
+                    *met |= cell == *goal && cost == case.target();
+                });
+            }
+        }
+        assert!(met.iter().all(|met| *met), "{met:?}");
+    }
+    // … and pairs of mixed choices, drawn evenly, are all among them.
+    let mut found = 0;
+    for (one, two) in (0..12).map(|k| (21 * k + 5, 5 * k + 2)) {
+        let moves = [chosen(&cases()[0], one), chosen(&cases()[1], two)];
+        for pair in pairs(&moves, &cases()) {
+            assert!(free.contains(&pair), "choices {one} and {two}: {:?}", points(&[pair]));
+            found += 1;
+        }
+    }
+    assert!(found > 0, "no choice that was drawn has a pair");
 }

@@ -20,7 +20,7 @@ use std::path::PathBuf;
 pub static ENTRY: Entry = Entry {
     name: "polyhedra_scene",
     about: "one scene of polyhedra from a file, with written queries or ones drawn around them; an arm may carry the tip",
-    revision: 1,
+    revision: 2,
     prepared: polyhedra::ENTRY.name,
     columns: CARRIED_COLUMNS,
     build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(Box::new(posed(settings, inputs)?)),
@@ -166,5 +166,86 @@ impl Family for Posed {
 
     fn inputs(&self) -> &[PathBuf] {
         &self.inputs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use toml::Table;
+
+    const PLAIN: &str = "scene = 'data/scenes/tang_c1.toml'\nstep_cm = 1\ngrowth_cm = 7\n\
+        robot = 'data/robots/aubo_i10.toml'\nbody = 'paper'\nscatter_cm = 5\n\
+        queries = [{ start = [70, -46, 36], goal = [70, 41, 51] }]\n";
+
+    fn build(changes: &str, without: &[&str]) -> Result<Box<dyn Family>, String> {
+        let mut table = PLAIN.parse::<Table>().unwrap();
+        table.retain(|key, _| !without.contains(&key));
+        table.extend(changes.parse::<Table>().unwrap());
+        let inputs = Inputs { roots: vec![PathBuf::from(env!("CARGO_MANIFEST_DIR"))] };
+        (ENTRY.build)(&Settings::composed("plain", table), &inputs).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn wrong_input_says_what_is_wrong_and_what_is_accepted() {
+        assert!(build("", &[]).is_ok());
+        let query = |start: &str, goal: &str| format!("queries = [{{ start = {start}, goal = {goal} }}]");
+        let (start, goal) = ("[70, -46, 36]", "[70, 41, 51]");
+        for (changes, parts) in [
+            (
+                query("[70, 15, 48]", goal),
+                ["the start [70.0, 15.0, 48.0]", "is inside obstacle 1 grown by 7 cm"],
+            ),
+            (
+                query(start, "[82, 24, 61]"),
+                ["the goal [82.0, 24.0, 61.0]", "is inside obstacle 1 grown by 7 cm"],
+            ),
+            (query(start, "[70, 41, 999]"), ["the goal", "is outside the domain; it goes from"]),
+            (
+                query(start, "[90, 65, 105]"),
+                ["the arm cannot reach the goal [90.0, 65.0, 105.0]", "with its tool pointing down"],
+            ),
+            (query("[70, -46]", goal), ["queries", "array of length 3"]),
+            ("queries = []".to_owned(), ["queries is empty", "at least one start and goal is needed"]),
+            ("step_cm = 999".to_owned(), ["tang_c1.toml: step is 999", "at most the domain's shortest side"]),
+            ("step_cm = 0".to_owned(), ["step is 0", "more than 0"]),
+            ("growth_cm = -1".to_owned(), ["grow by -1", "0 or more is accepted"]),
+            ("scatter_cm = 0".to_owned(), ["scatter_cm is 0", "more than 0 is accepted"]),
+            ("body = 'bones'".to_owned(), ["no body `bones`", "it has paper, mesh"]),
+            ("scene = 'data/scenes/none.toml'".to_owned(), ["`data/scenes/none.toml`", "does not exist"]),
+            ("robot = 'data/robots/none.toml'".to_owned(), ["`data/robots/none.toml`", "does not exist"]),
+            ("steps = 1".to_owned(), ["steps", "step_cm"]),
+        ] {
+            let refused = build(&changes, &[]).err().unwrap_or_else(|| panic!("{changes} was accepted"));
+            assert!(parts.iter().all(|part| refused.contains(part)), "{changes}: {refused}");
+        }
+    }
+
+    #[test]
+    fn robot_and_body_come_together_or_not_at_all() {
+        assert_eq!(build("", &["robot", "body"]).unwrap().world(), WorldKind::Polyhedra);
+        assert_eq!(build("", &[]).unwrap().world(), WorldKind::ArmAmongPolyhedra);
+        for alone in ["robot", "body"] {
+            let refused = build("", &[alone]).err().unwrap();
+            assert!(refused.contains("robot and body are given together or not at all"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn scattered_ends_lie_in_their_balls_and_change_with_the_seed_alone() {
+        let family = build("", &[]).unwrap();
+        let mut all = std::collections::BTreeSet::new();
+        for seed in 0..40 {
+            let drawn = family.queries_for(seed);
+            assert_eq!(drawn, family.queries_for(seed), "seed {seed}");
+            for (end, center) in
+                [(&drawn[0].start, [70.0, -46.0, 36.0]), (&drawn[0].goal, [70.0, 41.0, 51.0])]
+            {
+                let off = (0..3).map(|i| (end[i] - center[i]) * (end[i] - center[i])).sum::<f64>().sqrt();
+                assert!(off <= 5.0 && off > 0.0, "seed {seed}: {off}");
+            }
+            all.insert(format!("{:?}", drawn[0].start));
+        }
+        assert_eq!(all.len(), 40);
     }
 }

@@ -17,7 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "random_polyhedra",
     about: "a random number of random obstacles in a cube, disjoint or not, with written queries",
-    revision: 1,
+    revision: 2,
     prepared: polyhedra::ENTRY.name,
     columns: POLYHEDRA_COLUMNS,
     build: |settings, _inputs| {

@@ -12,12 +12,13 @@ use crate::verify::rods;
 
 /// The columns of every trial among polyhedra.
 pub const POLYHEDRA_COLUMNS: &[&str] =
-    &["path_length_cm", "turn_exterior_deg", "obstacles", "straight_line_cm"];
+    &["path_length_cm", "turn_exterior_deg", "bends", "obstacles", "straight_line_cm"];
 
 /// The columns of every trial of an arm among polyhedra, besides.
 pub const CARRIED_COLUMNS: &[&str] = &[
     "path_length_cm",
     "turn_exterior_deg",
+    "bends",
     "obstacles",
     "straight_line_cm",
     "joint_range_rad",
@@ -29,6 +30,9 @@ pub const CARRIED_COLUMNS: &[&str] = &[
 
 /// How many equal spans of time a joint path is looked at in, so that paths of other step lengths compare.
 const SPANS: usize = 200;
+
+/// A path turns where its direction changes by more than this.
+const BEND_DEG: f64 = 1e-3;
 
 /// The scene as the verifier sees it.
 #[derive(Debug, Clone)]
@@ -81,8 +85,17 @@ pub fn judge(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth: 
         };
         values.insert("path_length_cm", Value::Real(path_length(&tips)));
         values.insert("turn_exterior_deg", Value::Real(turn_sum_deg(&tips, TurnAngle::Exterior)));
+        if !is_joints {
+            values.insert("bends", Value::Count(bends(&tips)));
+        }
     }
     Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+}
+
+/// Points at which a path turns; steps along a straight line that are off it by rounding do not.
+fn bends(tips: &[Vec<f64>]) -> u64 {
+    let turns = tips.windows(3).map(|three| turn_sum_deg(three, TurnAngle::Exterior));
+    turns.filter(|turn_deg| *turn_deg > BEND_DEG).count() as u64
 }
 
 fn joints(q: &[f64]) -> [f64; AXES] {

@@ -1,6 +1,7 @@
-//! Workspaces of a planar arm among discs, some with the goal out of reach of any hops.
+//! Workspaces of a planar arm among discs, squares, hexagons and triangles, some with the goal out of reach of any hops.
 
 use super::{Case, Posed, Subject, Truth, flood};
+use crate::shapes::{Placed, body, obstacle, shaped};
 use rand::RngExt as _;
 use replan::geometry::planar::Touch;
 use replan::grid::CornerRule;
@@ -8,10 +9,8 @@ use replan::kinematics::planar_2r::{ElbowRule, Planar2r};
 use replan::planner::Plan;
 use replan::seed;
 use replan::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
-use replan::study::prepared::workspace_map::ShapeSetting;
-use replan::verify::arm::{Answer, Body, Case as Query};
+use replan::verify::arm::{Answer, Case as Query};
 
-const DIAMETER_CM: f64 = 8.0;
 const STEP_CM: f64 = 4.0;
 
 /// The widest steps of any planner that is tried.
@@ -37,11 +36,11 @@ fn drawn(number: u64, mut stream: seed::Stream) -> Option<Case> {
             [(number % 3) as usize],
         hop: [HopRule::EndPoints, HopRule::Continuous][(number % 2) as usize],
     };
-    let discs: Vec<[f64; 2]> = (0..stream.random_range(2..7))
+    let places: Vec<[f64; 2]> = (0..stream.random_range(2..7))
         .map(|_| [0, 1].map(|axis| f64::from(stream.random_range([-40, 8][axis]..44_i32))))
         .collect();
-    let obstacles = discs.iter().map(|at| ShapeSetting::Circle.obstacle(*at, DIAMETER_CM).unwrap());
-    let world = ArmWorld::new(rules, obstacles.collect());
+    let solids = shaped(number, places);
+    let world = ArmWorld::new(rules, solids.iter().map(obstacle).collect());
     let free: Vec<u32> = (0..world.grid().cell_count()).filter(|&cell| world.grid().is_free(cell)).collect();
     let ends = [0, 1].map(|_| free[stream.random_range(0..free.len())]);
     let steps: Vec<[i32; 2]> = (-WIDE..=WIDE).flat_map(|x| (-WIDE..=WIDE).map(move |y| [x, y])).collect();
@@ -50,8 +49,8 @@ fn drawn(number: u64, mut stream: seed::Stream) -> Option<Case> {
         return None;
     }
     let [start, goal] = ends.map(|cell| <[f64; 2]>::from(rules.lattice.point(cell)).to_vec());
-    let name = format!("arm {number}, {discs:?}, {start:?} to {goal:?}");
-    Some(Case { name, world: World::Arm(world), start, goal, posed: Posed::Arm(discs) })
+    let name = format!("arm {number}, {solids:?}, {start:?} to {goal:?}");
+    Some(Case { name, world: World::Arm(world), start, goal, posed: Posed::Arm(solids) })
 }
 
 /// Where `steps` lead from a cell, as the workspace answers, and how far each goes.
@@ -78,7 +77,7 @@ pub fn truth(case: &Case, subject: &Subject) -> Truth {
 /// Why the verifier refuses `plan`'s path.
 pub fn refusal(
     case: &Case,
-    discs: &[[f64; 2]],
+    solids: &[Placed],
     plan: &Plan,
     steps: Option<&[[i32; 2]]>,
     optimal: bool,
@@ -94,7 +93,7 @@ pub fn refusal(
         touching_is_contact: true,
         corner_rule: rules.corner_rule,
         hops_are_swept: rules.hop == HopRule::Continuous,
-        bodies: discs.iter().map(|at| Body::disc(*at, DIAMETER_CM / 2.0)).collect(),
+        bodies: solids.iter().map(body).collect(),
         start: &case.start,
         goal: &case.goal,
     };
@@ -102,9 +101,9 @@ pub fn refusal(
 }
 
 /// In an obstacle, outside, between lattice points, of another dimension.
-pub fn impossible(discs: &[[f64; 2]]) -> Vec<Vec<f64>> {
-    let on_lattice = |at: &[f64; 2]| at.iter().map(|x| (x / STEP_CM).round() * STEP_CM).collect();
+pub fn impossible(solids: &[Placed]) -> Vec<Vec<f64>> {
+    let on_lattice = |(_, at): &Placed| at.iter().map(|x| (x / STEP_CM).round() * STEP_CM).collect();
     let mut points = vec![vec![-52.0, 0.0], vec![0.0, 0.0], vec![1.0, 40.0], vec![20.0]];
-    points.extend(discs.iter().map(on_lattice));
+    points.extend(solids.iter().map(on_lattice));
     points
 }
