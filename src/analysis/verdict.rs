@@ -288,9 +288,9 @@ mod tests {
             finding.say_what_settles(&[0.5, 1.0], "trials");
             finding.because
         };
-        // Half a width of 0.2 against a distance of 0.1: four times as many.
+        // Half a width of 1/4 against a distance of 1/8: four times as many.
         let needed = "about 40 trials would settle a value of this size";
-        assert_eq!(said(Verdict::Undecided, [0.2, 0.4, 0.6]), [needed]);
+        assert_eq!(said(Verdict::Undecided, [0.25, 0.375, 0.75]), [needed]);
         assert!(said(Verdict::Undecided, [0.6, 0.7, 0.8]).is_empty(), "no limit lies within");
         assert!(said(Verdict::Undecided, [0.4, 0.5, 0.6]).is_empty(), "no number would");
         assert!(said(Verdict::Reproduced, [0.2, 0.4, 0.6]).is_empty());

@@ -7,12 +7,13 @@ use super::progress::Bar;
 use super::{Failure, Which};
 use crate::crosscheck::{self, Case, CrosscheckError, Depicted, Outcome, Picture, Sources, Spec};
 use crate::render::report;
-use crate::study::paper::Paper;
+use crate::settings::Document;
 use crate::study::runner::Progress as _;
 use crate::study::store::write_whole;
 use clap::Args;
 use python::{Judge, Snapshot};
 use rayon::prelude::*;
+use serde::Deserialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -37,6 +38,25 @@ pub struct Crosscheck {
     /// Leave report and picture as they are; say whether the report's chapter is what would be written
     #[arg(long)]
     check: bool,
+}
+
+/// What a cross-check reads of a paper: nothing else of it is needed, or checked.
+#[derive(Deserialize)]
+struct Sourced {
+    source: Option<Source>,
+}
+
+#[derive(Deserialize)]
+struct Source {
+    stand_ins: Option<String>,
+}
+
+/// What the paper in `folder` says of inputs that stand in for its own.
+fn stand_ins(folder: &Path) -> Result<Option<String>, Failure> {
+    let read: Sourced = Document::open(&folder.join("paper.toml"))
+        .and_then(|document| document.read())
+        .map_err(CrosscheckError::from)?;
+    Ok(read.source.and_then(|source| source.stand_ins))
 }
 
 /// Where models, questions and answers lie, below the root of outputs.
@@ -109,7 +129,7 @@ impl Crosscheck {
         let listed = if all.is_empty() { String::new() } else { all.join("\n") + "\n" };
         write_whole(&folder.join("disagreements.txt"), listed.as_bytes())?;
         eprint!("{listed}");
-        let stand_ins = Paper::load(&places.folder, &places.inputs)?.source.stand_ins;
+        let stand_ins = stand_ins(&places.folder)?;
         self.report(shown, &outcomes, &picture.case, drawn, stand_ins.as_deref())?;
         Ok(all.len())
     }

@@ -205,7 +205,7 @@ mod tests {
                 query(start, "[90, 65, 105]"),
                 ["the arm cannot reach the goal [90.0, 65.0, 105.0]", "with its tool pointing down"],
             ),
-            (query("[70, -46]", goal), ["queries", "array of length 3"]),
+            (query("[70, -46]", goal), ["invalid length 2", "array of length 3"]),
             ("queries = []".to_owned(), ["queries is empty", "at least one start and goal is needed"]),
             ("step_cm = 999".to_owned(), ["tang_c1.toml: step is 999", "at most the domain's shortest side"]),
             ("step_cm = 0".to_owned(), ["step is 0", "more than 0"]),

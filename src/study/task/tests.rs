@@ -71,6 +71,18 @@ fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
     files.map(|name| (name.clone(), fs::read(out.join(name)).unwrap())).into()
 }
 
+/// A paper with one study, whose settings of quick runs are `quick`.
+fn with_quick(quick: &str) -> Result<Paper, String> {
+    let folder = tempfile::tempdir().unwrap();
+    let workspace = WORKSPACE.replace("replicates = 1\n", quick);
+    let study =
+        format!("task = 'identify_endpoints'\n{workspace}\n[task_settings]{CASES}]\nexcess_steps = 2.0\n");
+    fs::create_dir(folder.path().join("p")).unwrap();
+    fs::write(folder.path().join("p/paper.toml"), PAPER).unwrap();
+    fs::write(folder.path().join("p/s.toml"), study).unwrap();
+    Paper::load(&folder.path().join("p"), &Inputs::default()).map_err(|e| e.to_string())
+}
+
 #[test]
 fn a_quick_run_takes_its_own_budget_clock_and_task_settings_and_a_full_one_does_not() {
     let quick = "replicates = 1
@@ -81,36 +93,25 @@ task_settings = { excess_steps = 0.5 }
 problems = 3
 repeats = 4
 ";
-    let load = |quick: &str| {
-        let folder = tempfile::tempdir().unwrap();
-        let workspace = WORKSPACE.replace("replicates = 1\n", quick);
-        let study = format!(
-            "task = 'identify_endpoints'\n{workspace}\n[task_settings]{CASES}]\nexcess_steps = 2.0\n"
-        );
-        fs::create_dir(folder.path().join("p")).unwrap();
-        fs::write(folder.path().join("p/paper.toml"), PAPER).unwrap();
-        fs::write(folder.path().join("p/s.toml"), study).unwrap();
-        Paper::load(&folder.path().join("p"), &Inputs::default()).map_err(|e| e.to_string())
-    };
     let shown = |study: &crate::study::Study| {
         let excess = study.task_settings.table()["excess_steps"].as_float().unwrap();
         (study.budget.expansions, study.timing.map(|timing| timing.repeats), excess)
     };
-    let study = load(quick).unwrap().studies.remove(0);
+    let study = with_quick(quick).unwrap().studies.remove(0);
     assert_eq!(shown(&study), (1000, Some(4), 2.0));
     let variants = study.task_settings.table()["variants"].clone();
     let study = study.quick();
     assert_eq!(shown(&study), (7, Some(1), 0.5));
     assert_eq!(study.task_settings.table()["variants"], variants);
     // A study that reads no clock reads none in a quick run either.
-    let untimed = load(&quick.replace("[timing]\nproblems = 3\nrepeats = 4\n", "")).unwrap();
+    let untimed = with_quick(&quick.replace("[timing]\nproblems = 3\nrepeats = 4\n", "")).unwrap();
     assert_eq!(shown(&untimed.studies.into_iter().next().unwrap().quick()), (7, None, 0.5));
     for (wrong, part) in [
         (quick.replace("expansions = 7", "expansions = 0"), "a budget of at least 1"),
         (quick.replace("excess_steps = 0.5", "variants = []"), "one case and one variant"),
         (quick.replace("budget", "budgets"), "budgets"),
     ] {
-        let error = load(&wrong).unwrap_err();
+        let error = with_quick(&wrong).unwrap_err();
         assert!(error.contains(part), "{error}");
     }
 }
