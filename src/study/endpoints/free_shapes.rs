@@ -10,6 +10,7 @@ use crate::search::OctileAstar;
 use crate::space::{ArmRules, Zone};
 use crate::study::prepared::workspace_map::ShapeSetting;
 use rayon::prelude::*;
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The pairs that some choice of shapes gives the printed lengths, and what it took.
@@ -76,6 +77,32 @@ fn blocked(variant: &Variant, base: &ArmRules, case: &Case) -> Result<Blocked, S
 /// Goals by start.
 type Live = BTreeMap<u32, BTreeSet<u32>>;
 
+/// The same pairs, each under one of its two points, so that few points have any: a search serves all pairs of a point.
+///
+/// Points with the most pairs take theirs first.
+fn few_roots(live: &Live) -> Live {
+    let mut ends = Live::new();
+    for (start, goals) in live {
+        for goal in goals {
+            ends.entry(*start).or_default().insert(*goal);
+            ends.entry(*goal).or_default().insert(*start);
+        }
+    }
+    let mut order: Vec<(usize, u32)> = ends.iter().map(|(point, others)| (others.len(), *point)).collect();
+    order.sort_by_key(|&(pairs, point)| (Reverse(pairs), point));
+    let mut roots = Live::new();
+    for (_, root) in order {
+        let others = ends.remove(&root).unwrap_or_default();
+        for other in &others {
+            ends.entry(*other).or_default().remove(&root);
+        }
+        if !others.is_empty() {
+            roots.insert(root, others);
+        }
+    }
+    roots
+}
+
 /// The choices of one case: a shape for each obstacle.
 struct Choices<'a> {
     size: [u32; 2],
@@ -88,25 +115,25 @@ struct Choices<'a> {
 impl Choices<'_> {
     /// The pairs among `live` that some choice puts exactly the target apart.
     fn attained(&self, live: &Live) -> Live {
-        let mut met = Live::new();
+        let (mut met, roots) = (Live::new(), few_roots(live));
         let (count, levels) = (ShapeSetting::ALL.len(), self.blocked.len() as u32);
         for choice in 0..count.pow(levels) {
             let shape_of = |obstacle: usize| choice / count.pow(obstacle as u32) % count;
             let moves = moves_where(self.size, self.corner_rule, |cell| {
                 self.blocked.iter().enumerate().any(|(index, shapes)| shapes[shape_of(index)][cell])
             });
-            let find = |search: &mut OctileAstar, (start, goals): (&u32, &BTreeSet<u32>)| {
+            let find = |search: &mut OctileAstar, (root, others): (&u32, &BTreeSet<u32>)| {
                 let mut found = Vec::new();
-                search.flood(*start, self.target, |cell, cost| {
-                    if cost == self.target && goals.contains(&cell) {
-                        found.push(cell);
+                search.flood(*root, self.target, |cell, cost| {
+                    if cost == self.target && others.contains(&cell) {
+                        found.push([*root.min(&cell), *root.max(&cell)]);
                     }
                 });
-                (*start, found)
+                found
             };
-            let found: Vec<_> = live.par_iter().map_init(|| search(&moves), find).collect();
-            for (start, goals) in found.into_iter().filter(|(_, goals)| !goals.is_empty()) {
-                met.entry(start).or_default().extend(goals);
+            let found: Vec<Vec<Pair>> = roots.par_iter().map_init(|| search(&moves), find).collect();
+            for [start, goal] in found.into_iter().flatten() {
+                met.entry(start).or_default().insert(goal);
             }
         }
         met
@@ -138,5 +165,19 @@ impl Choices<'_> {
         };
         let searches = || (search(&open), search(&shut));
         live.par_iter().map_init(searches, find).flatten_iter().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_pair_has_one_root_and_a_star_of_pairs_has_its_centre() {
+        let live: Live =
+            [(1, BTreeSet::from([5])), (2, BTreeSet::from([5, 7])), (3, BTreeSet::from([5]))].into();
+        let roots = few_roots(&live);
+        assert_eq!(roots, Live::from([(2, BTreeSet::from([7])), (5, BTreeSet::from([1, 2, 3]))]));
+        assert!(few_roots(&Live::new()).is_empty());
     }
 }
