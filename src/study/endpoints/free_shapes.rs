@@ -5,10 +5,12 @@
 //! between the two are searched choice by choice.
 
 use super::{Case, Pair, Variant, moves_where, search};
-use crate::grid::CornerRule;
+use crate::grid::{CornerRule, Moves};
 use crate::search::OctileAstar;
+use crate::seed::Stream;
 use crate::space::{ArmRules, Zone};
 use crate::study::prepared::workspace_map::ShapeSetting;
+use rand::RngExt as _;
 use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -59,6 +61,26 @@ impl FreeShapes {
             live.into_iter().flat_map(|(start, goals)| goals.into_iter().map(move |goal| [start, goal]));
         Ok(Self { pairs: pairs.collect(), candidates })
     }
+}
+
+/// The free hops of each case when every obstacle has a shape drawn from `stream`. Hops are judged by their end points.
+///
+/// # Errors
+/// A sentence if an obstacle cannot be made.
+pub fn drawn_moves(
+    variant: &Variant,
+    base: &ArmRules,
+    cases: &[Case; 2],
+    stream: &mut Stream,
+) -> Result<[Moves; 2], String> {
+    let rules = variant.rules(base);
+    let mut drawn = |case: &Case| {
+        let blocked = blocked(variant, base, case)?;
+        let shapes: Vec<usize> = blocked.iter().map(|shapes| stream.random_range(0..shapes.len())).collect();
+        let is_blocked = |cell: usize| blocked.iter().zip(&shapes).any(|(of, shape)| of[*shape][cell]);
+        Ok::<_, String>(moves_where(rules.lattice.size(), rules.corner_rule, is_blocked))
+    };
+    Ok([drawn(&cases[0])?, drawn(&cases[1])?])
 }
 
 fn blocked(variant: &Variant, base: &ArmRules, case: &Case) -> Result<Blocked, String> {

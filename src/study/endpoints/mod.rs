@@ -17,7 +17,7 @@ use crate::study::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetti
 use rayon::prelude::*;
 use serde::Deserialize;
 
-pub use free_shapes::FreeShapes;
+pub use free_shapes::{FreeShapes, drawn_moves};
 pub use never_lowered::NeverLowered;
 
 /// One case: where the obstacles are and how long the printed path is.

@@ -126,3 +126,22 @@ fn free_shapes_are_the_pairs_that_worlds_built_choice_by_choice_have() {
     }
     assert!(found > 0, "no choice that was drawn has a pair");
 }
+
+#[test]
+fn drawn_shapes_of_one_obstacle_are_each_of_the_four_at_times() {
+    let alone = cases().map(|case| Case { obstacles_cm: vec![case.obstacles_cm[1]], ..case });
+    let masks = |moves: &Moves| (0..moves.cell_count()).map(|cell| moves.mask(cell)).collect::<Vec<u8>>();
+    let uniform = variant("shape = 'circle'");
+    let of_shape = |case: &Case, shape| masks(&uniform.world(&base(), case, shape).unwrap().eight_moves());
+    let known = alone.each_ref().map(|case| ShapeSetting::ALL.map(|shape| of_shape(case, shape)));
+    let mut seen = std::collections::BTreeSet::new();
+    for seed in 0..40 {
+        let free = variant("shape = 'free'");
+        let drawn = drawn_moves(&free, &base(), &alone, &mut crate::seed::stream(seed)).unwrap();
+        for (case, moves) in drawn.iter().enumerate() {
+            let shape = known[case].iter().position(|known| *known == masks(moves));
+            seen.insert((case, shape.unwrap_or_else(|| panic!("seed {seed}, case {case}: no known shape"))));
+        }
+    }
+    assert_eq!(seen.len(), 8, "{seen:?}");
+}

@@ -2,9 +2,10 @@
 
 use super::{Entry, Task};
 use crate::planner::Value;
+use crate::seed;
 use crate::space::{ArmRules, ArmWorld};
 use crate::study::checked::Study;
-use crate::study::endpoints::{Case, ShapeChoice, Targets, Variant};
+use crate::study::endpoints::{Case, ShapeChoice, Targets, Variant, drawn_moves};
 use crate::study::record::{Batch, Row, Status, Values};
 use crate::study::runner::Unit;
 use serde::Deserialize;
@@ -13,7 +14,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "null_rate",
     about: "the share of targets of equal parity near two printed lengths that some pair of points meets",
-    revision: 2,
+    revision: 3,
     columns: &["targets", "targets_hit", "hit_share_percent"],
     build: |settings| {
         let read: NullRate = settings.read()?;
@@ -21,11 +22,17 @@ pub static ENTRY: Entry = Entry {
             let message = format!("window_cm is {}; above 0 and below 50 is accepted", read.window_cm);
             return Err(settings.error(message));
         }
-        if let Some(variant) = read.variants.iter().find(|v| uniform(v).is_none() || v.open_node.is_some()) {
+        if let Some(variant) = read.variants.iter().find(|variant| variant.open_node.is_some()) {
             let message = format!(
-                "variant `{}` is not one shape with shortest lengths; only such are counted here",
+                "variant `{}` is not about shortest lengths; only such are counted here",
                 variant.label
             );
+            return Err(settings.error(message));
+        }
+        let free = read.variants.iter().find(|variant| matches!(variant.shape, ShapeChoice::Free(_)));
+        if let Some(variant) = free.filter(|_| read.shape_choices == 0) {
+            let message =
+                format!("variant `{}` leaves shapes open; shape_choices above 0 are needed", variant.label);
             return Err(settings.error(message));
         }
         Ok(Box::new(read))
@@ -44,13 +51,9 @@ struct NullRate {
     variants: Vec<Variant>,
     /// How far from the printed length a target may be.
     window_cm: f64,
-}
-
-fn uniform(variant: &Variant) -> Option<crate::study::prepared::workspace_map::ShapeSetting> {
-    match variant.shape {
-        ShapeChoice::Uniform(shape) => Some(shape),
-        ShapeChoice::Free(_) => None,
-    }
+    /// Where each obstacle may have a shape of its own: how many choices are drawn; a target counts that any of them meets.
+    #[serde(default)]
+    shape_choices: u32,
 }
 
 impl Task for NullRate {
@@ -65,7 +68,7 @@ impl Task for NullRate {
         let targets = Targets::new(&self.cases, self.window_cm / base.lattice.step_cm());
         let mut any: Vec<bool> = Vec::new();
         for variant in &self.variants {
-            match self.hits(&targets, &base, variant) {
+            match self.hits(&targets, &base, variant, unit.seed) {
                 Ok(hits) => {
                     batch.rows.push(row(unit, &variant.label, &targets, &hits));
                     any.resize(hits.len(), false);
@@ -84,11 +87,28 @@ impl Task for NullRate {
 }
 
 impl NullRate {
-    fn hits(&self, targets: &Targets, base: &ArmRules, variant: &Variant) -> Result<Vec<bool>, String> {
-        let shape = uniform(variant).expect("variants were checked when the settings were read");
-        let [one, two] = self.cases.each_ref().map(|case| variant.world(base, case, shape));
-        let worlds = [one?, two?];
-        Ok(targets.hits(&worlds.each_ref().map(ArmWorld::eight_moves)))
+    fn hits(
+        &self,
+        targets: &Targets,
+        base: &ArmRules,
+        variant: &Variant,
+        seed: u64,
+    ) -> Result<Vec<bool>, String> {
+        if let ShapeChoice::Uniform(shape) = variant.shape {
+            let [one, two] = self.cases.each_ref().map(|case| variant.world(base, case, shape));
+            let worlds = [one?, two?];
+            return Ok(targets.hits(&worlds.each_ref().map(ArmWorld::eight_moves)));
+        }
+        let mut hits: Vec<bool> = Vec::new();
+        for choice in 0..self.shape_choices {
+            let names = ["shapes", &variant.label, &choice.to_string()];
+            let moves =
+                drawn_moves(variant, base, &self.cases, &mut seed::stream(seed::derive(seed, &names)))?;
+            let found = targets.hits(&moves);
+            hits.resize(found.len(), false);
+            hits.iter_mut().zip(found).for_each(|(hit, found)| *hit |= found);
+        }
+        Ok(hits)
     }
 }
 

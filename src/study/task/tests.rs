@@ -123,7 +123,7 @@ fn end_points_and_null_rate_are_the_same_bytes_on_one_thread_and_on_two() {
     let free = "{ label = 'free', shape = 'free', diameter_cm = 6 },\n";
     for (task, more, close) in [
         ("identify_endpoints", format!("{never}{free}"), "]\nexcess_steps = 2.0\n"),
-        ("null_rate", String::new(), "]\nwindow_cm = 2.0\n"),
+        ("null_rate", free.to_owned(), "]\nwindow_cm = 2.0\nshape_choices = 2\n"),
     ] {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("p")).unwrap();
