@@ -163,13 +163,19 @@ fn together(text: &mut String, verdicts: &Verdicts) {
         return;
     }
     line!(text, "\n### What holds together\n");
+    let count = verdicts.together.len();
+    let listed = match count {
+        1 => "one set lies within no other; it is listed".to_owned(),
+        2..=LISTED_SETS => format!("{count} sets lie within no other; they are listed"),
+        _ => format!(
+            "of the {count} sets that lie within no other the {LISTED_SETS} largest are listed, and below them the largest of \
+             each further reading, if there is one; all stand in `verdicts.toml` beside the stored run"
+        ),
+    };
     line!(
         text,
         "Claims met exactly under one reading by one choice of contenders, each environment on one map of ours. Every such \
-         choice of maps was looked at; of the {} sets that lie within no other, the {} largest are listed, and below them the \
-         largest of each further reading. All stand in `verdicts.toml` beside the stored run.\n",
-        verdicts.together.len(),
-        LISTED_SETS.min(verdicts.together.len())
+         choice of maps was looked at; {listed}.\n"
     );
     line!(text, "| reading | study and maps | contenders | hold | fail |");
     line!(text, "|---|---|---|---|---|");

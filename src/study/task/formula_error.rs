@@ -121,7 +121,10 @@ impl Task for FormulaError {
 
     fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
         let mut row = super::variant_row(unit, LABEL, "");
-        match unit.family.prepare(unit.seed) {
+        let prepared = unit.family.prepare(unit.seed);
+        // Stored units are known by what was prepared for them: without this row every run would measure anew.
+        let prepared_row = super::prepared_row(unit, prepared.as_ref());
+        match prepared {
             Err(invalid) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),
             Ok(prepared) => match prepared.world.as_polyhedra() {
                 None => {
@@ -141,6 +144,6 @@ impl Task for FormulaError {
                 }
             },
         }
-        Batch { prepared: Vec::new(), rows: vec![row], kept: Vec::new() }
+        Batch { prepared: vec![prepared_row], rows: vec![row], kept: Vec::new() }
     }
 }
