@@ -307,7 +307,7 @@ impl Compared {
         found: impl FnOnce() -> Disagreement,
     ) {
         let line = self.line(question, kind);
-        line.largest = Some(line.largest.unwrap_or(0.0).max(difference));
+        line.largest = Some(line.largest.map_or(difference, |largest| largest.max(difference)));
         if difference.is_nan() || difference > tolerance {
             self.differ(found());
         }

@@ -1,6 +1,6 @@
 //! A sample of every helper, held free of overlapping labels.
 //!
-//! `REPLAN_DEMO_DIR=/tmp/demo cargo test --lib render::demo` also writes the files, to be looked at.
+//! `REPLAN_DEMO_DIR=target/demo cargo test --lib render::demo` also writes the files, to be looked at.
 
 use super::canvas::{Align, Stand, Type};
 use super::chart::legend::cell_key;

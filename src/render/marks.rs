@@ -1,5 +1,6 @@
 //! What stands on everything drawn or written of records that are not the study's own: quick runs, other readings.
 
+use crate::analysis::evidence::default_point;
 use crate::analysis::verdict::Verdicts;
 use crate::study::Point;
 use crate::study::paper::Paper;
@@ -11,7 +12,7 @@ pub const QUICK: &str = "Quick run: few replicates, not the study's result.";
 pub fn marks(paper: &Paper, verdicts: &Verdicts) -> Vec<String> {
     let quick = verdicts.quick.then(|| QUICK.to_owned());
     let point = Point::new(&paper.readings(), &verdicts.reading).ok();
-    let other = point.filter(|point| *point.choices() != Point::defaults(&paper.readings()));
+    let other = point.filter(|point| *point != default_point(paper));
     let reading = other.map(|point| {
         format!(
             "Reading: {}; what captions and notes say of results holds for the default readings.",

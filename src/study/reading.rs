@@ -77,11 +77,6 @@ impl Point {
             .expect("readings of one name have the same options in every study of a paper")
     }
 
-    /// The default option of each reading.
-    pub fn defaults(readings: &[Reading]) -> BTreeMap<String, String> {
-        readings.iter().map(|reading| (reading.id.clone(), reading.default.clone())).collect()
-    }
-
     /// Its name in records.
     pub fn name(&self) -> &str {
         &self.name
