@@ -1,5 +1,8 @@
 //! What is committed beside the code: stored runs, plots and the report.
 
+use replan::study::manifest::Manifest;
+use replan::study::store::read_records;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -30,4 +33,26 @@ fn the_report_has_a_chapter_for_every_paper_in_the_order_of_their_names() {
         let name = paper.unwrap().file_name().into_string().unwrap();
         assert!(chapters.contains(&name), "no chapter of {name} in {chapters:?}");
     }
+}
+
+#[test]
+fn every_stored_trial_has_the_row_of_what_was_prepared_by_which_it_is_found_again() {
+    let runs = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs");
+    let mut studies = 0;
+    for folder in fs::read_dir(runs).unwrap().map(|entry| entry.unwrap().path()) {
+        let names =
+            fs::read_dir(&folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
+        for name in names.filter_map(|name| name.strip_suffix(".manifest.toml").map(str::to_owned)) {
+            let manifest = Manifest::read(&folder, &name).unwrap();
+            let batch = read_records(&folder, &name, &manifest.files).unwrap().batch;
+            let prepared: BTreeSet<_> =
+                batch.prepared.iter().map(|row| (&row.reading, &row.group, row.replicate)).collect();
+            let lost =
+                batch.rows.iter().find(|row| !prepared.contains(&(&row.reading, &row.group, row.replicate)));
+            assert!(lost.is_none(), "{}: {name}: {lost:?}", folder.display());
+            assert!(!batch.rows.is_empty(), "{}: {name}: no trial", folder.display());
+            studies += 1;
+        }
+    }
+    assert!(studies > 15, "only {studies} stored studies");
 }
