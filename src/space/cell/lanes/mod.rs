@@ -28,6 +28,10 @@ use crate::geometry::lanes::{
 };
 use crate::kinematics::ik::Branch;
 use crate::kinematics::{AXES, Arm, Joints};
+use std::f64::consts::TAU;
+
+/// The greatest angle, either way, that is placed in f32.
+const MOST_RAD: f64 = 2.0 * TAU;
 
 /// The axis of one part at eight configurations: x, y and z of its first end, then of the second.
 type Axis = [RoughRow; 6];
@@ -144,6 +148,11 @@ impl Memory {
     }
 }
 
+/// Whether f32 holds the angles well enough.
+fn is_rough(q: &Joints) -> bool {
+    q.iter().all(|angle| angle.abs() <= MOST_RAD)
+}
+
 impl Lines {
     /// Whether the local path between two configurations whose branches allow one can be executed; `None` in doubt.
     pub(super) fn join_lanes(
@@ -154,6 +163,9 @@ impl Lines {
         checked: &mut u64,
     ) -> Option<Result<(), Rejection>> {
         let (arm, outline) = (self.cell.robot.arm(), &self.cell.outline);
+        if !is_rough(&from.q) || !is_rough(&to.q) {
+            return None;
+        }
         let way;
         let (course, count) = match self.rules.path {
             Path::Joints => self.line(from, to),
@@ -162,7 +174,11 @@ impl Lines {
                 if let Err(reason) = self.follow_lanes(from, to, &way, &mut memory.track.states)? {
                     return Some(Err(reason));
                 }
-                let count = memory.track.states.len();
+                let states = &memory.track.states;
+                if !states.iter().all(is_rough) {
+                    return None;
+                }
+                let count = states.len();
                 (Course::Way { way: &way, branch: from.branch, steps: (count - 1) as f64 }, count)
             }
         };

@@ -112,6 +112,20 @@ fn bodies_are_placed_to_a_tenth_of_the_band() {
 }
 
 #[test]
+fn angles_of_many_turns_and_what_is_no_number_are_left_to_the_scalar_code() {
+    let lines = Lines::new(fu_cell(), LineRules { path: Path::Joints, ..rules() });
+    let found = |from: f64, to: f64| {
+        let [from, to] = [from, to].map(|last| lines.pose(&[0.0, -1.5, 0.0, 0.0, 1.5, last]));
+        lines.join_lanes(&from, &to, &mut Memory::default(), &mut 0)
+    };
+    let [near, far] = [1.9 * TAU, 2.1 * TAU];
+    assert_eq!(found(near, -near), Some(Ok(())));
+    for (from, to) in [(far, near), (near, far), (-far, near), (near, f64::NAN)] {
+        assert_eq!(found(from, to), None, "{from} {to}");
+    }
+}
+
+#[test]
 fn what_is_thin_for_the_size_of_the_cell_has_no_lanes() {
     let robot = fu_cell().robot().clone();
     let cell = |capsule_mm: f64| {
