@@ -103,6 +103,11 @@ fn apart(found: f32, exact: f64, least: f64) -> f64 {
     (f64::from(found).max(least) - exact.max(least)).abs()
 }
 
+/// The greatest of what the cases are reckoned with.
+fn extent(points: &[Vec3], wall: &HalfSpace) -> f64 {
+    points.iter().map(Vec3::norm).fold(wall.height(&Vec3::zeros()).abs(), f64::max)
+}
+
 #[test]
 fn rough_distances_are_those_of_the_scalar_code_to_half_the_roughness() {
     let (mut stream, mut pierced, mut worst) = (seed::stream(42), 0, [0_f64; 3]);
@@ -127,8 +132,7 @@ fn rough_distances_are_those_of_the_scalar_code_to_half_the_roughness() {
                     distance_segment_box(p, &shape),
                     wall.height(&p.a).min(wall.height(&p.b)),
                 ];
-                let ends = [p.a, p.b, q.a, q.b, shape.aabb().min, shape.aabb().max];
-                let extent = ends.iter().map(Vec3::norm).fold(wall.height(&Vec3::zeros()).abs(), f64::max);
+                let extent = extent(&[p.a, p.b, q.a, q.b, shape.aabb().min, shape.aabb().max], &wall);
                 let found = [between[lane], to_box[lane], height[lane]];
                 for (kind, (found, exact)) in found.into_iter().zip(exact).enumerate() {
                     let least = if kind == 0 { ROUGH_LEAST * extent } else { f64::NEG_INFINITY };

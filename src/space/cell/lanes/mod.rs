@@ -174,11 +174,10 @@ impl Lines {
                 if let Err(reason) = self.follow_lanes(from, to, &way, &mut memory.track.states)? {
                     return Some(Err(reason));
                 }
-                let states = &memory.track.states;
-                if !states.iter().all(is_rough) {
+                let count = memory.track.states.len();
+                if !memory.track.states.iter().all(is_rough) {
                     return None;
                 }
-                let count = states.len();
                 (Course::Way { way: &way, branch: from.branch, steps: (count - 1) as f64 }, count)
             }
         };
