@@ -14,6 +14,7 @@
 //! - `query/original` and `/improved`: one query on that roadmap, its local paths already known.
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use fearless_simd::{Level, dispatch};
 use parry3d::math::{Pose as ParryPose, Vector};
 use parry3d::query::intersection_test;
 use parry3d::shape::{self, SharedShape};
@@ -249,21 +250,67 @@ fn motions(c: &mut Criterion) {
     group.finish();
 }
 
-/// Each sample with its 12 nearest in joint space, every pair once.
-fn neighbours(samples: &[Sample]) -> Vec<[usize; 2]> {
-    let angles: Vec<Joints> = samples.iter().map(|s| s.config.as_slice().try_into().expect("six")).collect();
-    let mut pairs = Vec::new();
-    for (i, own) in angles.iter().enumerate() {
-        let gap = |other: &Joints| own.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-        let mut nearest: Vec<(f64, usize)> = Vec::with_capacity(13);
-        for (j, other) in angles.iter().enumerate().filter(|(j, _)| *j != i) {
-            let found = gap(other);
-            if nearest.len() < 12 || found < nearest[11].0 {
-                nearest.insert(nearest.partition_point(|(known, _)| *known <= found), (found, j));
-                nearest.truncate(12);
+/// How many of the nearest samples in joint space each is tried with.
+const NEIGHBOURS: usize = 12;
+/// How many samples are measured side by side.
+const GROUP: usize = 16;
+
+/// Writes the squares of the distances from `own` to the samples of each group, and the least of each group; a group holds
+/// their angles joint by joint.
+#[expect(clippy::inline_always, reason = "it is compiled for the instructions of its caller")]
+#[inline(always)]
+fn write_gaps(own: &Joints, groups: &[[[f64; GROUP]; 6]], gaps: &mut [[f64; GROUP]], least: &mut [f64]) {
+    for ((group, gaps), least) in groups.iter().zip(gaps).zip(least) {
+        let mut sums = [0.0; GROUP];
+        for (angles, own) in group.iter().zip(own) {
+            for (sum, angle) in sums.iter_mut().zip(angles) {
+                *sum += (own - angle) * (own - angle);
             }
         }
-        pairs.extend(nearest.iter().map(|(_, j)| [i.min(*j), i.max(*j)]));
+        *gaps = sums;
+        let mut half = GROUP / 2;
+        while half > 0 {
+            for lane in 0..half {
+                sums[lane] = if sums[lane + half] < sums[lane] { sums[lane + half] } else { sums[lane] };
+            }
+            half /= 2;
+        }
+        *least = sums[0];
+    }
+}
+
+/// The angles of the samples, a group at a time, joint by joint; what fills the last group is infinitely far.
+fn groups(samples: &[Sample]) -> Vec<[[f64; GROUP]; 6]> {
+    let mut groups = vec![[[f64::INFINITY; GROUP]; 6]; samples.len().div_ceil(GROUP)];
+    for (i, sample) in samples.iter().enumerate() {
+        for (row, angle) in groups[i / GROUP].iter_mut().zip(&sample.config) {
+            row[i % GROUP] = *angle;
+        }
+    }
+    groups
+}
+
+/// Each sample with its 12 nearest in joint space, every pair once.
+fn neighbours(samples: &[Sample]) -> Vec<[usize; 2]> {
+    let groups = groups(samples);
+    let (mut gaps, mut least) = (vec![[0.0; GROUP]; groups.len()], vec![0.0; groups.len()]);
+    let (mut ranked, mut nearest) = (Vec::new(), Vec::<(f64, usize)>::new());
+    let mut pairs = Vec::with_capacity(samples.len() * NEIGHBOURS);
+    for (i, sample) in samples.iter().enumerate() {
+        let own = sample.config.as_slice().try_into().expect("six angles");
+        dispatch!(Level::new(), _simd => write_gaps(own, &groups, &mut gaps, &mut least));
+        ranked.clear();
+        ranked.extend(least.iter().map(|gap| gap.to_bits()));
+        // So many groups hold a sample within the bound that the nearest are within it, and the sample itself.
+        let bound = f64::from_bits(*ranked.select_nth_unstable(NEIGHBOURS).1);
+        nearest.clear();
+        for (group, gaps) in gaps.iter().enumerate().filter(|(group, _)| least[*group] <= bound) {
+            let within = gaps.iter().enumerate().filter(|(_, gap)| **gap <= bound);
+            nearest.extend(within.map(|(lane, gap)| (*gap, group * GROUP + lane)));
+        }
+        nearest.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let others = nearest.iter().map(|(_, j)| *j).filter(|j| *j != i).take(NEIGHBOURS);
+        pairs.extend(others.map(|j| [i.min(j), i.max(j)]));
     }
     pairs.sort_unstable();
     pairs.dedup();

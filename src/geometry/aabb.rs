@@ -70,11 +70,6 @@ impl BroadPhase {
         Self { boxes }
     }
 
-    /// The boxes, by position.
-    pub fn boxes(&self) -> &[Aabb] {
-        &self.boxes
-    }
-
     /// The positions of the boxes that share a point with `query`, in ascending order.
     #[inline]
     pub fn candidates(&self, query: &Aabb) -> impl Iterator<Item = usize> {

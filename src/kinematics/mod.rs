@@ -10,6 +10,7 @@ mod error;
 pub mod ik;
 pub mod planar_2r;
 pub mod robot;
+mod rough;
 pub mod serial;
 #[cfg(test)]
 mod tests;
@@ -17,4 +18,5 @@ mod tests;
 pub use arm::{Arm, Missed};
 pub use error::KinematicsError;
 pub use robot::Robot;
+pub use rough::RoughChain;
 pub use serial::{AXES, Chain, Joint, Joints};

@@ -8,7 +8,6 @@
 //! Siciliano et al., *Robotics: Modelling, Planning and Control* (2009), section 2.8.2.
 
 use super::{KinematicsError, angle::nearest_copy};
-use crate::geometry::lanes::{self, Frames, Lane, Simd, SimdBase};
 use crate::geometry::{Frame, Vec3};
 use nalgebra::{Matrix3, Matrix6};
 use std::f64::consts::TAU;
@@ -170,25 +169,6 @@ impl Chain {
                 turned_y * cos_alpha + z * sin_alpha,
                 z * cos_alpha - turned_y * sin_alpha,
             ]),
-        }
-    }
-
-    /// Frame `i + 1` from frame `i` for four angles at once.
-    #[expect(clippy::inline_always, reason = "lanes are compiled for the instructions of their caller")]
-    #[inline(always)]
-    pub fn next_lanes<S: Simd>(&self, simd: S, frame: &Frames<S>, i: usize, angle_rad: Lane<S>) -> Frames<S> {
-        let (joint, (sin_alpha, cos_alpha)) = (&self.joints[i], self.twists[i]);
-        let (s, c) = lanes::sincos(angle_rad + joint.offset_rad);
-        let [x, y, z] = frame.axes;
-        let (turned_x, turned_y) = (x.scaled(c).plus(s, y), y.scaled(c).plus(-s, x));
-        let [sin_alpha, cos_alpha, d_m] = lanes::splat3(simd, [sin_alpha, cos_alpha, joint.d_m]);
-        Frames {
-            axes: [
-                turned_x,
-                turned_y.scaled(cos_alpha).plus(sin_alpha, z),
-                z.scaled(cos_alpha).plus(-sin_alpha, turned_y),
-            ],
-            origin: frame.origin.plus(d_m, z).plus(Lane::splat(simd, joint.a_m), turned_x),
         }
     }
 

@@ -1,24 +1,109 @@
-//! Distances of segments in lanes: the closed forms of the scalar code, with choices in place of branches.
+//! Distances of segments in rough lanes: the closed forms of the scalar code, with choices in place of branches.
+//!
+//! Of two segments the squared distance is what is rounded: it is off by about the last digit of a f32 times the square of
+//! the lengths at hand, also where they are nearly parallel, because a share that is badly known there hardly matters. Its
+//! root is as good as [`ROUGHNESS`](super::ROUGHNESS) asks only above [`ROUGH_LEAST`](super::ROUGH_LEAST).
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"
 )]
 
-use super::{ExtractToken, Frames, Lane, Point, Select, Simd, SimdBase, SimdFloat, SimdMask, splat3};
-use crate::geometry::{HalfSpace, OrientedBox, Vec3};
+use super::{ExtractToken, Point, Rough, Select, Simd, SimdBase, SimdFloat, SimdMask};
+use crate::geometry::{OrientedBox, Solid, Vec3};
+
+/// The nearest f32 to each coordinate.
+fn rough(v: &Vec3) -> [f32; 3] {
+    [v.x as f32, v.y as f32, v.z as f32]
+}
+
+/// A solid that has lanes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RoughSolid {
+    /// A box.
+    Box(RoughBox),
+    /// All points `x` with `normal · x <= offset`.
+    HalfSpace {
+        /// The unit vector out of it.
+        normal: [f32; 3],
+        /// How far its boundary is from the origin along the normal.
+        offset: f32,
+    },
+    /// All points within `radius` of the segment between two ends.
+    Capsule {
+        /// The ends of the axis.
+        ends: [[f32; 3]; 2],
+        /// The radius.
+        radius: f32,
+    },
+}
+
+impl RoughSolid {
+    /// `solid` in f32; `None` if it has no lanes.
+    pub fn of(solid: &Solid) -> Option<Self> {
+        match solid {
+            Solid::Box(shape) => Some(Self::Box(RoughBox::of(shape))),
+            Solid::HalfSpace(shape) => {
+                let offset = -shape.height(&Vec3::zeros()) as f32;
+                Some(Self::HalfSpace { normal: rough(shape.normal()), offset })
+            }
+            Solid::Capsule(capsule) => {
+                let ends = [rough(&capsule.segment.a), rough(&capsule.segment.b)];
+                Some(Self::Capsule { ends, radius: capsule.radius as f32 })
+            }
+            Solid::Sphere(_) | Solid::Convex(_) => None,
+        }
+    }
+
+    /// How far axes are from the solid; 0 or less in it.
+    #[inline(always)]
+    pub fn distance<S: Simd>(&self, simd: S, axis: [Point<Rough<S>>; 2]) -> Rough<S> {
+        match self {
+            Self::Box(shape) => squared_distance_segment_box_lanes(simd, axis, shape).sqrt(),
+            Self::HalfSpace { normal, offset } => height_half_space(simd, axis, *normal, *offset),
+            Self::Capsule { ends, radius } => {
+                let own = [Point::splat_rough(simd, ends[0]), Point::splat_rough(simd, ends[1])];
+                squared_distance_segment_segment_lanes(axis, own).sqrt() - *radius
+            }
+        }
+    }
+}
+
+/// A box in f32.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoughBox {
+    axes: [[f32; 3]; 3],
+    origin: [f32; 3],
+    half: [f32; 3],
+}
+
+impl RoughBox {
+    /// `shape` in f32.
+    pub fn of(shape: &OrientedBox) -> Self {
+        let frame = shape.frame();
+        Self {
+            axes: [0, 1, 2].map(|axis| rough(&frame.axis(axis))),
+            origin: rough(&frame.origin),
+            half: rough(shape.half()),
+        }
+    }
+}
 
 /// The height of a segment above a half-space; negative inside.
 #[inline(always)]
-pub fn height_half_space<S: Simd>(simd: S, a: Point<S>, b: Point<S>, shape: &HalfSpace) -> Lane<S> {
-    let normal = Point::splat(simd, shape.normal());
-    let at_origin = shape.height(&Vec3::zeros());
-    normal.dot(a).min(normal.dot(b)) + at_origin
+pub fn height_half_space<S: Simd>(
+    simd: S,
+    [a, b]: [Point<Rough<S>>; 2],
+    normal: [f32; 3],
+    offset: f32,
+) -> Rough<S> {
+    let normal = Point::splat_rough(simd, normal);
+    normal.dot(a).min(normal.dot(b)) - offset
 }
 
 /// Which balls about two segments `[a, b]` and `[c, d]`, as long as given, are further apart than `reach_m`: one bit a
 /// case.
 #[inline(always)]
-pub fn far_balls<S: Simd>(p: [Point<S>; 2], q: [Point<S>; 2], reach_m: Lane<S>) -> u64 {
+pub fn far_balls<S: Simd>(p: [Point<Rough<S>>; 2], q: [Point<Rough<S>>; 2], reach_m: Rough<S>) -> u64 {
     let apart = (p[0] + p[1]) - (q[0] + q[1]);
     apart.dot(apart).simd_gt(reach_m * reach_m * 4.0).to_bitmask()
 }
@@ -28,40 +113,43 @@ pub fn far_balls<S: Simd>(p: [Point<S>; 2], q: [Point<S>; 2], reach_m: Lane<S>) 
 /// # Source
 /// As [`squared_distance_segment_segment`](crate::geometry::squared_distance_segment_segment).
 #[inline(always)]
-pub fn squared_distance_segment_segment_lanes<S: Simd>(p: [Point<S>; 2], q: [Point<S>; 2]) -> Lane<S> {
+pub fn squared_distance_segment_segment_lanes<S: Simd>(
+    p: [Point<Rough<S>>; 2],
+    q: [Point<Rough<S>>; 2],
+) -> Rough<S> {
     let (d1, d2, r) = (p[1] - p[0], q[1] - q[0], q[0] - p[0]);
     let simd = r.x.token();
     let (a, e) = (d1.dot(d1), d2.dot(d2));
     let normal = d1.cross(d2);
     let normal2 = normal.dot(normal);
-    let (zero, one) = (Lane::splat(simd, 0.0), Lane::splat(simd, 1.0));
+    let (zero, one) = (Rough::splat(simd, 0.0), Rough::splat(simd, 1.0));
     let start = (r.cross(d2).dot(normal) / normal2).max(zero).min(one);
-    let start = normal2.simd_gt(a * e * 1e-30).select(start, zero);
+    let start = normal2.simd_gt(a * e * 1e-12).select(start, zero);
     let t = ((d1.scaled(start) - r).dot(d2) / e).max(zero).min(one);
     let s = ((r.plus(t, d2)).dot(d1) / a).max(zero).min(one);
     let gap = p[0].plus(s, d1) - q[0].plus(t, d2);
     // A share of a point is NaN or was clamped away from it; the lengths say so.
     let sound = a.min(e).simd_gt(0.0);
-    sound.select(gap.dot(gap), Lane::splat(simd, f64::NAN))
+    sound.select(gap.dot(gap), Rough::splat(simd, f32::NAN))
 }
 
 #[inline(always)]
-fn excess<S: Simd>(p: Lane<S>, half: Lane<S>) -> Lane<S> {
+fn excess<S: Simd>(p: Rough<S>, half: Rough<S>) -> Rough<S> {
     p - p.max(-half).min(half)
 }
 
 /// Segments from `a` along `d` in the frame of a box whose half sides are `half`.
 #[derive(Clone, Copy)]
 struct InBox<S: Simd> {
-    a: [Lane<S>; 3],
-    d: [Lane<S>; 3],
-    half: [Lane<S>; 3],
+    a: [Rough<S>; 3],
+    d: [Rough<S>; 3],
+    half: [Rough<S>; 3],
 }
 
 impl<S: Simd> InBox<S> {
     /// How far each coordinate is outside at shares `t`.
     #[inline(always)]
-    fn outside(&self, t: Lane<S>) -> Point<S> {
+    fn outside(&self, t: Rough<S>) -> Point<Rough<S>> {
         Point {
             x: excess(self.d[0].mul_add(t, self.a[0]), self.half[0]),
             y: excess(self.d[1].mul_add(t, self.a[1]), self.half[1]),
@@ -71,7 +159,7 @@ impl<S: Simd> InBox<S> {
 
     /// Half the derivative of the squared distance at shares `t`.
     #[inline(always)]
-    fn slope(&self, t: Lane<S>) -> Lane<S> {
+    fn slope(&self, t: Rough<S>) -> Rough<S> {
         let out = self.outside(t);
         out.x.mul_add(self.d[0], out.y.mul_add(self.d[1], out.z * self.d[2]))
     }
@@ -84,17 +172,19 @@ impl<S: Simd> InBox<S> {
 #[inline(always)]
 pub fn squared_distance_segment_box_lanes<S: Simd>(
     simd: S,
-    p: [Point<S>; 2],
-    shape: &OrientedBox,
-) -> Lane<S> {
-    let (frame, half) = (Frames::splat(simd, shape.frame()), shape.half());
-    let ([x, y, z], from, along) = (frame.axes, p[0] - frame.origin, p[1] - p[0]);
+    p: [Point<Rough<S>>; 2],
+    shape: &RoughBox,
+) -> Rough<S> {
+    let [x, y, z] = shape.axes;
+    let (x, y, z) = (Point::splat_rough(simd, x), Point::splat_rough(simd, y), Point::splat_rough(simd, z));
+    let half = Point::splat_rough(simd, shape.half);
+    let (from, along) = (p[0] - Point::splat_rough(simd, shape.origin), p[1] - p[0]);
     let within = InBox {
         a: [x.dot(from), y.dot(from), z.dot(from)],
         d: [x.dot(along), y.dot(along), z.dot(along)],
-        half: splat3(simd, [half.x, half.y, half.z]),
+        half: [half.x, half.y, half.z],
     };
-    let (zero, one) = (Lane::splat(simd, 0.0), Lane::splat(simd, 1.0));
+    let (zero, one) = (Rough::splat(simd, 0.0), Rough::splat(simd, 1.0));
     let (mut low, mut slope_low, mut high, mut slope_high) =
         (zero, within.slope(zero), one, within.slope(one));
     let (at_start, at_end) = (slope_low.simd_ge(0.0), slope_high.simd_le(0.0));

@@ -1,13 +1,15 @@
 //! Sines, cosines and arc tangents in lanes, to about one unit in the last place.
 //!
 //! # Source
-//! The polynomials are those of Sun's fdlibm (`k_sin.c`, `k_cos.c`, `s_atan.c`), the reduction is its first step.
+//! In f64 the polynomials are those of Sun's fdlibm (`k_sin.c`, `k_cos.c`, `s_atan.c`), the reduction is its first step;
+//! in f32 both are those of Moshier's Cephes (`sinf.c`).
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"
 )]
 
-use super::{ExtractToken, Lane, Select, Simd, SimdBase, SimdFloat};
+use super::{ExtractToken, Lane, Number, Rough, Select, Simd, SimdBase, SimdFloat};
+use fearless_simd::{Bytes, u32x8};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI};
 
 /// The first 33 bits of π / 2, and the rest.
@@ -46,11 +48,10 @@ const EIGHTH: f64 = 0.414_213_562_373_095_05;
 
 /// The polynomial with these coefficients, the highest first.
 #[inline(always)]
-fn polynomial<S: Simd, const N: usize>(at: Lane<S>, coefficients: &[f64; N]) -> Lane<S> {
-    let simd = at.token();
-    let mut sum = Lane::splat(simd, coefficients[0]);
+fn polynomial<L: Number, const N: usize>(at: L, coefficients: &[L::One; N]) -> L {
+    let mut sum = at.all(coefficients[0]);
     for coefficient in &coefficients[1..] {
-        sum = sum.mul_add(at, Lane::splat(simd, *coefficient));
+        sum = sum.times_plus(at, at.all(*coefficient));
     }
     sum
 }
@@ -69,6 +70,37 @@ pub fn sincos<S: Simd>(angle_rad: Lane<S>) -> (Lane<S>, Lane<S>) {
     let below = quadrant.simd_gt(1.5);
     let behind = (quadrant - 1.5).abs().simd_lt(1.0);
     (below.select(-s, s), behind.select(-c, c))
+}
+
+/// π / 2 in three parts, of which the first two have so few digits that their multiples are exact.
+const ROUGH_QUARTER: [f32; 3] = [1.570_312_5, 4.837_513e-4, 7.549_79e-8];
+const ROUGH_SIN: [f32; 3] = [-1.951_529_6e-4, 8.332_161e-3, -1.666_665_5e-1];
+const ROUGH_COS: [f32; 3] = [2.443_315_7e-5, -1.388_731_6e-3, 4.166_664_6e-2];
+/// Added to a small number, it leaves the nearest integer in the last digits.
+const TO_INTEGER: f32 = 12_582_912.0;
+
+/// Sine and cosine, to seven digits, of angles up to a thousand radians.
+#[inline(always)]
+pub fn sincos_rough<S: Simd>(angle_rad: Rough<S>) -> (Rough<S>, Rough<S>) {
+    let shifted = angle_rad.mul_add(std::f32::consts::FRAC_2_PI, TO_INTEGER);
+    let turns = shifted - TO_INTEGER;
+    let [first, second, third] = ROUGH_QUARTER;
+    let rest = turns.mul_add(-third, turns.mul_add(-second, turns.mul_add(-first, angle_rad)));
+    let z = rest * rest;
+    let sine = (rest * z).mul_add(polynomial(z, &ROUGH_SIN), rest);
+    let cosine = (z * z).mul_add(polynomial(z, &ROUGH_COS), z.mul_add(-0.5, 1.0));
+    let quadrant: u32x8<S> = shifted.bitcast();
+    let swapped = (quadrant << 31).simd_ge(1 << 31);
+    let (s, c) = (swapped.select(cosine, sine), swapped.select(sine, cosine));
+    (flipped(s, quadrant), flipped(c, quadrant + 1))
+}
+
+/// A sine or cosine with the sign that it has in a quadrant.
+#[inline(always)]
+fn flipped<S: Simd>(value: Rough<S>, quadrant: u32x8<S>) -> Rough<S> {
+    let bits: u32x8<S> = value.bitcast();
+    let sign = (quadrant << 30) & u32x8::splat(value.token(), 1 << 31);
+    (bits ^ sign).bitcast()
 }
 
 /// The angle of the point `(x, y)`; NaN at the origin.

@@ -19,24 +19,21 @@ pub(super) struct Doubt<'a> {
     pub(super) branch: Branch,
     /// The first and the last configuration.
     pub(super) ends_q: [Joints; 2],
-    /// How close a comparison may be; a negative slack settles everything.
-    pub(super) slack_m: f64,
 }
 
 /// A share of the path, the joints there, and the body placed.
 pub(super) type Stop<'a> = (f64, Joints, &'a [Capsule]);
 
 impl Doubt<'_> {
-    /// Whether the path is free between two stops; `None` if a comparison is closer than the slack.
-    pub(super) fn settle(&self, [a, b]: [Stop<'_>; 2], halvings: u32) -> Option<Result<(), Rejection>> {
+    /// Whether the path is free between two stops.
+    pub(super) fn settle(&self, [a, b]: [Stop<'_>; 2], halvings: u32) -> Result<(), Rejection> {
         let cell = self.lines.cell();
         let share = f64::midpoint(a.0, b.0);
         let q = match self.way {
-            Some(way) => match cell.robot().arm().follow(&way.at(share), self.branch, &a.1) {
-                Ok(q) => q,
-                Err(_) if self.slack_m > 0.0 => return None,
-                Err(_) => return Some(Err(Rejection::Unreachable)),
-            },
+            Some(way) => {
+                let found = cell.robot().arm().follow(&way.at(share), self.branch, &a.1);
+                found.map_err(|_| Rejection::Unreachable)?
+            }
             None => between(&self.ends_q[0], &self.ends_q[1], share),
         };
         let mut placed = Vec::with_capacity(a.2.len());
@@ -44,16 +41,14 @@ impl Doubt<'_> {
         let reach = |part: usize| {
             2.0 * HALF_WAY * axis_way_m(&a.2[part], &placed[part]).max(axis_way_m(&placed[part], &b.2[part]))
         };
-        match cell.sure_standing(&placed, reach, self.slack_m)? {
-            Standing::Contact => Some(Err(Rejection::Contact)),
+        match cell.standing(&placed, reach) {
+            Standing::Contact => Err(Rejection::Contact),
             Standing::Near if halvings > 1 => {
                 let middle: Stop<'_> = (share, q, &placed);
-                match self.settle([a, middle], halvings - 1)? {
-                    Ok(()) => self.settle([middle, b], halvings - 1),
-                    refused => Some(refused),
-                }
+                self.settle([a, middle], halvings - 1)?;
+                self.settle([middle, b], halvings - 1)
             }
-            Standing::Clear | Standing::Near => Some(Ok(())),
+            Standing::Clear | Standing::Near => Ok(()),
         }
     }
 }

@@ -115,7 +115,7 @@ pub struct Pose {
 /// Memory that one attempt after another uses.
 #[derive(Debug, Default)]
 pub struct Scratch {
-    states: Vec<Joints>,
+    pub(super) states: Vec<Joints>,
     placed: Vec<Capsule>,
     ways: Vec<f64>,
     lanes: lanes::Memory,
@@ -183,7 +183,7 @@ impl Lines {
 
     /// Whether the local path between two free configurations can be executed.
     ///
-    /// Four configurations are looked at at once, and one at a time where that left a doubt.
+    /// Eight configurations are looked at at once, and one at a time where that left a doubt.
     ///
     /// # Errors
     /// The first reason against it.
@@ -207,7 +207,8 @@ impl Lines {
             Path::Joints => {
                 let steps = self.joint_steps(from, to);
                 scratch.states.clear();
-                scratch.states.extend(steps.map(|share| between(&from.q, &to.q, share)));
+                let shares = (0..=steps as u32).map(|step| f64::from(step) / steps);
+                scratch.states.extend(shares.map(|share| between(&from.q, &to.q, share)));
                 None
             }
             Path::Tool => {
@@ -307,10 +308,9 @@ impl Lines {
         if far { Err(Rejection::End) } else { Ok(()) }
     }
 
-    /// The shares of the way at which a path that is straight in joint space is checked.
-    pub(super) fn joint_steps(&self, from: &Pose, to: &Pose) -> impl Iterator<Item = f64> {
-        let steps = (largest_change(&from.q, &to.q) / self.rules.step_rad).ceil().max(1.0);
-        (0..=steps as u32).map(move |step| f64::from(step) / steps)
+    /// How many steps a path takes that is straight in joint space.
+    pub(super) fn joint_steps(&self, from: &Pose, to: &Pose) -> f64 {
+        (largest_change(&from.q, &to.q) / self.rules.step_rad).ceil().max(1.0)
     }
 
     /// Whether no configuration of `scratch` and none between them is in contact: from the middle outwards.
@@ -348,8 +348,7 @@ impl Lines {
         for step in doubtful {
             let ends = [step - 1, step].map(|state| (share(state), states[state], at(state)));
             let ends_q = [states[0], states[states.len() - 1]];
-            let doubt = Doubt { lines: self, way, branch, ends_q, slack_m: -1.0 };
-            doubt.settle([ends[0], ends[1]], HALVINGS).expect("nothing is closer than a negative slack")?;
+            Doubt { lines: self, way, branch, ends_q }.settle([ends[0], ends[1]], HALVINGS)?;
         }
         Ok(())
     }

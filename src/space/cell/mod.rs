@@ -18,6 +18,8 @@ pub use line::{EdgeEnd, LineRules, Lines, Path, Pose, Rejection, Scratch};
 pub use scene::{Obstacle, Scene};
 pub use time_law::SpeedRule;
 
+use lanes::Outline;
+
 use crate::geometry::{
     Aabb, BroadPhase, Capsule, Solid, distance_capsule_capsule, distance_segment_segment,
     distance_segment_solid,
@@ -35,8 +37,7 @@ pub struct Cell {
     /// Parts that the scene can touch, those that reach out furthest first.
     exposed: Vec<usize>,
     self_pairs: Vec<[usize; 2]>,
-    /// How far apart the middles of each pair must be for their balls not to meet.
-    self_reach_m: Vec<f64>,
+    outline: Outline,
 }
 
 /// How a configuration stands in its cell when parts are thickened.
@@ -60,13 +61,9 @@ impl Cell {
         let boxes = scene.obstacles().iter().map(|obstacle| obstacle.solid.aabb()).collect();
         let exposed = (0..body.parts().len()).rev().filter(|part| !body.parts()[*part].is_self_only());
         let self_pairs = if checks_itself { body.self_pairs().to_vec() } else { Vec::new() };
-        let ball_m = |part: usize| {
-            let Capsule { segment, radius } = body.parts()[part].capsule();
-            (segment.b - segment.a).norm() / 2.0 + radius
-        };
-        let self_reach_m = self_pairs.iter().map(|[a, b]| ball_m(*a) + ball_m(*b)).collect();
-        let (exposed, broad) = (exposed.collect(), BroadPhase::new(boxes));
-        Self { robot, body, scene, broad, exposed, self_pairs, self_reach_m }
+        let (exposed, broad) = (exposed.collect::<Vec<_>>(), BroadPhase::new(boxes));
+        let outline = Outline::new(robot.arm().chain(), &body, &scene, &exposed, &self_pairs);
+        Self { robot, body, scene, broad, exposed, self_pairs, outline }
     }
 
     /// The robot.
@@ -141,44 +138,32 @@ impl Cell {
     /// How the placed body stands if part `i` is thickened by `margin_m(i)`.
     #[inline]
     pub fn standing(&self, placed: &[Capsule], margin_m: impl Fn(usize) -> f64) -> Standing {
-        self.sure_standing(placed, margin_m, -1.0).expect("nothing is closer than a negative slack")
-    }
-
-    /// [`standing`](Self::standing); `None` if a comparison is closer than `slack_m`.
-    #[inline]
-    fn sure_standing(
-        &self,
-        placed: &[Capsule],
-        margin_m: impl Fn(usize) -> f64,
-        slack_m: f64,
-    ) -> Option<Standing> {
         let mut standing = Standing::Clear;
-        let room_m = slack_m.max(0.0);
         for &part in &self.exposed {
             let (capsule, margin) = (&placed[part], margin_m(part));
-            let reach = Aabb::of_capsule(capsule).grown(margin + room_m);
+            let reach = Aabb::of_capsule(capsule).grown(margin);
             for index in self.broad.candidates(&reach) {
                 let gap = distance_segment_solid(&capsule.segment, &self.scene.obstacles()[index].solid);
-                match stand(gap, [capsule.radius, capsule.radius + margin], slack_m)? {
-                    Standing::Contact => return Some(Standing::Contact),
+                match stand(gap, [capsule.radius, capsule.radius + margin]) {
+                    Standing::Contact => return Standing::Contact,
                     found => standing = standing.max(found),
                 }
             }
         }
         for [a, b] in &self.self_pairs {
             let margin = margin_m(*a) + margin_m(*b);
-            if are_far(&placed[*a], &placed[*b], margin + room_m) {
+            if are_far(&placed[*a], &placed[*b], margin) {
                 continue;
             }
             let gap = distance_segment_segment(&placed[*a].segment, &placed[*b].segment)
                 - placed[*a].radius
                 - placed[*b].radius;
-            match stand(gap, [0.0, margin], slack_m)? {
-                Standing::Contact => return Some(Standing::Contact),
+            match stand(gap, [0.0, margin]) {
+                Standing::Contact => return Standing::Contact,
                 found => standing = standing.max(found),
             }
         }
-        Some(standing)
+        standing
     }
 
     /// The distance from the robot at `q` to the scene and between its parts, metres; 0 in contact, infinite if
@@ -197,18 +182,15 @@ impl Cell {
     }
 }
 
-/// How a gap stands that is contact up to the first bound and near up to the second; `None` if it is within `slack_m` of
-/// one.
+/// How a gap stands that is contact up to the first bound and near up to the second.
 #[inline]
-fn stand(gap_m: f64, [touching_m, near_m]: [f64; 2], slack_m: f64) -> Option<Standing> {
-    if (gap_m - touching_m).abs().min((gap_m - near_m).abs()) <= slack_m {
-        None
-    } else if gap_m <= touching_m {
-        Some(Standing::Contact)
+fn stand(gap_m: f64, [touching_m, near_m]: [f64; 2]) -> Standing {
+    if gap_m <= touching_m {
+        Standing::Contact
     } else if gap_m <= near_m {
-        Some(Standing::Near)
+        Standing::Near
     } else {
-        Some(Standing::Clear)
+        Standing::Clear
     }
 }
 

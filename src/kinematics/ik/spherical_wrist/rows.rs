@@ -63,8 +63,8 @@ impl SphericalWrist {
     #[inline(always)]
     fn wrist_rows<S: Simd>(
         &self,
-        [x3, y3, z3]: [Point<S>; 3],
-        flange: &Frames<S>,
+        [x3, y3, z3]: [Point<Lane<S>>; 3],
+        flange: &Frames<Lane<S>>,
         positive: bool,
     ) -> ([Lane<S>; 3], Lane<S>) {
         let [_, _, sign4, sign5] = self.signs;

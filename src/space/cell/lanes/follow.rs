@@ -1,6 +1,5 @@
 //! The joints along a straight way of the tool: inverse kinematics in lanes, verdicts in order.
 
-use super::Memory;
 use crate::geometry::lanes::{LANES, Row, SLACK, dispatch, level};
 use crate::kinematics::angle::nearest_copy;
 use crate::kinematics::ik::{Branch, LaneSolutions};
@@ -51,21 +50,22 @@ struct Reached {
 }
 
 impl Lines {
-    /// Writes the configurations along `way` into `memory`; steps in doubt are taken by the scalar code. `None` if the end
+    /// Writes the configurations along `way` into `states`; steps in doubt are taken by the scalar code. `None` if the end
     /// is in doubt, or if the arm has no lanes.
     pub(super) fn follow_lanes(
         &self,
         from: &Pose,
         to: &Pose,
         way: &Way,
-        memory: &mut Memory,
+        states: &mut Vec<Joints>,
     ) -> Option<Result<(), Rejection>> {
         if way.turn_rad > self.rules.turn_rad {
             return Some(Err(Rejection::Turn));
         }
         let pace = self.pace(way);
         let steps = pace.steps as u32;
-        memory.push(&from.q);
+        states.clear();
+        states.push(from.q);
         let mut last = Reached { q: from.q, is_exact: true };
         for first in (1..=steps).step_by(LANES) {
             let shares: Row = std::array::from_fn(|lane| pace.share(first + lane as u32).min(1.0));
@@ -78,7 +78,7 @@ impl Lines {
                     Ok(reached) => last = reached,
                     Err(reason) => return Some(Err(reason)),
                 }
-                memory.push(&last.q);
+                states.push(last.q);
             }
         }
         self.arrives_surely(&last.q, &to.q)

@@ -1,94 +1,156 @@
-//! Local paths, four configurations at once.
+//! Local paths, eight configurations at once.
 //!
-//! The same steps, reasons and margins as one configuration at a time, in arithmetic that may differ in the last
-//! digits. Every comparison that decides anything is therefore made with a band of [`SLACK`] about its bound; inside the
-//! band, near singular poses, where another branch may be nearer, and for shapes that have no lanes, the answer is `None`
-//! and the whole path is left to the scalar code. So a verdict from here is the scalar code's verdict.
+//! The same steps, reasons and margins as one configuration at a time. The joints along a tool's way are found in f64, four
+//! at once; places and distances in f32, eight at once, which is right to a few micrometres. Every comparison that decides
+//! anything is therefore made with a band about its bound ([`SLACK`] in f64, [`Outline`]'s in f32); inside the band, near
+//! singular poses, where another branch may be nearer, and for shapes that have no lanes, the answer is `None` and the
+//! whole path is left to the scalar code. So a verdict from here is the scalar code's verdict.
+//!
+//! What comes near something is looked at more closely, and finds nothing on a free path. So a configuration that is close
+//! to being near counts as near without a doubt, and a contact found between two configurations is not a verdict.
 
 mod follow;
+mod outline;
 mod place;
+mod settle;
 mod stand;
 #[cfg(test)]
 mod tests;
 
-use stand::Look;
+pub(super) use outline::Outline;
 
-use super::doubt::{Doubt, HALVINGS};
-use super::line::{between, middle_outwards};
+use stand::{Close, Look};
+
 use super::way::Way;
 use super::{Lines, Path, Pose, Rejection};
-use crate::geometry::Capsule;
-use crate::geometry::lanes::{LANES, Lane, Point, SLACK, Simd, SimdBase, dispatch, level};
+use crate::geometry::lanes::{
+    Point, ROUGH_LANES, Rough, RoughRow, Simd, SimdBase, SimdFloat, dispatch, level,
+};
 use crate::kinematics::ik::Branch;
-use crate::kinematics::{AXES, Joints};
+use crate::kinematics::{AXES, Arm, Joints};
+use std::f64::consts::TAU;
 
-/// A path's configurations and the body placed at each, one row a number, padded with copies of the last.
+/// The greatest angle, either way, that is placed in f32.
+const MOST_RAD: f64 = 2.0 * TAU;
+
+/// The axis of one part at eight configurations: x, y and z of its first end, then of the second.
+type Axis = [RoughRow; 6];
+
+#[expect(clippy::inline_always, reason = "lanes are compiled for the instructions of their caller")]
+#[inline(always)]
+fn load<S: Simd>(simd: S, [ax, ay, az, bx, by, bz]: &Axis) -> [Point<Rough<S>>; 2] {
+    [Point::load(simd, [ax, ay, az]), Point::load(simd, [bx, by, bz])]
+}
+
+#[expect(clippy::inline_always, reason = "lanes are compiled for the instructions of their caller")]
+#[inline(always)]
+fn store<S: Simd>([a, b]: [Point<Rough<S>>; 2], [ax, ay, az, bx, by, bz]: &mut Axis) {
+    a.x.store_array(ax);
+    a.y.store_array(ay);
+    a.z.store_array(az);
+    b.x.store_array(bx);
+    b.y.store_array(by);
+    b.z.store_array(bz);
+}
+
+/// What the configurations of a path are on.
+enum Course<'a> {
+    /// A straight line of the joints, by the angles at its start and their changes in a step.
+    Line { from: [f32; AXES], step: [f32; AXES] },
+    /// A way of the tool in so many steps.
+    Way { way: &'a Way, branch: Branch, steps: f64 },
+}
+
+/// A path's configurations in blocks of eight, the last one filled with copies of the last, and the body at each.
+#[derive(Debug, Default)]
+struct Track {
+    /// The configurations of a tool's way.
+    states: Vec<Joints>,
+    /// How many configurations there are.
+    count: usize,
+    angles: Vec<[RoughRow; AXES]>,
+    /// By block, then by part.
+    placed: Vec<Axis>,
+    /// By how much parts are thickened, and the band: by block, then by part.
+    rooms: Vec<RoughRow>,
+    /// How much room each part has on the whole path.
+    reaches: Vec<f32>,
+    /// The box that each part sweeps with that room: its least and its greatest corner.
+    swept: Vec<[[f32; 3]; 2]>,
+    close: Close,
+    /// Which configurations may come near something: one bit each, a number a block.
+    near: Vec<u64>,
+}
+
+/// Memory that one path after another uses.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
-    states: [Vec<f64>; AXES],
-    /// How many configurations there are without the padding.
-    count: usize,
-    /// How long a row is.
-    stride: usize,
-    /// Six rows a part: x, y and z of its axis's first end, then of the second.
-    placed: Vec<f64>,
-    /// A row a part: how far the ends of its axis went to a configuration from the one before.
-    ways: Vec<f64>,
-    /// The parts and obstacles that may meet somewhere on the path.
-    close: Vec<(usize, usize)>,
-    near: Vec<bool>,
+    track: Track,
+    halves: settle::Halves,
+}
+
+impl Track {
+    /// Makes room for `count` configurations of so many parts. What is in it is written over.
+    fn open(&mut self, count: usize, parts: usize) {
+        let blocks = count.div_ceil(ROUGH_LANES);
+        self.count = count;
+        self.angles.resize(blocks, [[0.0; ROUGH_LANES]; AXES]);
+        self.placed.resize(blocks * parts, [[0.0; ROUGH_LANES]; 6]);
+        self.rooms.resize(blocks * parts, [0.0; ROUGH_LANES]);
+        self.reaches.resize(parts, 0.0);
+        self.swept.resize(parts, [[0.0; 3]; 2]);
+        self.near.resize(blocks, 0);
+    }
+
+    /// Writes the angles of all configurations.
+    #[expect(clippy::inline_always, reason = "lanes are compiled for the instructions of their caller")]
+    #[inline(always)]
+    fn fill<S: Simd>(&mut self, simd: S, course: &Course) {
+        let last = self.count - 1;
+        for (block, rows) in self.angles.iter_mut().enumerate() {
+            let first = block * ROUGH_LANES;
+            match course {
+                Course::Line { from, step } => {
+                    let numbers = Rough::load_array(simd, place::NUMBERS) + first as f32;
+                    let numbers = numbers.min(last as f32);
+                    for (joint, row) in rows.iter_mut().enumerate() {
+                        let from = Rough::splat(simd, from[joint]);
+                        numbers.mul_add(step[joint], from).store_array(row);
+                    }
+                }
+                Course::Way { .. } => {
+                    for lane in 0..ROUGH_LANES {
+                        let q = &self.states[last.min(first + lane)];
+                        for (row, angle) in rows.iter_mut().zip(q) {
+                            row[lane] = *angle as f32;
+                        }
+                    }
+                }
+            }
+        }
+    }
 }
 
 impl Memory {
-    fn clear(&mut self) {
-        self.states.iter_mut().for_each(Vec::clear);
-    }
-
-    fn push(&mut self, q: &Joints) {
-        for (row, angle) in self.states.iter_mut().zip(q) {
-            row.push(*angle);
-        }
-    }
-
-    /// Ends the path: rows are filled up, with room for a look at the next configuration from the last.
-    fn close_rows(&mut self, parts: usize) {
-        self.count = self.states[0].len();
-        self.stride = self.count.next_multiple_of(LANES) + LANES;
-        for row in &mut self.states {
-            row.resize(self.stride, row[self.count - 1]);
-        }
-        self.placed.resize(parts * 6 * self.stride, 0.0);
-        self.ways.resize(parts * self.stride, 0.0);
-    }
-
-    fn blocks(&self) -> usize {
-        self.stride / LANES - 1
-    }
-
-    fn state(&self, state: usize) -> Joints {
-        std::array::from_fn(|joint| self.states[joint][state])
-    }
-
-    /// The axis of a part at four configurations from `state` on.
+    /// What the configurations on a course come to, with what is between them if they are free.
     #[expect(clippy::inline_always, reason = "lanes are compiled for the instructions of their caller")]
     #[inline(always)]
-    fn axis<S: Simd>(&self, simd: S, part: usize, state: usize) -> [Point<S>; 2] {
-        let row = part * 6;
-        [self.point(simd, row, state), self.point(simd, row + 3, state)]
-    }
-
-    /// The points in three rows from `row` on.
-    #[expect(clippy::inline_always, reason = "lanes are compiled for the instructions of their caller")]
-    #[inline(always)]
-    fn point<S: Simd>(&self, simd: S, row: usize, state: usize) -> Point<S> {
-        let x = row * self.stride + state;
-        let (y, z) = (x + self.stride, x + 2 * self.stride);
-        Point {
-            x: Lane::from_slice(simd, &self.placed[x..x + LANES]),
-            y: Lane::from_slice(simd, &self.placed[y..y + LANES]),
-            z: Lane::from_slice(simd, &self.placed[z..z + LANES]),
+    fn judge<S: Simd>(&mut self, simd: S, arm: &Arm, outline: &Outline, course: &Course) -> Look {
+        let track = &mut self.track;
+        track.fill(simd, course);
+        track.place(simd, outline);
+        track.measure(simd, outline);
+        track.collect(simd, outline);
+        match track.look(simd, outline) {
+            Look::Free if !track.settle(simd, arm, outline, course, &mut self.halves) => Look::Doubt,
+            look => look,
         }
     }
+}
+
+/// Whether f32 holds the angles well enough.
+fn is_rough(q: &Joints) -> bool {
+    q.iter().all(|angle| angle.abs() <= MOST_RAD)
 }
 
 impl Lines {
@@ -100,58 +162,43 @@ impl Lines {
         memory: &mut Memory,
         checked: &mut u64,
     ) -> Option<Result<(), Rejection>> {
-        memory.clear();
-        let way = match self.rules.path {
-            Path::Joints => {
-                self.joint_steps(from, to).for_each(|share| memory.push(&between(&from.q, &to.q, share)));
-                None
-            }
+        let (arm, outline) = (self.cell.robot.arm(), &self.cell.outline);
+        if !is_rough(&from.q) || !is_rough(&to.q) {
+            return None;
+        }
+        let way;
+        let (course, count) = match self.rules.path {
+            Path::Joints => self.line(from, to),
             Path::Tool => {
-                let way = Way::between(&from.tool, &to.tool);
-                if let Err(reason) = self.follow_lanes(from, to, &way, memory)? {
+                way = Way::between(&from.tool, &to.tool);
+                if let Err(reason) = self.follow_lanes(from, to, &way, &mut memory.track.states)? {
                     return Some(Err(reason));
                 }
-                Some(way)
+                let count = memory.track.states.len();
+                if !memory.track.states.iter().all(is_rough) {
+                    return None;
+                }
+                (Course::Way { way: &way, branch: from.branch, steps: (count - 1) as f64 }, count)
             }
         };
-        memory.close_rows(self.cell.body.parts().len());
-        dispatch!(level(), simd => memory.place(simd, &self.cell));
-        match dispatch!(level(), simd => memory.look(simd, &self.cell)) {
+        memory.track.open(count, outline.radii_m.len());
+        match dispatch!(level(), simd => memory.judge(simd, arm, outline, &course)) {
             Look::Doubt => None,
             Look::Contact(order) => {
                 *checked += order as u64 + 1;
                 Some(Err(Rejection::Contact))
             }
             Look::Free => {
-                let settled = self.settle_lanes(way.as_ref(), from.branch, memory)?;
-                *checked += memory.count as u64;
-                Some(settled)
+                *checked += count as u64;
+                Some(Ok(()))
             }
         }
     }
 
-    /// Looks more closely at the steps from and to configurations that are near something.
-    fn settle_lanes(
-        &self,
-        way: Option<&Way>,
-        branch: Branch,
-        memory: &Memory,
-    ) -> Option<Result<(), Rejection>> {
-        let last = memory.count - 1;
-        let ends_q = [memory.state(0), memory.state(last)];
-        let doubt = Doubt { lines: self, way, branch, ends_q, slack_m: SLACK };
-        let stop = |state: usize| {
-            let (q, mut placed) = (memory.state(state), Vec::<Capsule>::new());
-            self.cell.place(&q, &mut placed);
-            (state as f64 / last as f64, q, placed)
-        };
-        for step in (1..memory.count).filter(|step| memory.near[*step] || memory.near[step - 1]) {
-            let (a, b) = (stop(step - 1), stop(step));
-            match doubt.settle([(a.0, a.1, &a.2), (b.0, b.1, &b.2)], HALVINGS)? {
-                Ok(()) => {}
-                refused => return Some(refused),
-            }
-        }
-        Some(Ok(()))
+    /// A straight line of the joints, and how many configurations are looked at on it.
+    fn line(&self, from: &Pose, to: &Pose) -> (Course<'_>, usize) {
+        let steps = self.joint_steps(from, to);
+        let step = std::array::from_fn(|i| ((to.q[i] - from.q[i]) / steps) as f32);
+        (Course::Line { from: from.q.map(|angle| angle as f32), step }, steps as usize + 1)
     }
 }
