@@ -245,7 +245,8 @@ fn where_open_nodes_are_never_lowered_pairs_and_targets_are_those_of_the_kernels
                 length.expect("the flood came to the goal")
             });
             let scaled = lengths.map(ScaledOctile::scaled);
-            if (0..2).all(|case| costs[case] >= least(scaled[case])) {
+            let is_target = |case: usize| targets.place(case, scaled[case]).is_some();
+            if (0..2).all(|case| is_target(case) && costs[case] >= least(scaled[case])) {
                 targets.mark(&mut hits, scaled);
                 met.push((lengths, *pair));
                 longer += u32::from(scaled != *costs);
