@@ -100,9 +100,19 @@ impl<T: Copy> Buckets<T> {
     /// Takes the first item in the queue's order, with its key.
     #[inline]
     pub fn pop(&mut self) -> Option<(u64, T)> {
-        let key = self.first_key()?;
-        let slot = key as usize % BUCKETS;
-        let Link { item, next } = self.links[self.heads[slot] as usize];
+        self.low = self.first_key()?;
+        self.pop_equal().map(|item| (self.low, item))
+    }
+
+    /// Takes the first of the items whose key is the one taken last, if there is one.
+    #[inline]
+    pub fn pop_equal(&mut self) -> Option<T> {
+        let slot = self.low as usize % BUCKETS;
+        let head = self.heads[slot];
+        if head == NONE {
+            return None;
+        }
+        let Link { item, next } = self.links[head as usize];
         self.heads[slot] = next;
         if next == NONE {
             let word = slot / 64;
@@ -111,8 +121,7 @@ impl<T: Copy> Buckets<T> {
                 self.summary &= !(1 << word);
             }
         }
-        self.low = key;
-        Some((key, item))
+        Some(item)
     }
 }
 

@@ -5,7 +5,8 @@
 //! [`Frontier`]: a [`Heap`] with a [`Ties`] rule, or [`Buckets`]), whether the g of an open node is lowered and
 //! whether closed nodes reopen ([`Update`]), when to stop ([`Stop`]), what is tried before an expansion
 //! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two.
-//! [`OctileAstar`] is the declared specialisation for 8-connected grids, held equal to the general form by a test.
+//! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`FirstWayAstar`] the one for the lengths of an A*
+//! that never lowers open nodes there; tests hold both equal to the general form.
 //!
 //! # Counters
 //! A node is **generated** each time it is produced as a successor, whatever becomes of it; **opened** when it
@@ -29,6 +30,7 @@ mod bidirectional;
 mod buckets;
 mod cost;
 mod estimate;
+mod first_way;
 mod frontier;
 mod graph;
 mod observe;
@@ -42,6 +44,7 @@ pub use bidirectional::{Bidirectional, BidirectionalReport, BidirectionalRules, 
 pub use buckets::Buckets;
 pub use cost::{Cost, Octile, quantised};
 pub use estimate::{Combined, Estimate, ScaledOctile, euclidean_to, falling, octile_to, sum, weighted};
+pub use first_way::FirstWayAstar;
 pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
 pub use observe::{ListScans, Lists, Observer, Place, Trace};

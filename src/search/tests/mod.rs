@@ -1,6 +1,7 @@
 //! Acceptance on the maps found for the zhang study, and laws that hold the drivers and specialisations together.
 
 mod bidirectional;
+mod first_way;
 mod octile;
 mod one_way;
 mod parts;

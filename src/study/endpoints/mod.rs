@@ -58,10 +58,10 @@ pub struct Variant {
     corner_rule: Option<CornerSetting>,
     hop_check: Option<HopSetting>,
     /// Whether the paper's A* lowers the g of an open node; lowered if absent.
-    pub open_node: Option<OpenNode>,
+    open_node: Option<OpenNode>,
     /// The order among equal f of that A*, which matters only where open nodes are never lowered; first in first out
     /// if absent.
-    pub ties: Option<TieOrder>,
+    ties: Option<TieOrder>,
 }
 
 /// The shapes that obstacles may have.
@@ -118,6 +118,25 @@ impl From<TieOrder> for Ties {
 pub type Pair = [u32; 2];
 
 impl Variant {
+    /// The order among equal f where A* never lowers open nodes; nothing where lengths are shortest.
+    pub fn never_lowered(&self) -> Option<Ties> {
+        let ties = self.ties.map_or(Ties::Fifo, Into::into);
+        self.open_node.filter(|rule| *rule == OpenNode::Never).map(|_| ties)
+    }
+
+    /// What is wrong with it, if anything: ties that do not matter, or shapes left open as well as lengths that are not
+    /// shortest.
+    pub fn fault(&self) -> Option<String> {
+        let (label, never) = (&self.label, self.never_lowered().is_some());
+        if self.ties.is_some() && !never {
+            return Some(format!("variant `{label}` has ties, which only matter with open_node = \"never\""));
+        }
+        let is_free = matches!(self.shape, ShapeChoice::Free(_));
+        (is_free && never).then(|| {
+            format!("variant `{label}` leaves shapes open; open nodes are never lowered with one shape only")
+        })
+    }
+
     /// The rules of `base` with this variant's laid over them.
     pub fn rules(&self, base: &ArmRules) -> ArmRules {
         ArmRules {
@@ -219,25 +238,32 @@ impl Targets {
 
     /// Which targets some pair meets, by number.
     pub fn hits(&self, moves: &[Moves; 2]) -> Vec<bool> {
-        let width = self.lengths[1].len();
-        let none = || vec![false; self.lengths[0].len() * width];
         let starts = (0..moves[0].cell_count()).into_par_iter();
         let mark = |(mut searches, mut hits): ([OctileAstar; 2], Vec<bool>), start| {
             let mut first = vec![None; moves[0].cell_count() as usize];
             let [one, two] = &mut searches;
-            one.flood(start, self.highest(0), |cell, cost| first[cell as usize] = self.place(0, cost));
+            one.flood(start, self.highest(0), |cell, cost| first[cell as usize] = Some(cost));
             two.flood(start, self.highest(1), |cell, cost| {
-                if let (Some(a), Some(b)) = (first[cell as usize], self.place(1, cost)) {
-                    hits[a * width + b] = true;
+                if let Some(first) = first[cell as usize] {
+                    self.mark(&mut hits, [first, cost]);
                 }
             });
             (searches, hits)
         };
-        let or = |mut a: Vec<bool>, b: Vec<bool>| {
-            a.iter_mut().zip(b).for_each(|(a, b)| *a |= b);
-            a
-        };
-        starts.fold(|| (moves.each_ref().map(search), none()), mark).map(|(_, hits)| hits).reduce(none, or)
+        let begun = || (moves.each_ref().map(search), self.none());
+        starts.fold(begun, mark).map(|(_, hits)| hits).reduce(|| self.none(), either)
+    }
+
+    /// No target is hit.
+    fn none(&self) -> Vec<bool> {
+        vec![false; self.lengths[0].len() * self.lengths[1].len()]
+    }
+
+    /// Marks the target of these scaled lengths among `hits`, if there is one.
+    fn mark(&self, hits: &mut [bool], lengths: [u32; 2]) {
+        if let (Some(a), Some(b)) = (self.place(0, lengths[0]), self.place(1, lengths[1])) {
+            hits[a * self.lengths[1].len() + b] = true;
+        }
     }
 
     fn highest(&self, case: usize) -> u32 {
@@ -247,6 +273,12 @@ impl Targets {
     fn place(&self, case: usize, cost: u32) -> Option<usize> {
         self.places[case].get(cost.checked_sub(self.lowest[case])? as usize).copied().flatten()
     }
+}
+
+/// What is hit in one of the two.
+fn either(mut one: Vec<bool>, other: Vec<bool>) -> Vec<bool> {
+    one.iter_mut().zip(other).for_each(|(one, other)| *one |= other);
+    one
 }
 
 /// Every `a + b√2` within `window` of `centre`, in steps.

@@ -1,6 +1,9 @@
 use super::*;
 use crate::geometry::planar::Touch;
 use crate::kinematics::planar_2r::{ElbowRule, Planar2r};
+use crate::search::{
+    Combined, FirstWayAstar, GridGraph, Heap, Rules, Search, Terms, Update, euclidean_to, sum,
+};
 use crate::space::{HopRule, TipLattice};
 
 pub(super) fn base() -> ArmRules {
@@ -144,4 +147,129 @@ fn drawn_shapes_of_one_obstacle_are_each_of_the_four_at_times() {
         }
     }
     assert_eq!(seen.len(), 8, "{seen:?}");
+}
+
+const ORDERS: [Ties; 3] = [Ties::Fifo, Ties::Lifo, Ties::LargerG];
+
+/// The path length that the kernel's A* returns if it never lowers open nodes.
+fn kernel_length(ties: Ties, world: &ArmWorld, moves: &Moves, [start, goal]: Pair) -> Option<Octile> {
+    let estimate = Combined { h: euclidean_to(world.grid(), goal), combine: sum };
+    let terms = Terms {
+        graph: &mut GridGraph::new(moves),
+        estimate: &estimate,
+        observer: &mut (),
+        update: Update { lower_open: false, reopen_closed: false },
+    };
+    let search = &mut Search::new(Heap::new(ties));
+    let report = search.run(terms, start, |cell| cell == goal, Rules::default(), &mut ());
+    report.outcome.route().map(|route| route.cost)
+}
+
+#[test]
+fn where_open_nodes_are_never_lowered_lengths_between_many_pairs_are_the_kernels() {
+    for case in cases() {
+        let world = variant("shape = 'circle'").world(&base(), &case, ShapeSetting::Circle).unwrap();
+        let moves = world.eight_moves();
+        let most = case.target() + 8 * ScaledOctile::STRAIGHT;
+        let mut flood = search(&moves);
+        let mut searches = ORDERS.map(|ties| (ties, FirstWayAstar::new(&moves, ties)));
+        let (mut checked, mut longer) = (0, 0);
+        for goal in (0..moves.cell_count()).step_by(61) {
+            for (_, search) in &mut searches {
+                search.aim(goal);
+            }
+            let mut starts = Vec::new();
+            flood.flood(goal, most, |cell, cost| starts.push((cell, cost)));
+            for (start, shortest) in starts.into_iter().rev().step_by(13).take(60) {
+                for (ties, search) in &mut searches {
+                    let truth = kernel_length(*ties, &world, &moves, [start, goal]).unwrap();
+                    let scaled = ScaledOctile::scaled(truth);
+                    let expected = (scaled <= most).then_some(truth);
+                    assert_eq!(search.length(start, most), expected, "{ties:?}, {start} to {goal}");
+                    assert!(scaled >= shortest, "{ties:?}, {start} to {goal}: too short");
+                    (checked, longer) = (checked + 1, longer + u32::from(scaled > shortest));
+                }
+            }
+        }
+        assert!(checked > 3_000 && longer > 300, "{longer} of {checked} are not shortest");
+    }
+}
+
+/// A quarter of the reproduced workspace, one obstacle in each case.
+fn small() -> (ArmRules, [Case; 2]) {
+    let rules = ArmRules {
+        arm: Planar2r::new(15.0, 10.0).unwrap(),
+        lattice: TipLattice::new([-25.0, 25.0], [0.0, 25.0], 1.0).unwrap(),
+        inner_radius_cm: 10.0,
+        ..base()
+    };
+    let case = |at, hops| Case { obstacles_cm: vec![at], hops };
+    (rules, [case([0.0, 20.0], [10, 14]), case([10.0, 18.0], [10, 13])])
+}
+
+#[test]
+fn where_open_nodes_are_never_lowered_pairs_and_targets_are_those_of_the_kernels_lengths() {
+    let ((rules, cases), variant) = (small(), variant("shape = 'circle'"));
+    let variant = Variant { diameter_cm: 6.0, ..variant };
+    let worlds = cases.each_ref().map(|case| variant.world(&rules, case, ShapeSetting::Circle).unwrap());
+    let moves = worlds.each_ref().map(ArmWorld::eight_moves);
+    let (targets, excess) = (Targets::new(&cases, 0.75), 1.0);
+    let least = |length: u32| length.saturating_sub(ScaledOctile::STRAIGHT);
+    let cells = moves[0].cell_count();
+    let shortest = moves.each_ref().map(|moves| {
+        let mut flood = search(moves);
+        (0..cells)
+            .map(|start| {
+                let mut costs = vec![None; cells as usize];
+                flood.flood(start, u32::MAX / 2, |cell, cost| costs[cell as usize] = Some(cost));
+                costs
+            })
+            .collect::<Vec<_>>()
+    });
+    // A pair whose shortest lengths are out of reach of every target cannot meet one: it need not be searched.
+    let mut tried = Vec::new();
+    for (start, goal) in (0..cells).flat_map(|start| (0..cells).map(move |goal| (start, goal))) {
+        let costs = shortest.each_ref().map(|costs| costs[start as usize][goal as usize]);
+        let is_near = |case: usize| {
+            costs[case]
+                .is_some_and(|cost| cost >= least(targets.lowest[case]) && cost <= targets.highest(case))
+        };
+        if is_near(0) && is_near(1) {
+            tried.push(([start, goal], costs.map(Option::unwrap)));
+        }
+    }
+    let mut of_orders = Vec::new();
+    for ties in ORDERS {
+        let (mut hits, mut met, mut longer) = (targets.none(), Vec::new(), 0);
+        for (pair, costs) in &tried {
+            let lengths = [0, 1].map(|case| {
+                let length = kernel_length(ties, &worlds[case], &moves[case], *pair);
+                length.expect("the flood came to the goal")
+            });
+            let scaled = lengths.map(ScaledOctile::scaled);
+            let is_target = |case: usize| targets.place(case, scaled[case]).is_some();
+            if (0..2).all(|case| is_target(case) && costs[case] >= least(scaled[case])) {
+                targets.mark(&mut hits, scaled);
+                met.push((lengths, *pair));
+                longer += u32::from(scaled != *costs);
+            }
+        }
+        let number = hits.iter().filter(|hit| **hit).count();
+        assert!(longer > 20 && number > 20 && number < targets.count(), "{ties:?}: {longer}, {number}");
+        assert!(NeverLowered::hits(&targets, &moves, excess, ties) == hits, "{ties:?}: other targets");
+        for (lengths, _) in met.iter().step_by(met.len() / 4) {
+            let asked = [0, 1].map(|case| {
+                let Octile { straight, diagonal } = lengths[case];
+                Case { hops: [straight, diagonal], ..cases[case].clone() }
+            });
+            let found = NeverLowered::find(&moves, &asked, excess, ties);
+            let pairs: Vec<Pair> =
+                met.iter().filter(|(of, _)| of == lengths).map(|(_, pair)| *pair).collect();
+            assert_eq!(found.pairs, pairs, "{ties:?}, {lengths:?}");
+            assert!(found.candidates > pairs.len(), "{ties:?}: {} candidates", found.candidates);
+        }
+        of_orders.push(hits);
+    }
+    assert!(of_orders[0] != of_orders[1], "the order among equals does not matter here");
+    assert!(of_orders[0] != targets.hits(&moves), "shortest lengths meet the same targets");
 }

@@ -1,11 +1,12 @@
 //! Looks for the pairs of lattice points that have printed lengths in all cases, under every variant asked for.
 
 use super::{Entry, Task};
+use crate::grid::Moves;
 use crate::planner::{Exhibit, Value};
-use crate::search::{ScaledOctile, Ties};
-use crate::space::{ArmRules, ArmWorld, TipLattice};
+use crate::search::ScaledOctile;
+use crate::space::{ArmRules, TipLattice};
 use crate::study::checked::Study;
-use crate::study::endpoints::{self, Case, FreeShapes, NeverLowered, OpenNode, Pair, ShapeChoice, Variant};
+use crate::study::endpoints::{self, Case, FreeShapes, NeverLowered, Pair, ShapeChoice, Variant};
 use crate::study::record::{Batch, Kept, Row, Status, Values};
 use crate::study::runner::Unit;
 use serde::Deserialize;
@@ -26,11 +27,8 @@ pub static ENTRY: Entry = Entry {
                 settings.error(format!("hops is {:?}; a length of at least one hop is needed", case.hops))
             );
         }
-        let is_never = |variant: &Variant| variant.open_node == Some(OpenNode::Never);
-        if let Some(variant) = read.variants.iter().find(|v| v.ties.is_some() && !is_never(v)) {
-            let message =
-                format!("variant `{}` has ties, which only matter with open_node = \"never\"", variant.label);
-            return Err(settings.error(message));
+        if let Some(fault) = read.variants.iter().find_map(Variant::fault) {
+            return Err(settings.error(fault));
         }
         Ok(Box::new(read))
     },
@@ -97,17 +95,14 @@ impl Identify {
             }
             ShapeChoice::Uniform(shape) => shape,
         };
-        let worlds = self.cases.iter().map(|case| variant.world(base, case, shape));
-        let worlds: Vec<ArmWorld> = worlds.collect::<Result<_, _>>()?;
-        let moves: Vec<_> = worlds.iter().map(ArmWorld::eight_moves).collect();
-        let (pairs, candidates) = match variant.open_node {
-            Some(OpenNode::Never) => {
-                let grids: Vec<_> = worlds.iter().map(ArmWorld::grid).collect();
-                let ties = variant.ties.map_or(Ties::Fifo, Into::into);
-                let found = NeverLowered::find(&grids, &moves, &self.cases, self.excess_steps, ties);
+        let moves = |case: &Case| Ok(variant.world(base, case, shape)?.eight_moves());
+        let moves = self.cases.iter().map(moves).collect::<Result<Vec<Moves>, String>>()?;
+        let (pairs, candidates) = match variant.never_lowered() {
+            Some(ties) => {
+                let found = NeverLowered::find(&moves, &self.cases, self.excess_steps, ties);
                 (found.pairs, Some(found.candidates))
             }
-            Some(OpenNode::Lowered) | None => (endpoints::pairs(&moves, &self.cases), None),
+            None => (endpoints::pairs(&moves, &self.cases), None),
         };
         Ok(Found { points: points(&base.lattice, &pairs), candidates })
     }

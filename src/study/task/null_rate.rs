@@ -5,7 +5,7 @@ use crate::planner::Value;
 use crate::seed;
 use crate::space::{ArmRules, ArmWorld};
 use crate::study::checked::Study;
-use crate::study::endpoints::{Case, ShapeChoice, Targets, Variant, drawn_moves};
+use crate::study::endpoints::{Case, NeverLowered, ShapeChoice, Targets, Variant, drawn_moves};
 use crate::study::record::{Batch, Row, Status, Values};
 use crate::study::runner::Unit;
 use serde::Deserialize;
@@ -14,7 +14,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "null_rate",
     about: "the share of targets of equal parity near two printed lengths that some pair of points meets",
-    revision: 3,
+    revision: 4,
     columns: &["targets", "targets_hit", "hit_share_percent"],
     build: |settings| {
         let read: NullRate = settings.read()?;
@@ -22,12 +22,21 @@ pub static ENTRY: Entry = Entry {
             let message = format!("window_cm is {}; above 0 and below 50 is accepted", read.window_cm);
             return Err(settings.error(message));
         }
-        if let Some(variant) = read.variants.iter().find(|variant| variant.open_node.is_some()) {
-            let message = format!(
-                "variant `{}` is not about shortest lengths; only such are counted here",
-                variant.label
-            );
-            return Err(settings.error(message));
+        if let Some(fault) = read.variants.iter().find_map(Variant::fault) {
+            return Err(settings.error(fault));
+        }
+        let never = read.variants.iter().find(|variant| variant.never_lowered().is_some());
+        match (never, read.excess_steps) {
+            (Some(variant), None) => {
+                let message =
+                    format!("variant `{}` never lowers open nodes; excess_steps is needed", variant.label);
+                return Err(settings.error(message));
+            }
+            (_, Some(excess)) if !(0.0..50.0).contains(&excess) => {
+                let message = format!("excess_steps is {excess}; 0 and more, below 50, is accepted");
+                return Err(settings.error(message));
+            }
+            _ => {}
         }
         let free = read.variants.iter().find(|variant| matches!(variant.shape, ShapeChoice::Free(_)));
         if let Some(variant) = free.filter(|_| read.shape_choices == 0) {
@@ -51,6 +60,8 @@ struct NullRate {
     variants: Vec<Variant>,
     /// How far from the printed length a target may be.
     window_cm: f64,
+    /// How far below a target a shortest path may be where A* never lowers open nodes, in steps.
+    excess_steps: Option<f64>,
     /// Where each obstacle may have a shape of its own: how many choices are drawn; a target counts that any of them meets.
     #[serde(default)]
     shape_choices: u32,
@@ -96,8 +107,11 @@ impl NullRate {
     ) -> Result<Vec<bool>, String> {
         if let ShapeChoice::Uniform(shape) = variant.shape {
             let [one, two] = self.cases.each_ref().map(|case| variant.world(base, case, shape));
-            let worlds = [one?, two?];
-            return Ok(targets.hits(&worlds.each_ref().map(ArmWorld::eight_moves)));
+            let moves = [one?, two?].each_ref().map(ArmWorld::eight_moves);
+            return Ok(match (variant.never_lowered(), self.excess_steps) {
+                (Some(ties), Some(excess)) => NeverLowered::hits(targets, &moves, excess, ties),
+                _ => targets.hits(&moves),
+            });
         }
         let mut hits: Vec<bool> = Vec::new();
         for choice in 0..self.shape_choices {

@@ -123,7 +123,11 @@ fn end_points_and_null_rate_are_the_same_bytes_on_one_thread_and_on_two() {
     let free = "{ label = 'free', shape = 'free', diameter_cm = 6 },\n";
     for (task, more, close) in [
         ("identify_endpoints", format!("{never}{free}"), "]\nexcess_steps = 2.0\n"),
-        ("null_rate", free.to_owned(), "]\nwindow_cm = 2.0\nshape_choices = 2\n"),
+        (
+            "null_rate",
+            format!("{never}{free}"),
+            "]\nwindow_cm = 2.0\nshape_choices = 2\nexcess_steps = 2.0\n",
+        ),
     ] {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("p")).unwrap();
@@ -132,4 +136,38 @@ fn end_points_and_null_rate_are_the_same_bytes_on_one_thread_and_on_two() {
         fs::write(folder.path().join("p/s.toml"), study).unwrap();
         assert!(facts(folder.path(), 1) == facts(folder.path(), 2), "{task} differs between 1 thread and 2");
     }
+}
+
+#[test]
+fn variants_that_never_lower_open_nodes_need_an_excess_and_one_shape_and_only_they_have_ties() {
+    let check = |task: &str, variant: &str, close: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("p")).unwrap();
+        fs::write(folder.path().join("p/paper.toml"), PAPER).unwrap();
+        let variant = format!("{{ label = 'v', diameter_cm = 6, {variant} }}\n]\n");
+        let study = format!("task = '{task}'\n{WORKSPACE}\n[task_settings]{CASES}{variant}{close}");
+        fs::write(folder.path().join("p/s.toml"), study).unwrap();
+        Paper::load(&folder.path().join("p"), &Inputs::default()).map_err(|e| e.to_string())
+    };
+    let (end_points, null) = ("excess_steps = 2.0\n", "window_cm = 2.0\nshape_choices = 2\n");
+    let both = format!("{null}{end_points}");
+    let never = "shape = 'circle', open_node = 'never', ties = 'lifo'";
+    for (task, close) in [("identify_endpoints", end_points), ("null_rate", &*both)] {
+        check(task, never, close).unwrap();
+        for (variant, part) in [
+            ("shape = 'circle', ties = 'lifo'", "variant `v` has ties"),
+            ("shape = 'free', open_node = 'never'", "variant `v` leaves shapes open; open nodes"),
+        ] {
+            let error = check(task, variant, close).unwrap_err();
+            assert!(error.contains(part), "{task}: {error}");
+        }
+    }
+    for (close, part) in [
+        (null.to_owned(), "variant `v` never lowers open nodes; excess_steps is needed"),
+        (format!("{null}excess_steps = -1.0\n"), "excess_steps is -1; 0 and more"),
+    ] {
+        let error = check("null_rate", never, &close).unwrap_err();
+        assert!(error.contains(part), "{error}");
+    }
+    check("null_rate", "shape = 'square'", null).unwrap();
 }
