@@ -51,7 +51,6 @@ const DIAGONAL: usize = {
 #[derive(Clone, Debug)]
 pub struct FirstWayAstar {
     width: u32,
-    ties: Ties,
     /// The legal moves of each cell, between an empty row and a cell on either side; so are all cells numbered here.
     masks: Vec<u8>,
     steps: [i32; 8],
@@ -60,9 +59,7 @@ pub struct FirstWayAstar {
     h: Vec<f64>,
     /// A bit a cell: whether it was not opened yet.
     unopened: Vec<u8>,
-    open: Buckets<Open>,
-    /// What else is open in the bucket in hand or below, the first of them last.
-    now: Vec<Open>,
+    open: Queue,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -84,14 +81,12 @@ impl FirstWayAstar {
         }
         let mut search = Self {
             width,
-            ties,
             steps: DIRECTIONS.map(|[dx, dy]| dy * width as i32 + dx),
             goal: 0,
             h: vec![0.0; masks.len()],
             unopened: vec![0; masks.len() / 8 + 2],
             masks,
-            open: Buckets::default(),
-            now: Vec::new(),
+            open: Queue { ties, buckets: Buckets::default(), bucket: 0, now: Vec::new() },
         };
         search.aim(0);
         search
@@ -118,29 +113,19 @@ impl FirstWayAstar {
     /// If `start` is outside the grid.
     pub fn length(&mut self, start: u32, most: u32) -> Option<Octile> {
         let start = start + self.width + 1;
+        if start == self.goal {
+            return Some(Octile::ZERO);
+        }
         // 1393 / 985 is below √2, so that no such length is longer; f falls on no path to the goal but by its rounding.
         let bound = quantised(f64::from(most) * (SQRT_2 / f64::from(ScaledOctile::DIAGONAL))) + 1;
-        let (ties, masks, h) = (self.ties, &self.masks[..], &self.h[..]);
-        let (unopened, open, now) = (&mut self.unopened[..], &mut self.open, &mut self.now);
+        let (masks, h, unopened) = (&self.masks[..], &self.h[..], &mut self.unopened[..]);
         unopened.fill(u8::MAX);
-        open.clear();
-        now.clear();
-        let mut opened = 1;
-        let mut at = Open { f: quantised(h[start as usize]), rank: 0, node: start, g: Octile::ZERO };
-        if start == self.goal {
-            return Some(at.g);
-        }
         unopened[start as usize / 8] &= !(1 << (start % 8));
-        // Offered although it is taken at once: the buckets count from the first key.
-        open.push(at.f >> BUCKET_BITS, at);
-        let (mut bucket, _) = open.pop()?;
+        let first = Open { f: quantised(h[start as usize]), rank: 0, node: start, g: Octile::ZERO };
+        let mut at = self.open.begin(first);
+        let mut opened = 1;
         loop {
-            let row = |middle: u32| {
-                let (byte, bit) = ((middle - 1) as usize / 8, (middle - 1) % 8);
-                usize::from(u16::from_le_bytes([unopened[byte], unopened[byte + 1]]) >> bit & 7)
-            };
-            let around = row(at.node - self.width) | row(at.node) << 3 | row(at.node + self.width) << 6;
-            let mut left = masks[at.node as usize] & TOWARDS[around];
+            let mut left = masks[at.node as usize] & TOWARDS[around(unopened, at.node, self.width)];
             let reached = [Octile::STRAIGHT, Octile::DIAGONAL].map(|cost| at.g.plus(cost));
             let lengths = reached.map(Octile::value);
             while left != 0 {
@@ -155,38 +140,76 @@ impl FirstWayAstar {
                 let (f, rank) = (quantised(lengths[kind] + h[node as usize]), opened);
                 opened += 1;
                 if f <= bound {
-                    let offer = Open { f, rank, node, g };
-                    if f >> BUCKET_BITS <= bucket {
-                        insert(now, offer, ties);
-                    } else {
-                        open.push(f >> BUCKET_BITS, offer);
-                    }
+                    self.open.offer(Open { f, rank, node, g });
                 }
             }
-            if now.is_empty() {
-                (bucket, at) = open.pop()?;
-                while let Some(other) = open.pop_equal() {
-                    insert(now, other, ties);
-                }
-                if now.is_empty() {
-                    continue;
-                }
-                insert(now, at, ties);
-            }
-            at = now.pop()?;
+            at = self.open.take()?;
         }
     }
 }
 
-/// Puts `offer` at its place among `now`, the first last.
-fn insert(now: &mut Vec<Open>, offer: Open, ties: Ties) {
-    let mut place = now.len();
-    now.push(offer);
-    while place > 0 && comes_after(&offer, &now[place - 1], ties) {
-        now[place] = now[place - 1];
-        place -= 1;
+/// The bits of a cell and of those around it: three of the row below, three of its own, three of the one above.
+#[inline]
+fn around(bits: &[u8], cell: u32, width: u32) -> usize {
+    let row = |middle: u32| {
+        let (byte, bit) = ((middle - 1) as usize / 8, (middle - 1) % 8);
+        usize::from(u16::from_le_bytes([bits[byte], bits[byte + 1]]) >> bit & 7)
+    };
+    row(cell - width) | row(cell) << 3 | row(cell + width) << 6
+}
+
+/// Open nodes by f, then by the order among equals.
+#[derive(Clone, Debug)]
+struct Queue {
+    ties: Ties,
+    buckets: Buckets<Open>,
+    /// The bucket in hand.
+    bucket: u64,
+    /// What is open in it or below, the first of them last.
+    now: Vec<Open>,
+}
+
+impl Queue {
+    /// Forgets everything; `first` is in hand.
+    fn begin(&mut self, first: Open) -> Open {
+        self.buckets.clear();
+        self.now.clear();
+        self.bucket = first.f >> BUCKET_BITS;
+        // The buckets count from the first key.
+        self.buckets.push(self.bucket, first);
+        self.buckets.pop().map_or(first, |(_, first)| first)
     }
-    now[place] = offer;
+
+    #[inline]
+    fn offer(&mut self, open: Open) {
+        let bucket = open.f >> BUCKET_BITS;
+        if bucket <= self.bucket { self.insert(open) } else { self.buckets.push(bucket, open) }
+    }
+
+    #[inline]
+    fn take(&mut self) -> Option<Open> {
+        if self.now.is_empty() {
+            let (bucket, first) = self.buckets.pop()?;
+            self.bucket = bucket;
+            self.now.push(first);
+            while let Some(other) = self.buckets.pop_equal() {
+                self.insert(other);
+            }
+        }
+        self.now.pop()
+    }
+
+    /// Puts `offer` at its place among what is in hand.
+    #[inline]
+    fn insert(&mut self, offer: Open) {
+        let mut place = self.now.len();
+        self.now.push(offer);
+        while place > 0 && comes_after(&offer, &self.now[place - 1], self.ties) {
+            self.now[place] = self.now[place - 1];
+            place -= 1;
+        }
+        self.now[place] = offer;
+    }
 }
 
 fn comes_after(one: &Open, other: &Open, ties: Ties) -> bool {
