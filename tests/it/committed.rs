@@ -39,7 +39,8 @@ fn the_report_has_a_chapter_for_every_paper_in_the_order_of_their_names() {
 fn every_stored_trial_has_the_row_of_what_was_prepared_by_which_it_is_found_again() {
     let runs = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs");
     let mut studies = 0;
-    for folder in fs::read_dir(runs).unwrap().map(|entry| entry.unwrap().path()) {
+    let folders = fs::read_dir(runs).unwrap().map(|entry| entry.unwrap().path());
+    for folder in folders.filter(|path| path.is_dir()) {
         let names =
             fs::read_dir(&folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
         for name in names.filter_map(|name| name.strip_suffix(".manifest.toml").map(str::to_owned)) {

@@ -195,74 +195,110 @@ fn where_open_nodes_are_never_lowered_lengths_between_many_pairs_are_the_kernels
     }
 }
 
-/// A quarter of the reproduced workspace, one obstacle in each case.
-fn small() -> (ArmRules, [Case; 2]) {
-    let rules = ArmRules {
-        arm: Planar2r::new(15.0, 10.0).unwrap(),
-        lattice: TipLattice::new([-25.0, 25.0], [0.0, 25.0], 1.0).unwrap(),
-        inner_radius_cm: 10.0,
-        ..base()
-    };
-    let case = |at, hops| Case { obstacles_cm: vec![at], hops };
-    (rules, [case([0.0, 20.0], [10, 14]), case([10.0, 18.0], [10, 13])])
+/// A quarter of the reproduced workspace with one obstacle in each case, and what is asked of it.
+struct Small {
+    cases: [Case; 2],
+    worlds: [ArmWorld; 2],
+    moves: [Moves; 2],
+    targets: Targets,
+}
+
+/// How far below a target shortest lengths may be there, in steps.
+const EXCESS: f64 = 1.0;
+
+/// The least shortest length from which a length may be met.
+fn least(length: u32) -> u32 {
+    length.saturating_sub(ScaledOctile::STRAIGHT)
+}
+
+impl Small {
+    fn new() -> Self {
+        let rules = ArmRules {
+            arm: Planar2r::new(15.0, 10.0).unwrap(),
+            lattice: TipLattice::new([-25.0, 25.0], [0.0, 25.0], 1.0).unwrap(),
+            inner_radius_cm: 10.0,
+            ..base()
+        };
+        let case = |at, hops| Case { obstacles_cm: vec![at], hops };
+        let cases = [case([0.0, 20.0], [10, 14]), case([10.0, 18.0], [10, 13])];
+        let variant = Variant { diameter_cm: 6.0, ..variant("shape = 'circle'") };
+        let world = |case: &Case| variant.world(&rules, case, ShapeSetting::Circle).unwrap();
+        let worlds = cases.each_ref().map(world);
+        let moves = worlds.each_ref().map(ArmWorld::eight_moves);
+        Self { targets: Targets::new(&cases, 0.75), cases, worlds, moves }
+    }
+
+    /// The shortest lengths between all cells, by start and goal.
+    fn shortest(moves: &Moves) -> Vec<Vec<Option<u32>>> {
+        let (mut flood, cells) = (search(moves), moves.cell_count());
+        let from = |start| {
+            let mut costs = vec![None; cells as usize];
+            flood.flood(start, u32::MAX / 2, |cell, cost| costs[cell as usize] = Some(cost));
+            costs
+        };
+        (0..cells).map(from).collect()
+    }
+
+    /// Pairs with their shortest lengths. Those whose lengths are out of reach of every target cannot meet one: they are
+    /// left out.
+    fn pairs_in_reach(&self) -> Vec<(Pair, [u32; 2])> {
+        let shortest = self.moves.each_ref().map(Self::shortest);
+        let targets = &self.targets;
+        let cells = self.moves[0].cell_count();
+        let pairs = (0..cells).flat_map(|start| (0..cells).map(move |goal| [start, goal]));
+        let with_costs = pairs.filter_map(|pair| {
+            let cost = |case: usize| {
+                shortest[case][pair[0] as usize][pair[1] as usize]
+                    .filter(|cost| (least(targets.lowest[case])..=targets.highest(case)).contains(cost))
+            };
+            Some((pair, [cost(0)?, cost(1)?]))
+        });
+        with_costs.collect()
+    }
+
+    /// The pairs that meet a target, with the kernel's lengths, and for how many these are not shortest.
+    fn met(&self, ties: Ties, pairs: &[(Pair, [u32; 2])]) -> (Vec<([Octile; 2], Pair)>, usize) {
+        let (mut met, mut longer) = (Vec::new(), 0);
+        for (pair, costs) in pairs {
+            let lengths = [0, 1].map(|case| {
+                let length = kernel_length(ties, &self.worlds[case], &self.moves[case], *pair);
+                length.expect("the flood came to the goal")
+            });
+            let scaled = lengths.map(ScaledOctile::scaled);
+            let is_target = |case: usize| self.targets.place(case, scaled[case]).is_some();
+            if (0..2).all(|case| is_target(case) && costs[case] >= least(scaled[case])) {
+                met.push((lengths, *pair));
+                longer += usize::from(scaled != *costs);
+            }
+        }
+        (met, longer)
+    }
+
+    /// The cases with other printed lengths.
+    fn asked(&self, lengths: &[Octile; 2]) -> [Case; 2] {
+        [0, 1].map(|case| {
+            let Octile { straight, diagonal } = lengths[case];
+            Case { hops: [straight, diagonal], ..self.cases[case].clone() }
+        })
+    }
 }
 
 #[test]
 fn where_open_nodes_are_never_lowered_pairs_and_targets_are_those_of_the_kernels_lengths() {
-    let ((rules, cases), variant) = (small(), variant("shape = 'circle'"));
-    let variant = Variant { diameter_cm: 6.0, ..variant };
-    let worlds = cases.each_ref().map(|case| variant.world(&rules, case, ShapeSetting::Circle).unwrap());
-    let moves = worlds.each_ref().map(ArmWorld::eight_moves);
-    let (targets, excess) = (Targets::new(&cases, 0.75), 1.0);
-    let least = |length: u32| length.saturating_sub(ScaledOctile::STRAIGHT);
-    let cells = moves[0].cell_count();
-    let shortest = moves.each_ref().map(|moves| {
-        let mut flood = search(moves);
-        (0..cells)
-            .map(|start| {
-                let mut costs = vec![None; cells as usize];
-                flood.flood(start, u32::MAX / 2, |cell, cost| costs[cell as usize] = Some(cost));
-                costs
-            })
-            .collect::<Vec<_>>()
-    });
-    // A pair whose shortest lengths are out of reach of every target cannot meet one: it need not be searched.
-    let mut tried = Vec::new();
-    for (start, goal) in (0..cells).flat_map(|start| (0..cells).map(move |goal| (start, goal))) {
-        let costs = shortest.each_ref().map(|costs| costs[start as usize][goal as usize]);
-        let is_near = |case: usize| {
-            costs[case]
-                .is_some_and(|cost| cost >= least(targets.lowest[case]) && cost <= targets.highest(case))
-        };
-        if is_near(0) && is_near(1) {
-            tried.push(([start, goal], costs.map(Option::unwrap)));
-        }
-    }
+    let small = Small::new();
+    let (targets, moves, pairs) = (&small.targets, &small.moves, small.pairs_in_reach());
     let mut of_orders = Vec::new();
     for ties in ORDERS {
-        let (mut hits, mut met, mut longer) = (targets.none(), Vec::new(), 0);
-        for (pair, costs) in &tried {
-            let lengths = [0, 1].map(|case| {
-                let length = kernel_length(ties, &worlds[case], &moves[case], *pair);
-                length.expect("the flood came to the goal")
-            });
-            let scaled = lengths.map(ScaledOctile::scaled);
-            let is_target = |case: usize| targets.place(case, scaled[case]).is_some();
-            if (0..2).all(|case| is_target(case) && costs[case] >= least(scaled[case])) {
-                targets.mark(&mut hits, scaled);
-                met.push((lengths, *pair));
-                longer += u32::from(scaled != *costs);
-            }
+        let (met, longer) = small.met(ties, &pairs);
+        let mut hits = targets.none();
+        for (lengths, _) in &met {
+            targets.mark(&mut hits, lengths.map(ScaledOctile::scaled));
         }
         let number = hits.iter().filter(|hit| **hit).count();
         assert!(longer > 20 && number > 20 && number < targets.count(), "{ties:?}: {longer}, {number}");
-        assert!(NeverLowered::hits(&targets, &moves, excess, ties) == hits, "{ties:?}: other targets");
+        assert!(NeverLowered::hits(targets, moves, EXCESS, ties) == hits, "{ties:?}: other targets");
         for (lengths, _) in met.iter().step_by(met.len() / 4) {
-            let asked = [0, 1].map(|case| {
-                let Octile { straight, diagonal } = lengths[case];
-                Case { hops: [straight, diagonal], ..cases[case].clone() }
-            });
-            let found = NeverLowered::find(&moves, &asked, excess, ties);
+            let found = NeverLowered::find(moves, &small.asked(lengths), EXCESS, ties);
             let pairs: Vec<Pair> =
                 met.iter().filter(|(of, _)| of == lengths).map(|(_, pair)| *pair).collect();
             assert_eq!(found.pairs, pairs, "{ties:?}, {lengths:?}");
@@ -271,5 +307,5 @@ fn where_open_nodes_are_never_lowered_pairs_and_targets_are_those_of_the_kernels
         of_orders.push(hits);
     }
     assert!(of_orders[0] != of_orders[1], "the order among equals does not matter here");
-    assert!(of_orders[0] != targets.hits(&moves), "shortest lengths meet the same targets");
+    assert!(of_orders[0] != targets.hits(moves), "shortest lengths meet the same targets");
 }
