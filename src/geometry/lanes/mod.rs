@@ -1,7 +1,7 @@
 //! Cases by the lane: the parts of a motion check that run in SIMD lanes.
 //!
 //! Angles are found in f64, four cases at once ([`Lane`]); places and distances in f32, eight at once ([`Rough`]). The
-//! instructions are chosen when the program runs ([`level`], [`dispatch`]), and results differ from the scalar code in
+//! instructions are chosen when the program runs ([`level`], `dispatch!`), and results differ from the scalar code in
 //! their last digits: fused multiply-adds, other polynomials, fewer digits. So nothing here decides a close call:
 //! callers compare with a band ([`SLACK`] for f64, [`ROUGHNESS`] for f32) and ask the scalar code inside it. A NaN must
 //! end inside the band too: write comparisons so that it fails the certain side.
@@ -26,7 +26,7 @@ use super::{Frame, Vec3};
 use fearless_simd::{f32x8, f64x4};
 use std::ops::{Add, Mul, Sub};
 
-/// How many cases are taken at once.
+/// How many cases are taken at once in f64.
 pub const LANES: usize = 4;
 
 /// How close a comparison of metres or radians may be before the scalar code is asked.
@@ -40,7 +40,7 @@ pub type Lane<S> = f64x4<S>;
 /// Numbers of four cases between two functions that may be compiled for different instructions.
 pub type Row = [f64; LANES];
 
-/// How many cases are taken at once where eight digits will do.
+/// How many cases are taken at once where seven digits will do.
 pub const ROUGH_LANES: usize = 8;
 
 /// How far, as a share of the greatest coordinate and length at hand, a distance in f32 may be from the scalar code's.
@@ -95,7 +95,9 @@ macro_rules! dispatch {
             }
         }
         #[cfg(not(target_arch = "x86_64"))]
-        ::fearless_simd::dispatch!(level, $simd => $op)
+        {
+            ::fearless_simd::dispatch!(level, $simd => $op)
+        }
     }};
 }
 pub(crate) use dispatch;

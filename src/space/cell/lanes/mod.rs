@@ -30,8 +30,9 @@ use crate::kinematics::ik::Branch;
 use crate::kinematics::{AXES, Arm, Joints};
 use std::f64::consts::TAU;
 
-/// The greatest angle, either way, that is placed in f32.
-const MOST_RAD: f64 = 2.0 * TAU;
+/// The greatest angle, either way, that is placed in f32: a turn, and room for who stops at one. Beyond it the last digit
+/// of an angle is too coarse for the band.
+const MOST_RAD: f64 = 1.01 * TAU;
 
 /// The axis of one part at eight configurations: x, y and z of its first end, then of the second.
 type Axis = [RoughRow; 6];

@@ -7,6 +7,9 @@ use crate::kinematics::{AXES, Chain, RoughChain};
 use crate::space::cell::Scene;
 use std::ops::Range;
 
+/// The share of its axis's length below which a part's radius is too small for distances from boxes in f32.
+const SLENDER: f64 = 0.01;
+
 /// Two parts that are kept apart.
 #[derive(Debug, Clone)]
 pub(super) struct Pair {
@@ -20,6 +23,7 @@ pub(super) struct Pair {
 /// A point.
 pub(super) type End = [f32; 3];
 
+/// What lanes read instead of a cell.
 #[derive(Debug, Clone)]
 pub(in crate::space::cell) struct Outline {
     pub(super) chain: RoughChain,
@@ -67,7 +71,10 @@ impl Outline {
         let extent_m = solids.clone().map(far_m).fold(reach_m, f64::max);
         let thinnest_m =
             exposed.iter().map(|part| body.parts()[*part].capsule().radius).fold(f64::INFINITY, f64::min);
+        // Near an edge that a slender part grazes, the distance from a box is worse than elsewhere.
+        let has_slender = exposed.iter().any(|part| is_slender(body.parts()[*part].capsule()));
         let rough_solid = |solid: &Solid| match solid {
+            Solid::Box(_) if has_slender => None,
             Solid::Capsule(shape) if shape.radius + thinnest_m < ROUGH_LEAST * extent_m => None,
             _ => RoughSolid::of(solid),
         };
@@ -85,6 +92,10 @@ impl Outline {
             band_m: (ROUGHNESS * extent_m) as f32,
         }
     }
+}
+
+fn is_slender(capsule: &Capsule) -> bool {
+    capsule.radius < SLENDER * (capsule.segment.b - capsule.segment.a).norm()
 }
 
 fn pair(body: &Body, parts: [usize; 2], reach_m: f64) -> Pair {

@@ -10,7 +10,7 @@
 use super::outline::Outline;
 use super::place::{NUMBERS, followers, place_block, way2};
 use super::stand::stand;
-use super::{Axis, Course, Track, load, store};
+use super::{Axis, Course, Track, is_rough, load, store};
 use crate::geometry::lanes::{ROUGH_LANES, Rough, RoughRow, Simd, SimdBase, SimdFloat, SimdMask};
 use crate::kinematics::{AXES, Arm, Joints};
 use crate::space::cell::doubt::{HALF_WAY, HALVINGS};
@@ -137,9 +137,8 @@ impl Track {
                 if near == 0 {
                     continue;
                 }
-                let first = (block * ROUGH_LANES) as f64 + at as f64 / PARTS as f64;
-                let Some(angles) = course.angles(simd, arm, first, near, &low.states, &mut stop.states)
-                else {
+                let place = Place { first: block * ROUGH_LANES, part: at, wanted: near };
+                let Some(angles) = course.angles(simd, arm, &place, &low.states, &mut stop.states) else {
                     return false;
                 };
                 place_block(simd, outline, &angles, &mut stop.placed);
@@ -155,31 +154,60 @@ impl Track {
     }
 }
 
+/// One part of eight steps from the step `first` on.
+struct Place {
+    first: usize,
+    part: usize,
+    /// The steps that are looked at: one bit each.
+    wanted: u64,
+}
+
+impl Place {
+    /// The share of a way of so many steps at which it is in the step of `lane`, to the last bit as halving finds it.
+    fn share(&self, lane: usize, steps: f64) -> f64 {
+        let [mut low, mut high] = [0, 1].map(|next| (self.first + lane + next) as f64 / steps);
+        let (mut from, mut to) = (0, PARTS);
+        loop {
+            let (middle, share) = (usize::midpoint(from, to), f64::midpoint(low, high));
+            if self.part == middle {
+                return share;
+            }
+            if self.part < middle {
+                (to, high) = (middle, share);
+            } else {
+                (from, low) = (middle, share);
+            }
+        }
+    }
+}
+
 impl Course<'_> {
-    /// The angles at eight steps from `first` on; `None` if one of the steps `wanted` has no configuration there.
+    /// The angles at one place of eight steps; `None` if one of the steps wanted has no configuration there.
     #[inline(always)]
     fn angles<S: Simd>(
         &self,
         simd: S,
         arm: &Arm,
-        first: f64,
-        wanted: u64,
+        at: &Place,
         before: &[Joints; ROUGH_LANES],
         states: &mut [Joints; ROUGH_LANES],
     ) -> Option<[RoughRow; AXES]> {
         let mut angles = [[0.0; ROUGH_LANES]; AXES];
         match self {
             Self::Line { from, step } => {
-                let numbers = Rough::load_array(simd, NUMBERS) + first as f32;
+                let numbers =
+                    Rough::load_array(simd, NUMBERS) + (at.first as f32 + at.part as f32 / PARTS as f32);
                 for joint in 0..AXES {
                     let start = Rough::splat(simd, from[joint]);
                     numbers.mul_add(step[joint], start).store_array(&mut angles[joint]);
                 }
             }
             Self::Way { way, branch, steps } => {
-                for lane in (0..ROUGH_LANES).filter(|lane| wanted >> lane & 1 == 1) {
-                    let target = way.at((first + lane as f64) / steps);
-                    let q = arm.follow(&target, *branch, &before[lane]).ok()?;
+                for lane in (0..ROUGH_LANES).filter(|lane| at.wanted >> lane & 1 == 1) {
+                    let q = arm.follow(&way.at(at.share(lane, *steps)), *branch, &before[lane]).ok()?;
+                    if !is_rough(&q) {
+                        return None;
+                    }
                     states[lane] = q;
                     for (row, angle) in angles.iter_mut().zip(q) {
                         row[lane] = angle as f32;
