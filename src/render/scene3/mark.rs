@@ -71,8 +71,9 @@ impl Lens {
         [self.shift[0] + place(right, 1.0), self.shift[1] + place(up, -1.0)]
     }
 
-    fn eye(&self) -> Vec3 {
-        along(self.middle, self.camera.axes()[2], self.distance.unwrap_or(0.0))
+    /// Where the eye is; nowhere in a parallel view.
+    fn eye(&self) -> Option<Vec3> {
+        self.distance.map(|distance| along(self.middle, self.camera.axes()[2], distance))
     }
 }
 
@@ -90,9 +91,7 @@ impl SceneMark {
             items.extend(chain.points.windows(2).map(piece));
         }
         let (_, radius) = self.scene.ball();
-        let parallel = lens.distance.is_none();
-        let eye = if parallel { self.camera.axes()[2] } else { eye };
-        back_to_front(items, eye, parallel, radius * 1e-7)
+        back_to_front(items, eye.unwrap_or(self.camera.axes()[2]), eye.is_none(), radius * 1e-7)
     }
 
     fn triad(&self, canvas: &mut Canvas, foot: Rect) {

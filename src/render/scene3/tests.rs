@@ -53,8 +53,7 @@ fn nothing_is_followed_by_what_lies_behind_it_even_where_solids_pierce_each_othe
         let scene = marked(crowded(case), camera);
         let lens = Lens::fitting(&scene.scene, camera, ROOM);
         let items = scene.items(&lens);
-        let whole: usize =
-            scene.scene.meshes.iter().map(|mesh| mesh.visible(0, &camera, [0.0; 3]).len()).sum();
+        let whole: usize = scene.scene.meshes.iter().map(|mesh| mesh.visible(0, &camera, None).len()).sum();
         pierced += items.len() - whole;
         let mut random = seed::stream(seed::derive(case, &["sight"]));
         for _ in 0..400 {
@@ -85,7 +84,7 @@ fn cutting_keeps_the_area_that_is_seen() {
         let scene = marked(crowded(case), camera);
         let lens = Lens::fitting(&scene.scene, camera, ROOM);
         let whole: Vec<Item> =
-            scene.scene.meshes.iter().flat_map(|mesh| mesh.visible(0, &camera, [0.0; 3])).collect();
+            scene.scene.meshes.iter().flat_map(|mesh| mesh.visible(0, &camera, None)).collect();
         let (before, after) = (area(&whole, &lens), area(&scene.items(&lens), &lens));
         assert!((before - after).abs() < 1e-6 * before, "case {case}: {before} became {after}");
     }
