@@ -2,9 +2,9 @@
 
 use super::evidence::Run;
 use super::metric::Metric;
-use super::stats::bootstrap::{Estimate, Plan, percentile};
-use super::stats::paired::ratio_of_means;
 use crate::seed;
+use crate::stats::bootstrap::{Estimate, Plan, percentile};
+use crate::stats::paired::ratio_of_means;
 use crate::study::record::{Row, Status};
 use std::collections::BTreeMap;
 
@@ -51,7 +51,8 @@ pub fn reduction_percent(
     let values = pairs.filter_map(|pair| run.value(pair.base, metric).zip(run.value(pair.other, metric)));
     let ratio = ratio_of_means(&values.collect::<Vec<_>>(), plan(run, contender, metric))?;
     let percent = |ratio: f64| 100.0 * (1.0 - ratio);
-    let interval = super::interval::Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
+    let interval =
+        crate::stats::interval::Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
     Some(Estimate { value: percent(ratio.value), interval, ..ratio })
 }
 

@@ -1,8 +1,8 @@
 //! The records that claims are judged by, ready to be asked.
 
 use super::metric::{self, Metric};
-use super::stats::summary;
 use crate::planner::Exhibit;
+use crate::stats::summary;
 use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
 use crate::study::record::{PreparedRow, Row, Status};

@@ -1,4 +1,4 @@
-//! What runs mean: audits of printed numbers, statistics, and the verdicts that rest on them.
+//! What runs mean: audits of printed numbers and the verdicts that rest on them.
 //!
 //! Nothing here starts a trial. [`Evidence`](evidence::Evidence) is the stored runs of a paper; a
 //! [`check`] judges one claim by them; [`judge`](claims::judge) judges all.
@@ -10,8 +10,6 @@ pub mod draws;
 pub mod effect;
 pub mod evidence;
 pub mod inclusion;
-pub mod interval;
 pub mod metric;
-pub mod stats;
 pub mod together;
 pub mod verdict;

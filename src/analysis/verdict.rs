@@ -1,8 +1,8 @@
 //! Verdicts: what was found about each claim, and the file that keeps them.
 
-use super::interval::Interval;
-use super::stats::proportion::units_for_margin;
 use crate::settings::Document;
+use crate::stats::interval::Interval;
+use crate::stats::proportion::units_for_margin;
 use crate::study::StudyError;
 use crate::study::store::write_whole;
 use serde::{Deserialize, Serialize};

@@ -11,7 +11,7 @@ use std::{f64::consts::FRAC_PI_2, f64::consts::PI, path::Path};
 
 /// The robot file that is committed under this name.
 pub fn robot(name: &str) -> Robot {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/robots").join(format!("{name}.toml"));
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots").join(format!("{name}.toml"));
     Robot::load(&file).unwrap()
 }
 

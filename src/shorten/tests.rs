@@ -14,7 +14,8 @@ fn deletion_gives_the_known_lengths_and_turns_on_the_witness_maps() {
     for (map, cells, length_cells, turn_deg) in
         [("zhang_w1.map.txt", path1, 15.6923, 242.0378), ("zhang_w2.map.txt", path2, 17.1626, 309.1427)]
     {
-        let grid = read_text_map(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/maps").join(map)).unwrap();
+        let grid =
+            read_text_map(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/maps").join(map)).unwrap();
         let points: Vec<[f64; 2]> = cells.iter().map(|cell| cell.map(f64::from)).collect();
         let corners = bends(&points);
         let cell = |i: usize| grid.cell(cells[corners[i]][0], cells[corners[i]][1]).unwrap();

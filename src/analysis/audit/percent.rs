@@ -4,7 +4,7 @@ use super::{
     AuditError,
     printed::{Digits, Printed},
 };
-use crate::analysis::interval::Interval;
+use crate::stats::interval::Interval;
 
 /// What two printed cells say about the reduction from one to the other.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,12 +6,12 @@
 use super::{Check, Context, Entry};
 use crate::analysis::audit::printed::Printed;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::interval::Interval;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::proportion::predictive;
-use crate::analysis::stats::summary::median;
 use crate::analysis::verdict::Finding;
 use crate::settings::SettingsError;
+use crate::stats::interval::Interval;
+use crate::stats::proportion::predictive;
+use crate::stats::summary::median;
 use crate::study::record::Status;
 use crate::study::{Point, Study};
 use serde::Deserialize;

@@ -4,8 +4,8 @@ use super::{Check, Entry};
 use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::proportion::{trials_for_margin, wilson};
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::stats::proportion::{trials_for_margin, wilson};
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -4,9 +4,9 @@ use super::{Check, Entry};
 use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::summary::median;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::settings::SettingsError;
+use crate::stats::summary::median;
 use crate::study::Study;
 use serde::Deserialize;
 

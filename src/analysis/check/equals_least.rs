@@ -4,9 +4,9 @@ use super::{Check, Entry};
 use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::bootstrap::{Plan, percentile};
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
+use crate::stats::bootstrap::{Plan, percentile};
 use serde::Deserialize;
 
 /// The registry's entry.

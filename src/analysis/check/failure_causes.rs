@@ -4,9 +4,9 @@ use super::{Check, Entry};
 use crate::analysis::draws::both;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric;
-use crate::analysis::stats::bootstrap::{Plan, percentile};
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
+use crate::stats::bootstrap::{Plan, percentile};
 use crate::study::record::{Row, Status};
 use serde::Deserialize;
 

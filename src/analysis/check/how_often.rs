@@ -3,9 +3,9 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::paired::EQUAL;
-use crate::analysis::stats::proportion::wilson;
 use crate::analysis::verdict::Finding;
+use crate::stats::paired::EQUAL;
+use crate::stats::proportion::wilson;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -5,9 +5,9 @@ use crate::analysis::audit::neighbourhood;
 use crate::analysis::audit::printed::Printed;
 use crate::analysis::audit::turns::{Convention, Polyline, TurnQuery, shortest_polyline};
 use crate::analysis::evidence::Evidence;
-use crate::analysis::interval::Interval;
 use crate::analysis::verdict::{Finding, Verdict};
 use crate::settings::SettingsError;
+use crate::stats::interval::Interval;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -6,8 +6,8 @@ use crate::analysis::audit::lattice::{Octile, Step, lengths_printing};
 use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::audit::{at_most, with_an_end_moved};
 use crate::analysis::evidence::Evidence;
-use crate::analysis::interval::Interval;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::stats::interval::Interval;
 use serde::Deserialize;
 
 /// The registry's entry.

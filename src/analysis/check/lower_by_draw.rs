@@ -4,10 +4,10 @@ use super::{Check, Entry};
 use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::bootstrap::{Plan, percentile};
-use crate::analysis::stats::proportion::units_for_margin;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
+use crate::stats::bootstrap::{Plan, percentile};
+use crate::stats::proportion::units_for_margin;
 use serde::Deserialize;
 
 /// The registry's entry.

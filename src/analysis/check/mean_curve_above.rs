@@ -3,11 +3,11 @@
 use super::{Check, Entry};
 use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::interval::Interval;
-use crate::analysis::stats::bands::sup_t;
-use crate::analysis::stats::bootstrap::Plan;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
+use crate::stats::bands::sup_t;
+use crate::stats::bootstrap::Plan;
+use crate::stats::interval::Interval;
 use crate::study::Study;
 use serde::Deserialize;
 

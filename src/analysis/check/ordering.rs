@@ -3,11 +3,11 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::bootstrap::Plan;
-use crate::analysis::stats::paired::{EQUAL, mean_difference, signs};
-use crate::analysis::stats::proportion::{units_for_margin, wilson};
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
+use crate::stats::bootstrap::Plan;
+use crate::stats::paired::{EQUAL, mean_difference, signs};
+use crate::stats::proportion::{units_for_margin, wilson};
 use crate::study::Study;
 use serde::Deserialize;
 

@@ -4,9 +4,9 @@
 use super::{Check, Context, Entry};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::summary::median;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::settings::SettingsError;
+use crate::stats::summary::median;
 use serde::Deserialize;
 
 /// The registry's entry.

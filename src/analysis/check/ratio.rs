@@ -2,12 +2,12 @@
 
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
-use crate::analysis::interval::Interval;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::bootstrap::Plan;
-use crate::analysis::stats::paired::ratio_of_means;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
+use crate::stats::bootstrap::Plan;
+use crate::stats::interval::Interval;
+use crate::stats::paired::ratio_of_means;
 use crate::study::Study;
 use serde::Deserialize;
 

@@ -2,9 +2,9 @@
 
 use super::{Check, Context, Entry};
 use crate::analysis::evidence::Evidence;
-use crate::analysis::stats::proportion::wilson;
 use crate::analysis::verdict::Finding;
 use crate::settings::SettingsError;
+use crate::stats::proportion::wilson;
 use crate::study::Study;
 use crate::study::record::Status;
 use serde::Deserialize;

@@ -7,10 +7,10 @@ use super::{Check, Context, Entry};
 use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::proportion::{Rank, predictive};
-use crate::analysis::stats::summary::median;
 use crate::analysis::verdict::{Estimate, Finding};
 use crate::settings::SettingsError;
+use crate::stats::proportion::{Rank, predictive};
+use crate::stats::summary::median;
 use serde::Deserialize;
 
 /// The registry's entry.

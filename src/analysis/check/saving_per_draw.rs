@@ -5,9 +5,9 @@ use crate::analysis::audit::printed::Printed;
 use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::proportion::predictive;
-use crate::analysis::stats::summary::mean;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::stats::proportion::predictive;
+use crate::stats::summary::mean;
 use crate::study::Study;
 use serde::Deserialize;
 

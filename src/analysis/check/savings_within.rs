@@ -4,11 +4,11 @@ use super::{Check, Entry};
 use crate::analysis::audit::printed::Digits;
 use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::interval::Interval;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::proportion::clopper_pearson;
-use crate::analysis::stats::summary::median;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::stats::interval::Interval;
+use crate::stats::proportion::clopper_pearson;
+use crate::stats::summary::median;
 use crate::study::Study;
 use serde::Deserialize;
 

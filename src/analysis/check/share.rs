@@ -2,11 +2,11 @@
 
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
-use crate::analysis::interval::Interval;
-use crate::analysis::stats::bootstrap::{self, Plan};
-use crate::analysis::stats::proportion::wilson;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
+use crate::stats::bootstrap::{self, Plan};
+use crate::stats::interval::Interval;
+use crate::stats::proportion::wilson;
 use crate::study::record::{Row, Status};
 use crate::study::{Study, column};
 use serde::Deserialize;

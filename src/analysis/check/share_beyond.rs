@@ -3,8 +3,8 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::proportion::wilson;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::stats::proportion::wilson;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -3,9 +3,9 @@
 use super::{Check, Context, Entry};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::proportion::wilson;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::settings::SettingsError;
+use crate::stats::proportion::wilson;
 use crate::study::Study;
 use crate::study::record::Status;
 use serde::Deserialize;

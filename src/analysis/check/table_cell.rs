@@ -4,9 +4,9 @@ use super::{Check, Entry};
 use crate::analysis::audit::printed::Printed;
 use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::stats::proportion::predictive;
-use crate::analysis::stats::summary::mean;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::stats::proportion::predictive;
+use crate::stats::summary::mean;
 use crate::study::Study;
 use serde::Deserialize;
 

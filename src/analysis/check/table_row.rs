@@ -4,10 +4,10 @@ use super::{Check, Entry};
 use crate::analysis::audit::printed::Printed;
 use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::stats::proportion::Rank;
-use crate::analysis::stats::rows::{distance_to_mean, monotone_probability};
-use crate::analysis::stats::summary::{mean, standard_deviation};
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::stats::proportion::Rank;
+use crate::stats::rows::{distance_to_mean, monotone_probability};
+use crate::stats::summary::{mean, standard_deviation};
 use crate::study::Study;
 use serde::Deserialize;
 

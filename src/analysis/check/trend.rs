@@ -3,9 +3,9 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::bootstrap::{self, Plan};
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
+use crate::stats::bootstrap::{self, Plan};
 use crate::study::record::Status;
 use crate::study::{Study, column};
 use serde::Deserialize;

@@ -10,7 +10,7 @@ use std::path::Path;
 
 fn world(bodies: Vec<Convex>) -> World {
     let robot =
-        Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/robots/aubo_i10.toml")).unwrap();
+        Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/aubo_i10.toml")).unwrap();
     let domain = Aabb { min: Vec3::new(0.0, -90.0, 0.0), max: Vec3::new(100.0, 90.0, 120.0) };
     let world = PolyhedraWorld::new(bodies, domain, 5.0, 0.0).unwrap();
     World::Polyhedra(Box::new(world.with_arm(CarriedArm::new(&robot, "paper").unwrap())))

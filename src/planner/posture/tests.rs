@@ -24,7 +24,7 @@ fn posture(change: (&str, &str)) -> Result<Posture, String> {
 
 fn world(boxes: &[([f64; 3], [f64; 3])]) -> World {
     let robot =
-        Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/robots/aubo_i10.toml")).unwrap();
+        Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/aubo_i10.toml")).unwrap();
     let bodies = boxes.iter().map(|(c, s)| Convex::cuboid((*c).into(), (*s).into()).unwrap()).collect();
     let domain = Aabb { min: Vec3::new(-100.0, -100.0, 0.0), max: Vec3::new(100.0, 100.0, 150.0) };
     let world = PolyhedraWorld::new(bodies, domain, 1.0, 0.0).unwrap();

@@ -4,11 +4,11 @@ use super::cell_poses::{VIEWS, add_capsules, furnished, panel};
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::draws::Compared;
 use crate::analysis::metric;
-use crate::analysis::stats::summary::median;
 use crate::render::RenderError;
 use crate::render::chart::{Panel, Sheet};
 use crate::render::scene3::Paint;
 use crate::render::style::{Dash, GREY, Stroke, WHITE, Width, series_color};
+use crate::stats::summary::median;
 use crate::study::slug;
 use serde::Deserialize;
 

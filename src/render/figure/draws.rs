@@ -4,13 +4,13 @@
 
 use super::{Entry, Kind, Scene, check_claim, printed_value};
 use crate::analysis::check;
-use crate::analysis::stats::summary::quantile_type7;
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{INK, Stroke, Width, series_stroke};
 use crate::settings::Settings;
+use crate::stats::summary::quantile_type7;
 use serde::Deserialize;
 
 /// The registry's entry.

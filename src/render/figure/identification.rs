@@ -3,12 +3,12 @@
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Run;
-use crate::analysis::stats::bootstrap::{Plan, percentile};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, Fill, GREY, Stroke, Width, series_color, series_marker, series_stroke};
 use crate::seed;
+use crate::stats::bootstrap::{Plan, percentile};
 use serde::Deserialize;
 
 /// The registry's entry.

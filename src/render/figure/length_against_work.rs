@@ -2,11 +2,11 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::{self, Metric};
-use crate::analysis::stats::summary::median;
 use crate::render::RenderError;
 use crate::render::chart::marks::Points;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{BLACK, SERIES, WHITE, Width, series_color, series_marker};
+use crate::stats::summary::median;
 use crate::study::record::{Row, Status};
 use serde::Deserialize;
 

@@ -3,13 +3,13 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::stats::summary::{mean, median, quantile_type7};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::BoxStrip;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color};
+use crate::stats::summary::{mean, median, quantile_type7};
 use crate::study::record::Status;
 use serde::Deserialize;
 use std::collections::BTreeMap;

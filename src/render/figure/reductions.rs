@@ -3,7 +3,6 @@
 use super::{Entry, Kind, Scene, check_labels, printed_value};
 use crate::analysis::effect::reduction_percent;
 use crate::analysis::metric;
-use crate::analysis::stats::bootstrap::Estimate;
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
@@ -11,6 +10,7 @@ use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{BLUE, INK, Marker, Stroke, VERMILLION, Width};
+use crate::stats::bootstrap::Estimate;
 use serde::Deserialize;
 
 /// The registry's entry.

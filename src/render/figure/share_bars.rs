@@ -3,13 +3,13 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::draws::{differences_percent, posed, solved_percents};
-use crate::analysis::stats::bootstrap::{Plan, percentile};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color, series_marker};
 use crate::seed;
+use crate::stats::bootstrap::{Plan, percentile};
 use crate::study::Study;
 use serde::Deserialize;
 

@@ -2,14 +2,14 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::draws::solved_percents;
-use crate::analysis::stats::bands::{Band as Curve, sup_t};
-use crate::analysis::stats::bootstrap::Plan;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Fill, Stroke, Width, series_color, series_marker, series_stroke};
 use crate::seed;
 use crate::settings::{Settings, SettingsError};
+use crate::stats::bands::{Band as Curve, sup_t};
+use crate::stats::bootstrap::Plan;
 use crate::study::Study;
 use crate::study::paper::Paper;
 use serde::Deserialize;

@@ -5,7 +5,7 @@ use crate::grid::read_text_map;
 use std::path::Path;
 
 fn witness(name: &str, ends: [[i32; 2]; 2]) -> (Grid2, [u32; 2]) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/maps").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/maps").join(name);
     let grid = read_text_map(&path).unwrap();
     let ends = ends.map(|[x, y]| grid.cell(x, y).unwrap());
     assert!(ends.iter().all(|&cell| grid.is_free(cell)));

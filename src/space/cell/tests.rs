@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use std::path::Path as FilePath;
 
 fn file(name: &str) -> std::path::PathBuf {
-    FilePath::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name)
+    FilePath::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
 }
 
 fn robot() -> Robot {

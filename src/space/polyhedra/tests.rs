@@ -132,7 +132,7 @@ fn a_grown_box_keeps_its_corners_and_is_said_to_be_grown() {
 }
 
 fn aubo() -> Robot {
-    Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/robots/aubo_i10.toml")).unwrap()
+    Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/aubo_i10.toml")).unwrap()
 }
 
 #[test]

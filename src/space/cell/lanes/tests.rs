@@ -159,7 +159,7 @@ fn what_is_thin_for_the_size_of_the_cell_has_no_lanes() {
 
 #[test]
 fn boxes_have_no_lanes_beside_a_slender_part() {
-    let path = FilePath::new(env!("CARGO_MANIFEST_DIR")).join("data/robots/motoman_up6.toml");
+    let path = FilePath::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/motoman_up6.toml");
     let text = std::fs::read_to_string(&path).unwrap();
     let boxes = |forearm_mm: u32| {
         // The forearm's axis is 790 mm long.

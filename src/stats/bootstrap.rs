@@ -3,7 +3,8 @@
 use rand::RngExt as _;
 
 use super::summary;
-use crate::{analysis::interval::Interval, seed};
+use crate::seed;
+use crate::stats::interval::Interval;
 
 /// How a bootstrap is made.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@ use super::{
     bootstrap::{self, Plan},
     summary,
 };
-use crate::analysis::interval::Interval;
+use crate::stats::interval::Interval;
 
 /// The mean curve with a band that holds all of it at once.
 #[derive(Debug, Clone, PartialEq)]
