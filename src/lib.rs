@@ -5,7 +5,8 @@
 //! its code is optimised in every build, this package's in none but a release, because most of it runs once.
 
 pub use replan_engine::{
-    geometry, grid, kinematics, planner, search, seed, settings, shorten, space, stats, verify,
+    audit, geometry, grid, kinematics, palette, planner, search, seed, settings, shorten, space, stats,
+    verify,
 };
 
 pub mod study;

@@ -3,7 +3,8 @@
 use super::evidence::Run;
 use super::metric::Metric;
 use crate::seed;
-use crate::stats::bootstrap::{Estimate, Plan, percentile};
+use crate::stats::bootstrap::{self, Estimate, Plan};
+use crate::stats::interval::Interval;
 use crate::stats::paired::ratio_of_means;
 use crate::study::record::{Row, Status};
 use std::collections::BTreeMap;
@@ -34,9 +35,7 @@ pub fn solved_by_all<'r>(
 /// The mean of a metric over `rows` of one contender; none below two.
 pub fn mean(run: &Run<'_>, rows: &[&Row], contender: &str, metric: &Metric) -> Option<Estimate> {
     let values: Vec<f64> = rows.iter().filter_map(|row| run.value(row, metric)).collect();
-    let mean =
-        |units: &[&f64]| (!units.is_empty()).then(|| units.iter().copied().sum::<f64>() / units.len() as f64);
-    percentile(&values, mean, plan(run, contender, metric))
+    bootstrap::mean(&values, plan(run, contender, metric))
 }
 
 /// The reduction of the mean of a metric from `against` to `contender` in per cent, over problems that both solved;
@@ -51,8 +50,7 @@ pub fn reduction_percent(
     let values = pairs.filter_map(|pair| run.value(pair.base, metric).zip(run.value(pair.other, metric)));
     let ratio = ratio_of_means(&values.collect::<Vec<_>>(), plan(run, contender, metric))?;
     let percent = |ratio: f64| 100.0 * (1.0 - ratio);
-    let interval =
-        crate::stats::interval::Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
+    let interval = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
     Some(Estimate { value: percent(ratio.value), interval, ..ratio })
 }
 

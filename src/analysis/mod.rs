@@ -1,9 +1,8 @@
-//! What runs mean: audits of printed numbers and the verdicts that rest on them.
+//! What runs mean: the verdicts that rest on them.
 //!
 //! Nothing here starts a trial. [`Evidence`](evidence::Evidence) is the stored runs of a paper; a
 //! [`check`] judges one claim by them; [`judge`](claims::judge) judges all.
 
-pub mod audit;
 pub mod check;
 pub mod claims;
 pub mod draws;

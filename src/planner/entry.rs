@@ -43,6 +43,13 @@ impl Value {
     }
 }
 
+/// Puts the cells of the column called `name` into those of `rows` that have one.
+pub fn fill(rows: &mut [BTreeMap<String, Value>], name: &str, cells: &[Option<Value>]) {
+    for (row, cell) in rows.iter_mut().zip(cells) {
+        row.extend(cell.map(|cell| (name.to_owned(), cell)));
+    }
+}
+
 /// What a planner counted, by column name.
 pub type Counts = BTreeMap<&'static str, Value>;
 

@@ -29,7 +29,7 @@ mod straighten_from_previous;
 mod tips;
 mod visibility_edges;
 
-pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
+pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value, fill};
 
 /// Every planner and stage, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[

@@ -2,20 +2,17 @@
 //!
 //! Print takes the SVG; screens need no more pixels, and pictures are committed.
 //! Both carry the command that made them and the hash of the spec behind them. The PNG is indexed when
-//! 256 colours describe it to within [`PALETTE_TOLERANCE`] levels, else plain 8-bit RGB.
+//! 256 colours describe it to within [`palette::TOLERANCE`] levels, else plain 8-bit RGB.
 
 use super::RenderError;
 use super::font::Weight;
 use super::style::HAIR_PT;
+use crate::palette;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg;
-use std::collections::BTreeMap;
 
 /// Pixels in an inch of PNG.
 pub const DPI: f64 = 220.0;
-
-/// Largest change of a colour level that an indexed PNG may make.
-pub const PALETTE_TOLERANCE: u8 = 20;
 
 /// What a figure says about its own making.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,9 +85,7 @@ pub(super) fn png(svg: &str, from: &Provenance) -> Result<Vec<u8>, RenderError> 
     let mut pixels = Pixmap::new(width_px, height_px).ok_or(RenderError::Size { width_px, height_px })?;
     pixels.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
-    let colors: Vec<[u8; 3]> =
-        pixels.pixels().iter().map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
-    encoded(&colors, width_px, height_px, from)
+    encoded(&palette::opaque(pixels.data()), width_px, height_px, from)
 }
 
 fn encoded(
@@ -109,11 +104,11 @@ fn encoded(
     for (key, text) in [("Title", &from.title), ("Software", &from.command), ("Spec-Hash", &from.spec_hash)] {
         encoder.add_itxt_chunk(key.to_owned(), text.clone())?;
     }
-    let data = if let Some((palette, index)) = palette(colors) {
+    let data = if let Some(indexed) = palette::indexed(colors) {
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_filter(png::Filter::NoFilter);
-        encoder.set_palette(palette.concat());
-        runs(colors).flat_map(|run| std::iter::repeat_n(index[&run[0]], run.len())).collect()
+        encoder.set_palette(indexed.palette);
+        indexed.pixels
     } else {
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_filter(png::Filter::Adaptive);
@@ -125,64 +120,14 @@ fn encoded(
     Ok(bytes)
 }
 
-/// Runs of equal colours; a figure is mostly paper, so maps are asked once a run and not once a pixel.
-fn runs(colors: &[[u8; 3]]) -> impl Iterator<Item = &[[u8; 3]]> {
-    colors.chunk_by(|a, b| a == b)
-}
-
-type Palette = (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>);
-
-/// At most 256 colours, and for each colour that occurs the one that stands for it.
-///
-/// The commonest colours are kept as they are; the rest go to the first kept one near enough. The
-/// tolerance grows until 256 suffice.
-fn palette(colors: &[[u8; 3]]) -> Option<Palette> {
-    let mut counts: BTreeMap<[u8; 3], usize> = BTreeMap::new();
-    for run in runs(colors) {
-        *counts.entry(run[0]).or_default() += run.len();
-    }
-    let mut common: Vec<([u8; 3], usize)> = counts.into_iter().collect();
-    common.sort_by_key(|&(color, count)| (std::cmp::Reverse(count), color));
-    (0..=PALETTE_TOLERANCE).step_by(2).find_map(|tolerance| palette_within(&common, tolerance))
-}
-
-fn palette_within(common: &[([u8; 3], usize)], tolerance: u8) -> Option<Palette> {
-    let (mut kept, mut index): Palette = (Vec::new(), BTreeMap::new());
-    let near = |a: &[u8; 3], b: &[u8; 3]| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= tolerance);
-    for (color, _) in common {
-        let slot = if let Some(slot) = kept.iter().position(|known| near(known, color)) {
-            slot
-        } else {
-            kept.push(*color);
-            kept.len() - 1
-        };
-        index.insert(*color, u8::try_from(slot).ok()?);
-    }
-    Some((kept, index))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_palette_keeps_common_colours_and_moves_none_further_than_the_tolerance() {
-        let ramp: Vec<[u8; 3]> = (0..=255_u8).flat_map(|red| [[red, 90, 10], [red, 90, 14]]).collect();
-        let plain = vec![[213, 94, 0]; 1000];
-        let colors = [plain, ramp].concat();
-        let (kept, index) = palette(&colors).unwrap();
-        assert!(kept.len() <= 256 && kept[0] == [213, 94, 0]);
-        for color in &colors {
-            let drawn = kept[usize::from(index[color])];
-            assert!(color.iter().zip(drawn).all(|(a, b)| a.abs_diff(b) <= PALETTE_TOLERANCE), "{color:?}");
-        }
-    }
-
-    #[test]
-    fn a_picture_of_too_many_colours_gets_no_palette() {
+    fn a_picture_of_too_many_colours_is_written_as_it_is() {
         let level = |step: u32| (step % 16 * 17) as u8;
         let all: Vec<[u8; 3]> = (0..4096).map(|n| [level(n), level(n / 16), level(n / 256)]).collect();
-        assert!(palette(&all).is_none());
         let bytes = encoded(
             &all,
             64,

@@ -42,18 +42,37 @@ pub struct Estimate {
 /// # Source
 /// Efron, *The Jackknife, the Bootstrap and Other Resampling Plans* (1982), section 10.4.
 pub fn percentile<T>(units: &[T], statistic: impl Fn(&[&T]) -> Option<f64>, plan: Plan) -> Option<Estimate> {
-    let all: Vec<&T> = units.iter().collect();
-    let value = statistic(&all).filter(|_| units.len() > 1)?;
-    let values: Vec<f64> = resamples(units.len(), plan)
-        .filter_map(|picks| statistic(&picks.iter().map(|&pick| &units[pick]).collect::<Vec<_>>()))
-        .collect();
+    let of_picks = |picks: &[usize]| statistic(&picks.iter().map(|&pick| &units[pick]).collect::<Vec<_>>());
+    of_indices(units.len(), &of_picks, plan)
+}
+
+/// [`percentile`] of the mean of `values`.
+pub fn mean(values: &[f64], plan: Plan) -> Option<Estimate> {
+    let mean =
+        |units: &[&f64]| (!units.is_empty()).then(|| units.iter().copied().sum::<f64>() / units.len() as f64);
+    percentile(values, mean, plan)
+}
+
+/// [`percentile`] of the median of `values`.
+pub fn median(values: &[f64], plan: Plan) -> Option<Estimate> {
+    let of = |picks: &[&f64]| summary::median(&picks.iter().map(|value| **value).collect::<Vec<_>>());
+    percentile(values, of, plan)
+}
+
+/// [`percentile`] for a statistic that takes the indices of units.
+///
+/// Nothing here depends on the type of a unit, so the many draws are made by this crate's optimised code, whoever asks.
+fn of_indices(units: usize, statistic: &dyn Fn(&[usize]) -> Option<f64>, plan: Plan) -> Option<Estimate> {
+    let all: Vec<usize> = (0..units).collect();
+    let value = statistic(&all).filter(|_| units > 1)?;
+    let values: Vec<f64> = resamples(units, plan).filter_map(|picks| statistic(&picks)).collect();
     let sorted = summary::sorted(&values);
     let tail = (1.0 - plan.level) / 2.0;
     let end = |share: f64| summary::quantile_of_sorted(&sorted, share);
     (!sorted.is_empty()).then(|| Estimate {
         value,
         interval: Interval::new(end(tail), end(1.0 - tail)),
-        units: units.len(),
+        units,
         undefined: plan.resamples - sorted.len(),
     })
 }
@@ -70,20 +89,16 @@ mod tests {
 
     const PLAN: Plan = Plan { resamples: 2000, level: 0.95, seed: 17 };
 
-    fn mean(units: &[&f64]) -> Option<f64> {
-        summary::mean(&units.iter().map(|unit| **unit).collect::<Vec<_>>())
-    }
-
     #[test]
     fn the_interval_of_a_mean_is_near_the_normal_one() {
         let sample: Vec<f64> = (0..200).map(|i| f64::from(i * 37 % 101)).collect();
-        let found = percentile(&sample, mean, PLAN).unwrap();
+        let found = mean(&sample, PLAN).unwrap();
         let error = summary::standard_deviation(&sample).unwrap() / 200.0_f64.sqrt();
         let half = 1.96 * error;
         assert!((found.interval.half_width() / half - 1.0).abs() < 0.06, "{found:?} against ±{half}");
         assert!(found.interval.contains(found.value) && found.units == 200 && found.undefined == 0);
-        assert_eq!(percentile(&sample, mean, PLAN), Some(found), "the same seed gives the same interval");
-        assert_ne!(percentile(&sample, mean, Plan { seed: 18, ..PLAN }), Some(found));
+        assert_eq!(mean(&sample, PLAN), Some(found), "the same seed gives the same interval");
+        assert_ne!(mean(&sample, Plan { seed: 18, ..PLAN }), Some(found));
     }
 
     #[test]
@@ -93,7 +108,7 @@ mod tests {
         let share = |units: &[&[f64; 10]]| Some(units.iter().flat_map(|u| u.iter()).sum::<f64>() / 100.0);
         let wide = percentile(&roadmaps, share, PLAN).unwrap().interval.half_width();
         let queries: Vec<f64> = roadmaps.concat();
-        let narrow = percentile(&queries, mean, PLAN).unwrap().interval.half_width();
+        let narrow = mean(&queries, PLAN).unwrap().interval.half_width();
         assert!((wide / narrow - 10.0_f64.sqrt()).abs() < 0.4, "{wide} against {narrow}");
     }
 
@@ -104,7 +119,7 @@ mod tests {
         for run in 0..400 {
             let sample: Vec<f64> = (0..40).map(|_| stream.random::<f64>()).collect();
             let plan = Plan { resamples: 400, level: 0.9, seed: run };
-            covered += u32::from(percentile(&sample, mean, plan).unwrap().interval.contains(0.5));
+            covered += u32::from(mean(&sample, plan).unwrap().interval.contains(0.5));
         }
         assert!((330..=380).contains(&covered), "seed 23: {covered} of 400 at level 0.9");
     }
@@ -116,7 +131,7 @@ mod tests {
         let found = percentile(&sample, first_if_mixed, PLAN).unwrap();
         // All alike in one of nine resamples.
         assert!((150..300).contains(&found.undefined), "{found:?}");
-        assert_eq!(percentile(&sample[..1], mean, PLAN), None);
+        assert_eq!(mean(&sample[..1], PLAN), None);
         assert_eq!(percentile(&sample, |_| None, PLAN), None);
     }
 }

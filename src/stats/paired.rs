@@ -53,6 +53,20 @@ pub fn ratio_of_means(pairs: &[(f64, f64)], plan: Plan) -> Option<Estimate> {
     bootstrap::percentile(pairs, ratio, plan)
 }
 
+/// By how many per cent the sum of the second values of all pairs differs from that of the first, with its interval over
+/// draws of several pairs.
+///
+/// None below two draws, or if the sum of the first is not positive.
+pub fn change_of_sums_percent(draws: &[Vec<(f64, f64)>], plan: Plan) -> Option<Estimate> {
+    bootstrap::percentile(draws, change_percent, plan)
+}
+
+fn change_percent(draws: &[&Vec<(f64, f64)>]) -> Option<f64> {
+    let sum = |get: fn(&(f64, f64)) -> f64| draws.iter().flat_map(|draw| draw.iter()).map(get).sum::<f64>();
+    let (base, other) = (sum(|pair| pair.0), sum(|pair| pair.1));
+    (base > 0.0).then(|| 100.0 * (other / base - 1.0))
+}
+
 fn assert_finite(pairs: &[(f64, f64)]) {
     assert!(pairs.iter().all(|(a, b)| a.is_finite() && b.is_finite()), "a pair without a difference");
 }
@@ -87,6 +101,14 @@ mod tests {
     fn the_ratio_weighs_units_by_their_size() {
         let found = ratio_of_means(&[(1.0, 2.0), (9.0, 3.0)], PLAN).unwrap();
         assert_eq!(found.value, 0.5);
+    }
+
+    #[test]
+    fn long_queries_weigh_more_than_short_ones() {
+        let draws = [vec![(100.0, 50.0), (10.0, 20.0)], vec![(90.0, 90.0)]];
+        assert!((change_of_sums_percent(&draws, PLAN).unwrap().value + 20.0).abs() < 1e-12);
+        assert_eq!(change_of_sums_percent(&[vec![(0.0, 1.0)], vec![(0.0, 1.0)]], PLAN), None);
+        assert_eq!(change_of_sums_percent(&[], PLAN), None);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use super::spec::OptionSpec;
 use crate::seed::{self, Stream};
 use rand::RngExt as _;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use toml::Table;
 
 /// One axis of readings.
@@ -17,7 +18,7 @@ pub struct Reading {
     /// The option taken unless asked otherwise.
     pub default: String,
     /// What each option changes.
-    pub options: BTreeMap<String, OptionSpec>,
+    pub options: BTreeMap<String, Arc<OptionSpec>>,
 }
 
 impl Reading {
@@ -32,7 +33,7 @@ impl Reading {
 pub struct Point {
     choices: BTreeMap<String, String>,
     name: String,
-    changes: Vec<(String, OptionSpec)>,
+    changes: Vec<(String, Arc<OptionSpec>)>,
 }
 
 impl Point {
@@ -178,7 +179,7 @@ mod tests {
                     } else {
                         Table::new()
                     };
-                    (i.to_string(), OptionSpec { problem, ..OptionSpec::default() })
+                    (i.to_string(), Arc::new(OptionSpec { problem, ..OptionSpec::default() }))
                 })
                 .collect(),
         };
@@ -213,7 +214,7 @@ mod tests {
             why: "not stated".to_owned(),
             default: "opened".to_owned(),
             options: [("opened", option("opened")), ("closed", option("closed"))]
-                .map(|(name, option)| (name.to_owned(), option))
+                .map(|(name, option)| (name.to_owned(), Arc::new(option)))
                 .into(),
         }]
     }

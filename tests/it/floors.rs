@@ -1,4 +1,4 @@
-//! Holds the floors of `lib.rs`: a module names only modules on lower floors.
+//! Holds the floors of `engine.rs` and of `lib.rs` above them: a module names only modules on lower floors.
 
 use crate::source::{File, files};
 use std::collections::BTreeMap;
@@ -12,12 +12,16 @@ const FILE_LINES: usize = 400;
 /// The most lines that a function may have, signature and braces included.
 const FUNCTION_LINES: usize = 40;
 
-/// Every module of the crate with its floor, 0 at the bottom.
-fn floors(lib: &File) -> BTreeMap<String, usize> {
+/// The roots of the two packages, the lower one first.
+const ROOTS: [&str; 2] = ["engine.rs", "lib.rs"];
+
+/// Every module of both packages with its floor, 0 at the bottom.
+fn floors(files: &[File]) -> BTreeMap<String, usize> {
+    let root = |name: &str| files.iter().find(|file| file.path.as_os_str() == name).unwrap();
+    let code = ROOTS.map(|name| root(name).code.trim_start()).join("\n");
     let mut floors = BTreeMap::new();
     let mut floor = 0;
-    let lines = lib.code.lines().skip_while(|line| line.trim().is_empty());
-    for line in lines {
+    for line in code.lines() {
         match line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';')) {
             Some(module) => {
                 floors.insert(module.to_owned(), floor);
@@ -81,20 +85,22 @@ fn heads(rest: &str) -> Vec<String> {
 
 /// Every way in which `files` break the floors.
 fn violations(files: &[File]) -> Vec<String> {
-    let lib = files.iter().find(|file| file.path.as_os_str() == "lib.rs").unwrap();
-    let floors = floors(lib);
+    let floors = floors(files);
     let mut found = Vec::new();
     for file in files {
         let Some(own) = file.modules().first().cloned() else { continue };
         let Some(floor) = floors.get(&own) else {
-            found.push(format!("{}: module `{own}` is not in lib.rs", file.path.display()));
+            found.push(format!(
+                "{}: module `{own}` is neither in engine.rs nor in lib.rs",
+                file.path.display()
+            ));
             continue;
         };
         for (line, other) in named(file) {
             let place = format!("{}:{line}: `{own}` names `{other}`", file.path.display());
             match floors.get(&other) {
                 _ if other == own => {}
-                None => found.push(format!("{place}, which is no module of lib.rs")),
+                None => found.push(format!("{place}, which is no module of engine.rs or lib.rs")),
                 Some(below) if below >= floor => {
                     found.push(format!("{place}, which is not on a lower floor"));
                 }
@@ -147,9 +153,11 @@ fn modules_name_only_lower_floors() {
 
 #[test]
 fn broken_floors_are_noticed_in_a_tree_made_up_for_it() {
-    let lib =
-        "//! Doc.\n\npub mod seed;\npub mod settings;\n\npub mod space;\n\npub mod verify;\n\npub mod cli;\n";
-    let tree = |path: &str, text: &str| violations(&[File::new("lib.rs", lib), File::new(path, text)]);
+    let engine = "//! Doc.\n\npub mod seed;\npub mod settings;\n\npub mod space;\n\npub mod verify;\n";
+    let lib = "//! Doc.\n\npub use replan_engine::{seed, settings, space, verify};\n\npub mod study;\n\npub mod cli;\n";
+    let tree = |path: &str, text: &str| {
+        violations(&[File::new("engine.rs", engine), File::new("lib.rs", lib), File::new(path, text)])
+    };
     for (path, text, complaint) in [
         ("seed.rs", "use crate::space::World;", "seed.rs:1: `seed` names `space`, which is not on a lower"),
         ("seed.rs", "use crate::settings::Settings;", "which is not on a lower floor"),
@@ -163,8 +171,14 @@ fn broken_floors_are_noticed_in_a_tree_made_up_for_it() {
             "`space` names `cli`",
         ),
         ("verify/lattice.rs", "use crate::space::World;", "the verifier judges with code of its own"),
-        ("attic.rs", "", "module `attic` is not in lib.rs"),
-        ("cli.rs", "use crate::attic::x;", "`attic`, which is no module of lib.rs"),
+        (
+            "study.rs",
+            "use crate::cli::run;",
+            "study.rs:1: `study` names `cli`, which is not on a lower floor",
+        ),
+        ("verify/lattice.rs", "use crate::study::Study;", "`verify` names `study`, which is not on a lower"),
+        ("attic.rs", "", "module `attic` is neither in engine.rs nor in lib.rs"),
+        ("cli.rs", "use crate::attic::x;", "`attic`, which is no module of engine.rs or lib.rs"),
     ] {
         let found = tree(path, text);
         assert!(found.len() == 1 && found[0].contains(complaint), "{path}\n{text}\n{found:?}");
@@ -173,6 +187,7 @@ fn broken_floors_are_noticed_in_a_tree_made_up_for_it() {
         ("space/mod.rs", "use crate::seed::derive; // not crate::cli"),
         ("space/lattice.rs", "use super::World;\nmod tests {\n    use super::super::World;\n}"),
         ("verify/lattice.rs", "use crate::seed::derive;"),
+        ("study.rs", "use crate::{seed::derive, verify::Case};"),
         ("cli.rs", "const TEXT: &str = \"crate::attic\";"),
     ] {
         assert_eq!(tree(path, text), [""; 0], "{path}\n{text}");

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use replan::analysis::audit::printed::{Digits, Printed};
+use replan::audit::printed::{Digits, Printed};
 use replan::seed;
 use replan::settings::Settings;
 use replan::study::slug;

@@ -20,7 +20,7 @@ impl File {
     pub fn modules(&self) -> Vec<String> {
         let parts = self.path.with_extension("");
         let mut parts: Vec<String> = parts.iter().map(|part| part.to_string_lossy().into_owned()).collect();
-        if parts.last().is_some_and(|last| ["mod", "lib", "main"].contains(&last.as_str())) {
+        if parts.last().is_some_and(|last| ["mod", "lib", "main", "engine"].contains(&last.as_str())) {
             parts.pop();
         }
         parts

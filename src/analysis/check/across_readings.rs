@@ -4,10 +4,10 @@
 //! have carried the claim.
 
 use super::{Check, Context, Entry};
-use crate::analysis::audit::printed::Printed;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::Finding;
+use crate::audit::printed::Printed;
 use crate::settings::SettingsError;
 use crate::stats::interval::Interval;
 use crate::stats::proportion::predictive;

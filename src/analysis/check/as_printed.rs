@@ -1,10 +1,10 @@
 //! Whether a contender's metric on one problem prints as the paper prints it.
 
 use super::{Check, Entry};
-use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::audit::printed::{Digits, Printed};
 use crate::settings::SettingsError;
 use crate::stats::summary::median;
 use crate::study::Study;

@@ -1,10 +1,10 @@
 //! Whether the printed number is met exactly by any stored trial, alone or together with other printed numbers.
 
 use super::{Check, Context, Entry};
-use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::{Evidence, Pair, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::audit::printed::{Digits, Printed};
 use crate::settings::SettingsError;
 use crate::study::{Point, Reading, Study};
 use serde::Deserialize;
@@ -52,7 +52,8 @@ pub struct Attained<'a> {
     digits: Digits,
     given: Vec<Attained<'a>>,
     claim: &'a str,
-    context: Context<'a>,
+    /// The readings of the paper.
+    readings: Vec<Reading>,
 }
 
 /// A trial that was looked at: its problem, its value, and its name with the study's.
@@ -84,6 +85,7 @@ impl<'a> Attained<'a> {
     /// A settings error of the check.
     pub fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
+        let readings = context.paper.readings();
         let mut metric = None;
         for place in &settings.r#in {
             let wanted = settings.contenders.iter().chain(&settings.against);
@@ -91,7 +93,7 @@ impl<'a> Attained<'a> {
             let study = context.study(&place.study, &place.problems, &[])?;
             metric = Some(context.metric(&settings.metric, study)?);
             for departs in study.contenders.iter().map(|contender| &contender.departs) {
-                Point::new(&context.paper.readings(), departs).map_err(|e| study.document.error(0..0, e))?;
+                Point::new(&readings, departs).map_err(|e| study.document.error(0..0, e))?;
             }
             for label in wanted {
                 let is_known = settings.r#in.iter().any(|place| {
@@ -116,8 +118,8 @@ impl<'a> Attained<'a> {
             given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
         let printed = context.printed()?;
-        let (digits, claim, context) = (context.digits(), context.claim.id.as_str(), *context);
-        Ok(Self { settings, metric, printed, digits, given, claim, context })
+        let (digits, claim) = (context.digits(), context.claim.id.as_str());
+        Ok(Self { settings, metric, printed, digits, given, claim, readings })
     }
 
     /// Every problem on which the claim was looked for under the evidence's reading, and whether it is met there.
@@ -160,7 +162,7 @@ impl<'a> Attained<'a> {
             reading.touches_trials() && taken.is_some_and(|option| *option != reading.default)
         };
         let has = |reading: &Reading| study.readings.iter().any(|own| own.id == reading.id);
-        self.context.paper.readings().iter().all(|reading| !departs(reading) || has(reading))
+        self.readings.iter().all(|reading| !departs(reading) || has(reading))
     }
 
     /// The reading that the contender called `label` runs under.
@@ -168,7 +170,7 @@ impl<'a> Attained<'a> {
         let mut choices = point.choices().clone();
         let contender = study.contenders.iter().find(|contender| contender.label == label);
         choices.extend(contender.into_iter().flat_map(|contender| contender.departs.clone()));
-        let point = Point::new(&self.context.paper.readings(), &choices);
+        let point = Point::new(&self.readings, &choices);
         point.expect("departures were looked up when the check was built").name().to_owned()
     }
 

@@ -2,10 +2,10 @@
 //! machine stays untestable; this says what can be said of its digits.
 
 use super::{Check, Entry};
-use crate::analysis::audit::clock::Tick;
-use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::audit::clock::Tick;
+use crate::audit::printed::{Digits, Printed};
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -1,10 +1,10 @@
 //! Whether our mean change between two contenders agrees with a printed reduction within the margin.
 
 use super::{Check, Entry};
-use crate::analysis::audit::printed::Printed;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::audit::printed::Printed;
 use crate::seed;
 use crate::stats::bootstrap::Plan;
 use crate::stats::interval::Interval;

@@ -1,11 +1,11 @@
 //! Whether a printed number of nodes is at most what A* can open or close on any map.
 
 use super::{Check, Context, Entry};
-use crate::analysis::audit::fvalues::{CountBound, astar_count_bound};
-use crate::analysis::audit::lattice::Octile;
-use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::audit::fvalues::{CountBound, astar_count_bound};
+use crate::audit::lattice::Octile;
+use crate::audit::printed::{Digits, Printed};
 use crate::settings::SettingsError;
 use serde::Deserialize;
 

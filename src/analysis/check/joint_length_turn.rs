@@ -1,11 +1,11 @@
 //! Whether one path can have both the printed length and the printed turn sum.
 
 use super::{Check, Context, Entry};
-use crate::analysis::audit::neighbourhood;
-use crate::analysis::audit::printed::Printed;
-use crate::analysis::audit::turns::{Convention, Polyline, TurnQuery, shortest_polyline};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::audit::neighbourhood;
+use crate::audit::printed::Printed;
+use crate::audit::turns::{Convention, Polyline, TurnQuery, shortest_polyline};
 use crate::settings::SettingsError;
 use crate::stats::interval::Interval;
 use serde::Deserialize;

@@ -1,12 +1,12 @@
 //! Whether a printed saving on a printed path length is possible for any path between the two cells.
 
 use super::{Check, Entry};
-use crate::analysis::audit::bounds::{largest_saving_percent, straight_line};
-use crate::analysis::audit::lattice::{Octile, Step, lengths_printing};
-use crate::analysis::audit::printed::{Digits, Printed};
-use crate::analysis::audit::{at_most, with_an_end_moved};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::audit::bounds::{largest_saving_percent, straight_line};
+use crate::audit::lattice::{Octile, Step, lengths_printing};
+use crate::audit::printed::{Digits, Printed};
+use crate::audit::{at_most, with_an_end_moved};
 use crate::stats::interval::Interval;
 use serde::Deserialize;
 

@@ -1,11 +1,11 @@
 //! Whether a printed length is that of any 8-connected path between the two cells.
 
 use super::{Check, Entry};
-use crate::analysis::audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
-use crate::analysis::audit::printed::{Digits, Printed};
-use crate::analysis::audit::with_an_end_moved;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
+use crate::audit::printed::{Digits, Printed};
+use crate::audit::with_an_end_moved;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -6,7 +6,8 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::seed;
-use crate::stats::bootstrap::{Plan, percentile};
+use crate::stats::bootstrap::Plan;
+use crate::stats::paired::change_of_sums_percent;
 use crate::stats::proportion::units_for_margin;
 use serde::Deserialize;
 
@@ -42,13 +43,6 @@ struct LowerByDraw {
     seed: u64,
 }
 
-/// The ratio of the sums over all queries of the draws, less one, in percent.
-fn change_percent(draws: &[&Vec<(f64, f64)>]) -> Option<f64> {
-    let sum = |get: fn(&(f64, f64)) -> f64| draws.iter().flat_map(|draw| draw.iter()).map(get).sum::<f64>();
-    let (base, other) = (sum(|pair| pair.0), sum(|pair| pair.1));
-    (base > 0.0).then(|| 100.0 * (other / base - 1.0))
-}
-
 impl Check for LowerByDraw {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, lower, higher, query, .. } = &self.settings;
@@ -57,7 +51,7 @@ impl Check for LowerByDraw {
         let mut finding = Finding::of(ENTRY.name);
         let draws = evidence.run(study).map(|run| compared.values(run, self.metric)).unwrap_or_default();
         let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
-        let Some(found) = percentile(&draws, change_percent, plan) else {
+        let Some(found) = change_of_sums_percent(&draws, plan) else {
             return finding
                 .undecided(format!("{} draws have a query that both solve; 2 are needed", draws.len()));
         };
@@ -86,18 +80,5 @@ impl Check for LowerByDraw {
         let what = format!("change of {} in %, bootstrap over draws, 95 %", self.metric.label.to_lowercase());
         finding.ours = Some(Estimate::new(found.value, found.interval, what, draws.len()));
         finding
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_queries_weigh_more_than_short_ones() {
-        let draws = [vec![(100.0, 50.0), (10.0, 20.0)], vec![(90.0, 90.0)]];
-        let all: Vec<&Vec<(f64, f64)>> = draws.iter().collect();
-        assert!((change_percent(&all).unwrap() + 20.0).abs() < 1e-12);
-        assert_eq!(change_percent(&[]), None);
     }
 }

@@ -180,8 +180,7 @@ impl<'a> LowestMedian<'a> {
     /// Bootstrap interval of the median over seeds; the value itself where there is one.
     fn interval(&self, values: &[f64]) -> [f64; 2] {
         let plan = Plan { resamples: 500, level: 0.95, seed: self.seed };
-        let of = |picks: &[&f64]| median(&picks.iter().map(|value| **value).collect::<Vec<_>>());
-        match bootstrap::percentile(values, of, plan) {
+        match bootstrap::median(values, plan) {
             Some(found) => [found.interval.low, found.interval.high],
             None => [values[0]; 2],
         }

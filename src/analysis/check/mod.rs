@@ -49,10 +49,10 @@ mod turn_needs_length;
 mod varies;
 mod zero_everywhere;
 
-use super::audit::printed::{Digits, Printed};
 use super::evidence::Evidence;
 use super::metric::Metric;
 use super::verdict::{Finding, Verdict};
+use crate::audit::printed::{Digits, Printed};
 use crate::settings::{Settings, SettingsError};
 use crate::study::paper::{self, Claim, Paper};
 use crate::study::{Point, Study};
@@ -229,7 +229,7 @@ impl<'a> Context<'a> {
     fn printed(&self) -> Result<Printed, SettingsError> {
         let missing = || format!("claim `{}` prints no number, which this check needs", self.claim.id);
         let text = self.claim.printed.as_ref().ok_or_else(|| self.settings.error(missing()))?;
-        text.parse().map_err(|e: super::audit::AuditError| self.settings.error(e.to_string()))
+        text.parse().map_err(|e: crate::audit::AuditError| self.settings.error(e.to_string()))
     }
 
     /// The printed number of another claim.

@@ -1,10 +1,10 @@
 //! Whether a printed percentage is what the printed cells give.
 
 use super::{Check, Entry};
-use crate::analysis::audit::percent::Reduction;
-use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::audit::percent::Reduction;
+use crate::audit::printed::{Digits, Printed};
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -1,10 +1,10 @@
 //! Whether a printed distance is that between the two printed points.
 
 use super::{Check, Entry};
-use crate::analysis::audit::bounds::straight_line;
-use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::audit::bounds::straight_line;
+use crate::audit::printed::{Digits, Printed};
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -4,10 +4,10 @@
 //! nor refutes a number, because the paper's map need not be like ours. So this check gives no verdict.
 
 use super::{Check, Context, Entry};
-use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding};
+use crate::audit::printed::{Digits, Printed};
 use crate::settings::SettingsError;
 use crate::stats::proportion::{Rank, predictive};
 use crate::stats::summary::median;

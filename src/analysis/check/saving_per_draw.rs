@@ -1,11 +1,11 @@
 //! Whether a printed saving, the least or greatest over a draw's queries, could be that of one more draw.
 
 use super::{Check, Entry};
-use crate::analysis::audit::printed::Printed;
 use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::audit::printed::Printed;
 use crate::stats::proportion::predictive;
 use crate::stats::summary::mean;
 use crate::study::Study;

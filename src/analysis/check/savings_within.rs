@@ -1,11 +1,11 @@
 //! Whether a printed range of savings, both ends together, could be that of one more draw.
 
 use super::{Check, Entry};
-use crate::analysis::audit::printed::Digits;
 use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::audit::printed::Digits;
 use crate::stats::interval::Interval;
 use crate::stats::proportion::clopper_pearson;
 use crate::stats::summary::median;

@@ -1,12 +1,12 @@
 //! Whether a printed length, or a saving, is possible for a straightened path, given the cost of A*'s.
 
 use super::{Check, Context, Entry};
-use crate::analysis::audit::lattice::{Octile, octile_distance};
-use crate::analysis::audit::printed::{Digits, Printed};
-use crate::analysis::audit::sight::shortest_seen;
-use crate::analysis::audit::{at_most, with_an_end_moved};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::audit::lattice::{Octile, octile_distance};
+use crate::audit::printed::{Digits, Printed};
+use crate::audit::sight::shortest_seen;
+use crate::audit::{at_most, with_an_end_moved};
 use crate::settings::SettingsError;
 use serde::Deserialize;
 use std::collections::BTreeMap;

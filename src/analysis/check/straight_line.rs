@@ -1,11 +1,11 @@
 //! Whether a printed length is at least the straight line between its ends.
 
 use super::{Check, Entry};
-use crate::analysis::audit::bounds::{shortfall, straight_line, straight_line_between};
-use crate::analysis::audit::neighbourhood;
-use crate::analysis::audit::printed::{Digits, Printed};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::audit::bounds::{shortfall, straight_line, straight_line_between};
+use crate::audit::neighbourhood;
+use crate::audit::printed::{Digits, Printed};
 use serde::Deserialize;
 
 /// The registry's entry.

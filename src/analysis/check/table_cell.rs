@@ -1,10 +1,10 @@
 //! Whether a printed share of solved queries could be that of one more of our draws.
 
 use super::{Check, Entry};
-use crate::analysis::audit::printed::Printed;
 use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::audit::printed::Printed;
 use crate::stats::proportion::predictive;
 use crate::stats::summary::mean;
 use crate::study::Study;

@@ -1,10 +1,10 @@
 //! Whether a printed row of shares, as a whole, could be one more of our draws.
 
 use super::{Check, Entry};
-use crate::analysis::audit::printed::Printed;
 use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::audit::printed::Printed;
 use crate::stats::proportion::Rank;
 use crate::stats::rows::{distance_to_mean, monotone_probability};
 use crate::stats::summary::{mean, standard_deviation};

@@ -1,11 +1,11 @@
 //! How long a path must be to have a printed turn sum, and whether that leaves room under another printed length.
 
 use super::{Check, Context, Entry};
-use crate::analysis::audit::neighbourhood;
-use crate::analysis::audit::printed::Printed;
-use crate::analysis::audit::turns::{Convention, TurnQuery, shortest_polyline};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use crate::audit::neighbourhood;
+use crate::audit::printed::Printed;
+use crate::audit::turns::{Convention, TurnQuery, shortest_polyline};
 use crate::settings::SettingsError;
 use crate::stats::interval::Interval;
 use serde::Deserialize;

@@ -9,7 +9,7 @@ use crate::render::chart::rows::Interval;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color, series_marker};
 use crate::seed;
-use crate::stats::bootstrap::{Plan, percentile};
+use crate::stats::bootstrap::{self, Plan};
 use crate::study::Study;
 use serde::Deserialize;
 
@@ -81,11 +81,8 @@ impl ShareBars {
         for (i, problems) in self.read.problems.iter().enumerate() {
             for (j, contender) in self.contenders.iter().enumerate() {
                 let seed = seed::derive(0, &["share_bars", problems, contender]);
-                let mean = |units: &[&f64]| {
-                    (!units.is_empty()).then(|| units.iter().copied().sum::<f64>() / units.len() as f64)
-                };
                 let plan = Plan { resamples: 2000, level: 0.95, seed };
-                let Some(found) = percentile(&of(problems, contender), mean, plan) else { continue };
+                let Some(found) = bootstrap::mean(&of(problems, contender), plan) else { continue };
                 let from_top = if is_single { j as f64 } else { i as f64 - 0.35 + step * (j as f64 + 0.5) };
                 let index = ask::series(scene, contender, if is_single { 0 } else { j });
                 panel.add(Interval {

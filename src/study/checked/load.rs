@@ -229,7 +229,12 @@ fn reading(spec: ReadingSpec) -> Reading {
         id: spec.id.into_inner(),
         why: spec.why,
         default: spec.default.into_inner(),
-        options: spec.option.into_inner(),
+        options: spec
+            .option
+            .into_inner()
+            .into_iter()
+            .map(|(name, option)| (name, Arc::new(option)))
+            .collect(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Records as data frames and Parquet, and back.
 
-use crate::planner::{Exhibit, Value};
+use crate::planner::{Exhibit, Value, fill};
 use crate::study::StudyError;
 use crate::study::column::{self, Kind};
 use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
@@ -10,6 +10,7 @@ use polars::prelude::{
 };
 use std::collections::BTreeSet;
 use std::io::Cursor;
+use std::mem::take;
 use std::path::PathBuf;
 
 /// The trials as a frame; `columns` are those that the study can fill, in any order.
@@ -196,9 +197,7 @@ impl Stored {
                     cells.iter().map(|cell| cell.map(Value::Real)).collect()
                 }
             };
-            for (row, cell) in rows.iter_mut().zip(cells) {
-                row.extend(cell.map(|cell| (column.name.to_owned(), cell)));
-            }
+            fill(&mut rows, column.name, &cells);
         }
         Ok(rows)
     }
@@ -206,26 +205,27 @@ impl Stored {
     /// The frame as trials.
     pub fn trials(&self) -> Result<Vec<Row>, StudyError> {
         let texts = |name: &str| self.texts(name);
-        let (trial, problem, group) = (texts("trial")?, texts("problem")?, texts("group")?);
-        let (contender, sweep, reading) = (texts("contender")?, texts("sweep")?, texts("reading")?);
-        let (status, reason) = (texts("status")?, self.maybe_texts("reason")?);
+        let (mut trial, mut problem, mut group) = (texts("trial")?, texts("problem")?, texts("group")?);
+        let (mut contender, mut sweep, mut reading) =
+            (texts("contender")?, texts("sweep")?, texts("reading")?);
+        let (status, mut reason) = (texts("status")?, self.maybe_texts("reason")?);
         let (replicate, repeat) = (self.wholes("replicate")?, self.wholes("repeat")?);
-        let (seed, values) = (self.wholes("seed")?, self.values()?);
+        let (seed, mut values) = (self.wholes("seed")?, self.values()?);
         (0..trial.len())
             .map(|i| {
                 Ok(Row {
-                    trial: trial[i].clone(),
-                    problem: problem[i].clone(),
-                    group: group[i].clone(),
+                    trial: take(&mut trial[i]),
+                    problem: take(&mut problem[i]),
+                    group: take(&mut group[i]),
                     replicate: replicate[i] as u32,
-                    contender: contender[i].clone(),
-                    sweep: sweep[i].clone(),
-                    reading: reading[i].clone(),
+                    contender: take(&mut contender[i]),
+                    sweep: take(&mut sweep[i]),
+                    reading: take(&mut reading[i]),
                     repeat: repeat[i] as u32,
                     seed: seed[i],
                     status: Status::find(&status[i]).ok_or_else(|| self.wrong("status"))?,
-                    reason: reason[i].clone(),
-                    values: values[i].clone(),
+                    reason: take(&mut reason[i]),
+                    values: take(&mut values[i]),
                 })
             })
             .collect()
@@ -234,50 +234,50 @@ impl Stored {
     /// The frame as prepared objects.
     pub fn prepared(&self) -> Result<Vec<PreparedRow>, StudyError> {
         let texts = |name: &str| self.texts(name);
-        let (prepared, kind, group) = (texts("prepared")?, texts("kind")?, texts("group")?);
-        let (reading, reason) = (texts("reading")?, self.maybe_texts("reason")?);
-        let (replicate, seed, values) = (self.wholes("replicate")?, self.wholes("seed")?, self.values()?);
+        let (mut prepared, mut kind, mut group) = (texts("prepared")?, texts("kind")?, texts("group")?);
+        let (mut reading, mut reason) = (texts("reading")?, self.maybe_texts("reason")?);
+        let (replicate, seed, mut values) = (self.wholes("replicate")?, self.wholes("seed")?, self.values()?);
         let row = |i: usize| PreparedRow {
-            prepared: prepared[i].clone(),
-            kind: kind[i].clone(),
-            group: group[i].clone(),
+            prepared: take(&mut prepared[i]),
+            kind: take(&mut kind[i]),
+            group: take(&mut group[i]),
             replicate: replicate[i] as u32,
-            reading: reading[i].clone(),
+            reading: take(&mut reading[i]),
             seed: seed[i],
-            reason: reason[i].clone(),
-            values: values[i].clone(),
+            reason: take(&mut reason[i]),
+            values: take(&mut values[i]),
         };
-        Ok((0..prepared.len()).map(row).collect())
+        Ok((0..self.frame.height()).map(row).collect())
     }
 
     /// The frame as exhibits.
     pub fn exhibits(&self) -> Result<Vec<Kept>, StudyError> {
-        let (of, name, width) = (self.texts("of")?, self.texts("name")?, self.wholes("width")?);
+        let (mut of, mut name, width) = (self.texts("of")?, self.texts("name")?, self.wholes("width")?);
         let lists = self.column("values")?.list().map_err(|_| self.wrong("values"))?.clone();
         let mut kept = Vec::new();
         for i in 0..of.len() {
             let list = lists.get_as_series(i).ok_or_else(|| self.wrong("values"))?;
             let values = list.f64().map_err(|_| self.wrong("values"))?.into_no_null_iter().collect();
-            let exhibit = Exhibit { name: name[i].clone(), width: width[i] as usize, values };
-            kept.push(Kept { of: of[i].clone(), exhibit });
+            let exhibit = Exhibit { name: take(&mut name[i]), width: width[i] as usize, values };
+            kept.push(Kept { of: take(&mut of[i]), exhibit });
         }
         Ok(kept)
     }
 
     /// The frame as clock readings.
     pub fn times(&self) -> Result<Vec<Timing>, StudyError> {
-        let (trial, group, contender) =
+        let (mut trial, mut group, mut contender) =
             (self.texts("trial")?, self.texts("group")?, self.texts("contender")?);
         let (replicate, repeat) = (self.wholes("replicate")?, self.wholes("repeat")?);
         let plan_wall_ns = self.wholes("plan_wall_ns")?;
         let row = |i: usize| Timing {
-            trial: trial[i].clone(),
-            group: group[i].clone(),
-            contender: contender[i].clone(),
+            trial: take(&mut trial[i]),
+            group: take(&mut group[i]),
+            contender: take(&mut contender[i]),
             replicate: replicate[i] as u32,
             repeat: repeat[i] as u32,
             plan_wall_ns: plan_wall_ns[i],
         };
-        Ok((0..trial.len()).map(row).collect())
+        Ok((0..self.frame.height()).map(row).collect())
     }
 }
