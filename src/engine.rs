@@ -3,6 +3,7 @@
 //! It is a package of its own so that it alone need be optimised; `replan` is built on it and shows its modules as
 //! its own. The modules below are floors as in `lib.rs`, lowest first, below all of the floors there.
 
+pub mod hash;
 pub mod palette;
 pub mod seed;
 pub mod settings;

@@ -5,7 +5,7 @@
 //! its code is optimised in every build, this package's in none but a release, because most of it runs once.
 
 pub use replan_engine::{
-    audit, geometry, grid, kinematics, palette, planner, search, seed, settings, shorten, space, stats,
+    audit, geometry, grid, hash, kinematics, palette, planner, search, seed, settings, shorten, space, stats,
     verify,
 };
 

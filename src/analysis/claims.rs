@@ -4,10 +4,10 @@ use super::check::{self, Check, Context};
 use super::evidence::{Evidence, default_point};
 use super::together::together;
 use super::verdict::{Finding, Judged, Verdict, Verdicts};
+use crate::hash::sha256;
 use crate::settings::SettingsError;
 use crate::study::Point;
 use crate::study::paper::{Claim, Paper};
-use crate::study::store::sha256;
 use rayon::prelude::*;
 
 /// Builds every check of every claim, so that `replan check` finds what is wrong before anything runs.

@@ -1,6 +1,7 @@
 //! The records that claims are judged by, ready to be asked.
 
 use super::metric::{self, Metric};
+use crate::hash::sha256;
 use crate::planner::Exhibit;
 use crate::stats::summary;
 use crate::study::manifest::Manifest;
@@ -122,7 +123,7 @@ pub fn default_point(paper: &Paper) -> Point {
 impl<'a> Run<'a> {
     fn read(study: &'a Study, point: &Point, folder: &Path) -> Result<Self, StudyError> {
         let manifest = Manifest::read(folder, &study.name)?;
-        let spec = crate::study::store::sha256(study.document.text().as_bytes());
+        let spec = sha256(study.document.text().as_bytes());
         if manifest.spec != spec {
             let path = Manifest::path(folder, &study.name);
             let reason = format!("the stored run was made by another spec; run study `{}` again", study.name);
@@ -174,7 +175,9 @@ impl<'a> Run<'a> {
 
     /// The trials of two contenders on the same problems, solved by both.
     pub fn pairs(&self, group: &str, base: &str, other: &str) -> Vec<Pair<'_>> {
-        let key = |row: &Row| (row.problem.clone(), row.sweep.clone(), row.repeat);
+        fn key(row: &Row) -> (&str, &str, u32) {
+            (&row.problem, &row.sweep, row.repeat)
+        }
         let solved = |row: &&Row| row.status == Status::Solved;
         let bases: BTreeMap<_, &Row> =
             self.rows(group, base).into_iter().filter(solved).map(|row| (key(row), row)).collect();

@@ -15,6 +15,7 @@ mod frame;
 pub mod lanes;
 mod oriented_box;
 pub mod planar;
+mod points;
 mod round;
 mod segment;
 mod solid;
@@ -32,6 +33,7 @@ pub use frame::Frame;
 pub use oriented_box::{
     OrientedBox, distance_point_box, distance_segment_box, intersects_capsule_box, nearest_segment_box,
 };
+pub use points::heights_over;
 pub use round::{
     Capsule, HalfSpace, Sphere, distance_capsule_capsule, distance_capsule_sphere,
     distance_segment_half_space, intersects_capsule_capsule, nearest_segment_half_space,

@@ -92,6 +92,12 @@ impl Grid2 {
         !self.blocked[cell as usize]
     }
 
+    /// Column and row of every blocked cell, one after another, in the order of cells.
+    pub fn blocked_xy(&self) -> Vec<f64> {
+        let cells = (0..self.cell_count()).filter(|cell| !self.is_free(*cell));
+        cells.flat_map(|cell| self.xy(cell).map(f64::from)).collect()
+    }
+
     /// Whether column `x`, row `y` is inside the grid and free.
     pub fn is_free_xy(&self, x: i32, y: i32) -> bool {
         self.cell(x, y).is_some_and(|cell| self.is_free(cell))

@@ -2,8 +2,9 @@
 
 use super::checked::{Study, SweepPoint};
 use super::reading::Point;
-use super::store::{Staged, sha256};
+use super::store::Staged;
 use super::{StudyError, runner::Field};
+use crate::hash::sha256;
 use crate::settings::Document;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -7,6 +7,7 @@
 //! Fuchs, Kedem & Naylor, *On visible surface generation by a priori tree structures* (1980).
 
 use super::{Vec3, dot};
+use crate::geometry::heights_over;
 use crate::render::style::{Rgb, Stroke};
 
 /// The points x with `normal · x = offset`.
@@ -126,9 +127,7 @@ fn least_cutting(region: &[Item], slack: f64) -> Option<Plane> {
 }
 
 fn heights(item: &Item, plane: Plane) -> (f64, f64) {
-    let height = |point: &Vec3| dot(plane.normal, *point) - plane.offset;
-    let fold = |start: f64, pick: fn(f64, f64) -> f64| item.points.iter().map(height).fold(start, pick);
-    (fold(f64::INFINITY, f64::min), fold(f64::NEG_INFINITY, f64::max))
+    heights_over(&item.points, plane.normal, plane.offset)
 }
 
 #[derive(Default)]

@@ -8,13 +8,13 @@
 mod found;
 
 use super::{Entry, Family, Query};
+use crate::hash::sha256;
 use crate::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
 use crate::seed;
 use crate::settings::{Settings, SettingsError};
 use crate::space::{World, WorldKind};
 use crate::study::judge::{LATTICE_COLUMNS, measured};
 use crate::study::prepared::{Prepared, lattice};
-use crate::study::store::sha256;
 use crate::study::{Inputs, StudyError, column};
 use rand::RngExt as _;
 use serde::Deserialize;

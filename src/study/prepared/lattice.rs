@@ -75,7 +75,5 @@ fn size(grid: &Grid2) -> Exhibit {
 }
 
 fn blocked(grid: &Grid2) -> Exhibit {
-    let cells = (0..grid.cell_count()).filter(|cell| !grid.is_free(*cell));
-    let values = cells.flat_map(|cell| grid.xy(cell).map(f64::from)).collect();
-    Exhibit { name: "blocked".to_owned(), width: 2, values }
+    Exhibit { name: "blocked".to_owned(), width: 2, values: grid.blocked_xy() }
 }

@@ -3,7 +3,7 @@
 //! The first line names what the run depends on. A later line is a checksum and a JSON object; reading stops at the
 //! first line that is torn or damaged, and the file is cut there.
 
-use super::sha256;
+use crate::hash::sha256;
 use crate::study::StudyError;
 use crate::study::record::Batch;
 use serde::{Deserialize, Serialize};

@@ -10,9 +10,8 @@ pub use journal::Journal;
 
 use super::StudyError;
 use super::record::{Batch, Timing};
-use sha2::{Digest, Sha256};
+use crate::hash::sha256;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::fs;
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
@@ -169,14 +168,6 @@ pub fn remove_temporaries(folder: &Path, study: &str) {
             let _ = fs::remove_file(entry.path());
         }
     }
-}
-
-/// The SHA-256 of `bytes` in hexadecimal.
-pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
 }
 
 #[cfg(test)]
