@@ -2,10 +2,11 @@ use super::*;
 
 /// Grids that are alike but for a few cells each, under all corner rules.
 fn grids_of(size_cells: [u32; 2], count: usize) -> Vec<Moves> {
-    let like = independent_cells(&mut seed::stream(7), size_cells, 0.25, &[0]).unwrap();
+    // Ways round many obstacles come to a cell late and cheaply, and early and at more cost.
+    let like = independent_cells(&mut seed::stream(7), size_cells, 0.35, &[0]).unwrap();
     let other = |number: usize| {
         let (mut stream, mut grid) = (seed::stream(number as u64), like.clone());
-        for _ in 0..number % 4 {
+        for _ in 0..number % 40 {
             let cell = stream.random_range(0..grid.cell_count());
             grid.set_blocked(cell, grid.is_free(cell));
         }
@@ -25,7 +26,7 @@ fn alone(moves: &Moves, start: u32, most: u32) -> Vec<(u32, u32)> {
 #[test]
 fn a_flood_of_many_grids_visits_what_floods_of_each_do() {
     let (mut shared, mut visits) = (0, 0);
-    for (width, height, count) in [(9, 7, 1), (12, 5, 3), (8, 8, 63), (11, 6, 64)] {
+    for (width, height, count) in [(9, 7, 1), (32, 25, 3), (30, 30, 63), (40, 26, 64)] {
         let size = [width, height];
         let grids = grids_of(size, count);
         let mut search = ManyGrids::new(&grids).unwrap();
@@ -54,7 +55,7 @@ fn a_flood_of_many_grids_visits_what_floods_of_each_do() {
             }
         }
     }
-    assert!(shared > 100 && visits > 2 * shared, "{shared} of {visits} visits are shared");
+    assert!(shared > 1_000 && visits > shared + 1_000, "{shared} of {visits} visits are shared");
 }
 
 #[test]

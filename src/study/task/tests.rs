@@ -157,7 +157,9 @@ fn single_variants_are_run_again_without_the_others_and_give_the_stored_rows() {
         let error = run_one(study, &points, &inputs, &runs, "w/swe").unwrap_err().to_string();
         assert!(error.contains("its first one is `s/w/circles`"), "{error}");
         let again = rerun(study, &inputs, &runs, 1, 1).unwrap();
-        assert!(again.differ.is_empty() && again.trials > 0, "{task}: {again:?}");
+        let all = rerun(study, &inputs, &runs, 1_000, 1).unwrap();
+        assert!(again.differ.is_empty() && all.differ.is_empty(), "{task}: {again:?}, {all:?}");
+        assert!(again.trials > 0 && again.trials < all.trials, "{task}: {again:?}, {all:?}");
     }
 }
 
