@@ -11,6 +11,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pathfinding::{num_traits::Zero, prelude::astar};
+use replan::endpoints::{Match, pairs};
 use replan::geometry::planar::Touch;
 use replan::grid::{CornerRule, Offsets};
 use replan::kinematics::planar_2r::{ElbowRule, Planar2r};
@@ -18,7 +19,7 @@ use replan::planner::{self, Build, Planner, Request};
 use replan::search::OctileAstar;
 use replan::settings::Settings;
 use replan::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
-use replan::study::endpoints::{self, Case, Variant};
+use replan::study::endpoints::{Case, Variant};
 use replan::study::prepared::workspace_map::ShapeSetting;
 use std::{cmp::Ordering, hint::black_box, ops::Add, time::Duration};
 
@@ -178,9 +179,8 @@ fn cases() -> [Case; 2] {
 }
 
 fn identified(variant: &Variant, base: &ArmRules, cases: &[Case; 2]) -> usize {
-    let world = |case| variant.world(base, case, ShapeSetting::Circle).expect("a disc has a size");
-    let moves = cases.each_ref().map(|case| world(case).eight_moves());
-    endpoints::pairs(&moves, cases).len()
+    let grids = variant.grids(base, cases).expect("a disc has a size");
+    pairs(&grids, &cases.each_ref().map(Case::target), Match::ByPlace)[0].len()
 }
 
 criterion_group!(benches, analysis, against_the_crate);

@@ -18,6 +18,8 @@ pub mod space;
 pub mod search;
 pub mod shorten;
 
+pub mod endpoints;
+
 pub mod planner;
 
 pub mod verify;

@@ -5,8 +5,8 @@
 //! its code is optimised in every build, this package's in none but a release, because most of it runs once.
 
 pub use replan_engine::{
-    audit, geometry, grid, hash, kinematics, palette, planner, search, seed, settings, shorten, space, stats,
-    verify,
+    audit, endpoints, geometry, grid, hash, kinematics, palette, planner, search, seed, settings, shorten,
+    space, stats, verify,
 };
 
 pub mod study;

@@ -10,10 +10,8 @@
 
 use super::CrosscheckError;
 use super::sample::Question;
-use polars::prelude::{
-    Column, DataFrame, NamedFrom as _, ParquetCompression, ParquetReader, ParquetWriter, SerReader as _,
-    Series,
-};
+use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
+use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter, SerReader as _};
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};

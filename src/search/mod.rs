@@ -6,7 +6,8 @@
 //! whether closed nodes reopen ([`Update`]), when to stop ([`Stop`]), what is tried before an expansion
 //! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two.
 //! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`FirstWayAstar`] the one for the lengths of an A*
-//! that never lowers open nodes there; tests hold both equal to the general form.
+//! that never lowers open nodes there, [`ManyGrids`] the one for the costs on many such grids at once; tests hold each
+//! equal to the general form.
 //!
 //! # Counters
 //! A node is **generated** each time it is produced as a successor, whatever becomes of it; **opened** when it
@@ -33,6 +34,7 @@ mod estimate;
 mod first_way;
 mod frontier;
 mod graph;
+mod many;
 mod observe;
 mod octile;
 mod one_way;
@@ -47,6 +49,7 @@ pub use estimate::{Combined, Estimate, ScaledOctile, euclidean_to, falling, octi
 pub use first_way::FirstWayAstar;
 pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
+pub use many::{GridSet, ManyGrids};
 pub use observe::{ListScans, Lists, Observer, Place, Trace};
 pub use octile::{OctileAstar, SearchError};
 pub use one_way::{BeforeExpansion, Rules, Search, Shot, Stop};

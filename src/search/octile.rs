@@ -22,9 +22,9 @@ use crate::grid::{DIRECTIONS, Moves};
 const BELOW: u32 = 2;
 
 /// The most cells of a padded grid whose longest conceivable path still has a 32-bit cost.
-const MAX_CELLS: usize = (u32::MAX / ScaledOctile::DIAGONAL) as usize;
+pub(super) const MAX_CELLS: usize = (u32::MAX / ScaledOctile::DIAGONAL) as usize;
 
-const COSTS: [u32; 8] = {
+pub(super) const COSTS: [u32; 8] = {
     let mut costs = [ScaledOctile::STRAIGHT; 8];
     let mut bit = 0;
     while bit < 8 {

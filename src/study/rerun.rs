@@ -21,8 +21,8 @@ pub struct Rerun {
     pub differ: Vec<String>,
 }
 
-/// Runs the units of `count` stored trials of `study`, drawn from the study's seed, on `threads` threads, and compares every
-/// trial of theirs with its stored row.
+/// Runs `count` stored trials of `study`, drawn from the study's seed, on `threads` threads, and compares them, and whatever
+/// their units run besides, with the stored rows.
 ///
 /// # Errors
 /// [`StudyError::Stored`] if there is no sound run in `folder`.
@@ -42,15 +42,20 @@ pub fn rerun(
         .collect();
     let field = Field::new(study, &points, inputs)?;
     let wanted = sample(study, &records.batch.rows, count);
-    let units: Vec<Unit<'_>> =
-        field.units().into_iter().filter(|unit| wanted.contains(&place(unit))).collect();
+    let mut units = field.units();
+    for unit in &mut units {
+        unit.wanted = wanted.get(&place(unit)).cloned();
+    }
+    units.retain(|unit| unit.wanted.is_some());
     let pool = super::session::pool(Some(threads));
     let again = pool.install(|| units.par_iter().map(|unit| field.run_unit(unit)).collect::<Vec<_>>());
     let stored: BTreeMap<&str, &Row> =
         records.batch.rows.iter().map(|row| (row.trial.as_str(), row)).collect();
     let rows: Vec<Row> = again.into_iter().flat_map(|batch| batch.rows).collect();
     let is_other = |row: &&Row| stored.get(row.trial.as_str()).is_none_or(|stored| *stored != *row);
-    let differ = rows.iter().filter(is_other).map(|row| row.trial.clone()).collect();
+    let came: BTreeSet<&str> = rows.iter().map(|row| row.trial.as_str()).collect();
+    let lost = wanted.values().flatten().filter(|trial| !came.contains(trial.as_str())).cloned();
+    let differ = rows.iter().filter(is_other).map(|row| row.trial.clone()).chain(lost).collect();
     Ok(Rerun { trials: rows.len(), differ })
 }
 
@@ -60,8 +65,14 @@ fn place(unit: &Unit<'_>) -> Place {
     (unit.group.label.clone(), unit.replicate, unit.point.name().to_owned())
 }
 
-fn sample(study: &Study, rows: &[Row], count: usize) -> BTreeSet<Place> {
+/// The names of the trials drawn, by unit.
+fn sample(study: &Study, rows: &[Row], count: usize) -> BTreeMap<Place, BTreeSet<String>> {
     let mut stream = seed::stream(seed::derive(study.seed, &[&study.paper, &study.name, "rerun"]));
     let picks = (0..count.min(rows.len())).map(|_| &rows[stream.random_range(0..rows.len())]);
-    picks.map(|row| (row.group.clone(), row.replicate, row.reading.clone())).collect()
+    let mut sample: BTreeMap<Place, BTreeSet<String>> = BTreeMap::new();
+    for row in picks {
+        let place = (row.group.clone(), row.replicate, row.reading.clone());
+        sample.entry(place).or_default().insert(row.trial.clone());
+    }
+    sample
 }

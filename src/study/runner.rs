@@ -16,7 +16,7 @@ use super::{Inputs, StudyError, clock};
 use crate::planner::Request;
 use crate::seed;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -61,6 +61,8 @@ pub struct Unit<'a> {
     pub seed: u64,
     /// Keeps every exhibit, whatever the study asks for.
     pub keeps_all: bool,
+    /// The trials that are asked for, if not all; a task whose trials share little may leave out others.
+    pub wanted: Option<BTreeSet<String>>,
 }
 
 /// A contender at one point of the sweeps, ready to run.
@@ -95,6 +97,11 @@ impl Unit<'_> {
             name += &format!("/{repeat}");
         }
         name + &reading_suffix(self.point)
+    }
+
+    /// Whether a trial is asked for whose name `is_it`.
+    pub fn is_wanted(&self, is_it: impl Fn(&str) -> bool) -> bool {
+        self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|name| is_it(name)))
     }
 
     /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
@@ -188,6 +195,7 @@ impl<'a> Field<'a> {
             replicate,
             seed: seed::derive(self.study.seed, names),
             keeps_all: false,
+            wanted: None,
         }
     }
 

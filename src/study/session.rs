@@ -8,7 +8,7 @@ use super::record::{Batch, Row, Status};
 use super::runner::{Field, Progress, Unit};
 use super::store::{Journal, Records, Staged, read_records, remove_temporaries, stage_records};
 use super::{Inputs, StudyError};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
@@ -170,13 +170,17 @@ pub fn run_one(
 ) -> Result<(Batch, Option<Row>), StudyError> {
     let field = Field::new(study, points, inputs)?;
     let units = field.units();
-    let owner = units.iter().find(|unit| field.trials(unit).iter().any(|name| name == trial));
+    // What a task finds may have rows of its own, below a trial's name.
+    let has =
+        |name: &str| trial.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
+    let owner = units.iter().find(|unit| field.trials(unit).iter().any(|name| has(name)));
     let Some(owner) = owner else {
         let first = units.first().and_then(|unit| field.trials(unit).into_iter().next());
         let hint = format!("its first one is `{}/{}`", study.name, first.unwrap_or_default());
         return Err(StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint });
     };
-    let mut batch = field.run_unit(&Unit { name: owner.name.clone(), keeps_all: true, ..*owner });
+    let wanted = Some(BTreeSet::from([trial.to_owned()]));
+    let mut batch = field.run_unit(&Unit { name: owner.name.clone(), keeps_all: true, wanted, ..*owner });
     batch.rows.retain(|row| row.trial == trial);
     batch.kept.retain(|kept| kept.of == trial);
     let before = stored(folder, &study.name)

@@ -1,9 +1,8 @@
 //! The cross-check from the command line, with answers that MuJoCo gave once and that are kept beside this file.
 
 use crate::paper::{Bench, Said};
-use polars::prelude::{
-    Column, DataFrame, NamedFrom as _, ParquetReader, ParquetWriter, SerReader as _, Series,
-};
+use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
+use polars_io::prelude::{ParquetReader, ParquetWriter, SerReader as _};
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};

@@ -4,10 +4,8 @@ use crate::planner::{Exhibit, Value, fill};
 use crate::study::StudyError;
 use crate::study::column::{self, Kind};
 use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
-use polars::prelude::{
-    Column, DataFrame, NamedFrom as _, ParquetCompression, ParquetReader, ParquetWriter, SerReader as _,
-    Series,
-};
+use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
+use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter, SerReader as _};
 use std::collections::BTreeSet;
 use std::io::Cursor;
 use std::mem::take;

@@ -1,12 +1,13 @@
 //! Looks for the pairs of lattice points that have printed lengths in all cases, under every variant asked for.
 
 use super::{Entry, Task};
+use crate::endpoints::{self, Match, NeverLowered, Pair};
 use crate::grid::Moves;
 use crate::planner::{Exhibit, Value};
-use crate::search::ScaledOctile;
-use crate::space::{ArmRules, TipLattice};
+use crate::search::{ScaledOctile, Ties};
+use crate::space::TipLattice;
 use crate::study::checked::Study;
-use crate::study::endpoints::{self, Case, FreeShapes, NeverLowered, Pair, ShapeChoice, Variant};
+use crate::study::endpoints::{self as open, Case, Question, Variant};
 use crate::study::record::{Batch, Kept, Row, Status, Values};
 use crate::study::runner::Unit;
 use serde::Deserialize;
@@ -15,7 +16,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "identify_endpoints",
     about: "which pairs of lattice points have the printed lengths in all cases, by exact single-source searches",
-    revision: 2,
+    revision: 3,
     columns: &["start_x_cm", "start_y_cm", "goal_x_cm", "goal_y_cm", "pairs", "pairs_on_fives", "candidates"],
     build: |settings| {
         let read: Identify = settings.read()?;
@@ -27,7 +28,7 @@ pub static ENTRY: Entry = Entry {
                 settings.error(format!("hops is {:?}; a length of at least one hop is needed", case.hops))
             );
         }
-        if let Some(fault) = read.variants.iter().find_map(Variant::fault) {
+        if let Some(fault) = read.variants.iter().find_map(|variant| variant.fault(&read.cases)) {
             return Err(settings.error(fault));
         }
         Ok(Box::new(read))
@@ -45,41 +46,58 @@ struct Identify {
     excess_steps: f64,
 }
 
-/// What one variant gave: start and goal of each pair, `[x, y, x, y]`.
+/// What one variant gave.
 struct Found {
-    points: Vec<[f64; 4]>,
+    pairs: Vec<Pair>,
+    /// How many had to be tried one by one.
     candidates: Option<usize>,
 }
 
+impl Question for Identify {
+    type Answer = Found;
+
+    fn shortest(&self, cases: &[Vec<Moves>], rule: Match) -> Vec<Found> {
+        let found = endpoints::pairs(cases, &self.lengths(), rule);
+        found.into_iter().map(|pairs| Found { pairs, candidates: None }).collect()
+    }
+
+    fn never_lowered(&self, cases: &[Moves], ties: Ties) -> Found {
+        let NeverLowered { pairs, candidates } =
+            NeverLowered::find(cases, &self.lengths(), self.excess_steps, ties);
+        Found { pairs, candidates: Some(candidates) }
+    }
+}
+
 impl Task for Identify {
+    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+        self.variants.iter().map(|variant| super::variant_name(unit, &variant.label)).collect()
+    }
+
     fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch {
         let mut batch = Batch::default();
         let prepared = unit.family.prepare(unit.seed);
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
-        let world = prepared.as_ref().ok().and_then(|prepared| prepared.world.as_arm());
+        let variants: Vec<&Variant> =
+            self.variants.iter().filter(|variant| super::is_variant_wanted(unit, &variant.label)).collect();
+        let Some(world) = prepared.as_ref().ok().and_then(|prepared| prepared.world.as_arm()) else {
+            let reason = "this task needs the workspace of an arm";
+            batch.rows.extend(variants.iter().map(|of| super::invalid_variant(unit, &of.label, reason)));
+            return batch;
+        };
+        let answers = open::answers(self, world.rules(), &self.cases, &variants);
         let keeps = unit.is_kept(study, None, 0);
-        for variant in &self.variants {
-            let found = match world {
-                Some(world) => self.find(world.rules(), variant),
-                None => Err("this task needs the workspace of an arm".to_owned()),
-            };
-            match found {
+        for (variant, answer) in variants.into_iter().zip(answers) {
+            match answer {
                 Ok(found) => {
+                    let points = points(&world.rules().lattice, &found.pairs);
+                    batch.rows.extend(rows(unit, variant, &points, found.candidates));
                     if keeps {
                         let of = super::variant_name(unit, &variant.label);
-                        let values = found.points.concat();
-                        batch.kept.push(Kept {
-                            of,
-                            exhibit: Exhibit { name: "pairs".to_owned(), width: 4, values },
-                        });
+                        let exhibit = Exhibit { name: "pairs".to_owned(), width: 4, values: points.concat() };
+                        batch.kept.push(Kept { of, exhibit });
                     }
-                    batch.rows.extend(rows(unit, variant, &found));
                 }
-                Err(reason) => {
-                    let mut row = super::variant_row(unit, &variant.label, "");
-                    (row.status, row.reason) = (Status::InvalidProblem, Some(reason));
-                    batch.rows.push(row);
-                }
+                Err(reason) => batch.rows.push(super::invalid_variant(unit, &variant.label, &reason)),
             }
         }
         batch
@@ -87,24 +105,9 @@ impl Task for Identify {
 }
 
 impl Identify {
-    fn find(&self, base: &ArmRules, variant: &Variant) -> Result<Found, String> {
-        let shape = match variant.shape {
-            ShapeChoice::Free(_) => {
-                let FreeShapes { pairs, candidates } = FreeShapes::find(variant, base, &self.cases)?;
-                return Ok(Found { points: points(&base.lattice, &pairs), candidates: Some(candidates) });
-            }
-            ShapeChoice::Uniform(shape) => shape,
-        };
-        let moves = |case: &Case| Ok(variant.world(base, case, shape)?.eight_moves());
-        let moves = self.cases.iter().map(moves).collect::<Result<Vec<Moves>, String>>()?;
-        let (pairs, candidates) = match variant.never_lowered() {
-            Some(ties) => {
-                let found = NeverLowered::find(&moves, &self.cases, self.excess_steps, ties);
-                (found.pairs, Some(found.candidates))
-            }
-            None => (endpoints::pairs(&moves, &self.cases), None),
-        };
-        Ok(Found { points: points(&base.lattice, &pairs), candidates })
+    /// The printed lengths.
+    fn lengths(&self) -> Vec<u32> {
+        self.cases.iter().map(Case::target).collect()
     }
 }
 
@@ -118,18 +121,18 @@ fn points(lattice: &TipLattice, pairs: &[Pair]) -> Vec<[f64; 4]> {
 }
 
 /// One row for the variant with its counts, then one a pair; without pairs the first says so.
-fn rows(unit: &Unit<'_>, variant: &Variant, found: &Found) -> Vec<Row> {
-    let on_fives = found.points.iter().filter(|pair| pair.iter().all(|value| value % 5.0 == 0.0)).count();
+fn rows(unit: &Unit<'_>, variant: &Variant, points: &[[f64; 4]], candidates: Option<usize>) -> Vec<Row> {
+    let on_fives = points.iter().filter(|pair| pair.iter().all(|value| value % 5.0 == 0.0)).count();
     let mut head = super::variant_row(unit, &variant.label, "");
     head.status = Status::Solved;
     head.values = Values::from([
-        ("pairs".to_owned(), Value::Count(found.points.len() as u64)),
+        ("pairs".to_owned(), Value::Count(points.len() as u64)),
         ("pairs_on_fives".to_owned(), Value::Count(on_fives as u64)),
     ]);
-    if let Some(candidates) = found.candidates {
+    if let Some(candidates) = candidates {
         head.values.insert("candidates".to_owned(), Value::Count(candidates as u64));
     }
-    if found.points.is_empty() {
+    if points.is_empty() {
         let reason = "no pair of free points has the printed lengths in all cases".to_owned();
         (head.status, head.reason) = (Status::NoPath, Some(reason));
     }
@@ -145,5 +148,5 @@ fn rows(unit: &Unit<'_>, variant: &Variant, found: &Found) -> Vec<Row> {
             .collect();
         row
     };
-    std::iter::once(head).chain(found.points.iter().enumerate().map(pair_row)).collect()
+    std::iter::once(head).chain(points.iter().enumerate().map(pair_row)).collect()
 }

@@ -103,3 +103,18 @@ fn variant_row(unit: &Unit<'_>, label: &str, part: &str) -> Row {
         values: Values::new(),
     }
 }
+
+/// Whether what the variant called `label` gives is asked for.
+fn is_variant_wanted(unit: &Unit<'_>, label: &str) -> bool {
+    let name = variant_name(unit, label);
+    unit.is_wanted(|trial| {
+        trial.strip_prefix(&name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+    })
+}
+
+/// The row of a variant that cannot be tried.
+fn invalid_variant(unit: &Unit<'_>, label: &str, reason: &str) -> Row {
+    let mut row = variant_row(unit, label, "");
+    (row.status, row.reason) = (Status::InvalidProblem, Some(reason.to_owned()));
+    row
+}

@@ -1,11 +1,12 @@
 //! How often lengths that were not printed would have been met by some pair of lattice points just as well.
 
 use super::{Entry, Task};
+use crate::endpoints::{Match, NeverLowered, Targets};
+use crate::grid::Moves;
 use crate::planner::Value;
-use crate::seed;
-use crate::space::{ArmRules, ArmWorld};
+use crate::search::Ties;
 use crate::study::checked::Study;
-use crate::study::endpoints::{Case, NeverLowered, ShapeChoice, Targets, Variant, drawn_moves};
+use crate::study::endpoints::{self, Case, Question, Variant};
 use crate::study::record::{Batch, Row, Status, Values};
 use crate::study::runner::Unit;
 use serde::Deserialize;
@@ -14,7 +15,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "null_rate",
     about: "the share of targets of equal parity near two printed lengths that some pair of points meets",
-    revision: 4,
+    revision: 5,
     columns: &["targets", "targets_hit", "hit_share_percent"],
     build: |settings| {
         let read: NullRate = settings.read()?;
@@ -22,7 +23,7 @@ pub static ENTRY: Entry = Entry {
             let message = format!("window_cm is {}; above 0 and below 50 is accepted", read.window_cm);
             return Err(settings.error(message));
         }
-        if let Some(fault) = read.variants.iter().find_map(Variant::fault) {
+        if let Some(fault) = read.variants.iter().find_map(|variant| variant.fault(&read.cases)) {
             return Err(settings.error(fault));
         }
         let never = read.variants.iter().find(|variant| variant.never_lowered().is_some());
@@ -37,12 +38,6 @@ pub static ENTRY: Entry = Entry {
                 return Err(settings.error(message));
             }
             _ => {}
-        }
-        let free = read.variants.iter().find(|variant| matches!(variant.shape, ShapeChoice::Free(_)));
-        if let Some(variant) = free.filter(|_| read.shape_choices == 0) {
-            let message =
-                format!("variant `{}` leaves shapes open; shape_choices above 0 are needed", variant.label);
-            return Err(settings.error(message));
         }
         Ok(Box::new(read))
     },
@@ -62,12 +57,36 @@ struct NullRate {
     window_cm: f64,
     /// How far below a target a shortest path may be where A* never lowers open nodes, in steps.
     excess_steps: Option<f64>,
-    /// Where each obstacle may have a shape of its own: how many choices are drawn; a target counts that any of them meets.
-    #[serde(default)]
-    shape_choices: u32,
+}
+
+/// The settings with what they ask of grids.
+struct Asked<'a> {
+    null: &'a NullRate,
+    targets: Targets,
+}
+
+impl Question for Asked<'_> {
+    /// Which targets are met, by number.
+    type Answer = Vec<bool>;
+
+    fn shortest(&self, cases: &[Vec<Moves>], rule: Match) -> Vec<Vec<bool>> {
+        let cases = cases.first_chunk().expect("there are two cases");
+        self.targets.hits(cases, rule)
+    }
+
+    fn never_lowered(&self, cases: &[Moves], ties: Ties) -> Vec<bool> {
+        let cases = cases.first_chunk().expect("there are two cases");
+        let excess = self.null.excess_steps.expect("a study without it has no such variant");
+        NeverLowered::hits(&self.targets, cases, excess, ties)
+    }
 }
 
 impl Task for NullRate {
+    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+        let labels = self.variants.iter().map(|variant| variant.label.as_str()).chain([ANY]);
+        labels.map(|label| super::variant_name(unit, label)).collect()
+    }
+
     fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
         let mut batch = Batch::default();
         let prepared = unit.family.prepare(unit.seed);
@@ -76,53 +95,29 @@ impl Task for NullRate {
         else {
             return batch;
         };
-        let targets = Targets::new(&self.cases, self.window_cm / base.lattice.step_cm());
+        // The last row is over all variants, so that it takes every one of them.
+        let wants_any = super::is_variant_wanted(unit, ANY);
+        let is_wanted = |label: &str| wants_any || super::is_variant_wanted(unit, label);
+        let variants: Vec<&Variant> = self.variants.iter().filter(|of| is_wanted(&of.label)).collect();
+        let lengths = self.cases.each_ref().map(Case::length);
+        let targets = Targets::new(lengths, self.window_cm / base.lattice.step_cm());
+        let asked = Asked { null: self, targets };
         let mut any: Vec<bool> = Vec::new();
-        for variant in &self.variants {
-            match self.hits(&targets, &base, variant, unit.seed) {
+        let answers = endpoints::answers(&asked, &base, &self.cases, &variants);
+        for (variant, answer) in variants.iter().zip(answers) {
+            match answer {
                 Ok(hits) => {
-                    batch.rows.push(row(unit, &variant.label, &targets, &hits));
+                    batch.rows.push(row(unit, &variant.label, &asked.targets, &hits));
                     any.resize(hits.len(), false);
                     any.iter_mut().zip(hits).for_each(|(any, hit)| *any |= hit);
                 }
-                Err(reason) => {
-                    let mut row = super::variant_row(unit, &variant.label, "");
-                    (row.status, row.reason) = (Status::InvalidProblem, Some(reason));
-                    batch.rows.push(row);
-                }
+                Err(reason) => batch.rows.push(super::invalid_variant(unit, &variant.label, &reason)),
             }
         }
-        batch.rows.push(row(unit, ANY, &targets, &any));
+        if wants_any {
+            batch.rows.push(row(unit, ANY, &asked.targets, &any));
+        }
         batch
-    }
-}
-
-impl NullRate {
-    fn hits(
-        &self,
-        targets: &Targets,
-        base: &ArmRules,
-        variant: &Variant,
-        seed: u64,
-    ) -> Result<Vec<bool>, String> {
-        if let ShapeChoice::Uniform(shape) = variant.shape {
-            let [one, two] = self.cases.each_ref().map(|case| variant.world(base, case, shape));
-            let moves = [one?, two?].each_ref().map(ArmWorld::eight_moves);
-            return Ok(match (variant.never_lowered(), self.excess_steps) {
-                (Some(ties), Some(excess)) => NeverLowered::hits(targets, &moves, excess, ties),
-                _ => targets.hits(&moves),
-            });
-        }
-        let mut hits: Vec<bool> = Vec::new();
-        for choice in 0..self.shape_choices {
-            let names = ["shapes", &variant.label, &choice.to_string()];
-            let moves =
-                drawn_moves(variant, base, &self.cases, &mut seed::stream(seed::derive(seed, &names)))?;
-            let found = targets.hits(&moves);
-            hits.resize(found.len(), false);
-            hits.iter_mut().zip(found).for_each(|(hit, found)| *hit |= found);
-        }
-        Ok(hits)
     }
 }
 

@@ -1,6 +1,7 @@
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
-use crate::study::session::{Options, run};
+use crate::study::rerun::rerun;
+use crate::study::session::{Options, run, run_one};
 use crate::study::{Inputs, runner::Unwatched};
 use std::collections::BTreeMap;
 use std::fs;
@@ -116,25 +117,49 @@ repeats = 4
     }
 }
 
+/// A paper with one study of `task`, with shapes left open and open nodes never lowered among its variants.
+fn with_all_variants(task: &str) -> tempfile::TempDir {
+    let never = "{ label = 'never', shape = 'circle', diameter_cm = 6, open_node = 'never', ties = 'lifo' },";
+    let free = "{ label = 'free', shape = 'free', diameter_cm = 6 },";
+    let window = if task == "null_rate" { "window_cm = 2.0" } else { "" };
+    let settings = format!("{CASES}{never}\n{free}\n]\n{window}\nexcess_steps = 2.0\n");
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("p")).unwrap();
+    fs::write(folder.path().join("p/paper.toml"), PAPER).unwrap();
+    let study = format!("task = '{task}'\n{WORKSPACE}\n[task_settings]{settings}");
+    fs::write(folder.path().join("p/s.toml"), study).unwrap();
+    folder
+}
+
 #[test]
 fn end_points_and_null_rate_are_the_same_bytes_on_one_thread_and_on_two() {
-    let never =
-        "{ label = 'never', shape = 'circle', diameter_cm = 6, open_node = 'never', ties = 'lifo' },\n";
-    let free = "{ label = 'free', shape = 'free', diameter_cm = 6 },\n";
-    for (task, more, close) in [
-        ("identify_endpoints", format!("{never}{free}"), "]\nexcess_steps = 2.0\n"),
-        (
-            "null_rate",
-            format!("{never}{free}"),
-            "]\nwindow_cm = 2.0\nshape_choices = 2\nexcess_steps = 2.0\n",
-        ),
-    ] {
-        let folder = tempfile::tempdir().unwrap();
-        fs::create_dir(folder.path().join("p")).unwrap();
-        fs::write(folder.path().join("p/paper.toml"), PAPER).unwrap();
-        let study = format!("task = '{task}'\n{WORKSPACE}\n[task_settings]{CASES}{more}{close}");
-        fs::write(folder.path().join("p/s.toml"), study).unwrap();
+    for task in ["identify_endpoints", "null_rate"] {
+        let folder = with_all_variants(task);
         assert!(facts(folder.path(), 1) == facts(folder.path(), 2), "{task} differs between 1 thread and 2");
+    }
+}
+
+#[test]
+fn single_variants_are_run_again_without_the_others_and_give_the_stored_rows() {
+    for (task, part, whole) in
+        [("identify_endpoints", "w/free/pair-0", "w/never"), ("null_rate", "w/free", "w/any-of-the-above")]
+    {
+        let folder = with_all_variants(task);
+        facts(folder.path(), 2);
+        let inputs = Inputs { roots: vec![folder.path().join("p")] };
+        let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
+        let (study, runs) = (&paper.studies[0], folder.path().join("2"));
+        let points = study.trial_points().unwrap();
+        for trial in ["w/swept", part, whole] {
+            let (batch, stored) = run_one(study, &points, &inputs, &runs, trial).unwrap();
+            assert_eq!(batch.rows, [stored.expect("it was run")], "{task}: {trial}");
+        }
+        let error = run_one(study, &points, &inputs, &runs, "w/swe").unwrap_err().to_string();
+        assert!(error.contains("its first one is `s/w/circles`"), "{error}");
+        let again = rerun(study, &inputs, &runs, 1, 1).unwrap();
+        let all = rerun(study, &inputs, &runs, 1_000, 1).unwrap();
+        assert!(again.differ.is_empty() && all.differ.is_empty(), "{task}: {again:?}, {all:?}");
+        assert!(again.trials > 0 && again.trials < all.trials, "{task}: {again:?}, {all:?}");
     }
 }
 
@@ -149,7 +174,7 @@ fn variants_that_never_lower_open_nodes_need_an_excess_and_one_shape_and_only_th
         fs::write(folder.path().join("p/s.toml"), study).unwrap();
         Paper::load(&folder.path().join("p"), &Inputs::default()).map_err(|e| e.to_string())
     };
-    let (end_points, null) = ("excess_steps = 2.0\n", "window_cm = 2.0\nshape_choices = 2\n");
+    let (end_points, null) = ("excess_steps = 2.0\n", "window_cm = 2.0\n");
     let both = format!("{null}{end_points}");
     let never = "shape = 'circle', open_node = 'never', ties = 'lifo'";
     for (task, close) in [("identify_endpoints", end_points), ("null_rate", &*both)] {

@@ -4,7 +4,7 @@
 //! never shorter than a shortest path; pairs are tried whose shortest lengths lie at most a stated excess below
 //! those asked for. The same trial serves one pair of printed lengths and all targets around it.
 
-use super::{Case, Pair, Targets, either, search};
+use super::{Pair, Targets, search, union};
 use crate::grid::Moves;
 use crate::search::{FirstWayAstar, OctileAstar, ScaledOctile, Ties};
 use rayon::prelude::*;
@@ -19,10 +19,10 @@ pub struct NeverLowered {
 }
 
 impl NeverLowered {
-    /// Tries every ordered pair whose shortest lengths are at most `excess` steps below the printed ones.
-    pub fn find(moves: &[Moves], cases: &[Case], excess: f64, ties: Ties) -> Self {
+    /// Tries every ordered pair whose shortest lengths are at most `excess` steps below `lengths`, one a case.
+    pub fn find(moves: &[Moves], lengths: &[u32], excess: f64, ties: Ties) -> Self {
         let cells = moves.first().map_or(0, Moves::cell_count);
-        let printed = || Trial::new(moves, cases.iter().map(|case| [case.target(); 2]), excess, ties);
+        let printed = || Trial::new(moves, lengths.iter().map(|length| [*length; 2]), excess, ties);
         let found: Vec<(Vec<Pair>, usize)> = (0..cells)
             .into_par_iter()
             .map_init(printed, |trial, goal| {
@@ -39,14 +39,14 @@ impl NeverLowered {
 
     /// Which `targets`, by number, this search would have found a pair for.
     pub fn hits(targets: &Targets, moves: &[Moves; 2], excess: f64, ties: Ties) -> Vec<bool> {
-        let bounds = [0, 1].map(|case| [targets.lowest[case], targets.highest(case)]);
-        let begun = || (Trial::new(moves, bounds, excess, ties), targets.none());
+        let bounds = || [0, 1].map(|case| targets.bounds(case));
+        let begun = || (Trial::new(moves, bounds(), excess, ties), targets.none());
         let mark = |(mut trial, mut hits): (Trial, Vec<bool>), goal| {
             trial.towards(goal, |_, lengths| targets.mark(&mut hits, [lengths[0], lengths[1]]));
             (trial, hits)
         };
         let goals = (0..moves[0].cell_count()).into_par_iter();
-        goals.fold(begun, mark).map(|(_, hits)| hits).reduce(|| targets.none(), either)
+        goals.fold(begun, mark).map(|(_, hits)| hits).reduce(|| targets.none(), union)
     }
 }
 

@@ -1,0 +1,255 @@
+//! What a paper leaves open about lengths that it prints without their ends, as tasks' settings write it.
+//!
+//! A [`Variant`] is one way to fill it in; [`answers`] asks a question of [`crate::endpoints`] under each.
+
+use crate::endpoints::Match;
+use crate::grid::{Grid2, Moves};
+use crate::search::{Octile, ScaledOctile, Ties};
+use crate::space::{ArmRules, ArmWorld, Obstacle, Zone};
+use crate::study::prepared::lattice::CornerSetting;
+use crate::study::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
+use serde::Deserialize;
+
+/// How many obstacles may have shapes of their own: 4096 grids.
+const MOST_FREE: usize = 6;
+
+/// One case: where the obstacles are and how long the printed path is.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// Centres of the obstacles.
+    pub obstacles_cm: Vec<[f64; 2]>,
+    /// Straight and diagonal hops of the printed path, one step of the lattice each.
+    pub hops: [u32; 2],
+}
+
+impl Case {
+    /// The printed length.
+    pub fn length(&self) -> Octile {
+        Octile { straight: self.hops[0], diagonal: self.hops[1] }
+    }
+
+    /// The printed length in the units of [`ScaledOctile`].
+    pub fn target(&self) -> u32 {
+        ScaledOctile::scaled(self.length())
+    }
+}
+
+/// One way to fill in what the paper leaves open; what is absent is as the problem group has it.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Variant {
+    /// Its name in records.
+    pub label: String,
+    /// The shape of every obstacle.
+    pub shape: ShapeChoice,
+    /// The diameter of every obstacle.
+    pub diameter_cm: f64,
+    touching: Option<TouchSetting>,
+    inner_radius_cm: Option<f64>,
+    elbow: Option<ElbowSetting>,
+    corner_rule: Option<CornerSetting>,
+    hop_check: Option<HopSetting>,
+    /// Whether the paper's A* lowers the g of an open node; lowered if absent.
+    open_node: Option<OpenNode>,
+    /// The order among equal f of that A*, which matters only where open nodes are never lowered; first in first out
+    /// if absent.
+    ties: Option<TieOrder>,
+}
+
+/// The shapes that obstacles may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(untagged)]
+pub enum ShapeChoice {
+    /// All have this one.
+    Uniform(ShapeSetting),
+    /// Each has any, in each case anew.
+    Free(FreeWord),
+}
+
+/// The word for free shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FreeWord {
+    /// `free`.
+    Free,
+}
+
+/// What the paper's A* does with an open node to which a better way is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OpenNode {
+    /// It takes it, so that lengths are shortest.
+    Lowered,
+    /// It does not, as the pseudocode may be read.
+    Never,
+}
+
+/// The order among equal f.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TieOrder {
+    /// The one opened first.
+    Fifo,
+    /// The one opened last.
+    Lifo,
+    /// The one with the larger g.
+    LargerG,
+}
+
+impl From<TieOrder> for Ties {
+    fn from(order: TieOrder) -> Self {
+        match order {
+            TieOrder::Fifo => Self::Fifo,
+            TieOrder::Lifo => Self::Lifo,
+            TieOrder::LargerG => Self::LargerG,
+        }
+    }
+}
+
+impl Variant {
+    /// The order among equal f where A* never lowers open nodes; nothing where lengths are shortest.
+    pub fn never_lowered(&self) -> Option<Ties> {
+        let ties = self.ties.map_or(Ties::Fifo, Into::into);
+        self.open_node.filter(|rule| *rule == OpenNode::Never).map(|_| ties)
+    }
+
+    /// What is wrong with it, if anything: ties that do not matter, shapes left open as well as lengths that are not
+    /// shortest, or shapes of too many obstacles.
+    pub fn fault(&self, cases: &[Case]) -> Option<String> {
+        let (label, never) = (&self.label, self.never_lowered().is_some());
+        if self.ties.is_some() && !never {
+            return Some(format!("variant `{label}` has ties, which only matter with open_node = \"never\""));
+        }
+        if self.is_free() && never {
+            return Some(format!(
+                "variant `{label}` leaves shapes open; open nodes are never lowered with one shape only"
+            ));
+        }
+        let most = cases.iter().map(|case| case.obstacles_cm.len()).max().unwrap_or_default();
+        (self.is_free() && most > MOST_FREE).then(|| {
+            format!("variant `{label}` leaves shapes open; up to {MOST_FREE} obstacles a case are accepted, not {most}")
+        })
+    }
+
+    /// The rules of `base` with this variant's laid over them.
+    pub fn rules(&self, base: &ArmRules) -> ArmRules {
+        ArmRules {
+            touch: self.touching.map_or(base.touch, Into::into),
+            inner_radius_cm: self.inner_radius_cm.unwrap_or(base.inner_radius_cm),
+            elbow: self.elbow.map_or(base.elbow, Into::into),
+            corner_rule: self.corner_rule.map_or(base.corner_rule, Into::into),
+            hop: self.hop_check.map_or(base.hop, Into::into),
+            ..*base
+        }
+    }
+
+    /// Whether each obstacle has a shape of its own.
+    pub fn is_free(&self) -> bool {
+        matches!(self.shape, ShapeChoice::Free(_))
+    }
+
+    /// The grids that each case may be on: one, or one for each way to give every obstacle a shape.
+    ///
+    /// # Errors
+    /// A sentence if an obstacle cannot be made.
+    pub fn grids(&self, base: &ArmRules, cases: &[Case]) -> Result<Vec<Vec<Moves>>, String> {
+        let of_case = |case: &Case| match self.shape {
+            ShapeChoice::Uniform(shape) => Ok(vec![self.world(base, case, shape)?.eight_moves()]),
+            ShapeChoice::Free(_) => self.free_grids(base, case),
+        };
+        cases.iter().map(of_case).collect()
+    }
+
+    /// The grids of every way to give each obstacle a shape; the last obstacle's changes first. Hops are judged by their end
+    /// points.
+    fn free_grids(&self, base: &ArmRules, case: &Case) -> Result<Vec<Moves>, String> {
+        let blocked = |centers: &[[f64; 2]], shape| {
+            let alone = Case { obstacles_cm: centers.to_vec(), hops: case.hops };
+            let world = self.world(base, &alone, shape)?;
+            Ok::<_, String>(world.zones().iter().map(|zone| *zone != Zone::Free).collect::<Vec<bool>>())
+        };
+        let bare = blocked(&[], ShapeSetting::Circle)?;
+        let shapes = |center: &[f64; 2]| {
+            ShapeSetting::ALL.map(|shape| blocked(&[*center], shape)).into_iter().collect()
+        };
+        let blocked =
+            case.obstacles_cm.iter().map(shapes).collect::<Result<Vec<Vec<Vec<bool>>>, String>>()?;
+        let mut choices: Vec<Vec<&Vec<bool>>> = vec![vec![&bare]];
+        for shapes in &blocked {
+            let longer = choices.iter().flat_map(|choice| shapes.iter().map(move |shape| (choice, shape)));
+            choices = longer.map(|(choice, shape)| choice.iter().copied().chain([shape]).collect()).collect();
+        }
+        let rules = self.rules(base);
+        Ok(choices.iter().map(|blocked| moves_among(&rules, blocked)).collect())
+    }
+
+    /// The workspace of `case` with every obstacle of one shape.
+    ///
+    /// # Errors
+    /// A sentence if an obstacle cannot be made.
+    pub fn world(&self, base: &ArmRules, case: &Case, shape: ShapeSetting) -> Result<ArmWorld, String> {
+        let obstacles = case.obstacles_cm.iter().map(|center| shape.obstacle(*center, self.diameter_cm));
+        Ok(ArmWorld::new(self.rules(base), obstacles.collect::<Result<Vec<Obstacle>, _>>()?))
+    }
+}
+
+/// What is asked of the grids of all cases; printed lengths are the asker's.
+pub trait Question {
+    /// What comes out.
+    type Answer;
+
+    /// The answers where paths are shortest, one for each alternative of [`crate::endpoints::pairs`].
+    fn shortest(&self, cases: &[Vec<Moves>], rule: Match) -> Vec<Self::Answer>;
+
+    /// The answer where A* never lowers open nodes, on one grid a case.
+    fn never_lowered(&self, cases: &[Moves], ties: Ties) -> Self::Answer;
+}
+
+/// The answer under each of `variants`; all that have one shape and shortest paths are searched together.
+///
+/// # Errors
+/// A sentence for a variant of which an obstacle cannot be made.
+pub fn answers<Q: Question>(
+    question: &Q,
+    base: &ArmRules,
+    cases: &[Case],
+    variants: &[&Variant],
+) -> Vec<Result<Q::Answer, String>> {
+    let grids: Vec<Result<Vec<Vec<Moves>>, String>> =
+        variants.iter().map(|variant| variant.grids(base, cases)).collect();
+    let is_together = |variant: &Variant| !variant.is_free() && variant.never_lowered().is_none();
+    let together: Vec<&Vec<Vec<Moves>>> = variants
+        .iter()
+        .zip(&grids)
+        .filter(|(variant, _)| is_together(variant))
+        .filter_map(|(_, grids)| grids.as_ref().ok())
+        .collect();
+    let of_case = |case: usize| together.iter().map(|grids| grids[case][0].clone()).collect();
+    let by_case: Vec<Vec<Moves>> = (0..cases.len()).map(of_case).collect();
+    let mut together = question.shortest(&by_case, Match::ByPlace).into_iter();
+    let answer = |(variant, grids): (&&Variant, Result<Vec<Vec<Moves>>, String>)| {
+        let grids = grids?;
+        let mut free = if variant.is_free() { question.shortest(&grids, Match::Freely) } else { Vec::new() };
+        let answer = match variant.never_lowered() {
+            Some(ties) => Some(question.never_lowered(&grids.concat(), ties)),
+            None if variant.is_free() => free.pop(),
+            None => together.next(),
+        };
+        Ok(answer.expect("a question has an answer for each alternative"))
+    };
+    variants.iter().zip(grids).map(answer).collect()
+}
+
+/// The moves on the lattice of `rules` if a point is free unless one of `blocked` has it.
+fn moves_among(rules: &ArmRules, blocked: &[&Vec<bool>]) -> Moves {
+    let size = rules.lattice.size();
+    let mut grid = Grid2::new(size[0], size[1]).expect("the size is that of a workspace");
+    for cell in 0..grid.cell_count() {
+        grid.set_blocked(cell, blocked.iter().any(|blocked| blocked[cell as usize]));
+    }
+    Moves::new(&grid, rules.corner_rule)
+}
+
+#[cfg(test)]
+mod tests;
