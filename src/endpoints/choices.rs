@@ -23,6 +23,10 @@ pub(super) struct Choices {
 
 /// The grids of all cases in batches that one search a case can hold, with the number of alternatives of each batch.
 pub(super) fn batches(cases: &[Vec<Moves>], rule: Match) -> Vec<(usize, Vec<Choices>)> {
+    let size = |moves: &Moves| (moves.width(), moves.cell_count());
+    let mut sizes = cases.iter().flatten().map(size);
+    let first = sizes.next();
+    assert!(sizes.all(|size| Some(size) == first), "grids have one size in all cases");
     if rule == Match::Freely {
         return vec![(1, cases.iter().map(|grids| Choices::new(grids, rule)).collect())];
     }

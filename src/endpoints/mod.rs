@@ -22,7 +22,7 @@ pub use choices::Match;
 pub use never_lowered::NeverLowered;
 pub use targets::Targets;
 
-/// Two cells, the one with the smaller number first.
+/// Two cells: start and goal, or the smaller number first where both ways are as long.
 pub type Pair = [u32; 2];
 
 /// For each alternative every pair whose shortest lengths are `lengths`, one a case, in rising order.
@@ -92,7 +92,7 @@ fn both(one: &[(u32, GridSet)], other: &[(u32, GridSet)]) -> Vec<(u32, GridSet)>
 }
 
 /// What is set in either.
-fn union<T: Copy + std::ops::BitOrAssign>(mut one: Vec<T>, other: Vec<T>) -> Vec<T> {
+pub fn union<T: Copy + std::ops::BitOrAssign>(mut one: Vec<T>, other: Vec<T>) -> Vec<T> {
     one.iter_mut().zip(other).for_each(|(one, other)| *one |= other);
     one
 }

@@ -81,7 +81,7 @@ impl Targets {
     }
 
     /// No target is hit.
-    pub(super) fn none(&self) -> Vec<bool> {
+    pub fn none(&self) -> Vec<bool> {
         vec![false; self.lengths[0].len() * self.lengths[1].len()]
     }
 

@@ -29,7 +29,9 @@ mod straighten_from_previous;
 mod tips;
 mod visibility_edges;
 
-pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value, fill};
+pub use entry::{
+    Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value, fill_column,
+};
 
 /// Every planner and stage, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[

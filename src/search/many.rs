@@ -75,6 +75,7 @@ impl ManyGrids {
     /// # Panics
     /// If `start` is outside the grids.
     pub fn flood(&mut self, start: u32, most: u32, mut visit: impl FnMut(u32, u32, GridSet)) {
+        assert!((start as usize) < self.legal.len() - 2 * self.before as usize, "{start} is no cell");
         self.open.clear();
         self.closed.fill(0);
         self.offered.fill((u32::MAX, 0));

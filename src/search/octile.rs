@@ -41,8 +41,7 @@ pub(super) const COSTS: [u32; 8] = {
 pub enum SearchError {
     /// The grid is too large for 32-bit costs.
     #[error(
-        "a grid of {width} × {height} cells, {padded} with rows padded to a power of two; `OctileAstar` accepts \
-         up to {MAX_CELLS}"
+        "a grid of {width} × {height} cells, {padded} with what surrounds them; up to {MAX_CELLS} are accepted"
     )]
     GridTooLarge {
         /// Columns.

@@ -5,13 +5,17 @@
 use crate::endpoints::Match;
 use crate::grid::{Grid2, Moves};
 use crate::search::{Octile, ScaledOctile, Ties};
-use crate::space::{ArmRules, ArmWorld, Obstacle, Zone};
+use crate::space::{ArmRules, ArmWorld, HopRule, Obstacle, Zone};
+use crate::study::checked::slug;
 use crate::study::prepared::lattice::CornerSetting;
 use crate::study::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use serde::Deserialize;
 
-/// How many obstacles may have shapes of their own: 4096 grids.
-const MOST_FREE: usize = 6;
+/// How many ways there may be to give each obstacle of a case a shape.
+const MOST_CHOICES: usize = 4096;
+
+/// How many hops of either kind a printed path may have, so that its scaled length is far from the end of 32 bits.
+const MOST_HOPS: u32 = 100_000;
 
 /// One case: where the obstacles are and how long the printed path is.
 #[derive(Debug, Clone, Deserialize)]
@@ -58,21 +62,13 @@ pub struct Variant {
 }
 
 /// The shapes that obstacles may have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(untagged)]
 pub enum ShapeChoice {
     /// All have this one.
     Uniform(ShapeSetting),
-    /// Each has any, in each case anew.
-    Free(FreeWord),
-}
-
-/// The word for free shapes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FreeWord {
-    /// `free`.
-    Free,
+    /// Each has any of these, in each case anew.
+    Free(Vec<ShapeSetting>),
 }
 
 /// What the paper's A* does with an open node to which a better way is found.
@@ -114,22 +110,27 @@ impl Variant {
         self.open_node.filter(|rule| *rule == OpenNode::Never).map(|_| ties)
     }
 
-    /// What is wrong with it, if anything: ties that do not matter, shapes left open as well as lengths that are not
-    /// shortest, or shapes of too many obstacles.
-    pub fn fault(&self, cases: &[Case]) -> Option<String> {
+    /// What is wrong with it, if anything: ties that do not matter, or shapes left open where that cannot be searched.
+    fn fault(&self, cases: &[Case]) -> Option<String> {
         let (label, never) = (&self.label, self.never_lowered().is_some());
         if self.ties.is_some() && !never {
             return Some(format!("variant `{label}` has ties, which only matter with open_node = \"never\""));
         }
-        if self.is_free() && never {
-            return Some(format!(
-                "variant `{label}` leaves shapes open; open nodes are never lowered with one shape only"
-            ));
-        }
-        let most = cases.iter().map(|case| case.obstacles_cm.len()).max().unwrap_or_default();
-        (self.is_free() && most > MOST_FREE).then(|| {
-            format!("variant `{label}` leaves shapes open; up to {MOST_FREE} obstacles a case are accepted, not {most}")
-        })
+        let ShapeChoice::Free(shapes) = &self.shape else { return None };
+        let most = cases.iter().map(|case| case.obstacles_cm.len() as u32).max().unwrap_or_default();
+        let fault = if never {
+            "open nodes are never lowered with one shape only".to_owned()
+        } else if self.hop_check.is_some_and(|check| check != HopSetting::EndPoints) {
+            "hops are judged by their end points then".to_owned()
+        } else if shapes.is_empty() {
+            "at least one shape is needed".to_owned()
+        } else if shapes.len().checked_pow(most).is_none_or(|ways| ways > MOST_CHOICES) {
+            let found = format!("{} shapes for {most} obstacles", shapes.len());
+            format!("up to {MOST_CHOICES} choices a case are accepted, not those of {found}")
+        } else {
+            return None;
+        };
+        Some(format!("variant `{label}` leaves shapes open; {fault}"))
     }
 
     /// The rules of `base` with this variant's laid over them.
@@ -152,35 +153,41 @@ impl Variant {
     /// The grids that each case may be on: one, or one for each way to give every obstacle a shape.
     ///
     /// # Errors
-    /// A sentence if an obstacle cannot be made.
+    /// A sentence if an obstacle cannot be made, or shapes are left open and hops are swept.
     pub fn grids(&self, base: &ArmRules, cases: &[Case]) -> Result<Vec<Vec<Moves>>, String> {
-        let of_case = |case: &Case| match self.shape {
-            ShapeChoice::Uniform(shape) => Ok(vec![self.world(base, case, shape)?.eight_moves()]),
-            ShapeChoice::Free(_) => self.free_grids(base, case),
+        let of_case = |case: &Case| match &self.shape {
+            ShapeChoice::Uniform(shape) => Ok(vec![self.world(base, case, *shape)?.eight_moves()]),
+            ShapeChoice::Free(shapes) => self.free_grids(base, case, shapes),
         };
         cases.iter().map(of_case).collect()
     }
 
     /// The grids of every way to give each obstacle a shape; the last obstacle's changes first. Hops are judged by their end
     /// points.
-    fn free_grids(&self, base: &ArmRules, case: &Case) -> Result<Vec<Moves>, String> {
+    fn free_grids(
+        &self,
+        base: &ArmRules,
+        case: &Case,
+        shapes: &[ShapeSetting],
+    ) -> Result<Vec<Moves>, String> {
+        let rules = self.rules(base);
+        if rules.hop != HopRule::EndPoints {
+            return Err("shapes are left open; hops are judged by their end points then".to_owned());
+        }
         let blocked = |centers: &[[f64; 2]], shape| {
             let alone = Case { obstacles_cm: centers.to_vec(), hops: case.hops };
             let world = self.world(base, &alone, shape)?;
             Ok::<_, String>(world.zones().iter().map(|zone| *zone != Zone::Free).collect::<Vec<bool>>())
         };
         let bare = blocked(&[], ShapeSetting::Circle)?;
-        let shapes = |center: &[f64; 2]| {
-            ShapeSetting::ALL.map(|shape| blocked(&[*center], shape)).into_iter().collect()
-        };
-        let blocked =
-            case.obstacles_cm.iter().map(shapes).collect::<Result<Vec<Vec<Vec<bool>>>, String>>()?;
+        let of_center = |center| shapes.iter().map(|shape| blocked(&[center], *shape)).collect();
+        let blocked: Vec<Vec<Vec<bool>>> =
+            case.obstacles_cm.iter().copied().map(of_center).collect::<Result<_, String>>()?;
         let mut choices: Vec<Vec<&Vec<bool>>> = vec![vec![&bare]];
         for shapes in &blocked {
             let longer = choices.iter().flat_map(|choice| shapes.iter().map(move |shape| (choice, shape)));
             choices = longer.map(|(choice, shape)| choice.iter().copied().chain([shape]).collect()).collect();
         }
-        let rules = self.rules(base);
         Ok(choices.iter().map(|blocked| moves_among(&rules, blocked)).collect())
     }
 
@@ -192,6 +199,32 @@ impl Variant {
         let obstacles = case.obstacles_cm.iter().map(|center| shape.obstacle(*center, self.diameter_cm));
         Ok(ArmWorld::new(self.rules(base), obstacles.collect::<Result<Vec<Obstacle>, _>>()?))
     }
+}
+
+/// What is wrong with `cases`, `variants` or their names in records, if anything.
+pub fn fault(cases: &[Case], variants: &[Variant]) -> Option<String> {
+    if cases.is_empty() || variants.is_empty() {
+        return Some("at least one case and one variant are needed".to_owned());
+    }
+    let is_odd = |case: &&Case| case.hops == [0, 0] || case.hops.iter().any(|hops| *hops > MOST_HOPS);
+    if let Some(case) = cases.iter().find(is_odd) {
+        let accepted = format!("at least one hop and at most {MOST_HOPS} of a kind are accepted");
+        return Some(format!("hops is {:?}; {accepted}", case.hops));
+    }
+    for (index, variant) in variants.iter().enumerate() {
+        let name = slug(&variant.label);
+        if let Some(other) = variants[..index].iter().find(|other| slug(&other.label) == name) {
+            let labels = format!("variants `{}` and `{}`", other.label, variant.label);
+            return Some(format!("{labels} have one name in records, `{name}`"));
+        }
+    }
+    variants.iter().find_map(|variant| variant.fault(cases))
+}
+
+/// What is wrong with a limit on how far below a length a shortest path may be, in steps, if anything.
+pub fn fault_of_excess(excess_steps: f64) -> Option<String> {
+    let is_right = (0.0..50.0).contains(&excess_steps);
+    (!is_right).then(|| format!("excess_steps is {excess_steps}; 0 and more, below 50, is accepted"))
 }
 
 /// What is asked of the grids of all cases; printed lengths are the asker's.
@@ -230,10 +263,9 @@ pub fn answers<Q: Question>(
     let mut together = question.shortest(&by_case, Match::ByPlace).into_iter();
     let answer = |(variant, grids): (&&Variant, Result<Vec<Vec<Moves>>, String>)| {
         let grids = grids?;
-        let mut free = if variant.is_free() { question.shortest(&grids, Match::Freely) } else { Vec::new() };
         let answer = match variant.never_lowered() {
             Some(ties) => Some(question.never_lowered(&grids.concat(), ties)),
-            None if variant.is_free() => free.pop(),
+            None if variant.is_free() => question.shortest(&grids, Match::Freely).pop(),
             None => together.next(),
         };
         Ok(answer.expect("a question has an answer for each alternative"))

@@ -170,15 +170,17 @@ pub fn run_one(
 ) -> Result<(Batch, Option<Row>), StudyError> {
     let field = Field::new(study, points, inputs)?;
     let units = field.units();
+    let owner = units.iter().find(|unit| field.trials(unit).iter().any(|name| name == trial));
     // What a task finds may have rows of its own, below a trial's name.
-    let has =
-        |name: &str| trial.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
-    let owner = units.iter().find(|unit| field.trials(unit).iter().any(|name| has(name)));
-    let Some(owner) = owner else {
+    let is_below = |name: &str| trial.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'));
+    let owner =
+        owner.or_else(|| units.iter().find(|unit| field.trials(unit).iter().any(|name| is_below(name))));
+    let unknown = || {
         let first = units.first().and_then(|unit| field.trials(unit).into_iter().next());
         let hint = format!("its first one is `{}/{}`", study.name, first.unwrap_or_default());
-        return Err(StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint });
+        StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint }
     };
+    let owner = owner.ok_or_else(unknown)?;
     let wanted = Some(BTreeSet::from([trial.to_owned()]));
     let mut batch = field.run_unit(&Unit { name: owner.name.clone(), keeps_all: true, wanted, ..*owner });
     batch.rows.retain(|row| row.trial == trial);
@@ -186,6 +188,9 @@ pub fn run_one(
     let before = stored(folder, &study.name)
         .ok()
         .and_then(|(_, records)| records.batch.rows.into_iter().find(|row| row.trial == trial));
+    if batch.rows.is_empty() && before.is_none() {
+        return Err(unknown());
+    }
     Ok((batch, before))
 }
 

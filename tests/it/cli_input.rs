@@ -98,6 +98,10 @@ fn papers_and_flags_that_do_not_exist_are_told() {
             &["repro", "./mini", "--trial", "draws/x"],
             "study `draws` has no trial `x`; its first one is `draws/drawn/0/a",
         ),
+        (
+            &["repro", "./mini", "--trial", "draws/drawn/0/a-star/x"],
+            "study `draws` has no trial `drawn/0/a-star/x`; its first one is `draws/drawn/0/a",
+        ),
         (&["judge", "./mini"], "no stored run"),
         (&["render", "./mini"], "verdicts.toml: no verdicts; run `replan judge` first"),
         (&["list", "plotters"], "invalid value 'plotters'"),

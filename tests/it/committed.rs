@@ -5,6 +5,7 @@ use replan::study::store::read_records;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 /// The bytes of every file below `path`.
 fn size(path: &Path) -> u64 {
@@ -56,4 +57,19 @@ fn every_stored_trial_has_the_row_of_what_was_prepared_by_which_it_is_found_agai
         }
     }
     assert!(studies > 15, "only {studies} stored studies");
+}
+
+#[test]
+fn stored_trials_under_a_reading_and_single_variants_are_found_by_their_names() {
+    for (paper, trial) in [
+        ("planar", "readings/case-1/a-star-8/ties=larger_g"),
+        ("planar", "null/workspace/circles-8-cm"),
+        ("zhang", "readings/w1/a-star/line_of_sight=bresenham"),
+    ] {
+        let mut replan = Command::new(env!("CARGO_BIN_EXE_replan"));
+        let said = replan.args(["repro", paper, "--trial", trial]).current_dir(env!("CARGO_MANIFEST_DIR"));
+        let said = said.output().unwrap();
+        let out = String::from_utf8(said.stdout).unwrap();
+        assert!(said.status.success() && out.ends_with("equals the stored row\n"), "{trial}: {out}");
+    }
 }

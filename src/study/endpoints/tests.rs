@@ -29,6 +29,9 @@ fn variant(text: &str) -> Variant {
     toml::from_str(&format!("label = 'v'\ndiameter_cm = 10\n{text}")).unwrap()
 }
 
+/// Each obstacle has any of the four shapes.
+const FREE: &str = "shape = ['circle', 'square', 'hexagon', 'triangle']";
+
 fn masks(moves: &Moves) -> Vec<u8> {
     (0..moves.cell_count()).map(|cell| moves.mask(cell)).collect()
 }
@@ -44,7 +47,7 @@ fn chosen(case: &Case, choice: usize) -> Moves {
 
 #[test]
 fn grids_of_free_shapes_are_those_of_worlds_built_choice_by_choice() {
-    let grids = variant("shape = 'free'").grids(&base(), &cases()).unwrap();
+    let grids = variant(FREE).grids(&base(), &cases()).unwrap();
     for (case, grids) in cases().iter().zip(&grids) {
         assert_eq!(grids.len(), 4_usize.pow(case.obstacles_cm.len() as u32));
         let all: Vec<Vec<u8>> = grids.iter().map(masks).collect();
@@ -55,7 +58,7 @@ fn grids_of_free_shapes_are_those_of_worlds_built_choice_by_choice() {
         assert!(different.len() > grids.len() / 2, "only {} grids differ", different.len());
     }
     let bare = Case { obstacles_cm: Vec::new(), ..cases()[0].clone() };
-    let grids = variant("shape = 'free'").grids(&base(), &[bare]).unwrap();
+    let grids = variant(FREE).grids(&base(), &[bare]).unwrap();
     assert_eq!(grids[0].len(), 1);
     assert!(masks(&grids[0][0]) == masks(&ArmWorld::new(base(), Vec::new()).eight_moves()));
 }
@@ -79,8 +82,7 @@ impl Question for Pairs {
 fn every_variant_gets_its_own_answer_and_free_shapes_include_what_uniform_ones_give() {
     let uniform =
         ["circle", "square", "hexagon", "triangle"].map(|shape| variant(&format!("shape = '{shape}'")));
-    let (free, never) =
-        (variant("shape = 'free'"), variant("shape = 'circle'\nopen_node = 'never'\nties = 'lifo'"));
+    let (free, never) = (variant(FREE), variant("shape = 'circle'\nopen_node = 'never'\nties = 'lifo'"));
     let impossible = Variant { diameter_cm: -1.0, ..variant("shape = 'circle'") };
     let [circles, squares, hexagons, triangles] = &uniform;
     let variants = [circles, &impossible, squares, &free, hexagons, &never, triangles];
@@ -94,16 +96,48 @@ fn every_variant_gets_its_own_answer_and_free_shapes_include_what_uniform_ones_g
         assert_eq!(answers[place].as_ref().unwrap(), &alone, "{variant:?}");
         assert!(alone.iter().all(|pair| of_free.contains(pair)), "{variant:?}");
     }
-    // Which four shapes there are decides the number: a square on its corner and a triangle 10 cm wide and high would make
-    // it 30.
+    // Which four shapes there are decides the number.
     assert_eq!(of_free.len(), 26);
 }
 
 #[test]
-fn variants_of_free_shapes_have_shortest_paths_and_few_obstacles() {
-    let free = variant("shape = 'free'");
-    assert_eq!(free.fault(&cases()), None);
+fn what_cannot_be_searched_or_told_apart_is_refused() {
+    let free = variant(FREE);
     let crowded = Case { obstacles_cm: vec![[0.0, 30.0]; 7], hops: [1, 0] };
-    let fault = free.fault(&[crowded]).unwrap();
-    assert_eq!(fault, "variant `v` leaves shapes open; up to 6 obstacles a case are accepted, not 7");
+    let long = Case { hops: [5_000_000, 10], ..cases()[0].clone() };
+    let named = |label: &str| Variant { label: label.to_owned(), ..variant("shape = 'circle'") };
+    let swept = variant(&format!("{FREE}\nhop_check = 'continuous'"));
+    let empty = variant("shape = []");
+    let cases = cases().to_vec();
+    for (cases, variants, part) in [
+        (
+            &[crowded][..],
+            vec![free.clone()],
+            "up to 4096 choices a case are accepted, not those of 4 shapes for 7",
+        ),
+        (&[long][..], vec![free.clone()], "hops is [5000000, 10]; at least one hop and at most 100000"),
+        (&[][..], vec![free.clone()], "at least one case and one variant"),
+        (&cases[..], vec![], "at least one case and one variant"),
+        (
+            &cases[..],
+            vec![swept.clone()],
+            "variant `v` leaves shapes open; hops are judged by their end points",
+        ),
+        (&cases[..], vec![empty], "variant `v` leaves shapes open; at least one shape"),
+        (
+            &cases[..],
+            vec![named("a b"), named("a, b")],
+            "variants `a b` and `a, b` have one name in records, `a-b`",
+        ),
+    ] {
+        let fault = fault(cases, &variants).unwrap();
+        assert!(fault.contains(part), "{fault}");
+    }
+    assert_eq!(fault(&cases, std::slice::from_ref(&free)), None);
+    let continuous = ArmRules { hop: HopRule::Continuous, ..base() };
+    assert!(free.grids(&continuous, &cases).unwrap_err().contains("judged by their end points"));
+    assert_eq!(fault_of_excess(3.0), None);
+    for excess in [-1.0, 50.0, 1e9, f64::NAN] {
+        assert!(fault_of_excess(excess).unwrap().contains("0 and more, below 50"), "{excess}");
+    }
 }

@@ -1,6 +1,6 @@
 //! Records as data frames and Parquet, and back.
 
-use crate::planner::{Exhibit, Value, fill};
+use crate::planner::{Exhibit, Value, fill_column};
 use crate::study::StudyError;
 use crate::study::column::{self, Kind};
 use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
@@ -195,7 +195,7 @@ impl Stored {
                     cells.iter().map(|cell| cell.map(Value::Real)).collect()
                 }
             };
-            fill(&mut rows, column.name, &cells);
+            fill_column(&mut rows, column.name, &cells);
         }
         Ok(rows)
     }

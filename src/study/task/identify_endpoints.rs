@@ -4,7 +4,7 @@ use super::{Entry, Task};
 use crate::endpoints::{self, Match, NeverLowered, Pair};
 use crate::grid::Moves;
 use crate::planner::{Exhibit, Value};
-use crate::search::{ScaledOctile, Ties};
+use crate::search::Ties;
 use crate::space::TipLattice;
 use crate::study::checked::Study;
 use crate::study::endpoints::{self as open, Case, Question, Variant};
@@ -20,15 +20,8 @@ pub static ENTRY: Entry = Entry {
     columns: &["start_x_cm", "start_y_cm", "goal_x_cm", "goal_y_cm", "pairs", "pairs_on_fives", "candidates"],
     build: |settings| {
         let read: Identify = settings.read()?;
-        if read.cases.is_empty() || read.variants.is_empty() {
-            return Err(settings.error("at least one case and one variant are needed"));
-        }
-        if let Some(case) = read.cases.iter().find(|case| case.target() < ScaledOctile::STRAIGHT) {
-            return Err(
-                settings.error(format!("hops is {:?}; a length of at least one hop is needed", case.hops))
-            );
-        }
-        if let Some(fault) = read.variants.iter().find_map(|variant| variant.fault(&read.cases)) {
+        let fault = open::fault(&read.cases, &read.variants);
+        if let Some(fault) = fault.or_else(|| open::fault_of_excess(read.excess_steps)) {
             return Err(settings.error(fault));
         }
         Ok(Box::new(read))
@@ -79,17 +72,20 @@ impl Task for Identify {
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
         let variants: Vec<&Variant> =
             self.variants.iter().filter(|variant| super::is_variant_wanted(unit, &variant.label)).collect();
-        let Some(world) = prepared.as_ref().ok().and_then(|prepared| prepared.world.as_arm()) else {
-            let reason = "this task needs the workspace of an arm";
-            batch.rows.extend(variants.iter().map(|of| super::invalid_variant(unit, &of.label, reason)));
-            return batch;
+        let base = match super::arm_rules(prepared.as_ref()) {
+            Ok(base) => base,
+            Err(reason) => {
+                let row = |variant: &&Variant| super::invalid_variant(unit, &variant.label, &reason);
+                batch.rows.extend(variants.iter().map(row));
+                return batch;
+            }
         };
-        let answers = open::answers(self, world.rules(), &self.cases, &variants);
+        let answers = open::answers(self, &base, &self.cases, &variants);
         let keeps = unit.is_kept(study, None, 0);
         for (variant, answer) in variants.into_iter().zip(answers) {
             match answer {
                 Ok(found) => {
-                    let points = points(&world.rules().lattice, &found.pairs);
+                    let points = points(&base.lattice, &found.pairs);
                     batch.rows.extend(rows(unit, variant, &points, found.candidates));
                     if keeps {
                         let of = super::variant_name(unit, &variant.label);

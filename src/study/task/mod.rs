@@ -11,6 +11,7 @@ use super::record::{Batch, PreparedRow, Row, Status, Values};
 use super::runner::Unit;
 use crate::planner::{Invalid, Value};
 use crate::settings::{Settings, SettingsError};
+use crate::space::ArmRules;
 
 /// A task with its settings.
 pub trait Task: Send + Sync {
@@ -110,6 +111,12 @@ fn is_variant_wanted(unit: &Unit<'_>, label: &str) -> bool {
     unit.is_wanted(|trial| {
         trial.strip_prefix(&name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
     })
+}
+
+/// The rules of the prepared arm; why there are none.
+fn arm_rules(prepared: Result<&Prepared, &Invalid>) -> Result<ArmRules, String> {
+    let arm = prepared.map_err(|invalid| invalid.0.clone())?.world.as_arm();
+    arm.map(|arm| *arm.rules()).ok_or_else(|| "this task needs the workspace of an arm".to_owned())
 }
 
 /// The row of a variant that cannot be tried.

@@ -1,11 +1,12 @@
 //! How often lengths that were not printed would have been met by some pair of lattice points just as well.
 
 use super::{Entry, Task};
-use crate::endpoints::{Match, NeverLowered, Targets};
+use crate::endpoints::{Match, NeverLowered, Targets, union};
 use crate::grid::Moves;
 use crate::planner::Value;
 use crate::search::Ties;
-use crate::study::checked::Study;
+use crate::space::ArmRules;
+use crate::study::checked::{Study, slug};
 use crate::study::endpoints::{self, Case, Question, Variant};
 use crate::study::record::{Batch, Row, Status, Values};
 use crate::study::runner::Unit;
@@ -23,21 +24,8 @@ pub static ENTRY: Entry = Entry {
             let message = format!("window_cm is {}; above 0 and below 50 is accepted", read.window_cm);
             return Err(settings.error(message));
         }
-        if let Some(fault) = read.variants.iter().find_map(|variant| variant.fault(&read.cases)) {
+        if let Some(fault) = read.fault() {
             return Err(settings.error(fault));
-        }
-        let never = read.variants.iter().find(|variant| variant.never_lowered().is_some());
-        match (never, read.excess_steps) {
-            (Some(variant), None) => {
-                let message =
-                    format!("variant `{}` never lowers open nodes; excess_steps is needed", variant.label);
-                return Err(settings.error(message));
-            }
-            (_, Some(excess)) if !(0.0..50.0).contains(&excess) => {
-                let message = format!("excess_steps is {excess}; 0 and more, below 50, is accepted");
-                return Err(settings.error(message));
-            }
-            _ => {}
         }
         Ok(Box::new(read))
     },
@@ -57,6 +45,24 @@ struct NullRate {
     window_cm: f64,
     /// How far below a target a shortest path may be where A* never lowers open nodes, in steps.
     excess_steps: Option<f64>,
+}
+
+impl NullRate {
+    fn fault(&self) -> Option<String> {
+        if let Some(fault) = endpoints::fault(&self.cases, &self.variants) {
+            return Some(fault);
+        }
+        if let Some(variant) = self.variants.iter().find(|variant| slug(&variant.label) == slug(ANY)) {
+            return Some(format!("variant `{}` has the name of the row over all variants", variant.label));
+        }
+        let never = self.variants.iter().find(|variant| variant.never_lowered().is_some());
+        match (never, self.excess_steps) {
+            (Some(variant), None) => {
+                Some(format!("variant `{}` never lowers open nodes; excess_steps is needed", variant.label))
+            }
+            (_, excess) => excess.and_then(endpoints::fault_of_excess),
+        }
+    }
 }
 
 /// The settings with what they ask of grids.
@@ -91,33 +97,57 @@ impl Task for NullRate {
         let mut batch = Batch::default();
         let prepared = unit.family.prepare(unit.seed);
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
-        let Some(base) = prepared.ok().and_then(|prepared| prepared.world.as_arm().map(|arm| *arm.rules()))
-        else {
-            return batch;
-        };
         // The last row is over all variants, so that it takes every one of them.
         let wants_any = super::is_variant_wanted(unit, ANY);
         let is_wanted = |label: &str| wants_any || super::is_variant_wanted(unit, label);
         let variants: Vec<&Variant> = self.variants.iter().filter(|of| is_wanted(&of.label)).collect();
+        let labels = variants.iter().map(|variant| variant.label.as_str()).chain(wants_any.then_some(ANY));
+        let asked = super::arm_rules(prepared.as_ref()).and_then(|base| Ok((base, self.asked(&base)?)));
+        batch.rows = match asked {
+            Ok((base, asked)) => self.rows(unit, &base, &asked, &variants, wants_any),
+            Err(reason) => labels.map(|label| super::invalid_variant(unit, label, &reason)).collect(),
+        };
+        batch
+    }
+}
+
+impl NullRate {
+    /// What is asked of grids on the lattice of `base`.
+    fn asked(&self, base: &ArmRules) -> Result<Asked<'_>, String> {
         let lengths = self.cases.each_ref().map(Case::length);
         let targets = Targets::new(lengths, self.window_cm / base.lattice.step_cm());
-        let asked = Asked { null: self, targets };
-        let mut any: Vec<bool> = Vec::new();
-        let answers = endpoints::answers(&asked, &base, &self.cases, &variants);
-        for (variant, answer) in variants.iter().zip(answers) {
-            match answer {
-                Ok(hits) => {
-                    batch.rows.push(row(unit, &variant.label, &asked.targets, &hits));
-                    any.resize(hits.len(), false);
-                    any.iter_mut().zip(hits).for_each(|(any, hit)| *any |= hit);
-                }
-                Err(reason) => batch.rows.push(super::invalid_variant(unit, &variant.label, &reason)),
-            }
+        if targets.count() == 0 {
+            let window = self.window_cm;
+            return Err(format!("no two lengths within {window} cm of the printed ones have equal parity"));
+        }
+        Ok(Asked { null: self, targets })
+    }
+
+    fn rows(
+        &self,
+        unit: &Unit<'_>,
+        base: &ArmRules,
+        asked: &Asked<'_>,
+        variants: &[&Variant],
+        wants_any: bool,
+    ) -> Vec<Row> {
+        let mut any: Result<Vec<bool>, String> = Ok(asked.targets.none());
+        let mut rows = Vec::new();
+        for (variant, answer) in variants.iter().zip(endpoints::answers(asked, base, &self.cases, variants)) {
+            let label = &variant.label;
+            rows.push(match &answer {
+                Ok(hits) => row(unit, label, &asked.targets, hits),
+                Err(reason) => super::invalid_variant(unit, label, reason),
+            });
+            any = any.and_then(|any| Ok(union(any, answer?)));
         }
         if wants_any {
-            batch.rows.push(row(unit, ANY, &asked.targets, &any));
+            rows.push(match any {
+                Ok(any) => row(unit, ANY, &asked.targets, &any),
+                Err(reason) => super::invalid_variant(unit, ANY, &reason),
+            });
         }
-        batch
+        rows
     }
 }
 

@@ -120,7 +120,7 @@ repeats = 4
 /// A paper with one study of `task`, with shapes left open and open nodes never lowered among its variants.
 fn with_all_variants(task: &str) -> tempfile::TempDir {
     let never = "{ label = 'never', shape = 'circle', diameter_cm = 6, open_node = 'never', ties = 'lifo' },";
-    let free = "{ label = 'free', shape = 'free', diameter_cm = 6 },";
+    let free = "{ label = 'free', shape = ['circle', 'triangle'], diameter_cm = 6 },";
     let window = if task == "null_rate" { "window_cm = 2.0" } else { "" };
     let settings = format!("{CASES}{never}\n{free}\n]\n{window}\nexcess_steps = 2.0\n");
     let folder = tempfile::tempdir().unwrap();
@@ -154,8 +154,10 @@ fn single_variants_are_run_again_without_the_others_and_give_the_stored_rows() {
             let (batch, stored) = run_one(study, &points, &inputs, &runs, trial).unwrap();
             assert_eq!(batch.rows, [stored.expect("it was run")], "{task}: {trial}");
         }
-        let error = run_one(study, &points, &inputs, &runs, "w/swe").unwrap_err().to_string();
-        assert!(error.contains("its first one is `s/w/circles`"), "{error}");
+        for wrong in ["w/swe", "w/swept/x", "w/free/pair-9999"] {
+            let error = run_one(study, &points, &inputs, &runs, wrong).unwrap_err().to_string();
+            assert!(error.contains("its first one is `s/w/circles`"), "{wrong}: {error}");
+        }
         let again = rerun(study, &inputs, &runs, 1, 1).unwrap();
         let all = rerun(study, &inputs, &runs, 1_000, 1).unwrap();
         assert!(again.differ.is_empty() && all.differ.is_empty(), "{task}: {again:?}, {all:?}");
@@ -181,7 +183,10 @@ fn variants_that_never_lower_open_nodes_need_an_excess_and_one_shape_and_only_th
         check(task, never, close).unwrap();
         for (variant, part) in [
             ("shape = 'circle', ties = 'lifo'", "variant `v` has ties"),
-            ("shape = 'free', open_node = 'never'", "variant `v` leaves shapes open; open nodes"),
+            (
+                "shape = ['circle', 'triangle'], open_node = 'never'",
+                "variant `v` leaves shapes open; open nodes",
+            ),
         ] {
             let error = check(task, variant, close).unwrap_err();
             assert!(error.contains(part), "{task}: {error}");
