@@ -162,12 +162,16 @@ fn analysis(criterion: &mut Criterion) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be had");
     let base = *workspace(HopRule::EndPoints).rules();
     let cases = cases();
-    let variant: Variant =
-        toml::from_str("label = 'circles'\nshape = 'circle'\ndiameter_cm = 10").expect("it is TOML");
     group.sample_size(10).measurement_time(Duration::from_secs(20));
-    group.bench_function("identify", |b| {
-        b.iter(|| pool.install(|| identified(&variant, &base, black_box(&cases))));
-    });
+    for (name, shape) in
+        [("circles", "'circle'"), ("any_shape", "['circle', 'square', 'hexagon', 'triangle']")]
+    {
+        let variant = format!("label = '{name}'\nshape = {shape}\ndiameter_cm = 10");
+        let variant: Variant = toml::from_str(&variant).expect("it is TOML");
+        group.bench_function(format!("identify/{name}"), |b| {
+            b.iter(|| pool.install(|| identified(&variant, &base, black_box(&cases))));
+        });
+    }
     group.finish();
 }
 
@@ -180,7 +184,8 @@ fn cases() -> [Case; 2] {
 
 fn identified(variant: &Variant, base: &ArmRules, cases: &[Case; 2]) -> usize {
     let grids = variant.grids(base, cases).expect("a disc has a size");
-    pairs(&grids, &cases.each_ref().map(Case::target), Match::ByPlace)[0].len()
+    let rule = if variant.is_free() { Match::Freely } else { Match::ByPlace };
+    pairs(&grids, &cases.each_ref().map(Case::target), rule)[0].len()
 }
 
 criterion_group!(benches, analysis, against_the_crate);

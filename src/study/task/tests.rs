@@ -166,6 +166,27 @@ fn single_variants_are_run_again_without_the_others_and_give_the_stored_rows() {
 }
 
 #[test]
+fn a_rerun_names_trials_that_come_out_otherwise_and_those_that_come_no_more() {
+    let folder = with_all_variants("null_rate");
+    facts(folder.path(), 2);
+    let file = folder.path().join("p/s.toml");
+    let spec = fs::read_to_string(&file).unwrap();
+    let circles = "  { label = 'circles', shape = 'circle', diameter_cm = 6 },\n";
+    for (edited, expected) in [
+        (spec.clone(), &[][..]),
+        (spec.replace(circles, &circles.replace("= 6", "= 9")), &["w/circles"][..]),
+        (spec.replace(circles, ""), &["w/circles"][..]),
+    ] {
+        fs::write(&file, edited).unwrap();
+        let inputs = Inputs { roots: vec![folder.path().join("p")] };
+        let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
+        let again = rerun(&paper.studies[0], &inputs, &folder.path().join("2"), 1_000, 1).unwrap();
+        let differ: Vec<&String> = again.differ.iter().filter(|name| !name.ends_with("above")).collect();
+        assert_eq!(differ, expected, "{again:?}");
+    }
+}
+
+#[test]
 fn variants_that_never_lower_open_nodes_need_an_excess_and_one_shape_and_only_they_have_ties() {
     let check = |task: &str, variant: &str, close: &str| {
         let folder = tempfile::tempdir().unwrap();
