@@ -43,7 +43,7 @@ struct Astar {
 }
 
 #[derive(Deserialize, Clone, Copy, PartialEq)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "a number, or `falling`, is accepted as a weight")]
 enum Weight {
     /// The same everywhere.
     Constant(f64),

@@ -63,7 +63,11 @@ pub struct Variant {
 
 /// The shapes that obstacles may have.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "one of circle, square, square_inscribed, hexagon, hexagon_turned, triangle, triangle_turned is accepted \
+                 as a shape, or a list of them"
+)]
 pub enum ShapeChoice {
     /// All have this one.
     Uniform(ShapeSetting),
@@ -116,7 +120,19 @@ impl Variant {
         if self.ties.is_some() && !never {
             return Some(format!("variant `{label}` has ties, which only matter with open_node = \"never\""));
         }
-        let ShapeChoice::Free(shapes) = &self.shape else { return None };
+        let centers = || cases.iter().flat_map(|case| &case.obstacles_cm);
+        let shapes: &[ShapeSetting] = match &self.shape {
+            ShapeChoice::Uniform(shape) => std::slice::from_ref(shape),
+            ShapeChoice::Free(shapes) => shapes,
+        };
+        let mut made =
+            shapes.iter().flat_map(|shape| centers().map(|at| shape.obstacle(*at, self.diameter_cm)));
+        if let Some(reason) = made.find_map(Result::err) {
+            return Some(format!("variant `{label}` (diameter_cm is {}): {reason}", self.diameter_cm));
+        }
+        if !self.is_free() {
+            return None;
+        }
         let most = cases.iter().map(|case| case.obstacles_cm.len() as u32).max().unwrap_or_default();
         let fault = if never {
             "open nodes are never lowered with one shape only".to_owned()

@@ -185,9 +185,12 @@ pub fn run_one(
     let mut batch = field.run_unit(&Unit { name: owner.name.clone(), keeps_all: true, wanted, ..*owner });
     batch.rows.retain(|row| row.trial == trial);
     batch.kept.retain(|kept| kept.of == trial);
-    let before = stored(folder, &study.name)
-        .ok()
-        .and_then(|(_, records)| records.batch.rows.into_iter().find(|row| row.trial == trial));
+    let before = if Manifest::path(folder, &study.name).exists() {
+        let (_, records) = stored(folder, &study.name)?;
+        records.batch.rows.into_iter().find(|row| row.trial == trial)
+    } else {
+        None
+    };
     if batch.rows.is_empty() && before.is_none() {
         return Err(unknown());
     }

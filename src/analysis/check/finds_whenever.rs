@@ -30,7 +30,7 @@ struct Settings {
 
 /// One problem group, or several.
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "the label of a problem group, or a list of them, is accepted")]
 enum Problems {
     One(String),
     Several(Vec<String>),

@@ -166,8 +166,15 @@ impl Study {
         self.contenders.iter().flat_map(|c| &c.stages).map(|stage| stage.entry.name).collect()
     }
 
+    /// Where `key` is first set, or its first table; comments may have the word as well.
     pub(super) fn key_span(&self, key: &str) -> std::ops::Range<usize> {
-        let at = self.document.text().find(key).unwrap_or(0);
+        let text = self.document.text();
+        let begins_line =
+            |at: &usize| text[..*at].rsplit('\n').next().is_some_and(|line| line.trim().is_empty());
+        let is_set = |at: &usize| text[*at + key.len()..].trim_start().starts_with('=');
+        let places = || text.match_indices(key).map(|(at, _)| at).filter(is_set);
+        let table = || text.find(&format!("[{key}"));
+        let at = places().find(begins_line).or_else(|| places().next()).or_else(table).unwrap_or(0);
         at..at + key.len()
     }
 

@@ -108,6 +108,7 @@ fn what_cannot_be_searched_or_told_apart_is_refused() {
     let named = |label: &str| Variant { label: label.to_owned(), ..variant("shape = 'circle'") };
     let swept = variant(&format!("{FREE}\nhop_check = 'continuous'"));
     let empty = variant("shape = []");
+    let inverted = Variant { diameter_cm: -10.0, ..named("v") };
     let cases = cases().to_vec();
     for (cases, variants, part) in [
         (
@@ -123,6 +124,7 @@ fn what_cannot_be_searched_or_told_apart_is_refused() {
             vec![swept.clone()],
             "variant `v` leaves shapes open; hops are judged by their end points",
         ),
+        (&cases[..], vec![inverted], "variant `v` (diameter_cm is -10): the circle's radius is -5"),
         (&cases[..], vec![empty], "variant `v` leaves shapes open; at least one shape"),
         (
             &cases[..],
@@ -134,8 +136,16 @@ fn what_cannot_be_searched_or_told_apart_is_refused() {
         assert!(fault.contains(part), "{fault}");
     }
     assert_eq!(fault(&cases, std::slice::from_ref(&free)), None);
+}
+
+#[test]
+fn swept_free_shapes_unknown_shapes_and_a_wild_excess_are_refused() {
+    let unknown = toml::from_str::<Variant>("label = 'v'\ndiameter_cm = 10\nshape = 'pentagon'");
+    assert!(
+        unknown.unwrap_err().to_string().contains("hexagon_turned, triangle, triangle_turned is accepted")
+    );
     let continuous = ArmRules { hop: HopRule::Continuous, ..base() };
-    assert!(free.grids(&continuous, &cases).unwrap_err().contains("judged by their end points"));
+    assert!(variant(FREE).grids(&continuous, &cases()).unwrap_err().contains("judged by their end points"));
     assert_eq!(fault_of_excess(3.0), None);
     for excess in [-1.0, 50.0, 1e9, f64::NAN] {
         assert!(fault_of_excess(excess).unwrap().contains("0 and more, below 50"), "{excess}");
