@@ -16,8 +16,6 @@ pub enum Match {
 #[derive(Clone, Debug)]
 pub(super) struct Choices {
     rule: Match,
-    cell_count: u32,
-    grid_count: usize,
     searches: Vec<ManyGrids>,
 }
 
@@ -45,20 +43,16 @@ impl Choices {
         let search = |grids: &[Moves]| {
             ManyGrids::new(grids).expect("a workspace is smaller than the search's largest grid")
         };
-        Self {
-            rule,
-            cell_count: grids[0].cell_count(),
-            grid_count: grids.len(),
-            searches: grids.chunks(ManyGrids::MOST).map(search).collect(),
-        }
+        Self { rule, searches: grids.chunks(ManyGrids::MOST).map(search).collect() }
     }
 
     pub(super) fn cell_count(&self) -> u32 {
-        self.cell_count
+        self.searches[0].cell_count()
     }
 
-    pub(super) fn grid_count(&self) -> usize {
-        self.grid_count
+    /// How many searches a flood takes.
+    pub(super) fn search_count(&self) -> usize {
+        self.searches.len()
     }
 
     /// Tells `visit` the cells and costs of [`ManyGrids::flood`], with the alternatives that have them: the only one

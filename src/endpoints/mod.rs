@@ -50,10 +50,10 @@ pub fn pairs(cases: &[Vec<Moves>], lengths: &[u32], rule: Match) -> Vec<Vec<Pair
 }
 
 /// The goals above `start` that are at the length of every case, with the alternatives for which they are; a case is
-/// searched only while goals remain, those with few grids first.
+/// searched only while goals remain, those that take few searches first.
 fn goals(cases: &mut [Choices], lengths: &[u32], start: u32) -> Vec<(u32, GridSet)> {
     let mut order: Vec<usize> = (0..cases.len()).collect();
-    order.sort_by_key(|case| cases[*case].grid_count());
+    order.sort_by_key(|case| cases[*case].search_count());
     let mut goals: Option<Vec<(u32, GridSet)>> = None;
     for case in order {
         let mut here = Vec::new();

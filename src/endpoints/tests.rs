@@ -1,25 +1,12 @@
 use super::*;
 use crate::geometry::Vec2;
-use crate::geometry::planar::{Circle, Touch};
-use crate::grid::CornerRule;
-use crate::kinematics::planar_2r::{ElbowRule, Planar2r};
+use crate::geometry::planar::Circle;
+use crate::kinematics::planar_2r::Planar2r;
 use crate::search::{
     Combined, FirstWayAstar, GridGraph, Heap, Octile, Rules, ScaledOctile, Search, Terms, Ties, Update,
     euclidean_to, sum,
 };
-use crate::space::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice};
-
-fn rules() -> ArmRules {
-    ArmRules {
-        arm: Planar2r::new(30.0, 20.0).unwrap(),
-        elbow: ElbowRule::NegativeQ2,
-        lattice: TipLattice::new([-50.0, 50.0], [0.0, 50.0], 1.0).unwrap(),
-        inner_radius_cm: 20.0,
-        touch: Touch::Contact,
-        corner_rule: CornerRule::Allow,
-        hop: HopRule::EndPoints,
-    }
-}
+use crate::space::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, reproduced_rules as rules};
 
 /// The workspace with discs about `centers`.
 fn world(rules: &ArmRules, centers: &[[f64; 2]], diameter_cm: f64) -> ArmWorld {
@@ -33,38 +20,32 @@ fn scaled(lengths: [Octile; 2]) -> [u32; 2] {
     lengths.map(ScaledOctile::scaled)
 }
 
-fn worlds(diameter_cm: f64) -> [ArmWorld; 2] {
+fn worlds() -> [ArmWorld; 2] {
     let one: &[[f64; 2]] = &[[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]];
     let two: &[[f64; 2]] = &[[41.0, 10.0], [7.0, 40.0], [-16.0, 33.0]];
-    [one, two].map(|centers| world(&rules(), centers, diameter_cm))
+    [one, two].map(|centers| world(&rules(HopRule::EndPoints), centers, 10.0))
 }
 
-/// Both cases with discs of each of these diameters.
-fn grids(diameters_cm: impl IntoIterator<Item = f64>) -> [Vec<Moves>; 2] {
-    let mut grids = [Vec::new(), Vec::new()];
-    for diameter in diameters_cm {
-        for (grids, world) in grids.iter_mut().zip(worlds(diameter)) {
-            grids.push(world.eight_moves());
-        }
-    }
-    grids
+/// One grid a case.
+fn grids() -> [Vec<Moves>; 2] {
+    worlds().map(|world| vec![world.eight_moves()])
 }
 
 fn points(pairs: &[Pair]) -> Vec<[[f64; 2]; 2]> {
-    let point = |cell: &u32| -> [f64; 2] { rules().lattice.point(*cell).into() };
+    let point = |cell: &u32| -> [f64; 2] { rules(HopRule::EndPoints).lattice.point(*cell).into() };
     pairs.iter().map(|[a, b]| [point(a), point(b)]).collect()
 }
 
 #[test]
 fn circles_with_contact_forbidden_leave_the_two_pairs_that_two_other_programs_found() {
-    let found = pairs(&grids([10.0]), &scaled(LENGTHS), Match::ByPlace);
+    let found = pairs(&grids(), &scaled(LENGTHS), Match::ByPlace);
     assert_eq!(found.len(), 1);
     assert_eq!(points(&found[0]), [[[49.0, 3.0], [0.0, 45.0]], [[49.0, 3.0], [2.0, 45.0]]]);
 }
 
 #[test]
 fn every_target_that_is_hit_has_a_pair_and_the_printed_one_is_among_them() {
-    let grids = grids([10.0]);
+    let grids = grids();
     let targets = Targets::new(LENGTHS, 1.0);
     let hits = &targets.hits(&grids, Match::ByPlace)[0];
     let (mut checked, mut met) = (0, 0);
@@ -171,7 +152,7 @@ fn kernel_length(ties: Ties, world: &ArmWorld, moves: &Moves, [start, goal]: Pai
 
 #[test]
 fn where_open_nodes_are_never_lowered_lengths_between_many_pairs_are_the_kernels() {
-    for (world, length) in worlds(10.0).into_iter().zip(scaled(LENGTHS)) {
+    for (world, length) in worlds().into_iter().zip(scaled(LENGTHS)) {
         let moves = world.eight_moves();
         let most = length + 8 * ScaledOctile::STRAIGHT;
         let mut flood = search(&moves);
@@ -224,7 +205,7 @@ impl Small {
             arm: Planar2r::new(15.0, 10.0).unwrap(),
             lattice: TipLattice::new([-25.0, 25.0], [0.0, 25.0], 1.0).unwrap(),
             inner_radius_cm: 10.0,
-            ..rules()
+            ..rules(HopRule::EndPoints)
         };
         let centers = [[0.0, 20.0], [10.0, 18.0]];
         let worlds = centers.map(|center| world(&rules, &[center], 6.0));

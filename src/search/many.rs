@@ -68,6 +68,11 @@ impl ManyGrids {
         })
     }
 
+    /// Number of cells of each grid.
+    pub fn cell_count(&self) -> u32 {
+        self.legal.len() as u32 - 2 * self.before
+    }
+
     /// Tells `visit` every cell that `start` reaches at a cost up to `most` on any grid, with that cost and the grids on
     /// which it is the least; a cell and a grid come together once. Costs rise from visit to visit and are in the units of
     /// [`ScaledOctile`](super::ScaledOctile).
@@ -75,7 +80,7 @@ impl ManyGrids {
     /// # Panics
     /// If `start` is outside the grids.
     pub fn flood(&mut self, start: u32, most: u32, mut visit: impl FnMut(u32, u32, GridSet)) {
-        assert!((start as usize) < self.legal.len() - 2 * self.before as usize, "{start} is no cell");
+        assert!(start < self.cell_count(), "{start} is no cell");
         self.open.clear();
         self.closed.fill(0);
         self.offered.fill((u32::MAX, 0));

@@ -8,6 +8,8 @@ mod lattice;
 pub mod polyhedra;
 pub mod roadmap;
 
+#[cfg(test)]
+pub use arm::reproduced_rules;
 pub use arm::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, Zone};
 pub use lattice::LatticeWorld;
 pub use polyhedra::PolyhedraWorld;

@@ -48,15 +48,16 @@ pub fn percentile<T>(units: &[T], statistic: impl Fn(&[&T]) -> Option<f64>, plan
 
 /// [`percentile`] of the mean of `values`.
 pub fn mean(values: &[f64], plan: Plan) -> Option<Estimate> {
-    let mean =
-        |units: &[&f64]| (!units.is_empty()).then(|| units.iter().copied().sum::<f64>() / units.len() as f64);
-    percentile(values, mean, plan)
+    of_values(values, summary::mean, plan)
 }
 
 /// [`percentile`] of the median of `values`.
 pub fn median(values: &[f64], plan: Plan) -> Option<Estimate> {
-    let of = |picks: &[&f64]| summary::median(&picks.iter().map(|value| **value).collect::<Vec<_>>());
-    percentile(values, of, plan)
+    of_values(values, summary::median, plan)
+}
+
+fn of_values(values: &[f64], statistic: fn(&[f64]) -> Option<f64>, plan: Plan) -> Option<Estimate> {
+    percentile(values, |picks| statistic(&picks.iter().map(|value| **value).collect::<Vec<_>>()), plan)
 }
 
 /// [`percentile`] for a statistic that takes the indices of units.

@@ -15,6 +15,8 @@ mod tests;
 
 pub use lattice::TipLattice;
 pub use obstacle::Obstacle;
+#[cfg(test)]
+pub use tests::rules as reproduced_rules;
 
 use crate::geometry::Vec2;
 use crate::geometry::planar::{Segment2, Touch};

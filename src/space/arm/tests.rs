@@ -3,7 +3,8 @@ use crate::geometry::planar::{Circle, ConvexPolygon};
 use crate::seed;
 use rand::RngExt as _;
 
-pub(super) fn rules(hop: HopRule) -> ArmRules {
+/// The rules of the reproduced workspace.
+pub fn rules(hop: HopRule) -> ArmRules {
     ArmRules {
         arm: Planar2r::new(30.0, 20.0).unwrap(),
         elbow: ElbowRule::NegativeQ2,
