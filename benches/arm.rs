@@ -13,20 +13,20 @@
 //!   study's steps of 4°; the search for neighbours is part of it.
 //! - `query/original` and `/improved`: one query on that roadmap, its local paths already known.
 
+use base::seed;
+use base::settings::Settings;
 use criterion::{Criterion, criterion_group, criterion_main};
+use engine::geometry::{Aabb, Capsule, Solid, Vec3};
+use engine::kinematics::{Joints, Robot};
+use engine::planner::{self, Build, Planner, Request};
+use engine::space::World;
+use engine::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Pose, Scene, Scratch, Standing};
+use engine::space::roadmap::{Counted, Local, Roadmap, Sample};
 use fearless_simd::{Level, dispatch};
 use parry3d::math::{Pose as ParryPose, Vector};
 use parry3d::query::intersection_test;
 use parry3d::shape::{self, SharedShape};
 use rand::RngExt as _;
-use replan::geometry::{Aabb, Capsule, Solid, Vec3};
-use replan::kinematics::{Joints, Robot};
-use replan::planner::{self, Build, Planner, Request};
-use replan::seed;
-use replan::settings::Settings;
-use replan::space::World;
-use replan::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Pose, Scene, Scratch, Standing};
-use replan::space::roadmap::{Counted, Local, Roadmap, Sample};
 use std::f64::consts::PI;
 use std::hint::black_box;
 use std::time::Duration;

@@ -10,19 +10,19 @@
 //! - `pathfinding_u32`: the crate with `u32` nodes and costs and successors from legal-move masks, unallocated;
 //! - `pathfinding_typical`: the crate with `(x, y)` nodes, `f64` costs and a `Vec` of successors.
 
-use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
-use pathfinding::{num_traits::Zero, prelude::astar};
-use rand::RngExt as _;
-use replan::grid::{
+use base::grid::{
     Components, CornerRule, DIRECTIONS, Grid2, components, independent_cells, read_movingai_map, rectangles,
 };
-use replan::planner::{self, Build, Planner, Request};
-use replan::search::{
+use base::seed;
+use base::settings::Settings;
+use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
+use engine::planner::{self, Build, Planner, Request};
+use engine::search::{
     Best, Buckets, GridGraph, Octile, OctileAstar, Rules, ScaledOctile, Search, Terms, Update,
 };
-use replan::seed;
-use replan::settings::Settings;
-use replan::space::{LatticeWorld, World};
+use engine::space::{LatticeWorld, World};
+use pathfinding::{num_traits::Zero, prelude::astar};
+use rand::RngExt as _;
 use std::{cmp::Ordering, hint::black_box, ops::Add, path::Path, time::Duration};
 
 /// An `f64` in total order, as the crate asks of costs.

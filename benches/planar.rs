@@ -9,17 +9,17 @@
 //! that studies call; it also counts what plain lists would compare. The crate gets `u32` nodes, totally ordered `f64`
 //! costs and successors from an unallocated iterator.
 
+use base::grid::{CornerRule, Offsets};
+use base::settings::Settings;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use engine::geometry::planar::Touch;
+use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
+use engine::length_inversion::{Match, pairs};
+use engine::planner::{self, Build, Planner, Request};
+use engine::search::OctileAstar;
+use engine::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
 use pathfinding::{num_traits::Zero, prelude::astar};
-use replan::endpoints::{Match, pairs};
-use replan::geometry::planar::Touch;
-use replan::grid::{CornerRule, Offsets};
-use replan::kinematics::planar_2r::{ElbowRule, Planar2r};
-use replan::planner::{self, Build, Planner, Request};
-use replan::search::OctileAstar;
-use replan::settings::Settings;
-use replan::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
-use replan::study::endpoints::{Case, Variant};
+use replan::study::endpoint_variants::{Case, Variant};
 use replan::study::prepared::workspace_map::ShapeSetting;
 use std::{cmp::Ordering, hint::black_box, ops::Add, time::Duration};
 

@@ -9,18 +9,18 @@
 //! - `posture/adjusted_node`: the first step of that path whose end needs another posture than its start, by itself, with
 //!   the choice of the branch that every path begins with.
 
+use base::seed;
+use base::settings::Settings;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use engine::geometry::{Convex, Segment, Vec3, distance_segment_convex};
+use engine::kinematics::Robot;
+use engine::planner::{self, Build, Ending, Plan, Planner, Request, Stage};
+use engine::space::polyhedra::{CarriedArm, read_scene};
+use engine::space::{PolyhedraWorld, World};
 use parry3d::math::{Pose, Vector};
 use parry3d::query;
 use parry3d::shape::{self, ConvexPolyhedron};
 use rand::RngExt as _;
-use replan::geometry::{Convex, Segment, Vec3, distance_segment_convex};
-use replan::kinematics::Robot;
-use replan::planner::{self, Build, Ending, Plan, Planner, Request, Stage};
-use replan::seed;
-use replan::settings::Settings;
-use replan::space::polyhedra::{CarriedArm, read_scene};
-use replan::space::{PolyhedraWorld, World};
 use std::{hint::black_box, path::Path, time::Duration};
 
 fn file(name: &str) -> std::path::PathBuf {

@@ -4,10 +4,10 @@ use super::check::{self, Check, Context};
 use super::evidence::{Evidence, default_point};
 use super::together::together;
 use super::verdict::{Finding, Judged, Verdict, Verdicts};
-use crate::hash::sha256;
-use crate::settings::SettingsError;
-use crate::study::Point;
+use crate::study::ReadingChoice;
 use crate::study::paper::{Claim, Paper};
+use base::hash::sha256;
+use base::settings::SettingsError;
 use rayon::prelude::*;
 
 /// Builds every check of every claim, so that `replan check` finds what is wrong before anything runs.
@@ -62,7 +62,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
 /// The checks of a claim, built.
 pub(super) fn checks<'a>(
     paper: &'a Paper,
-    point: &'a Point,
+    point: &'a ReadingChoice,
     claim: &'a Claim,
 ) -> Result<Vec<(&'static str, Box<dyn Check + 'a>)>, SettingsError> {
     let mut built = Vec::new();

@@ -2,11 +2,11 @@
 
 use super::evidence::Run;
 use super::metric::Metric;
-use crate::seed;
-use crate::stats::bootstrap::{self, Estimate, Plan};
-use crate::stats::interval::Interval;
-use crate::stats::paired::ratio_of_means;
 use crate::study::record::{Row, Status};
+use base::seed;
+use stats::bootstrap::{self, Estimate, Resampling};
+use stats::interval::Interval;
+use stats::paired::ratio_of_means;
 use std::collections::BTreeMap;
 
 /// The trials of each of `contenders`, in the order of draws, on the problems that all of them solved.
@@ -54,7 +54,7 @@ pub fn reduction_percent(
     Some(Estimate { value: percent(ratio.value), interval, ..ratio })
 }
 
-fn plan(run: &Run<'_>, contender: &str, metric: &Metric) -> Plan {
+fn plan(run: &Run<'_>, contender: &str, metric: &Metric) -> Resampling {
     let seed = seed::derive(0, &[&run.study.paper, &run.study.name, contender, metric.name]);
-    Plan { resamples: 1000, level: 0.95, seed }
+    Resampling { resamples: 1000, level: 0.95, seed }
 }

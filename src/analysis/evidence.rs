@@ -1,14 +1,14 @@
 //! The records that claims are judged by, ready to be asked.
 
 use super::metric::{self, Metric};
-use crate::hash::sha256;
-use crate::planner::Exhibit;
-use crate::stats::summary;
 use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
 use crate::study::record::{PreparedRow, Row, Status};
 use crate::study::store::{Records, read_records};
-use crate::study::{Point, Study, StudyError};
+use crate::study::{ReadingChoice, Study, StudyError};
+use base::hash::sha256;
+use engine::planner::Exhibit;
+use stats::summary;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ pub struct Evidence<'a> {
     /// The paper.
     pub paper: &'a Paper,
     /// The reading that claims are judged under.
-    pub point: Point,
+    pub point: ReadingChoice,
     runs: BTreeMap<&'a str, Run<'a>>,
 }
 
@@ -84,7 +84,7 @@ impl<'a> Evidence<'a> {
     ///
     /// # Errors
     /// [`StudyError::Stored`] for a run that is missing, damaged or made by another spec.
-    pub fn read(paper: &'a Paper, point: Point, folder: &Path) -> Result<Self, StudyError> {
+    pub fn read(paper: &'a Paper, point: ReadingChoice, folder: &Path) -> Result<Self, StudyError> {
         let mut runs = BTreeMap::new();
         for study in &paper.studies {
             runs.insert(study.name.as_str(), Run::read(study, &point, folder)?);
@@ -94,7 +94,7 @@ impl<'a> Evidence<'a> {
 
     /// The same records, to be judged under another reading.
     #[must_use]
-    pub fn under(&self, point: Point) -> Self {
+    pub fn under(&self, point: ReadingChoice) -> Self {
         let runs = self.runs.iter().map(|(name, run)| (*name, run.under(&point))).collect();
         Self { paper: self.paper, point, runs }
     }
@@ -116,12 +116,13 @@ impl<'a> Evidence<'a> {
 }
 
 /// The default point over the readings of all studies of `paper`.
-pub fn default_point(paper: &Paper) -> Point {
-    Point::new(&paper.readings(), &BTreeMap::new()).expect("a loaded study's defaults are among its options")
+pub fn default_point(paper: &Paper) -> ReadingChoice {
+    ReadingChoice::new(&paper.readings(), &BTreeMap::new())
+        .expect("a loaded study's defaults are among its options")
 }
 
 impl<'a> Run<'a> {
-    fn read(study: &'a Study, point: &Point, folder: &Path) -> Result<Self, StudyError> {
+    fn read(study: &'a Study, point: &ReadingChoice, folder: &Path) -> Result<Self, StudyError> {
         let manifest = Manifest::read(folder, &study.name)?;
         let spec = sha256(study.document.text().as_bytes());
         if manifest.spec != spec {
@@ -135,7 +136,7 @@ impl<'a> Run<'a> {
         Ok(Self { study, manifest: Arc::new(manifest), records: Arc::new(records), reading, index })
     }
 
-    fn under(&self, point: &Point) -> Self {
+    fn under(&self, point: &ReadingChoice) -> Self {
         Self {
             study: self.study,
             manifest: self.manifest.clone(),

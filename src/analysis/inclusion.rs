@@ -1,8 +1,8 @@
 //! What follows from neighbourhoods alone: a search over more steps that returns a shortest path is never longer.
 
-use crate::planner::Planner;
-use crate::settings::SettingsError;
-use crate::study::{Point, Study};
+use crate::study::{ReadingChoice, Study};
+use base::settings::SettingsError;
+use engine::planner::Planner;
 use std::collections::BTreeSet;
 
 /// What the sets of steps of two contenders say about their path lengths on one problem.
@@ -23,7 +23,12 @@ impl Inclusion {
     ///
     /// # Errors
     /// A settings error of a planner.
-    pub fn of(study: &Study, point: &Point, contender: &str, other: &str) -> Result<Self, SettingsError> {
+    pub fn of(
+        study: &Study,
+        point: &ReadingChoice,
+        contender: &str,
+        other: &str,
+    ) -> Result<Self, SettingsError> {
         let point = point.for_trials(&study.readings);
         let sweep = study.sweep_points().swap_remove(0);
         let planner = |label: &str| -> Result<Option<Box<dyn Planner>>, SettingsError> {
@@ -67,8 +72,8 @@ impl Inclusion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planner::{self, Build};
-    use crate::settings::Settings;
+    use base::settings::Settings;
+    use engine::planner::{self, Build};
 
     fn astar(shape: &str, radius: u8, open_node: &str) -> Box<dyn Planner> {
         let text = format!(

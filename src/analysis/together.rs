@@ -8,9 +8,9 @@ use super::check::{Attained, Context};
 use super::claims::checks;
 use super::evidence::Evidence;
 use super::verdict::Together;
-use crate::settings::SettingsError;
 use crate::study::paper::Claim;
-use crate::study::{Point, StudyError};
+use crate::study::{ReadingChoice, StudyError};
+use base::settings::SettingsError;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -47,7 +47,7 @@ pub fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError>
 }
 
 /// The reading in hand, and those that studies explore.
-fn points(evidence: &Evidence<'_>) -> Vec<Point> {
+fn points(evidence: &Evidence<'_>) -> Vec<ReadingChoice> {
     let readings = evidence.paper.readings();
     let mut points = vec![evidence.point.clone()];
     let explored = evidence.paper.studies.iter().filter(|study| study.explore.is_some());

@@ -1,11 +1,11 @@
 //! Verdicts: what was found about each claim, and the file that keeps them.
 
-use crate::settings::Document;
-use crate::stats::interval::Interval;
-use crate::stats::proportion::units_for_margin;
 use crate::study::StudyError;
 use crate::study::store::write_whole;
+use base::settings::Document;
 use serde::{Deserialize, Serialize};
+use stats::interval::Interval;
+use stats::proportion::units_for_margin;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

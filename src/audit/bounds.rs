@@ -4,7 +4,7 @@
 //! Euclidean length in the same unit, and a saving is relative to the printed baseline. No map is assumed.
 
 use super::{Cell, distance};
-use crate::stats::interval::Interval;
+use stats::interval::Interval;
 
 /// Length of the straight line between two points, in the points' unit.
 pub fn straight_line(a: [f64; 2], b: [f64; 2]) -> f64 {

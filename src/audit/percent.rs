@@ -4,7 +4,7 @@ use super::{
     AuditError,
     printed::{Digits, Printed},
 };
-use crate::stats::interval::Interval;
+use stats::interval::Interval;
 
 /// What two printed cells say about the reduction from one to the other.
 #[derive(Debug, Clone, Copy, PartialEq)]

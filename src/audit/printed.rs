@@ -7,7 +7,7 @@
 use std::{fmt, str::FromStr};
 
 use super::AuditError;
-use crate::stats::interval::Interval;
+use stats::interval::Interval;
 
 /// How the digits of a printed number end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

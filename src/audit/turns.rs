@@ -14,7 +14,7 @@
 //! not found does not exist.
 
 use super::{Cell, bounds::straight_line_between, distance};
-use crate::stats::interval::Interval;
+use stats::interval::Interval;
 
 mod half;
 mod net;

@@ -5,7 +5,7 @@ use super::{Failure, How, Which, verdicts};
 use crate::analysis::claims;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
-use crate::study::Point;
+use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
@@ -34,7 +34,7 @@ impl Judge {
 }
 
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
-pub fn judge(paper: &Paper, point: Point, places: &Places) -> Result<Verdicts, Failure> {
+pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
     let evidence = Evidence::read(paper, point, &places.runs)?;
     let verdicts = claims::judge(&evidence)?;
     verdicts.write(&places.runs)?;

@@ -3,11 +3,11 @@
 use super::places::{EXPERIMENTS, papers};
 use super::{Failure, all};
 use crate::analysis::{check, metric};
-use crate::planner::{self, Build};
 use crate::render::figure;
 use crate::study::paper::Paper;
 use crate::study::{Inputs, family, prepared, task};
 use clap::{Args, ValueEnum};
+use engine::planner::{self, Build};
 use std::path::{Path, PathBuf};
 
 /// Lists what there is.

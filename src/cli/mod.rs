@@ -24,8 +24,8 @@ mod run;
 mod trial;
 mod verdicts;
 
-use crate::settings::SettingsError;
 use crate::study::StudyError;
+use base::settings::SettingsError;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
 use std::path::PathBuf;

@@ -5,7 +5,7 @@
 
 use super::{Failure, How, Which};
 use crate::study::paper::Paper;
-use crate::study::{Inputs, Point, Study};
+use crate::study::{Inputs, ReadingChoice, Study};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -164,7 +164,7 @@ impl How {
     ///
     /// # Errors
     /// An unknown reading or option.
-    pub fn points(&self, study: &Study) -> Result<Vec<Point>, Failure> {
+    pub fn points(&self, study: &Study) -> Result<Vec<ReadingChoice>, Failure> {
         match self.readings.as_deref() {
             None if study.explore.is_none() => Ok(vec![self.point(&study.readings)?]),
             None | Some("all") => Ok(study.trial_points()?),
@@ -184,7 +184,7 @@ impl How {
     ///
     /// # Errors
     /// An option that is not among a reading's. Readings that a study does not have are left to others.
-    pub fn point(&self, readings: &[crate::study::Reading]) -> Result<Point, Failure> {
+    pub fn point(&self, readings: &[crate::study::Reading]) -> Result<ReadingChoice, Failure> {
         let mut chosen = BTreeMap::new();
         for part in
             self.readings.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(','))
@@ -202,7 +202,8 @@ impl How {
                 )));
             }
         }
-        Point::new(readings, &chosen).map_err(|message| Failure::input(format!("--readings: {message}")))
+        ReadingChoice::new(readings, &chosen)
+            .map_err(|message| Failure::input(format!("--readings: {message}")))
     }
 
     /// Refuses readings that no study of the paper has.

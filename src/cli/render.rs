@@ -7,7 +7,7 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::{self, Output};
 use crate::render::report;
-use crate::study::Point;
+use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
@@ -67,7 +67,7 @@ pub fn check_report(paper: &Paper, places: &Places) -> Result<(), Failure> {
 
 fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -> Result<Drawn, Failure> {
     let verdicts = Verdicts::read(&places.runs)?;
-    let point = Point::new(&paper.readings(), &verdicts.reading).map_err(|message| {
+    let point = ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|message| {
         Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
     })?;
     let evidence = Evidence::read(paper, point, &places.runs)?;

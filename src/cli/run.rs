@@ -7,7 +7,7 @@ use crate::analysis::claims;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
-use crate::study::session::{self, Odd, Options, Report};
+use crate::study::session::{self, Options, Report, UnexpectedStatus};
 use clap::Args;
 
 /// Runs the studies of a paper.
@@ -90,7 +90,7 @@ pub fn summary(report: &Report, why: bool) -> String {
     if !said.is_empty() {
         text += &format!(" ({})", said.join(", "));
     }
-    for Odd { status, count, trial, reason } in &report.odd {
+    for UnexpectedStatus { status, count, trial, reason } in &report.odd {
         text += &format!("\n  {count} {status}; the first is {}/{trial}: {reason}", report.manifest.study);
     }
     if !report.moved.is_empty() {

@@ -5,7 +5,7 @@ use super::model::{Model, Pair};
 use super::sample::{Kind, Question};
 use super::subject::Subject;
 use super::table::{Table, place};
-use crate::geometry::Frame;
+use engine::geometry::Frame;
 use std::path::Path;
 
 /// How far frames may differ: metres, and entries of rotation matrices. Both sides round a few dozen operations

@@ -5,7 +5,7 @@ use super::model::Model;
 use super::path::{Path, Pushed, pushed};
 use super::sample::{Kind, Question};
 use super::subject::Subject;
-use crate::geometry::Vec3;
+use engine::geometry::Vec3;
 
 /// By how much the longest link is made longer for the judge.
 pub const STRETCH_M: f64 = 1e-3;

@@ -8,7 +8,7 @@
 //! meshes of eight vertices. Links and obstacles meet by masks, parts of the robot by explicit pairs.
 
 use super::model::{Model, Part, Still};
-use crate::geometry::{Solid, Vec3};
+use engine::geometry::{Solid, Vec3};
 use std::fmt::Write as _;
 
 /// The thickness of a picture's floor and half its side, metres; for contact it is a half-space.

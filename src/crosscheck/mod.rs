@@ -30,8 +30,8 @@ pub use compare::{Disagreement, FRAME_TOLERANCE, Line, TIE_M};
 pub use spec::{Picture, SPEC, Sources, Spec};
 pub use table::ANSWERED;
 
-use crate::settings::SettingsError;
 use crate::study::StudyError;
+use base::settings::SettingsError;
 use std::path::PathBuf;
 
 /// Why a cross-check cannot be posed or judged.

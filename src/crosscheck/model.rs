@@ -1,6 +1,6 @@
 //! A robot among obstacles as the judge is told of it: the numbers of the files, and nothing worked out from them.
 
-use crate::geometry::{Capsule, Frame, Solid, Vec3};
+use engine::geometry::{Capsule, Frame, Solid, Vec3};
 
 /// One row of Denavit–Hartenberg parameters with its joint's limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,7 +122,7 @@ impl Model {
 
 /// `solid` moved by `by_m`.
 fn moved(solid: &Solid, by_m: &Vec3) -> Solid {
-    use crate::geometry::{Convex, HalfSpace, OrientedBox, Sphere};
+    use engine::geometry::{Convex, HalfSpace, OrientedBox, Sphere};
     const STAYS: &str = "a shape stays the same where it is moved to";
     match solid {
         Solid::Sphere(s) => Solid::Sphere(Sphere { center: s.center + by_m, radius: s.radius }),

@@ -3,8 +3,8 @@
 use super::model::Pair;
 use super::sample::{Kind, Question, drawn};
 use super::subject::Subject;
-use crate::geometry::{Frame, Vec3};
-use crate::seed;
+use base::seed;
+use engine::geometry::{Frame, Vec3};
 use nalgebra::Matrix3;
 
 /// Into how many parts each step of a stored path is cut.

@@ -3,10 +3,10 @@
 use super::model::{Model, Pair, Part, Row, Still};
 use super::stored::Freedom;
 use super::subject::Subject;
-use crate::geometry::planar::{Circle, ConvexPolygon, Segment2, Touch, distance_point_segment};
-use crate::geometry::{Capsule, Convex, Frame, GeometryError, Solid, Sphere, Vec2, Vec3};
-use crate::kinematics::planar_2r::{Planar2r, continued};
-use crate::space::{ArmWorld, Obstacle};
+use engine::geometry::planar::{Circle, ConvexPolygon, Segment2, Touch, distance_point_segment};
+use engine::geometry::{Capsule, Convex, Frame, GeometryError, Solid, Sphere, Vec2, Vec3};
+use engine::kinematics::planar_2r::{Planar2r, continued};
+use engine::space::{ArmWorld, Obstacle};
 use std::f64::consts::PI;
 
 /// The radius of a link for the judge, a tenth of the tolerance: our links have no width.

@@ -2,7 +2,7 @@
 
 use super::model::{Model, Pair};
 use super::subject::Subject;
-use crate::seed::{self, Stream};
+use base::seed::{self, Stream};
 use rand::RngExt as _;
 use serde::Deserialize;
 

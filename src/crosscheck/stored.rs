@@ -3,11 +3,11 @@
 use super::CrosscheckError;
 use super::model::Pair;
 use super::path::Path as JointPath;
-use crate::space::World;
 use crate::study::manifest::Manifest;
 use crate::study::record::{Kept, Status};
 use crate::study::store::read_records;
-use crate::study::{Inputs, Point, Study, StudyError, slug};
+use crate::study::{Inputs, ReadingChoice, Study, StudyError, slug};
+use engine::space::World;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -122,7 +122,7 @@ impl StoredPaths {
                 format!("there are no problems `{}`; there are {}", self.problems, known.join(", "));
             study.document.error(0..0, message)
         })?;
-        let point = Point::new(&study.readings, &BTreeMap::new());
+        let point = ReadingChoice::new(&study.readings, &BTreeMap::new());
         let point = point.expect("a loaded study's defaults are among its options");
         let prepared = group.family(&point, inputs)?.prepare(0);
         Ok(prepared.map_err(|invalid| study.document.error(0..0, invalid.0))?.world)

@@ -2,13 +2,13 @@
 
 use super::model::{Model, Pair, Part, Row, Still};
 use super::stored::Freedom;
-use crate::geometry::{
+use engine::geometry::{
     Convex, Frame, Solid, Vec3, distance_point_solid, distance_segment_segment, distance_segment_solid,
 };
-use crate::kinematics::robot::Body;
-use crate::kinematics::{AXES, Chain, Joints, Robot};
-use crate::space::cell::{Cell, Standing};
-use crate::space::polyhedra::CarriedArm;
+use engine::kinematics::robot::Body;
+use engine::kinematics::{AXES, Chain, Joints, Robot};
+use engine::space::cell::{Cell, Standing};
+use engine::space::polyhedra::CarriedArm;
 
 /// A robot among obstacles that answers with our code.
 pub trait Subject: Send + Sync {
@@ -79,14 +79,14 @@ impl SerialArm {
             format!("robot `{}` has no body `{body}`; it has {}", robot.name(), known.join(", "))
         })?;
         let chain = robot.arm().chain();
-        let row = |joint: &crate::kinematics::Joint| Row {
+        let row = |joint: &engine::kinematics::Joint| Row {
             alpha_rad: joint.alpha_rad,
             a_m: joint.a_m,
             d_m: joint.d_m,
             offset_rad: joint.offset_rad,
             limits_rad: [joint.lower_rad, joint.upper_rad],
         };
-        let part = |part: &crate::kinematics::robot::Part| Part {
+        let part = |part: &engine::kinematics::robot::Part| Part {
             name: part.name().to_owned(),
             link: part.link(),
             capsule: *part.capsule(),
@@ -114,7 +114,7 @@ impl SerialArm {
         self.robot.arm().chain()
     }
 
-    fn placed(&self, q_rad: &[f64]) -> Vec<crate::geometry::Capsule> {
+    fn placed(&self, q_rad: &[f64]) -> Vec<engine::geometry::Capsule> {
         let mut placed = Vec::new();
         self.body.place(&self.chain().frames(&six(q_rad)), &mut placed);
         placed

@@ -7,8 +7,8 @@ use super::path::{Path as JointPath, Pushed, drawn_paths, pushed, straight};
 use super::sample::{Kind, NEAR_M, Sampler, Sizes, least_of};
 use super::stored::Freedom;
 use super::subject::{SerialArm, Subject};
-use crate::geometry::{Frame, OrientedBox, Solid, Sphere, Vec3};
-use crate::kinematics::Robot;
+use engine::geometry::{Frame, OrientedBox, Solid, Sphere, Vec3};
+use engine::kinematics::Robot;
 use std::path::Path;
 
 const SIZES: Sizes = Sizes {

@@ -14,7 +14,7 @@ use super::style::{
     WHITE, Width, YELLOW, series_color, series_marker, series_stroke,
 };
 use super::vector::Provenance;
-use crate::seed;
+use base::seed;
 use rand::RngExt as _;
 
 fn hold(name: &str, sheet: &Sheet) {

@@ -6,11 +6,12 @@
 
 pub mod canvas;
 pub mod chart;
+mod disclaimers;
 pub mod figure;
 pub mod font;
 pub mod latex;
-mod marks;
 pub mod output;
+mod palette;
 mod prose;
 pub mod report;
 pub mod results;
@@ -19,14 +20,14 @@ pub mod style;
 pub mod tables;
 pub mod vector;
 
-pub use marks::marks;
+pub use disclaimers::marks;
 
 /// Why a figure or a table could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
     /// A figure's settings are wrong.
     #[error(transparent)]
-    Settings(#[from] crate::settings::SettingsError),
+    Settings(#[from] base::settings::SettingsError),
     /// A figure that cannot be drawn.
     #[error("figure `{figure}`: {source}")]
     Figure {

@@ -4,11 +4,11 @@ use super::RenderError;
 use super::latex::{Cell, Column, Table};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::{self, Metric};
-use crate::settings::SettingsError;
-use crate::stats::summary;
 use crate::study::paper::Paper;
 use crate::study::paper::results::{CellSpec, ResultsSpec, Show};
 use crate::study::record::{Row, Status};
+use base::settings::SettingsError;
+use stats::summary;
 use std::fmt::Write as _;
 
 /// Every metric of every table of results exists, and its study produces it.

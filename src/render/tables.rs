@@ -201,7 +201,7 @@ pub(super) fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::{Inputs, Point};
+    use crate::study::{Inputs, ReadingChoice};
     use std::path::Path;
 
     #[test]
@@ -223,7 +223,7 @@ mod tests {
                 claims: Vec::new(),
                 together: Vec::new(),
             };
-            let evidence = Evidence::read(&paper, Point::default(), root).unwrap();
+            let evidence = Evidence::read(&paper, ReadingChoice::default(), root).unwrap();
             let text = numbers(&evidence, &verdicts).unwrap();
             assert_eq!(text.contains("\n% Stand-in environments: "), has, "{text}");
         }

@@ -7,7 +7,7 @@
 use super::RenderError;
 use super::font::Weight;
 use super::style::HAIR_PT;
-use crate::palette;
+use crate::render::palette;
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg;
 

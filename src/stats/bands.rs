@@ -1,10 +1,10 @@
 //! Simultaneous bands for the mean of curves, one curve per unit.
 
 use super::{
-    bootstrap::{self, Plan},
+    bootstrap::{self, Resampling},
     summary,
 };
-use crate::stats::interval::Interval;
+use crate::interval::Interval;
 
 /// The mean curve with a band that holds all of it at once.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +29,7 @@ pub struct Band {
 /// # Source
 /// Montiel Olea & Plagborg-Møller, "Simultaneous confidence bands", Journal of Applied Econometrics 34 (2019)
 /// 1–17, the plug-in sup-t band, with standard errors and critical value from the bootstrap.
-pub fn sup_t(curves: &[Vec<f64>], plan: Plan) -> Option<Band> {
+pub fn sup_t(curves: &[Vec<f64>], plan: Resampling) -> Option<Band> {
     let points = curves.first()?.len();
     let fits = |curve: &Vec<f64>| curve.len() == points && curve.iter().all(|y| y.is_finite());
     assert!(curves.iter().all(fits), "curves of {points} finite points are asked for");
@@ -61,10 +61,10 @@ mod tests {
     use rand::RngExt as _;
 
     use super::{super::proportion::normal_quantile, *};
-    use crate::seed;
+    use base::seed;
 
-    fn plan(seed: u64) -> Plan {
-        Plan { resamples: 500, level: 0.9, seed }
+    fn plan(seed: u64) -> Resampling {
+        Resampling { resamples: 500, level: 0.9, seed }
     }
 
     /// `units` curves with independent uniform values at each of `points`.

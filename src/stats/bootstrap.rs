@@ -3,12 +3,12 @@
 use rand::RngExt as _;
 
 use super::summary;
-use crate::seed;
-use crate::stats::interval::Interval;
+use crate::interval::Interval;
+use base::seed;
 
 /// How a bootstrap is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plan {
+pub struct Resampling {
     /// How many times the units are drawn again; B.
     pub resamples: usize,
     /// Probability that the interval is to hold.
@@ -41,29 +41,37 @@ pub struct Estimate {
 ///
 /// # Source
 /// Efron, *The Jackknife, the Bootstrap and Other Resampling Plans* (1982), section 10.4.
-pub fn percentile<T>(units: &[T], statistic: impl Fn(&[&T]) -> Option<f64>, plan: Plan) -> Option<Estimate> {
+pub fn percentile<T>(
+    units: &[T],
+    statistic: impl Fn(&[&T]) -> Option<f64>,
+    plan: Resampling,
+) -> Option<Estimate> {
     let of_picks = |picks: &[usize]| statistic(&picks.iter().map(|&pick| &units[pick]).collect::<Vec<_>>());
     of_indices(units.len(), &of_picks, plan)
 }
 
 /// [`percentile`] of the mean of `values`.
-pub fn mean(values: &[f64], plan: Plan) -> Option<Estimate> {
+pub fn mean(values: &[f64], plan: Resampling) -> Option<Estimate> {
     of_values(values, summary::mean, plan)
 }
 
 /// [`percentile`] of the median of `values`.
-pub fn median(values: &[f64], plan: Plan) -> Option<Estimate> {
+pub fn median(values: &[f64], plan: Resampling) -> Option<Estimate> {
     of_values(values, summary::median, plan)
 }
 
-fn of_values(values: &[f64], statistic: fn(&[f64]) -> Option<f64>, plan: Plan) -> Option<Estimate> {
+fn of_values(values: &[f64], statistic: fn(&[f64]) -> Option<f64>, plan: Resampling) -> Option<Estimate> {
     percentile(values, |picks| statistic(&picks.iter().map(|value| **value).collect::<Vec<_>>()), plan)
 }
 
 /// [`percentile`] for a statistic that takes the indices of units.
 ///
 /// Nothing here depends on the type of a unit, so the many draws are made by this crate's optimised code, whoever asks.
-fn of_indices(units: usize, statistic: &dyn Fn(&[usize]) -> Option<f64>, plan: Plan) -> Option<Estimate> {
+fn of_indices(
+    units: usize,
+    statistic: &dyn Fn(&[usize]) -> Option<f64>,
+    plan: Resampling,
+) -> Option<Estimate> {
     let all: Vec<usize> = (0..units).collect();
     let value = statistic(&all).filter(|_| units > 1)?;
     let values: Vec<f64> = resamples(units, plan).filter_map(|picks| statistic(&picks)).collect();
@@ -79,7 +87,7 @@ fn of_indices(units: usize, statistic: &dyn Fn(&[usize]) -> Option<f64>, plan: P
 }
 
 /// The resamples of a plan: indices of the units drawn, with replacement.
-pub(super) fn resamples(units: usize, plan: Plan) -> impl Iterator<Item = Vec<usize>> {
+pub(super) fn resamples(units: usize, plan: Resampling) -> impl Iterator<Item = Vec<usize>> {
     let mut stream = seed::stream(plan.seed);
     (0..plan.resamples).map(move |_| (0..units).map(|_| stream.random_range(0..units)).collect())
 }
@@ -88,7 +96,7 @@ pub(super) fn resamples(units: usize, plan: Plan) -> impl Iterator<Item = Vec<us
 mod tests {
     use super::*;
 
-    const PLAN: Plan = Plan { resamples: 2000, level: 0.95, seed: 17 };
+    const PLAN: Resampling = Resampling { resamples: 2000, level: 0.95, seed: 17 };
 
     #[test]
     fn the_interval_of_a_mean_is_near_the_normal_one() {
@@ -99,7 +107,7 @@ mod tests {
         assert!((found.interval.half_width() / half - 1.0).abs() < 0.06, "{found:?} against ±{half}");
         assert!(found.interval.contains(found.value) && found.units == 200 && found.undefined == 0);
         assert_eq!(mean(&sample, PLAN), Some(found), "the same seed gives the same interval");
-        assert_ne!(mean(&sample, Plan { seed: 18, ..PLAN }), Some(found));
+        assert_ne!(mean(&sample, Resampling { seed: 18, ..PLAN }), Some(found));
     }
 
     #[test]
@@ -119,7 +127,7 @@ mod tests {
         let mut covered = 0;
         for run in 0..400 {
             let sample: Vec<f64> = (0..40).map(|_| stream.random::<f64>()).collect();
-            let plan = Plan { resamples: 400, level: 0.9, seed: run };
+            let plan = Resampling { resamples: 400, level: 0.9, seed: run };
             covered += u32::from(mean(&sample, plan).unwrap().interval.contains(0.5));
         }
         assert!((330..=380).contains(&covered), "seed 23: {covered} of 400 at level 0.9");

@@ -1,6 +1,6 @@
 //! Two measurements of the same units: what one contender changes of another.
 
-use super::bootstrap::{self, Estimate, Plan};
+use super::bootstrap::{self, Estimate, Resampling};
 
 /// Values that differ by no more are equal: sums of the same steps in another order differ in their last digits.
 pub const EQUAL: f64 = 1e-9;
@@ -31,7 +31,7 @@ pub fn signs(pairs: &[(f64, f64)]) -> Signs {
 ///
 /// # Panics
 /// If a value is not finite: pairs with a failure have no difference and are counted by the caller.
-pub fn mean_difference(pairs: &[(f64, f64)], plan: Plan) -> Option<Estimate> {
+pub fn mean_difference(pairs: &[(f64, f64)], plan: Resampling) -> Option<Estimate> {
     assert_finite(pairs);
     let mean = |units: &[&(f64, f64)]| {
         (!units.is_empty()).then(|| units.iter().map(|(a, b)| b - a).sum::<f64>() / units.len() as f64)
@@ -44,7 +44,7 @@ pub fn mean_difference(pairs: &[(f64, f64)], plan: Plan) -> Option<Estimate> {
 ///
 /// # Panics
 /// If a value is not finite.
-pub fn ratio_of_means(pairs: &[(f64, f64)], plan: Plan) -> Option<Estimate> {
+pub fn ratio_of_means(pairs: &[(f64, f64)], plan: Resampling) -> Option<Estimate> {
     assert_finite(pairs);
     let ratio = |units: &[&(f64, f64)]| {
         let first: f64 = units.iter().map(|(a, _)| a).sum();
@@ -57,7 +57,7 @@ pub fn ratio_of_means(pairs: &[(f64, f64)], plan: Plan) -> Option<Estimate> {
 /// draws of several pairs.
 ///
 /// None below two draws, or if the sum of the first is not positive.
-pub fn change_of_sums_percent(draws: &[Vec<(f64, f64)>], plan: Plan) -> Option<Estimate> {
+pub fn change_of_sums_percent(draws: &[Vec<(f64, f64)>], plan: Resampling) -> Option<Estimate> {
     bootstrap::percentile(draws, change_percent, plan)
 }
 
@@ -75,7 +75,7 @@ fn assert_finite(pairs: &[(f64, f64)]) {
 mod tests {
     use super::*;
 
-    const PLAN: Plan = Plan { resamples: 1000, level: 0.95, seed: 3 };
+    const PLAN: Resampling = Resampling { resamples: 1000, level: 0.95, seed: 3 };
 
     #[test]
     fn pairing_removes_what_the_units_share() {

@@ -3,7 +3,7 @@
 //! Special functions come from `libm`, so that the same counts give the same bits everywhere.
 
 use super::summary;
-use crate::stats::interval::Interval;
+use crate::interval::Interval;
 
 /// The normal quantile: the `z` below which a standard normal value falls with probability `share`.
 ///

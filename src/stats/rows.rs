@@ -47,7 +47,7 @@ mod tests {
     use rand::RngExt as _;
 
     use super::*;
-    use crate::seed;
+    use base::seed;
 
     #[test]
     fn the_probability_is_what_drawing_rows_finds() {

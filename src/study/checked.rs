@@ -4,12 +4,12 @@ mod load;
 
 use super::error::StudyError;
 use super::family::{self, Family};
-use super::reading::{self, Point, Reading};
+use super::reading::{self, Reading, ReadingChoice};
 use super::spec::{BudgetSpec, ExploreSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::{Inputs, task};
-use crate::planner::{self, Build, Planner, Stage};
-use crate::seed;
-use crate::settings::{Document, Settings, SettingsError};
+use base::seed;
+use base::settings::{Document, Settings, SettingsError};
+use engine::planner::{self, Build, Planner, Stage};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use toml::Table;
@@ -79,7 +79,7 @@ impl Group {
     ///
     /// # Errors
     /// A settings error of the family, or an input file that is missing or wrong.
-    pub fn family(&self, point: &Point, inputs: &Inputs) -> Result<Box<dyn Family>, StudyError> {
+    pub fn family(&self, point: &ReadingChoice, inputs: &Inputs) -> Result<Box<dyn Family>, StudyError> {
         let settings = point
             .over_problem()
             .fold(self.settings.clone(), |settings, (over, origin)| settings.overlaid(over, origin));
@@ -124,7 +124,7 @@ impl Contender {
     ///
     /// # Errors
     /// A settings error of an entry.
-    pub fn pipeline(&self, point: &Point, sweep: &SweepPoint) -> Result<Pipeline, SettingsError> {
+    pub fn pipeline(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Result<Pipeline, SettingsError> {
         let mut planner = None;
         let mut stages = Vec::new();
         for stage in &self.stages {
@@ -141,7 +141,7 @@ impl Contender {
 
 impl StageUse {
     /// Its settings with the reading's and the sweep's laid on top.
-    pub fn effective(&self, point: &Point, sweep: &SweepPoint) -> Settings {
+    pub fn effective(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Settings {
         let read = point
             .over_stage(self.entry.name)
             .fold(self.settings.clone(), |settings, (over, origin)| settings.overlaid(over, origin));
@@ -176,7 +176,7 @@ impl Study {
     ///
     /// # Errors
     /// A reading whose default is not among its options.
-    pub fn single_options(&self) -> Result<Vec<Point>, StudyError> {
+    pub fn single_options(&self) -> Result<Vec<ReadingChoice>, StudyError> {
         self.points(0)
     }
 
@@ -185,7 +185,7 @@ impl Study {
     ///
     /// # Errors
     /// As [`single_options`](Self::single_options).
-    pub fn explored(&self) -> Result<Vec<Point>, StudyError> {
+    pub fn explored(&self) -> Result<Vec<ReadingChoice>, StudyError> {
         self.points(self.explore.map_or(0, |explore| explore.sample))
     }
 
@@ -193,8 +193,8 @@ impl Study {
     ///
     /// # Errors
     /// As [`single_options`](Self::single_options).
-    pub fn trial_points(&self) -> Result<Vec<Point>, StudyError> {
-        let mut points: Vec<Point> = Vec::new();
+    pub fn trial_points(&self) -> Result<Vec<ReadingChoice>, StudyError> {
+        let mut points: Vec<ReadingChoice> = Vec::new();
         for point in self.explored()? {
             let point = point.for_trials(&self.readings);
             if !points.contains(&point) {
@@ -204,7 +204,7 @@ impl Study {
         Ok(points)
     }
 
-    fn points(&self, sample: u32) -> Result<Vec<Point>, StudyError> {
+    fn points(&self, sample: u32) -> Result<Vec<ReadingChoice>, StudyError> {
         let seed = seed::derive(self.seed, &[&self.paper, &self.name, "explore"]);
         reading::explored(&self.readings, sample, seed)
             .map_err(|message| StudyError::from(self.document.error(self.key_span("reading"), message)))

@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn every_column_that_an_entry_declares_is_listed_once() {
-        let planners = crate::planner::REGISTRY.iter().flat_map(|entry| entry.columns);
+        let planners = engine::planner::REGISTRY.iter().flat_map(|entry| entry.columns);
         let families = crate::study::family::REGISTRY.iter().flat_map(|entry| entry.columns);
         let prepared = crate::study::prepared::REGISTRY.iter().flat_map(|entry| entry.columns);
         let tasks = crate::study::task::REGISTRY.iter().flat_map(|entry| entry.columns);

@@ -1,6 +1,6 @@
 //! What can go wrong between a spec and its records.
 
-use crate::settings::SettingsError;
+use base::settings::SettingsError;
 use std::path::PathBuf;
 
 /// An error of the study floor.

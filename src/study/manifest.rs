@@ -1,11 +1,11 @@
 //! What a study's records depend on, so that a stored trial is reused only if nothing of it has changed.
 
 use super::checked::{Study, SweepPoint};
-use super::reading::Point;
+use super::reading::ReadingChoice;
 use super::store::Staged;
-use super::{StudyError, runner::Field};
-use crate::hash::sha256;
-use crate::settings::Document;
+use super::{StudyError, runner::BuiltStudy};
+use base::hash::sha256;
+use base::settings::Document;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -70,14 +70,14 @@ impl Manifest {
     /// [`StudyError::Io`] if an input file has gone.
     pub fn new(
         study: &Study,
-        points: &[Point],
-        field: &Field<'_>,
+        points: &[ReadingChoice],
+        built: &BuiltStudy<'_>,
         claims: String,
         command: String,
         quick: bool,
     ) -> Result<Self, StudyError> {
         let mut inputs = BTreeMap::new();
-        for path in field.inputs() {
+        for path in built.inputs() {
             let bytes = fs::read(&path).map_err(StudyError::io(&path, "reading an input file"))?;
             inputs.insert(path.display().to_string(), sha256(&bytes));
         }
@@ -193,7 +193,7 @@ pub fn key(point: &str, label: &str) -> String {
 
 fn problem_hashes(
     study: &Study,
-    points: &[Point],
+    points: &[ReadingChoice],
     inputs: &BTreeMap<String, String>,
 ) -> BTreeMap<String, String> {
     let mut hashes = BTreeMap::new();
@@ -222,7 +222,7 @@ fn problem_hashes(
     hashes
 }
 
-fn contender_hashes(study: &Study, points: &[Point]) -> BTreeMap<String, String> {
+fn contender_hashes(study: &Study, points: &[ReadingChoice]) -> BTreeMap<String, String> {
     let mut hashes = BTreeMap::new();
     for point in points {
         for contender in &study.contenders {

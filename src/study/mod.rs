@@ -7,10 +7,9 @@
 mod checked;
 pub mod clock;
 pub mod column;
-pub mod endpoints;
+pub mod endpoint_variants;
 mod error;
 pub mod family;
-pub mod judge;
 pub mod lock;
 pub mod manifest;
 pub mod paper;
@@ -23,10 +22,11 @@ pub mod session;
 pub mod spec;
 pub mod store;
 pub mod task;
+pub mod verification;
 
 pub use checked::{Contender, Group, StageUse, Study, Sweep, slug};
 pub use error::StudyError;
-pub use reading::{Point, Reading};
+pub use reading::{Reading, ReadingChoice};
 
 use std::path::PathBuf;
 

@@ -12,7 +12,7 @@ pub use findings::filled;
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
 use super::{Inputs, Reading, Study, StudyError};
-use crate::settings::{Document, Settings, SettingsError};
+use base::settings::{Document, Settings, SettingsError};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;

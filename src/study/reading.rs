@@ -2,7 +2,7 @@
 
 use super::paper::Digits;
 use super::spec::OptionSpec;
-use crate::seed::{self, Stream};
+use base::seed::{self, Stream};
 use rand::RngExt as _;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -30,13 +30,13 @@ impl Reading {
 
 /// One option of every reading.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Point {
+pub struct ReadingChoice {
     choices: BTreeMap<String, String>,
     name: String,
     changes: Vec<(String, Arc<OptionSpec>)>,
 }
 
-impl Point {
+impl ReadingChoice {
     /// The point that takes each reading's default, but for the choices in `other`.
     ///
     /// Its name lists only what differs from the defaults, in the order of the readings' names; the default
@@ -130,11 +130,11 @@ impl Point {
 ///
 /// # Errors
 /// A reading whose default is not among its options.
-pub fn explored(readings: &[Reading], sample: u32, seed: u64) -> Result<Vec<Point>, String> {
-    let mut points = vec![Point::new(readings, &BTreeMap::new())?];
+pub fn explored(readings: &[Reading], sample: u32, seed: u64) -> Result<Vec<ReadingChoice>, String> {
+    let mut points = vec![ReadingChoice::new(readings, &BTreeMap::new())?];
     for reading in readings {
         for option in reading.options.keys().filter(|option| **option != reading.default) {
-            points.push(Point::new(readings, &[(reading.id.clone(), option.clone())].into())?);
+            points.push(ReadingChoice::new(readings, &[(reading.id.clone(), option.clone())].into())?);
         }
     }
     let product = readings.iter().fold(1_usize, |all, reading| all.saturating_mul(reading.options.len()));
@@ -150,7 +150,7 @@ pub fn explored(readings: &[Reading], sample: u32, seed: u64) -> Result<Vec<Poin
     Ok(points)
 }
 
-fn drawn(readings: &[Reading], stream: &mut Stream) -> Result<Point, String> {
+fn drawn(readings: &[Reading], stream: &mut Stream) -> Result<ReadingChoice, String> {
     let pick = |reading: &Reading, stream: &mut Stream| {
         let index = stream.random_range(0..reading.options.len());
         (
@@ -159,7 +159,7 @@ fn drawn(readings: &[Reading], stream: &mut Stream) -> Result<Point, String> {
         )
     };
     let choices = readings.iter().map(|reading| pick(reading, stream)).collect();
-    Point::new(readings, &choices)
+    ReadingChoice::new(readings, &choices)
 }
 
 #[cfg(test)]
@@ -197,8 +197,10 @@ mod tests {
             assert_eq!(names(1000, seed).len(), 24, "seed {seed}");
         }
         assert_ne!(names(5, 1), names(5, 2));
-        let point =
-            Point::new(&readings, &[("b", "2"), ("c", "1")].map(|(a, b)| (a.into(), b.into())).into());
+        let point = ReadingChoice::new(
+            &readings,
+            &[("b", "2"), ("c", "1")].map(|(a, b)| (a.into(), b.into())).into(),
+        );
         let point = point.unwrap();
         assert_eq!(point.for_trials(&readings).name(), "c=1");
         assert_eq!(point.within(&readings[..2]).name(), "b=2");
@@ -223,7 +225,7 @@ mod tests {
     fn a_point_is_named_after_what_differs_from_the_defaults() {
         let point = |other: &[(&str, &str)]| {
             let other = other.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect();
-            Point::new(&readings(), &other)
+            ReadingChoice::new(&readings(), &other)
         };
         assert_eq!(point(&[]).unwrap().name(), "default");
         assert_eq!(point(&[("nodes", "opened")]).unwrap().name(), "default");

@@ -1,6 +1,6 @@
 //! The record: one row a trial, a failed trial is a row, unknown is null.
 
-use crate::planner::{Exhibit, Value};
+use engine::planner::{Exhibit, Value};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;

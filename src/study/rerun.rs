@@ -1,12 +1,12 @@
 //! Reruns a seeded sample of stored trials and compares every row.
 
 use super::manifest::Manifest;
-use super::reading::Point;
+use super::reading::ReadingChoice;
 use super::record::Row;
-use super::runner::{Field, Unit};
+use super::runner::{BuiltStudy, Unit};
 use super::store::read_records;
 use super::{Inputs, Study, StudyError};
-use crate::seed;
+use base::seed;
 use rand::RngExt as _;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,20 +35,20 @@ pub fn rerun(
 ) -> Result<Rerun, StudyError> {
     let manifest = Manifest::read(folder, &study.name)?;
     let records = read_records(folder, &study.name, &manifest.files)?;
-    let points: Vec<Point> = study
+    let points: Vec<ReadingChoice> = study
         .trial_points()?
         .into_iter()
         .filter(|p| manifest.readings.iter().any(|r| r == p.name()))
         .collect();
-    let field = Field::new(study, &points, inputs)?;
+    let built = BuiltStudy::new(study, &points, inputs)?;
     let wanted = sample(study, &records.batch.rows, count);
-    let mut units = field.units();
+    let mut units = built.units();
     for unit in &mut units {
         unit.wanted = wanted.get(&place(unit)).cloned();
     }
     units.retain(|unit| unit.wanted.is_some());
     let pool = super::session::pool(Some(threads));
-    let again = pool.install(|| units.par_iter().map(|unit| field.run_unit(unit)).collect::<Vec<_>>());
+    let again = pool.install(|| units.par_iter().map(|unit| built.run_unit(unit)).collect::<Vec<_>>());
     let stored: BTreeMap<&str, &Row> =
         records.batch.rows.iter().map(|row| (row.trial.as_str(), row)).collect();
     let rows: Vec<Row> = again.into_iter().flat_map(|batch| batch.rows).collect();

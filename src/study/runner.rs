@@ -7,14 +7,14 @@
 use super::checked::{Contender, Group, Pipeline, Study, SweepPoint, slug};
 use super::family::{Family, Query};
 use super::prepared::Prepared;
-use super::reading::Point;
+use super::reading::ReadingChoice;
 use super::record::{Batch, Timing};
 use super::spec::TimingSpec;
 use super::store::Journal;
 use super::task::Task;
 use super::{Inputs, StudyError, clock};
-use crate::planner::Request;
-use crate::seed;
+use base::seed;
+use engine::planner::Request;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
@@ -52,9 +52,9 @@ pub struct Unit<'a> {
     /// The group's family under this reading.
     pub family: &'a dyn Family,
     /// The reading.
-    pub point: &'a Point,
+    pub point: &'a ReadingChoice,
     /// Who runs on it.
-    pub racers: &'a [Racer<'a>],
+    pub entrants: &'a [Entrant<'a>],
     /// Which draw of the group.
     pub replicate: u32,
     /// The draw's seed; the same under every reading and for every contender.
@@ -66,7 +66,7 @@ pub struct Unit<'a> {
 }
 
 /// A contender at one point of the sweeps, ready to run.
-pub struct Racer<'a> {
+pub struct Entrant<'a> {
     /// The contender.
     pub contender: &'a Contender,
     /// The sweeps' values.
@@ -88,12 +88,12 @@ impl Unit<'_> {
     }
 
     /// The name of a trial in this unit.
-    pub fn trial(&self, query: &Query, racer: &Racer<'_>, repeat: u32) -> String {
-        let mut name = format!("{}/{}", self.problem(query), slug(&racer.contender.label));
-        if !racer.sweep.name.is_empty() {
-            name += &format!("/{}", racer.sweep.name);
+    pub fn trial(&self, query: &Query, entrant: &Entrant<'_>, repeat: u32) -> String {
+        let mut name = format!("{}/{}", self.problem(query), slug(&entrant.contender.label));
+        if !entrant.sweep.name.is_empty() {
+            name += &format!("/{}", entrant.sweep.name);
         }
-        if racer.contender.is_numbered {
+        if entrant.contender.is_numbered {
             name += &format!("/{repeat}");
         }
         name + &reading_suffix(self.point)
@@ -124,27 +124,27 @@ fn draw_name(group: &Group, replicate: u32) -> String {
     if group.is_numbered { format!("{slug}/{replicate}") } else { slug }
 }
 
-fn reading_suffix(point: &Point) -> String {
+fn reading_suffix(point: &ReadingChoice) -> String {
     if *point.name() == *"default" { String::new() } else { format!("/{}", point.name()) }
 }
 
 /// A study with everything built that its trials share.
-pub struct Field<'a> {
+pub struct BuiltStudy<'a> {
     study: &'a Study,
     task: Box<dyn Task>,
-    points: &'a [Point],
+    points: &'a [ReadingChoice],
     families: Vec<Vec<Box<dyn Family>>>,
-    racers: Vec<Vec<Racer<'a>>>,
+    entrants: Vec<Vec<Entrant<'a>>>,
 }
 
-impl<'a> Field<'a> {
+impl<'a> BuiltStudy<'a> {
     /// Builds every family and pipeline under every point.
     ///
     /// # Errors
     /// Those of families and pipelines; none in a study that was loaded with the same inputs.
-    pub fn new(study: &'a Study, points: &'a [Point], inputs: &Inputs) -> Result<Self, StudyError> {
+    pub fn new(study: &'a Study, points: &'a [ReadingChoice], inputs: &Inputs) -> Result<Self, StudyError> {
         let mut families = Vec::new();
-        let mut racers = Vec::new();
+        let mut entrants = Vec::new();
         for point in points {
             let built = study.groups.iter().map(|group| group.family(point, inputs));
             families.push(built.collect::<Result<Vec<_>, _>>()?);
@@ -152,12 +152,12 @@ impl<'a> Field<'a> {
             for contender in &study.contenders {
                 for sweep in study.sweep_points() {
                     let pipeline = contender.pipeline(point, &sweep)?;
-                    line_up.push(Racer { contender, sweep, pipeline });
+                    line_up.push(Entrant { contender, sweep, pipeline });
                 }
             }
-            racers.push(line_up);
+            entrants.push(line_up);
         }
-        Ok(Self { study, task: (study.task.build)(&study.task_settings)?, points, families, racers })
+        Ok(Self { study, task: (study.task.build)(&study.task_settings)?, points, families, entrants })
     }
 
     /// Every unit, in the order of records.
@@ -166,7 +166,7 @@ impl<'a> Field<'a> {
         for (i, point) in self.points.iter().enumerate() {
             for (group, family) in self.study.groups.iter().zip(&self.families[i]) {
                 for replicate in 0..group.replicates {
-                    units.push(self.unit(point, &self.racers[i], group, family.as_ref(), replicate));
+                    units.push(self.unit(point, &self.entrants[i], group, family.as_ref(), replicate));
                 }
             }
         }
@@ -175,8 +175,8 @@ impl<'a> Field<'a> {
 
     fn unit<'b>(
         &self,
-        point: &'b Point,
-        racers: &'b [Racer<'b>],
+        point: &'b ReadingChoice,
+        entrants: &'b [Entrant<'b>],
         group: &'b Group,
         family: &'b dyn Family,
         replicate: u32,
@@ -191,7 +191,7 @@ impl<'a> Field<'a> {
             group,
             family,
             point,
-            racers,
+            entrants,
             replicate,
             seed: seed::derive(self.study.seed, names),
             keeps_all: false,
@@ -302,19 +302,19 @@ impl<'a> Field<'a> {
         readings: &mut Vec<Timing>,
     ) {
         for query in &unit.queries() {
-            let seeds = |racer: &Racer<'_>| racer.contender.repeats.min(timing.seeds.unwrap_or(1));
-            let of_racer = |racer| (0..seeds(racer)).map(move |seed| (racer, seed));
-            let runs = unit.racers.iter().flat_map(of_racer);
-            let request = |(racer, seed): &(&Racer<'_>, u32)| Request {
+            let seeds = |entrant: &Entrant<'_>| entrant.contender.repeats.min(timing.seeds.unwrap_or(1));
+            let of_entrant = |entrant| (0..seeds(entrant)).map(move |seed| (entrant, seed));
+            let runs = unit.entrants.iter().flat_map(of_entrant);
+            let request = |(entrant, seed): &(&Entrant<'_>, u32)| Request {
                 world: &prepared.world,
                 start: &query.start,
                 goal: &query.goal,
                 expansions: self.study.budget.expansions,
-                seed: racer.seed(self.study, &unit.problem(query), *seed),
+                seed: entrant.seed(self.study, &unit.problem(query), *seed),
                 trace: false,
             };
             let warmed: Vec<_> = runs.filter(|run| run.0.pipeline.plan(&request(run)).is_ok()).collect();
-            let mut read = |run: &(&Racer<'_>, u32), repeat: u32| {
+            let mut read = |run: &(&Entrant<'_>, u32), repeat: u32| {
                 let request = request(run);
                 readings.push(Timing {
                     trial: unit.trial(query, run.0, run.1),

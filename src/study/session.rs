@@ -3,9 +3,9 @@
 use super::checked::Study;
 use super::lock::Lock;
 use super::manifest::{Manifest, key};
-use super::reading::Point;
+use super::reading::ReadingChoice;
 use super::record::{Batch, Row, Status};
-use super::runner::{Field, Progress, Unit};
+use super::runner::{BuiltStudy, Progress, Unit};
 use super::store::{Journal, Records, Staged, read_records, remove_temporaries, stage_records};
 use super::{Inputs, StudyError};
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,7 +18,7 @@ pub struct Options<'a> {
     /// The right to write where records go.
     pub lock: &'a Lock,
     /// The readings to run; the first is the one that clocks are read under.
-    pub points: &'a [Point],
+    pub points: &'a [ReadingChoice],
     /// Where input files are.
     pub inputs: &'a Inputs,
     /// The command line, for the manifest.
@@ -55,12 +55,12 @@ pub struct Report {
     /// Trials that were run again and now differ from what was stored under equal dependencies.
     pub moved: Vec<String>,
     /// Trials that brought neither a path nor the answer that there is none, by status.
-    pub odd: Vec<Odd>,
+    pub odd: Vec<UnexpectedStatus>,
 }
 
 /// Trials of one status that a reader may not have expected.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Odd {
+pub struct UnexpectedStatus {
     /// The status.
     pub status: Status,
     /// How many there are.
@@ -71,7 +71,7 @@ pub struct Odd {
     pub reason: String,
 }
 
-impl Odd {
+impl UnexpectedStatus {
     /// Those among `rows`, in the order of [`Status::ALL`].
     fn among(rows: &[Row]) -> Vec<Self> {
         let is_odd = |status: &Status| ![Status::Solved, Status::NoPath].contains(status);
@@ -91,15 +91,15 @@ impl Odd {
 /// [`StudyError::Interrupted`] if it was stopped, and those of the file system. Records that existed before stay as they
 /// are unless the run succeeds.
 pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
-    let (field, folder) = (Field::new(study, options.points, options.inputs)?, options.lock.folder());
+    let (built, folder) = (BuiltStudy::new(study, options.points, options.inputs)?, options.lock.folder());
     let (claims, command) = (options.claims.clone(), options.command.clone());
-    let mut manifest = Manifest::new(study, options.points, &field, claims, command, options.quick)?;
+    let mut manifest = Manifest::new(study, options.points, &built, claims, command, options.quick)?;
     remove_temporaries(folder, &study.name);
     let (journal, mut done) = Journal::open(&journal_path(folder, &study.name), &manifest.depends)?;
-    let (resumed, units) = (done.len(), field.units().len());
+    let (resumed, units) = (done.len(), built.units().len());
     let Before { stored, why } = before(folder, &manifest);
     let found = match &stored {
-        Some((before, records)) if !options.fresh => reusable(&field, &manifest, before, records),
+        Some((before, records)) if !options.fresh => reusable(&built, &manifest, before, records),
         _ => BTreeMap::new(),
     };
     let reused = found.keys().filter(|index| !done.contains_key(index)).count();
@@ -109,7 +109,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     {
         journal.remove()?;
         let (manifest, rows) = (before.clone(), &records.batch.rows);
-        let (trials, odd) = (rows.len(), Odd::among(rows));
+        let (trials, odd) = (rows.len(), UnexpectedStatus::among(rows));
         return Ok(Report { manifest, trials, resumed, reused, units, why, moved: Vec::new(), odd });
     }
     if let Some((before, _)) = stored.as_ref().filter(|_| reused > 0) {
@@ -119,13 +119,13 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     done = found.into_iter().chain(done).collect();
     let journal = Mutex::new(journal);
     let pool = pool(options.threads);
-    let batch = pool.install(|| field.run(done, &journal, options.stop, options.progress))?;
-    let times = field.time(options.stop, options.progress)?;
+    let batch = pool.install(|| built.run(done, &journal, options.stop, options.progress))?;
+    let times = built.time(options.stop, options.progress)?;
     let moved = stored.map_or_else(Vec::new, |(before, records)| moved(&manifest, &before, &records, &batch));
     let records = Records { batch, times };
     write(study, folder, &mut manifest, &records)?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
-    let (trials, odd) = (records.batch.rows.len(), Odd::among(&records.batch.rows));
+    let (trials, odd) = (records.batch.rows.len(), UnexpectedStatus::among(&records.batch.rows));
     Ok(Report { manifest, trials, resumed, reused, units, why, moved, odd })
 }
 
@@ -163,26 +163,26 @@ fn write(study: &Study, folder: &Path, manifest: &mut Manifest, records: &Record
 /// [`StudyError::UnknownTrial`].
 pub fn run_one(
     study: &Study,
-    points: &[Point],
+    points: &[ReadingChoice],
     inputs: &Inputs,
     folder: &Path,
     trial: &str,
 ) -> Result<(Batch, Option<Row>), StudyError> {
-    let field = Field::new(study, points, inputs)?;
-    let units = field.units();
-    let owner = units.iter().find(|unit| field.trials(unit).iter().any(|name| name == trial));
+    let built = BuiltStudy::new(study, points, inputs)?;
+    let units = built.units();
+    let owner = units.iter().find(|unit| built.trials(unit).iter().any(|name| name == trial));
     // What a task finds may have rows of its own, below a trial's name.
     let is_below = |name: &str| trial.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'));
     let owner =
-        owner.or_else(|| units.iter().find(|unit| field.trials(unit).iter().any(|name| is_below(name))));
+        owner.or_else(|| units.iter().find(|unit| built.trials(unit).iter().any(|name| is_below(name))));
     let unknown = || {
-        let first = units.first().and_then(|unit| field.trials(unit).into_iter().next());
+        let first = units.first().and_then(|unit| built.trials(unit).into_iter().next());
         let hint = format!("its first one is `{}/{}`", study.name, first.unwrap_or_default());
         StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint }
     };
     let owner = owner.ok_or_else(unknown)?;
     let wanted = Some(BTreeSet::from([trial.to_owned()]));
-    let mut batch = field.run_unit(&Unit { name: owner.name.clone(), keeps_all: true, wanted, ..*owner });
+    let mut batch = built.run_unit(&Unit { name: owner.name.clone(), keeps_all: true, wanted, ..*owner });
     batch.rows.retain(|row| row.trial == trial);
     batch.kept.retain(|kept| kept.of == trial);
     let before = if Manifest::path(folder, &study.name).exists() {
@@ -217,7 +217,7 @@ fn stored(folder: &Path, study: &str) -> Result<(Manifest, Records), StudyError>
 
 /// The units of which every record is stored and depends on nothing that has changed.
 fn reusable(
-    field: &Field<'_>,
+    built: &BuiltStudy<'_>,
     manifest: &Manifest,
     before: &Manifest,
     records: &Records,
@@ -226,7 +226,7 @@ fn reusable(
     if manifest.contenders != before.contenders {
         return batches;
     }
-    let units = field.units();
+    let units = built.units();
     let is_same = |unit: &Unit<'_>| {
         let key = key(unit.point.name(), &unit.group.label);
         manifest.problems.get(&key) == before.problems.get(&key)

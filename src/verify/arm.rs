@@ -12,7 +12,7 @@ mod tests;
 
 pub use body::Body;
 
-use crate::grid::CornerRule;
+use base::grid::CornerRule;
 
 /// Gaps that are not proved to be wider than this are contact.
 const RESOLUTION_CM: f64 = 1e-7;

@@ -4,7 +4,7 @@
 //! in integers: it enters a cell if it meets the cell's open interior. Where it passes exactly through the corner
 //! between two diagonal cells, the corner rule decides by the two cells that flank it.
 
-use crate::grid::{CornerRule, Grid2};
+use base::grid::{CornerRule, Grid2};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 

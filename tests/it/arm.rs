@@ -1,16 +1,16 @@
 //! The planar arm from outside: planners against the verifier, whose kinematics, distances and search are its own.
 
 use crate::shapes::{Placed, body, obstacle, shaped};
+use base::grid::CornerRule;
+use base::seed;
+use base::settings::Settings;
+use engine::geometry::planar::Touch;
+use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
+use engine::planner::{self, Build, Ending, Plan, Planner, Request, Value};
+use engine::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
 use rand::RngExt as _;
-use replan::geometry::planar::Touch;
-use replan::grid::CornerRule;
-use replan::kinematics::planar_2r::{ElbowRule, Planar2r};
-use replan::planner::{self, Build, Ending, Plan, Planner, Request, Value};
-use replan::seed;
-use replan::settings::Settings;
-use replan::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
-use replan::verify::arm::{Answer, Case};
 use std::collections::BTreeSet;
+use verify::arm::{Answer, Case};
 
 /// A workspace with a query, and the obstacles in it.
 struct Posed {

@@ -1,8 +1,8 @@
 //! Runs that are stopped: by Ctrl-C or killed anywhere, the same command goes on and ends with equal bytes.
 
 use crate::paper::Bench;
+use base::seed;
 use rand::RngExt as _;
-use replan::seed;
 use std::fs;
 use std::process::{Child, Command};
 use std::thread::sleep;

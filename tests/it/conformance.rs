@@ -6,11 +6,11 @@
 mod tried;
 
 use crate::worlds::{Case, Subject, worlds};
+use base::settings::Settings;
+use engine::planner::{self, Build, Ending, Entry, Invalid, Plan, Planner, Request, Stage};
+use engine::space::WorldKind;
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
-use replan::planner::{self, Build, Ending, Entry, Invalid, Plan, Planner, Request, Stage};
-use replan::settings::Settings;
-use replan::space::WorldKind;
 use std::collections::{BTreeMap, BTreeSet};
 use tried::{
     CIRCLE, CUT_IN, DRIFT, FED_BY, FOLLOWING, LOOK_AT_POINTS, SETTINGS, WITHOUT_EXHIBITS, is_among, names,

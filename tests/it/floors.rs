@@ -1,10 +1,9 @@
-//! Holds the floors of `engine.rs` and of `lib.rs` above them: a module names only modules on lower floors.
+//! Holds the floors of every package's `lib.rs`: a module names only modules on lower floors. What a package may know
+//! of another is held by the compiler, through its manifest.
 
-use crate::source::{File, files};
+use crate::source::{File, PACKAGES, files};
 use std::collections::BTreeMap;
-
-/// Floors that the verifier may not stand on, although they are below it: it judges with code of its own.
-const BANNED_FROM_VERIFY: [&str; 6] = ["geometry", "space", "search", "shorten", "endpoints", "planner"];
+use std::path::Path;
 
 /// The most lines that a file may have.
 const FILE_LINES: usize = 400;
@@ -12,16 +11,13 @@ const FILE_LINES: usize = 400;
 /// The most lines that a function may have, signature and braces included.
 const FUNCTION_LINES: usize = 40;
 
-/// The roots of the two packages, the lower one first.
-const ROOTS: [&str; 2] = ["engine.rs", "lib.rs"];
-
-/// Every module of both packages with its floor, 0 at the bottom.
-fn floors(files: &[File]) -> BTreeMap<String, usize> {
-    let root = |name: &str| files.iter().find(|file| file.path.as_os_str() == name).unwrap();
-    let code = ROOTS.map(|name| root(name).code.trim_start()).join("\n");
+/// Every module of `package` with its floor, 0 at the bottom.
+fn floors(files: &[File], package: &str) -> BTreeMap<String, usize> {
+    let is_root = |file: &&File| file.package() == package && file.path.ends_with("lib.rs");
+    let root = files.iter().find(is_root).expect("a package has a lib.rs");
     let mut floors = BTreeMap::new();
     let mut floor = 0;
-    for line in code.lines() {
+    for line in root.code.trim_start().lines() {
         match line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';')) {
             Some(module) => {
                 floors.insert(module.to_owned(), floor);
@@ -84,28 +80,23 @@ fn heads(rest: &str) -> Vec<String> {
 }
 
 /// Every way in which `files` break the floors.
-fn violations(files: &[File]) -> Vec<String> {
-    let floors = floors(files);
+fn violations(files: &[File], package: &str) -> Vec<String> {
+    let floors = floors(files, package);
     let mut found = Vec::new();
-    for file in files {
+    for file in files.iter().filter(|file| file.package() == package) {
         let Some(own) = file.modules().first().cloned() else { continue };
         let Some(floor) = floors.get(&own) else {
-            found.push(format!(
-                "{}: module `{own}` is neither in engine.rs nor in lib.rs",
-                file.path.display()
-            ));
+            found
+                .push(format!("{}: module `{own}` is not in the lib.rs of `{package}`", file.path.display()));
             continue;
         };
         for (line, other) in named(file) {
             let place = format!("{}:{line}: `{own}` names `{other}`", file.path.display());
             match floors.get(&other) {
                 _ if other == own => {}
-                None => found.push(format!("{place}, which is no module of engine.rs or lib.rs")),
+                None => found.push(format!("{place}, which is no module of lib.rs")),
                 Some(below) if below >= floor => {
                     found.push(format!("{place}, which is not on a lower floor"));
-                }
-                Some(_) if own == "verify" && BANNED_FROM_VERIFY.contains(&other.as_str()) => {
-                    found.push(format!("{place}, but the verifier judges with code of its own"));
                 }
                 Some(_) => {}
             }
@@ -147,48 +138,61 @@ fn modules_name_only_lower_floors() {
     let files = files();
     let named: usize = files.iter().map(|file| named(file).len()).sum();
     assert!(named > 200, "only {named} paths were read; the reader is blind");
-    let found = violations(&files);
+    let packages = PACKAGES.iter().copied().chain(["replan"]);
+    let found: Vec<String> = packages.flat_map(|package| violations(&files, package)).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
 #[test]
+fn the_verifier_depends_on_base_alone() {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/verify/Cargo.toml");
+    let manifest: toml::Table = std::fs::read_to_string(manifest).unwrap().parse().unwrap();
+    let own = |name: &&String| PACKAGES.contains(&name.as_str());
+    let found: Vec<&String> = manifest["dependencies"].as_table().unwrap().keys().filter(own).collect();
+    assert_eq!(found, ["base"]);
+}
+
+#[test]
 fn broken_floors_are_noticed_in_a_tree_made_up_for_it() {
-    let engine = "//! Doc.\n\npub mod seed;\npub mod settings;\n\npub mod space;\n\npub mod verify;\n";
-    let lib = "//! Doc.\n\npub use replan_engine::{seed, settings, space, verify};\n\npub mod study;\n\npub mod cli;\n";
+    let engine = "//! Doc.\n\npub mod space;\npub mod shorten;\n\npub mod planner;\n";
+    let lib = "//! Doc.\n\npub mod study;\n\npub mod cli;\n";
     let tree = |path: &str, text: &str| {
-        violations(&[File::new("engine.rs", engine), File::new("lib.rs", lib), File::new(path, text)])
+        let files = [File::new("engine/lib.rs", engine), File::new("lib.rs", lib), File::new(path, text)];
+        [violations(&files, "engine"), violations(&files, "replan")].concat()
     };
+    let planner = "`space` names `planner`";
     for (path, text, complaint) in [
-        ("seed.rs", "use crate::space::World;", "seed.rs:1: `seed` names `space`, which is not on a lower"),
-        ("seed.rs", "use crate::settings::Settings;", "which is not on a lower floor"),
-        ("space/mod.rs", "fn a() {\n    crate::cli::run();\n}", "space/mod.rs:2: `space` names `cli`"),
-        ("space/mod.rs", "use super::cli::run;", "`space` names `cli`"),
-        ("space/lattice/tests.rs", "use super::super::super::cli::run;", "`space` names `cli`"),
-        ("space/lattice.rs", "mod tests {\n    use super::super::super::cli;\n}", "`space` names `cli`"),
         (
-            "space/lattice.rs",
-            "use crate::{\n    seed::derive,\n    cli::{run, Cli},\n};",
-            "`space` names `cli`",
+            "engine/space/mod.rs",
+            "fn a() {\n    crate::planner::run();\n}",
+            "engine/space/mod.rs:2: `space` names `planner`",
         ),
-        ("verify/lattice.rs", "use crate::space::World;", "the verifier judges with code of its own"),
+        ("engine/space/mod.rs", "use crate::shorten::tidy;", "which is not on a lower floor"),
+        ("engine/space/mod.rs", "use super::planner::run;", planner),
+        ("engine/space/lattice/tests.rs", "use super::super::super::planner::run;", planner),
+        ("engine/space/lattice.rs", "mod tests {\n    use super::super::super::planner;\n}", planner),
+        (
+            "engine/space/lattice.rs",
+            "use crate::{\n    space::World,\n    planner::{Plan, run},\n};",
+            planner,
+        ),
         (
             "study.rs",
             "use crate::cli::run;",
             "study.rs:1: `study` names `cli`, which is not on a lower floor",
         ),
-        ("verify/lattice.rs", "use crate::study::Study;", "`verify` names `study`, which is not on a lower"),
-        ("attic.rs", "", "module `attic` is neither in engine.rs nor in lib.rs"),
-        ("cli.rs", "use crate::attic::x;", "`attic`, which is no module of engine.rs or lib.rs"),
+        ("attic.rs", "", "module `attic` is not in the lib.rs of `replan`"),
+        ("engine/attic.rs", "", "module `attic` is not in the lib.rs of `engine`"),
+        ("cli.rs", "use crate::attic::x;", "`attic`, which is no module of lib.rs"),
     ] {
         let found = tree(path, text);
         assert!(found.len() == 1 && found[0].contains(complaint), "{path}\n{text}\n{found:?}");
     }
     for (path, text) in [
-        ("space/mod.rs", "use crate::seed::derive; // not crate::cli"),
-        ("space/lattice.rs", "use super::World;\nmod tests {\n    use super::super::World;\n}"),
-        ("verify/lattice.rs", "use crate::seed::derive;"),
-        ("study.rs", "use crate::{seed::derive, verify::Case};"),
-        ("cli.rs", "const TEXT: &str = \"crate::attic\";"),
+        ("engine/planner/mod.rs", "use crate::space::World; // not crate::attic"),
+        ("engine/space/lattice.rs", "use super::World;\nmod tests {\n    use super::super::World;\n}"),
+        ("study.rs", "use engine::{planner::Plan, space::World};"),
+        ("cli.rs", "use crate::study::Study;\nconst TEXT: &str = \"crate::attic\";"),
     ] {
         assert_eq!(tree(path, text), [""; 0], "{path}\n{text}");
     }

@@ -1,10 +1,10 @@
 //! Laws that hold for every input, tried on inputs from a written seed.
 
+use audit::printed::{Digits, Printed};
+use base::seed;
+use base::settings::Settings;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use replan::audit::printed::{Digits, Printed};
-use replan::seed;
-use replan::settings::Settings;
 use replan::study::slug;
 use toml::{Table, Value};
 

@@ -2,12 +2,12 @@
 
 use crate::worlds::polyhedra::solids;
 use crate::worlds::rods::{aubo, carried};
-use replan::planner::{self, Build, Ending, Planner, Request, Stage};
-use replan::settings::Settings;
-use replan::space::polyhedra::read_scene;
-use replan::space::{PolyhedraWorld, World};
-use replan::verify::rods;
+use base::settings::Settings;
+use engine::planner::{self, Build, Ending, Planner, Request, Stage};
+use engine::space::polyhedra::read_scene;
+use engine::space::{PolyhedraWorld, World};
 use std::path::Path;
+use verify::rods;
 
 fn settings(text: &str) -> Settings {
     Settings::composed("a test", toml::from_str(text).unwrap())

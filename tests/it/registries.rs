@@ -1,8 +1,8 @@
 //! Holds every registry to its folder: each file with an entry is registered under its own name, in order.
 
 use crate::source::files;
+use engine::planner;
 use replan::analysis::{check, metric};
-use replan::planner;
 use replan::render::figure;
 use replan::study::{column, family, prepared, task};
 use std::collections::BTreeSet;

@@ -1,8 +1,8 @@
 //! Obstacles of the planar arm in the planner's terms and in the verifier's.
 
-use replan::space::Obstacle;
+use engine::space::Obstacle;
 use replan::study::prepared::workspace_map::ShapeSetting;
-use replan::verify::arm::Body;
+use verify::arm::Body;
 
 /// An obstacle: its shape, and where its centre is.
 pub type Placed = (ShapeSetting, [f64; 2]);

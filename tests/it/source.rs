@@ -1,7 +1,10 @@
-//! The crate's own source as tests read it: comments and the insides of strings blanked out, lines kept.
+//! The project's own source as tests read it: comments and the insides of strings blanked out, lines kept.
 
 use std::fs;
 use std::path::{Path, PathBuf};
+
+/// Folders of `src` that are packages of their own; what is in none of them belongs to the package `replan`.
+pub const PACKAGES: [&str; 5] = ["audit", "base", "engine", "stats", "verify"];
 
 /// One file below `src`.
 pub struct File {
@@ -16,11 +19,18 @@ impl File {
         Self { path: PathBuf::from(path), code: code(text) }
     }
 
-    /// The modules on the way to it from the crate's root: `grid/mod.rs` is `["grid"]`.
+    /// The package it belongs to: a folder of `src`, or `replan`.
+    pub fn package(&self) -> &str {
+        let first = self.path.iter().next().and_then(|part| part.to_str()).unwrap_or_default();
+        if PACKAGES.contains(&first) { first } else { "replan" }
+    }
+
+    /// The modules on the way to it from its package's root: `base/grid/mod.rs` is `["grid"]`.
     pub fn modules(&self) -> Vec<String> {
         let parts = self.path.with_extension("");
-        let mut parts: Vec<String> = parts.iter().map(|part| part.to_string_lossy().into_owned()).collect();
-        if parts.last().is_some_and(|last| ["mod", "lib", "main", "engine"].contains(&last.as_str())) {
+        let parts = parts.iter().map(|part| part.to_string_lossy().into_owned());
+        let mut parts: Vec<String> = parts.skip(usize::from(self.package() != "replan")).collect();
+        if parts.last().is_some_and(|last| ["mod", "lib", "main"].contains(&last.as_str())) {
             parts.pop();
         }
         parts

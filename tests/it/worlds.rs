@@ -6,13 +6,13 @@ pub mod polyhedra;
 mod roadmap;
 pub mod rods;
 
-use replan::planner::{Entry, Plan, Planner};
-use replan::settings::Settings;
-use replan::space::{World, WorldKind};
-use replan::verify::plane;
+use base::settings::Settings;
+use engine::planner::{Entry, Plan, Planner};
+use engine::space::{World, WorldKind};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::sync::LazyLock;
+use verify::plane;
 
 /// A planner with the settings that it was built from.
 pub struct Subject {

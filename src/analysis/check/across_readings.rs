@@ -7,14 +7,14 @@ use super::{Check, Context, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::Finding;
-use crate::audit::printed::Printed;
-use crate::settings::SettingsError;
-use crate::stats::interval::Interval;
-use crate::stats::proportion::predictive;
-use crate::stats::summary::median;
 use crate::study::record::Status;
-use crate::study::{Point, Study};
+use crate::study::{ReadingChoice, Study};
+use audit::printed::Printed;
+use base::settings::SettingsError;
 use serde::Deserialize;
+use stats::interval::Interval;
+use stats::proportion::predictive;
+use stats::summary::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -43,7 +43,7 @@ struct Settings {
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The reading.
-    pub point: Point,
+    pub point: ReadingChoice,
     /// Median over the random maps.
     pub median: f64,
     /// Where 95 % of further maps would lie, at least.
@@ -93,7 +93,7 @@ impl<'a> Across<'a> {
         points.into_iter().filter_map(|point| self.under(point, evidence)).collect()
     }
 
-    fn under(&self, point: Point, evidence: &Evidence<'_>) -> Option<Outcome> {
+    fn under(&self, point: ReadingChoice, evidence: &Evidence<'_>) -> Option<Outcome> {
         let view = evidence.under(point.clone());
         let context = Context { point: &point, ..self.context };
         let metric = context.metric(&self.settings.metric, self.study).ok()?;

@@ -5,8 +5,8 @@ use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::stats::proportion::{trials_for_margin, wilson};
 use serde::Deserialize;
+use stats::proportion::{trials_for_margin, wilson};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

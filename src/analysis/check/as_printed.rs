@@ -4,11 +4,11 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::audit::printed::{Digits, Printed};
-use crate::settings::SettingsError;
-use crate::stats::summary::median;
 use crate::study::Study;
+use audit::printed::{Digits, Printed};
+use base::settings::SettingsError;
 use serde::Deserialize;
+use stats::summary::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

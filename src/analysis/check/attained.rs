@@ -4,9 +4,9 @@ use super::{Check, Context, Entry};
 use crate::analysis::evidence::{Evidence, Pair, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::audit::printed::{Digits, Printed};
-use crate::settings::SettingsError;
-use crate::study::{Point, Reading, Study};
+use crate::study::{Reading, ReadingChoice, Study};
+use audit::printed::{Digits, Printed};
+use base::settings::SettingsError;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -93,7 +93,7 @@ impl<'a> Attained<'a> {
             let study = context.study(&place.study, &place.problems, &[])?;
             metric = Some(context.metric(&settings.metric, study)?);
             for departs in study.contenders.iter().map(|contender| &contender.departs) {
-                Point::new(&readings, departs).map_err(|e| study.document.error(0..0, e))?;
+                ReadingChoice::new(&readings, departs).map_err(|e| study.document.error(0..0, e))?;
             }
             for label in wanted {
                 let is_known = settings.r#in.iter().any(|place| {
@@ -156,7 +156,7 @@ impl<'a> Attained<'a> {
     }
 
     /// Whether the trials of `study` can run under the reading at all: it has every axis along which that departs.
-    fn is_asked_of(&self, study: &Study, point: &Point) -> bool {
+    fn is_asked_of(&self, study: &Study, point: &ReadingChoice) -> bool {
         let departs = |reading: &Reading| {
             let taken = point.choices().get(&reading.id);
             reading.touches_trials() && taken.is_some_and(|option| *option != reading.default)
@@ -166,15 +166,15 @@ impl<'a> Attained<'a> {
     }
 
     /// The reading that the contender called `label` runs under.
-    fn reading_of(&self, study: &Study, point: &Point, label: &str) -> String {
+    fn reading_of(&self, study: &Study, point: &ReadingChoice, label: &str) -> String {
         let mut choices = point.choices().clone();
         let contender = study.contenders.iter().find(|contender| contender.label == label);
         choices.extend(contender.into_iter().flat_map(|contender| contender.departs.clone()));
-        let point = Point::new(&self.readings, &choices);
+        let point = ReadingChoice::new(&self.readings, &choices);
         point.expect("departures were looked up when the check was built").name().to_owned()
     }
 
-    fn seen_in(&self, run: &Run<'_>, point: &Point, group: &str, contender: &str) -> Vec<Seen> {
+    fn seen_in(&self, run: &Run<'_>, point: &ReadingChoice, group: &str, contender: &str) -> Vec<Seen> {
         let reading = self.reading_of(run.study, point, contender);
         let base = self.settings.against.as_deref().unwrap_or(contender);
         let value = |pair: &Pair<'_>| {

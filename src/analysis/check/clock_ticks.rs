@@ -4,8 +4,8 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::audit::clock::Tick;
-use crate::audit::printed::{Digits, Printed};
+use audit::clock::Tick;
+use audit::printed::{Digits, Printed};
 use serde::Deserialize;
 
 /// The registry's entry.

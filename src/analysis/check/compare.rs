@@ -4,14 +4,14 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::audit::printed::Printed;
-use crate::seed;
-use crate::stats::bootstrap::Plan;
-use crate::stats::interval::Interval;
-use crate::stats::paired::ratio_of_means;
-use crate::stats::proportion::units_for_margin;
 use crate::study::Study;
+use audit::printed::Printed;
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::Resampling;
+use stats::interval::Interval;
+use stats::paired::ratio_of_means;
+use stats::proportion::units_for_margin;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -75,7 +75,7 @@ impl Check for Compare<'_> {
         let Settings { study, problems, contender, against, .. } = &self.settings;
         let measured = evidence.measured(study, problems, self.metric, against, contender);
         let pairs: Vec<(f64, f64)> = measured.iter().map(|measured| measured.values).collect();
-        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 2000, level: 0.95, seed: self.seed };
         let mut finding = Finding::of(ENTRY.name);
         let Some(ratio) = ratio_of_means(&pairs, plan) else {
             return finding.undecided(format!("{} pairs were measured; at least 2 are needed", pairs.len()));

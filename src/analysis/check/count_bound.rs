@@ -3,10 +3,10 @@
 use super::{Check, Context, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::audit::fvalues::{CountBound, astar_count_bound};
-use crate::audit::lattice::Octile;
-use crate::audit::printed::{Digits, Printed};
-use crate::settings::SettingsError;
+use audit::fvalues::{CountBound, astar_count_bound};
+use audit::lattice::Octile;
+use audit::printed::{Digits, Printed};
+use base::settings::SettingsError;
 use serde::Deserialize;
 
 /// The registry's entry.

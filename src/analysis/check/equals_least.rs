@@ -5,9 +5,9 @@ use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::stats::bootstrap::{Plan, percentile};
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::{Resampling, percentile};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -76,7 +76,7 @@ impl Check for EqualsLeast {
             pairs.len(),
             100.0 * (sum(|pair| pair.1) / sum(|pair| pair.0) - 1.0)
         ));
-        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 2000, level: 0.95, seed: self.seed };
         if let Some(found) = percentile(&draws, share, plan) {
             let what = "share of problems on which the least is attained, bootstrap over draws, 95 %";
             finding.ours = Some(Estimate::new(found.value, found.interval, what, draws.len()));

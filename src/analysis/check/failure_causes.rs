@@ -5,10 +5,10 @@ use crate::analysis::draws::both;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::stats::bootstrap::{Plan, percentile};
 use crate::study::record::{Row, Status};
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::{Resampling, percentile};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -92,7 +92,7 @@ impl Check for FailureCauses {
         let Some(run) = evidence.run(study) else { return finding };
         let pairs = both(run, problems, contender, relief);
         let draws: Vec<Tally> = pairs.values().map(|pairs| Tally::of(run, pairs)).collect();
-        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = percentile(&draws, share, plan) else {
             return finding.undecided("fewer than two draws, or no search fails");
         };

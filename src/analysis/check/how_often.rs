@@ -4,9 +4,9 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::Finding;
-use crate::stats::paired::EQUAL;
-use crate::stats::proportion::wilson;
 use serde::Deserialize;
+use stats::paired::EQUAL;
+use stats::proportion::wilson;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -3,12 +3,12 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::audit::bounds::{largest_saving_percent, straight_line};
-use crate::audit::lattice::{Octile, Step, lengths_printing};
-use crate::audit::printed::{Digits, Printed};
-use crate::audit::{at_most, with_an_end_moved};
-use crate::stats::interval::Interval;
+use audit::bounds::{largest_saving_percent, straight_line};
+use audit::lattice::{Octile, Step, lengths_printing};
+use audit::printed::{Digits, Printed};
+use audit::{at_most, with_an_end_moved};
 use serde::Deserialize;
+use stats::interval::Interval;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -3,9 +3,9 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
-use crate::audit::printed::{Digits, Printed};
-use crate::audit::with_an_end_moved;
+use audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
+use audit::printed::{Digits, Printed};
+use audit::with_an_end_moved;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -3,8 +3,8 @@
 use super::{Check, Context, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::settings::SettingsError;
 use crate::study::paper::TableRow;
+use base::settings::SettingsError;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Value;

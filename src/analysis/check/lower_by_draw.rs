@@ -5,11 +5,11 @@ use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::stats::bootstrap::Plan;
-use crate::stats::paired::change_of_sums_percent;
-use crate::stats::proportion::units_for_margin;
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::Resampling;
+use stats::paired::change_of_sums_percent;
+use stats::proportion::units_for_margin;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -50,7 +50,7 @@ impl Check for LowerByDraw {
         let compared = Compared { group: problems, contenders, query, whole: false };
         let mut finding = Finding::of(ENTRY.name);
         let draws = evidence.run(study).map(|run| compared.values(run, self.metric)).unwrap_or_default();
-        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = change_of_sums_percent(&draws, plan) else {
             return finding
                 .undecided(format!("{} draws have a query that both solve; 2 are needed", draws.len()));

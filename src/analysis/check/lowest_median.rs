@@ -8,14 +8,14 @@ use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::inclusion::Inclusion;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::settings::SettingsError;
-use crate::stats::bootstrap::{self, Plan};
-use crate::stats::proportion::units_for_margin;
-use crate::stats::summary::median;
 use crate::study::Study;
 use crate::study::record::{Row, Status};
+use base::seed;
+use base::settings::SettingsError;
 use serde::Deserialize;
+use stats::bootstrap::{self, Resampling};
+use stats::proportion::units_for_margin;
+use stats::summary::median;
 use std::collections::BTreeMap;
 
 /// The registry's entry.
@@ -179,7 +179,7 @@ impl<'a> LowestMedian<'a> {
 
     /// Bootstrap interval of the median over seeds; the value itself where there is one.
     fn interval(&self, values: &[f64]) -> [f64; 2] {
-        let plan = Plan { resamples: 500, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 500, level: 0.95, seed: self.seed };
         match bootstrap::median(values, plan) {
             Some(found) => [found.interval.low, found.interval.high],
             None => [values[0]; 2],

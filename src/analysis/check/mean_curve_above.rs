@@ -4,12 +4,12 @@ use super::{Check, Entry};
 use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::stats::bands::sup_t;
-use crate::stats::bootstrap::Plan;
-use crate::stats::interval::Interval;
 use crate::study::Study;
+use base::seed;
 use serde::Deserialize;
+use stats::bands::sup_t;
+use stats::bootstrap::Resampling;
+use stats::interval::Interval;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -64,7 +64,7 @@ impl Check for MeanCurveAbove<'_> {
         let draws = own.iter().chain(&other).map(Vec::len).min().unwrap_or(0);
         let curve = |draw: usize| own.iter().zip(&other).map(|(a, b)| a[draw] - b[draw]).collect();
         let curves: Vec<Vec<f64>> = (0..draws).map(curve).collect();
-        let Some(found) = sup_t(&curves, Plan { resamples: 2000, level: 0.95, seed: self.seed }) else {
+        let Some(found) = sup_t(&curves, Resampling { resamples: 2000, level: 0.95, seed: self.seed }) else {
             return finding.undecided(format!("{draws} draws; at least 2 are needed"));
         };
         finding.verdict = Some(verdict(&found.band));

@@ -52,10 +52,10 @@ mod zero_everywhere;
 use super::evidence::Evidence;
 use super::metric::Metric;
 use super::verdict::{Finding, Verdict};
-use crate::audit::printed::{Digits, Printed};
-use crate::settings::{Settings, SettingsError};
 use crate::study::paper::{self, Claim, Paper};
-use crate::study::{Point, Study};
+use crate::study::{ReadingChoice, Study};
+use audit::printed::{Digits, Printed};
+use base::settings::{Settings, SettingsError};
 
 /// A check with its settings.
 pub trait Check {
@@ -82,7 +82,7 @@ fn explored_share(check: &dyn Check, study: Option<&Study>, evidence: &Evidence<
         points.iter().filter_map(|point| Some((point, check.holds(&evidence.under(point.clone()))?.1)));
     let (yes, no): (Vec<_>, Vec<_>) = held.partition(|(_, holds)| *holds);
     let all = yes.len() + no.len();
-    let single = |of: &[(&Point, bool)]| {
+    let single = |of: &[(&ReadingChoice, bool)]| {
         let names = of.iter().map(|(point, _)| point.name()).filter(|name| !name.contains(','));
         names.collect::<Vec<_>>().join(", ")
     };
@@ -104,7 +104,7 @@ pub struct Context<'a> {
     /// The paper.
     pub paper: &'a Paper,
     /// The reading that the claim is judged under.
-    pub point: &'a Point,
+    pub point: &'a ReadingChoice,
 }
 
 /// A registered check.
@@ -229,7 +229,7 @@ impl<'a> Context<'a> {
     fn printed(&self) -> Result<Printed, SettingsError> {
         let missing = || format!("claim `{}` prints no number, which this check needs", self.claim.id);
         let text = self.claim.printed.as_ref().ok_or_else(|| self.settings.error(missing()))?;
-        text.parse().map_err(|e: crate::audit::AuditError| self.settings.error(e.to_string()))
+        text.parse().map_err(|e: audit::AuditError| self.settings.error(e.to_string()))
     }
 
     /// The printed number of another claim.

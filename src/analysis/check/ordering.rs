@@ -4,12 +4,12 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::stats::bootstrap::Plan;
-use crate::stats::paired::{EQUAL, mean_difference, signs};
-use crate::stats::proportion::{units_for_margin, wilson};
 use crate::study::Study;
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::Resampling;
+use stats::paired::{EQUAL, mean_difference, signs};
+use stats::proportion::{units_for_margin, wilson};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -80,7 +80,7 @@ impl Ordering<'_> {
     }
 
     fn on_average(&self, pairs: &[(f64, f64)], finding: &mut Finding) {
-        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(mean) = mean_difference(pairs, plan) else {
             finding.verdict = Some(Verdict::Undecided);
             finding.because.push(format!("{} pairs were measured; at least 2 are needed", pairs.len()));

@@ -3,8 +3,8 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::audit::percent::Reduction;
-use crate::audit::printed::{Digits, Printed};
+use audit::percent::Reduction;
+use audit::printed::{Digits, Printed};
 use serde::Deserialize;
 
 /// The registry's entry.

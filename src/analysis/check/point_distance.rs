@@ -3,8 +3,8 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::audit::bounds::straight_line;
-use crate::audit::printed::{Digits, Printed};
+use audit::bounds::straight_line;
+use audit::printed::{Digits, Printed};
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -5,9 +5,9 @@ use super::{Check, Context, Entry};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::settings::SettingsError;
-use crate::stats::summary::median;
+use base::settings::SettingsError;
 use serde::Deserialize;
+use stats::summary::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

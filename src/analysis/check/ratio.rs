@@ -4,12 +4,12 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::stats::bootstrap::Plan;
-use crate::stats::interval::Interval;
-use crate::stats::paired::ratio_of_means;
 use crate::study::Study;
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::Resampling;
+use stats::interval::Interval;
+use stats::paired::ratio_of_means;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -85,7 +85,7 @@ impl Check for Ratio<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let pairs = self.pairs(evidence);
         let mut finding = Finding::of(ENTRY.name);
-        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = ratio_of_means(&pairs, plan) else {
             return finding.undecided(format!("{} pairs were measured; at least 2 are needed", pairs.len()));
         };

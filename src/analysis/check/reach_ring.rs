@@ -3,7 +3,7 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::kinematics::planar_2r::Planar2r;
+use engine::kinematics::planar_2r::Planar2r;
 use serde::Deserialize;
 
 /// The registry's entry.

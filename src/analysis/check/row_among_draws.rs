@@ -7,11 +7,11 @@ use super::{Check, Context, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding};
-use crate::audit::printed::{Digits, Printed};
-use crate::settings::SettingsError;
-use crate::stats::proportion::{Rank, predictive};
-use crate::stats::summary::median;
+use audit::printed::{Digits, Printed};
+use base::settings::SettingsError;
 use serde::Deserialize;
+use stats::proportion::{Rank, predictive};
+use stats::summary::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

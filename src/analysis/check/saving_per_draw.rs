@@ -5,11 +5,11 @@ use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::audit::printed::Printed;
-use crate::stats::proportion::predictive;
-use crate::stats::summary::mean;
 use crate::study::Study;
+use audit::printed::Printed;
 use serde::Deserialize;
+use stats::proportion::predictive;
+use stats::summary::mean;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -5,12 +5,12 @@ use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::audit::printed::Digits;
-use crate::stats::interval::Interval;
-use crate::stats::proportion::clopper_pearson;
-use crate::stats::summary::median;
 use crate::study::Study;
+use audit::printed::Digits;
 use serde::Deserialize;
+use stats::interval::Interval;
+use stats::proportion::clopper_pearson;
+use stats::summary::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

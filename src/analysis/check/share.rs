@@ -3,13 +3,13 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::stats::bootstrap::{self, Plan};
-use crate::stats::interval::Interval;
-use crate::stats::proportion::wilson;
 use crate::study::record::{Row, Status};
 use crate::study::{Study, column};
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::{self, Resampling};
+use stats::interval::Interval;
+use stats::proportion::wilson;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -94,7 +94,7 @@ impl Share<'_> {
             let (hits, chances) = sums(units);
             (chances > 0.0).then(|| hits / chances)
         };
-        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 2000, level: 0.95, seed: self.seed };
         let found = bootstrap::percentile(&pairs, ratio, plan)?;
         let (hits, chances) = sums(&pairs.iter().collect::<Vec<_>>());
         let what = format!("{} of {of}, bootstrap 95 % over draws", self.settings.hits);

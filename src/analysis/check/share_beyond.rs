@@ -4,8 +4,8 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::stats::proportion::wilson;
 use serde::Deserialize;
+use stats::proportion::wilson;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -4,11 +4,11 @@ use super::{Check, Context, Entry};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::settings::SettingsError;
-use crate::stats::proportion::wilson;
 use crate::study::Study;
 use crate::study::record::Status;
+use base::settings::SettingsError;
 use serde::Deserialize;
+use stats::proportion::wilson;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

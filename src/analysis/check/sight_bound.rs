@@ -3,11 +3,11 @@
 use super::{Check, Context, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::audit::lattice::{Octile, octile_distance};
-use crate::audit::printed::{Digits, Printed};
-use crate::audit::sight::shortest_seen;
-use crate::audit::{at_most, with_an_end_moved};
-use crate::settings::SettingsError;
+use audit::lattice::{Octile, octile_distance};
+use audit::printed::{Digits, Printed};
+use audit::sight::shortest_seen;
+use audit::{at_most, with_an_end_moved};
+use base::settings::SettingsError;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 

@@ -3,9 +3,9 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::audit::bounds::{shortfall, straight_line, straight_line_between};
-use crate::audit::neighbourhood;
-use crate::audit::printed::{Digits, Printed};
+use audit::bounds::{shortfall, straight_line, straight_line_between};
+use audit::neighbourhood;
+use audit::printed::{Digits, Printed};
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -4,12 +4,12 @@ use super::{Check, Entry};
 use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::audit::printed::Printed;
-use crate::stats::proportion::Rank;
-use crate::stats::rows::{distance_to_mean, monotone_probability};
-use crate::stats::summary::{mean, standard_deviation};
 use crate::study::Study;
+use audit::printed::Printed;
 use serde::Deserialize;
+use stats::proportion::Rank;
+use stats::rows::{distance_to_mean, monotone_probability};
+use stats::summary::{mean, standard_deviation};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

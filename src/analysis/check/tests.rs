@@ -4,7 +4,7 @@ use crate::analysis::verdict::{Finding, Verdict};
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use crate::study::session::{Options, run};
-use crate::study::{Inputs, Point, runner::Unwatched};
+use crate::study::{Inputs, ReadingChoice, runner::Unwatched};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -81,9 +81,9 @@ fn with_run(folder: &Path, claims: &str, study: &str, then: impl FnOnce(&Paper, 
     then(&paper, &evidence);
 }
 
-fn under(evidence: &Evidence<'_>, reading: &str, option: &str) -> Point {
+fn under(evidence: &Evidence<'_>, reading: &str, option: &str) -> ReadingChoice {
     let choices = [(reading.to_owned(), option.to_owned())].into();
-    Point::new(&evidence.paper.readings(), &choices).unwrap()
+    ReadingChoice::new(&evidence.paper.readings(), &choices).unwrap()
 }
 
 fn finding(evidence: &Evidence<'_>, claim: &str, check: &str) -> Finding {

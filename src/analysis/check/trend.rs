@@ -4,11 +4,11 @@ use super::{Check, Entry};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::stats::bootstrap::{self, Plan};
 use crate::study::record::Status;
 use crate::study::{Study, column};
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::{self, Resampling};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -107,7 +107,7 @@ impl Check for Trend<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let points = self.points(evidence);
         let mut finding = Finding::of(ENTRY.name);
-        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 2000, level: 0.95, seed: self.seed };
         let Some(found) = bootstrap::percentile(&points, slope, plan) else {
             return finding.undecided(format!("{} problems show no slope", points.len()));
         };

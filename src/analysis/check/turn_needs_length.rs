@@ -3,12 +3,12 @@
 use super::{Check, Context, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::audit::neighbourhood;
-use crate::audit::printed::Printed;
-use crate::audit::turns::{Convention, TurnQuery, shortest_polyline};
-use crate::settings::SettingsError;
-use crate::stats::interval::Interval;
+use audit::neighbourhood;
+use audit::printed::Printed;
+use audit::turns::{Convention, TurnQuery, shortest_polyline};
+use base::settings::SettingsError;
 use serde::Deserialize;
+use stats::interval::Interval;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

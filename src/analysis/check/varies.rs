@@ -4,8 +4,8 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Finding, Verdict};
-use crate::stats::summary::median;
 use serde::Deserialize;
+use stats::summary::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -4,10 +4,10 @@ use super::{Check, Entry};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use crate::seed;
-use crate::stats::bootstrap::{Plan, percentile};
 use crate::study::record::{Row, Status};
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::{Resampling, percentile};
 use std::collections::BTreeMap;
 
 /// The registry's entry.
@@ -94,7 +94,7 @@ impl Check for ZeroEverywhere {
             (_, 0) => Verdict::Reproduced,
             _ => Verdict::NotReproduced,
         });
-        let plan = Plan { resamples: 2000, level: 0.95, seed: self.seed };
+        let plan = Resampling { resamples: 2000, level: 0.95, seed: self.seed };
         if let Some(found) = percentile(&tallies, share, plan) {
             let what = "share of paths on which it is above 0, bootstrap over draws, 95 %";
             finding.ours = Some(Estimate::new(found.value, found.interval, what, tallies.len()));

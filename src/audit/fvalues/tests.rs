@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use rand::RngExt as _;
 
 use super::{super::lattice::Octile, *};
-use crate::seed;
+use base::seed;
 
 /// What a plain A* did on a map: cost of its path, closed (goal included) and opened cells.
 struct Run {

@@ -1,7 +1,7 @@
 use super::*;
-use crate::grid::{CornerRule, Grid2, Sight, independent_cells};
-use crate::seed;
-use crate::verify::lattice::Case;
+use base::grid::{CornerRule, Grid2, Sight, independent_cells};
+use base::seed;
+use verify::lattice::Case;
 
 /// Length of the shortest path from `start` to `goal` whose segments are seen by `sight`, by Dijkstra over all pairs.
 fn shortest_free(grid: &Grid2, start: Cell, goal: Cell, sight: Sight) -> f64 {

@@ -1,7 +1,7 @@
 //! The Python side: an environment of its own, made once, and calls of the modules in `crosscheck/`.
 
 use super::super::Failure;
-use crate::hash::sha256;
+use base::hash::sha256;
 use std::fs;
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};

@@ -115,7 +115,7 @@ impl Mark for Rules {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::seed;
+    use base::seed;
     use rand::RngExt as _;
 
     #[test]

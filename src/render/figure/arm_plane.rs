@@ -1,7 +1,6 @@
 //! A planar arm among obstacles: what each tip position is, paths of the tip, the arm at stations along them.
 
 use super::{Entry, Kind, Scene, ask};
-use crate::planner::Exhibit;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::{Cells, Line, Points, Shape};
@@ -11,6 +10,7 @@ use crate::render::style::{
     series_stroke,
 };
 use crate::study::record::Row;
+use engine::planner::Exhibit;
 use serde::Deserialize;
 
 /// The registry's entry.

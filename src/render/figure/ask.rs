@@ -1,12 +1,12 @@
 //! What several kinds of figure ask of a study and of its stored run.
 
 use super::Scene;
-use crate::planner::Exhibit;
 use crate::render::RenderError;
-use crate::settings::{Settings, SettingsError};
 use crate::study::Study;
 use crate::study::paper::Paper;
 use crate::study::record::Row;
+use base::settings::{Settings, SettingsError};
+use engine::planner::Exhibit;
 
 /// Refuses problem groups and contenders that `study` does not have.
 pub(super) fn known(

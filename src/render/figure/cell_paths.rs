@@ -8,9 +8,9 @@ use crate::render::RenderError;
 use crate::render::chart::{Panel, Sheet};
 use crate::render::scene3::Paint;
 use crate::render::style::{Dash, GREY, Stroke, WHITE, Width, series_color};
-use crate::stats::summary::median;
 use crate::study::slug;
 use serde::Deserialize;
+use stats::summary::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -1,7 +1,6 @@
 //! A work cell with its robot at several poses, from two sides.
 
 use super::{Entry, Kind, Scene, ask};
-use crate::planner::Exhibit;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Axis, Key, Panel, Sheet, Trim};
@@ -9,6 +8,7 @@ use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{GREY, Rgb, WHITE, Width, YELLOW, series_color};
 use crate::study::slug;
+use engine::planner::Exhibit;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -9,9 +9,9 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{INK, Stroke, Width, series_stroke};
-use crate::settings::Settings;
-use crate::stats::summary::quantile_type7;
+use base::settings::Settings;
 use serde::Deserialize;
+use stats::summary::quantile_type7;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

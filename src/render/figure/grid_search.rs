@@ -1,7 +1,6 @@
 //! Searches on one grid map: opened cells of each side, raw and tidied path, one panel a contender.
 
 use super::{Entry, Kind, Scene};
-use crate::planner::Exhibit;
 use crate::render::RenderError;
 use crate::render::chart::legend::{Key, cell_key};
 use crate::render::chart::marks::{Cells, Line, Points};
@@ -10,6 +9,7 @@ use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, Marker, ORANGE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
+use engine::planner::Exhibit;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -7,9 +7,9 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, Fill, GREY, Stroke, Width, series_color, series_marker, series_stroke};
-use crate::seed;
-use crate::stats::bootstrap::{self, Plan};
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::{self, Resampling};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -99,7 +99,7 @@ impl Identification {
             let Some(value) = value.filter(|_| parts.contains(&other)) else { continue };
             let draws = solved_percents(run, &group.label, &self.read.contender, &point.name);
             let seed = seed::derive(0, &["identification", &run.study.name, &point.name]);
-            if let Some(found) = bootstrap::mean(&draws, Plan { resamples: 1000, level: 0.95, seed }) {
+            if let Some(found) = bootstrap::mean(&draws, Resampling { resamples: 1000, level: 0.95, seed }) {
                 points.push([value, found.value, found.interval.low, found.interval.high]);
             }
         }
@@ -135,7 +135,7 @@ impl Identification {
             let draws: Vec<Vec<f64>> =
                 (0..count).map(|d| cells.iter().map(|cell| cell[d]).collect()).collect();
             let seed = seed::derive(0, &["identification", "row", &run.study.name, &at]);
-            let plan = Plan { resamples: 1000, level: 0.95, seed };
+            let plan = Resampling { resamples: 1000, level: 0.95, seed };
             let found = bootstrap::percentile(&draws, |draws| row_distance(draws, &printed), plan);
             let at = value.as_float().or_else(|| value.as_integer().map(|value| value as f64));
             if let (Some(at), Some(found)) = (at, found) {

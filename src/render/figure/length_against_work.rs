@@ -6,9 +6,9 @@ use crate::render::RenderError;
 use crate::render::chart::marks::Points;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{BLACK, SERIES, WHITE, Width, series_color, series_marker};
-use crate::stats::summary::median;
 use crate::study::record::{Row, Status};
 use serde::Deserialize;
+use stats::summary::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

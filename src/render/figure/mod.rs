@@ -38,10 +38,10 @@ use super::chart::Sheet;
 use super::latex::Table;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
-use crate::settings::{Settings, SettingsError};
 use crate::study::Study;
 use crate::study::paper::Paper;
 use crate::study::spec::FigureSpec;
+use base::settings::{Settings, SettingsError};
 use toml::Table as Toml;
 
 /// What a figure is drawn from.

@@ -1,12 +1,12 @@
 //! Neighbourhoods of planners that move over a lattice: the region, and what was drawn from it.
 
 use super::{Entry, Kind, Scene, ask};
-use crate::planner::Exhibit;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{BLUE, GREY, Marker, Stroke, VERMILLION, WHITE, Width};
 use crate::study::record::Row;
+use engine::planner::Exhibit;
 use serde::Deserialize;
 
 /// The registry's entry.

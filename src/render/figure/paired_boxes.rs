@@ -9,9 +9,9 @@ use crate::render::chart::rows::BoxStrip;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color};
-use crate::stats::summary::{mean, median, quantile_type7};
 use crate::study::record::Status;
 use serde::Deserialize;
+use stats::summary::{mean, median, quantile_type7};
 use std::collections::BTreeMap;
 
 /// The registry's entry.

@@ -1,7 +1,6 @@
 //! A particle's searches on one roadmap in the plane: the first searches of each contender, one panel each.
 
 use super::{Entry, Kind, Scene, ask};
-use crate::planner::Exhibit;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Note, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
@@ -10,6 +9,7 @@ use crate::render::style::{
 };
 use crate::study::record::Row;
 use crate::study::slug;
+use engine::planner::Exhibit;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -1,12 +1,12 @@
 //! A scene of polyhedra as the exhibits of a prepared object hold it, and the views it is seen from.
 
 use crate::analysis::evidence::Run;
-use crate::planner::Exhibit;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Axis, Key, Panel, Trim};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene, SceneMark, Vec3};
 use crate::render::style::{BLACK, SKY, Stroke, WHITE};
+use engine::planner::Exhibit;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 

@@ -10,8 +10,8 @@ use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{BLUE, INK, Marker, Stroke, VERMILLION, Width};
-use crate::stats::bootstrap::Estimate;
 use serde::Deserialize;
+use stats::bootstrap::Estimate;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -6,7 +6,7 @@ use crate::render::RenderError;
 use crate::render::chart::Sheet;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::style::{GREY, Stroke, VERMILLION, WHITE, Width, series_color, series_marker};
-use crate::stats::summary::mean;
+use stats::summary::mean;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

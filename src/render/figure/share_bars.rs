@@ -8,10 +8,10 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color, series_marker};
-use crate::seed;
-use crate::stats::bootstrap::{self, Plan};
 use crate::study::Study;
+use base::seed;
 use serde::Deserialize;
+use stats::bootstrap::{self, Resampling};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -81,7 +81,7 @@ impl ShareBars {
         for (i, problems) in self.read.problems.iter().enumerate() {
             for (j, contender) in self.contenders.iter().enumerate() {
                 let seed = seed::derive(0, &["share_bars", problems, contender]);
-                let plan = Plan { resamples: 2000, level: 0.95, seed };
+                let plan = Resampling { resamples: 2000, level: 0.95, seed };
                 let Some(found) = bootstrap::mean(&of(problems, contender), plan) else { continue };
                 let from_top = if is_single { j as f64 } else { i as f64 - 0.35 + step * (j as f64 + 0.5) };
                 let index = ask::series(scene, contender, if is_single { 0 } else { j });

@@ -12,7 +12,7 @@ use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{
     BLUE, Dash, Fill, GREEN, GREY, INK, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
 };
-use crate::settings::Settings;
+use base::settings::Settings;
 use serde::Deserialize;
 
 /// The registry's entry.

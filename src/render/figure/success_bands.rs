@@ -6,13 +6,13 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Fill, Stroke, Width, series_color, series_marker, series_stroke};
-use crate::seed;
-use crate::settings::{Settings, SettingsError};
-use crate::stats::bands::{Band as Curve, sup_t};
-use crate::stats::bootstrap::Plan;
 use crate::study::Study;
 use crate::study::paper::Paper;
+use base::seed;
+use base::settings::{Settings, SettingsError};
 use serde::Deserialize;
+use stats::bands::{Band as Curve, sup_t};
+use stats::bootstrap::Resampling;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -104,7 +104,7 @@ impl Kind for Shown {
             let index = ask::series(scene, &row.contender, place);
             let curves = self.curves(scene, &row.contender);
             let seed = seed::derive(0, &["success_bands", &row.contender]);
-            let plan = Plan { resamples: 2000, level: 0.95, seed };
+            let plan = Resampling { resamples: 2000, level: 0.95, seed };
             let Some(Curve { mean, band, .. }) = sup_t(&curves, plan) else {
                 let what = format!("two draws of `{}` on `{}`", row.contender, self.problems);
                 return Err(RenderError::NotStored { what });

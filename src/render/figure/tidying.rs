@@ -7,7 +7,7 @@ use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Panel, Sheet};
 use crate::render::style::{BLUE, Dash, GREY, Marker, Stroke, VERMILLION, Width};
-use crate::shorten::bends;
+use engine::shorten::bends;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -7,8 +7,8 @@
 //! Fuchs, Kedem & Naylor, *On visible surface generation by a priori tree structures* (1980).
 
 use super::{Vec3, dot};
-use crate::geometry::heights_over;
 use crate::render::style::{Rgb, Stroke};
+use engine::geometry::heights_over;
 
 /// The points x with `normal · x = offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@ use super::order::{Item, Look};
 use super::*;
 use crate::render::canvas::Rect;
 use crate::render::style::{BLUE, GREEN, ORANGE};
-use crate::seed;
+use base::seed;
 use rand::RngExt as _;
 
 const ROOM: Rect = Rect { x: 0.0, y: 0.0, w: 200.0, h: 200.0 };

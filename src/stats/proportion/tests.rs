@@ -1,7 +1,7 @@
 use rand::RngExt as _;
 
 use super::*;
-use crate::seed;
+use base::seed;
 
 fn close(found: Option<Interval>, low: f64, high: f64, within: f64) {
     let found = found.unwrap();

@@ -3,12 +3,12 @@
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
 use super::{
-    Build, Contender, Family, Group, Inputs, Point, Reading, Settings, StageUse, Study, StudyError, Sweep,
-    SweepPoint, slug,
+    Build, Contender, Family, Group, Inputs, Reading, ReadingChoice, Settings, StageUse, Study, StudyError,
+    Sweep, SweepPoint, slug,
 };
-use crate::planner;
-use crate::settings::{Document, SettingsError};
-use crate::space::roadmap::Extent;
+use base::settings::{Document, SettingsError};
+use engine::planner;
+use engine::space::roadmap::Extent;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -83,7 +83,7 @@ impl Study {
         self.single_options()?.iter().try_for_each(|point| self.check_point(point, inputs))
     }
 
-    fn check_point(&self, point: &Point, inputs: &Inputs) -> Result<(), StudyError> {
+    fn check_point(&self, point: &ReadingChoice, inputs: &Inputs) -> Result<(), StudyError> {
         let families: Vec<Box<dyn Family>> =
             self.groups.iter().map(|group| group.family(point, inputs)).collect::<Result<_, _>>()?;
         let kinds: BTreeSet<_> = families.iter().map(|family| family.world()).collect();

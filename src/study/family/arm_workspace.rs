@@ -1,14 +1,14 @@
 //! A planar arm among obstacles, its tip on a lattice, from one start to one goal.
 
 use super::{Entry, Family, Query};
-use crate::kinematics::planar_2r::Planar2r;
-use crate::planner::Invalid;
-use crate::settings::{Settings, SettingsError};
-use crate::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
 use crate::study::StudyError;
-use crate::study::judge::ARM_COLUMNS;
 use crate::study::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use crate::study::prepared::{Prepared, lattice};
+use crate::study::verification::ARM_COLUMNS;
+use base::settings::{Settings, SettingsError};
+use engine::kinematics::planar_2r::Planar2r;
+use engine::planner::Invalid;
+use engine::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
 use serde::Deserialize;
 
 /// The registry's entry.

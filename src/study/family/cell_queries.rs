@@ -3,17 +3,17 @@
 mod picture;
 
 use super::{Entry, Family, Query};
-use crate::kinematics::ik::Branch;
-use crate::kinematics::{AXES, Joints, Robot};
-use crate::planner::Invalid;
-use crate::seed;
-use crate::settings::{Document, Settings, SettingsError};
-use crate::space::WorldKind;
-use crate::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Scene, SpeedRule};
-use crate::space::roadmap::{Counted, Extent, Local, Sample};
-use crate::study::judge::roadmap::ARM_COLUMNS;
 use crate::study::prepared::{Prepared, nested_roadmap};
+use crate::study::verification::roadmap::ARM_COLUMNS;
 use crate::study::{Inputs, StudyError};
+use base::seed;
+use base::settings::{Document, Settings, SettingsError};
+use engine::kinematics::ik::Branch;
+use engine::kinematics::{AXES, Joints, Robot};
+use engine::planner::Invalid;
+use engine::space::WorldKind;
+use engine::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Scene, SpeedRule};
+use engine::space::roadmap::{Counted, Extent, Local, Sample};
 use rand::RngExt as _;
 use serde::Deserialize;
 use std::collections::BTreeMap;

@@ -8,14 +8,14 @@
 mod found;
 
 use super::{Entry, Family, Query};
-use crate::hash::sha256;
-use crate::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
-use crate::seed;
-use crate::settings::{Settings, SettingsError};
-use crate::space::{World, WorldKind};
-use crate::study::judge::{LATTICE_COLUMNS, measured};
 use crate::study::prepared::{Prepared, lattice};
+use crate::study::verification::{LATTICE_COLUMNS, measured};
 use crate::study::{Inputs, StudyError, column};
+use base::hash::sha256;
+use base::seed;
+use base::settings::{Settings, SettingsError};
+use engine::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
+use engine::space::{World, WorldKind};
 use rand::RngExt as _;
 use serde::Deserialize;
 use std::collections::BTreeMap;

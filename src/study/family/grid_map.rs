@@ -1,12 +1,12 @@
 //! One map from a file, with one start and one goal.
 
 use super::{Entry, Family, Query};
-use crate::grid::{Grid2, read_text_map};
-use crate::planner::Invalid;
-use crate::space::WorldKind;
 use crate::study::StudyError;
-use crate::study::judge::LATTICE_COLUMNS;
 use crate::study::prepared::{Prepared, lattice};
+use crate::study::verification::LATTICE_COLUMNS;
+use base::grid::{Grid2, read_text_map};
+use engine::planner::Invalid;
+use engine::space::WorldKind;
 use serde::Deserialize;
 use std::path::PathBuf;
 

@@ -17,10 +17,10 @@ mod random_rectangles;
 
 use super::prepared::Prepared;
 use super::{Inputs, StudyError};
-use crate::planner::{Counts, Invalid};
-use crate::settings::Settings;
-use crate::space::roadmap::Extent;
-use crate::space::{World, WorldKind};
+use base::settings::Settings;
+use engine::planner::{Counts, Invalid};
+use engine::space::roadmap::Extent;
+use engine::space::{World, WorldKind};
 use std::path::PathBuf;
 
 /// One question asked of a prepared object.

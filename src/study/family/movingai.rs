@@ -5,11 +5,11 @@
 //! blocked (water, say) is an invalid problem, and its trials are rows with that status.
 
 use super::{Entry, Family, Query};
-use crate::grid::{Grid2, Scenario, read_movingai_map, read_scenarios};
-use crate::planner::{Counts, Invalid, Value};
-use crate::space::WorldKind;
 use crate::study::StudyError;
 use crate::study::prepared::{Prepared, lattice};
+use base::grid::{Grid2, Scenario, read_movingai_map, read_scenarios};
+use engine::planner::{Counts, Invalid, Value};
+use engine::space::WorldKind;
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -31,7 +31,7 @@ pub static ENTRY: Entry = Entry {
         let read: MovingAi = settings.read()?;
         let file = |name: &str| inputs.locate(name).map_err(|message| settings.error(message));
         let files = [file(&read.map)?, file(&read.scenarios)?];
-        let refused = |e: crate::grid::GridError| settings.error(e.to_string());
+        let refused = |e: base::grid::GridError| settings.error(e.to_string());
         let grid = read_movingai_map(&files[0]).map_err(refused)?;
         let all = read_scenarios(&files[1], &grid).map_err(refused)?;
         read.check_names(&all).map_err(|message| settings.error(message))?;
@@ -124,8 +124,8 @@ impl Family for Posed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::Settings;
     use crate::study::Inputs;
+    use base::settings::Settings;
 
     const MAP: &str = "type octile\nheight 3\nwidth 4\nmap\n.@..\n.@..\n....\n";
     const SCENARIOS: &str = "version 1\n0\tm.map\t4\t3\t0\t0\t2\t0\t6\n0\tm.map\t4\t3\t0\t0\t1\t0\t1\n";
@@ -150,7 +150,7 @@ mod tests {
         let lattice = world.as_lattice().unwrap();
         assert_eq!(
             lattice.corner_rule(),
-            crate::grid::CornerRule::ForbidAny,
+            base::grid::CornerRule::ForbidAny,
             "no corner is cut unless asked for"
         );
         assert_eq!(build(MAP, SCENARIOS, "every = 2").unwrap().queries().len(), 1);

@@ -1,16 +1,16 @@
 //! A particle among polygons, with one start and one goal, on roadmaps drawn from a seed.
 
 use super::{Entry, Family, Query};
-use crate::geometry::Vec2;
-use crate::geometry::planar::ConvexPolygon;
-use crate::planner::{Exhibit, Invalid};
-use crate::seed;
-use crate::settings::{Document, SettingsError};
-use crate::space::WorldKind;
-use crate::space::roadmap::{Counted, Extent, Local, PlaneMap, Sample};
 use crate::study::StudyError;
-use crate::study::judge::roadmap::PLANE_COLUMNS;
 use crate::study::prepared::{Prepared, nested_roadmap};
+use crate::study::verification::roadmap::PLANE_COLUMNS;
+use base::seed;
+use base::settings::{Document, SettingsError};
+use engine::geometry::Vec2;
+use engine::geometry::planar::ConvexPolygon;
+use engine::planner::{Exhibit, Invalid};
+use engine::space::WorldKind;
+use engine::space::roadmap::{Counted, Extent, Local, PlaneMap, Sample};
 use rand::RngExt as _;
 use serde::Deserialize;
 use std::path::PathBuf;

@@ -2,16 +2,16 @@
 //! or without.
 
 use super::{Entry, Family, Query};
-use crate::geometry::Vec3;
-use crate::kinematics::Robot;
-use crate::planner::Invalid;
-use crate::seed;
-use crate::settings::{Settings, SettingsError};
-use crate::space::polyhedra::{CarriedArm, DOWN, read_scene};
-use crate::space::{PolyhedraWorld, WorldKind};
-use crate::study::judge::CARRIED_COLUMNS;
 use crate::study::prepared::{Prepared, polyhedra};
+use crate::study::verification::CARRIED_COLUMNS;
 use crate::study::{Inputs, StudyError};
+use base::seed;
+use base::settings::{Settings, SettingsError};
+use engine::geometry::Vec3;
+use engine::kinematics::Robot;
+use engine::planner::Invalid;
+use engine::space::polyhedra::{CarriedArm, DOWN, read_scene};
+use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use serde::Deserialize;
 use std::path::PathBuf;

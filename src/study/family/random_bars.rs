@@ -2,11 +2,11 @@
 
 use super::random_cells::{Drawn, check_range};
 use super::{Entry, Family};
-use crate::grid::bars;
-use crate::seed::Stream;
 use crate::study::StudyError;
-use crate::study::judge::LATTICE_COLUMNS;
 use crate::study::prepared::lattice;
+use crate::study::verification::LATTICE_COLUMNS;
+use base::grid::bars;
+use base::seed::Stream;
 use serde::Deserialize;
 
 /// The registry's entry.

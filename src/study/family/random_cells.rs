@@ -1,14 +1,14 @@
 //! Random maps whose cells are blocked independently, with one start and one goal that are always free.
 
 use super::{Entry, Family, Query};
-use crate::grid::{Grid2, GridError, independent_cells};
-use crate::planner::Invalid;
-use crate::seed::{self, Stream};
-use crate::settings::{Settings, SettingsError};
-use crate::space::{LatticeWorld, World, WorldKind};
 use crate::study::StudyError;
-use crate::study::judge::LATTICE_COLUMNS;
 use crate::study::prepared::{Prepared, lattice};
+use crate::study::verification::LATTICE_COLUMNS;
+use base::grid::{Grid2, GridError, independent_cells};
+use base::seed::{self, Stream};
+use base::settings::{Settings, SettingsError};
+use engine::planner::Invalid;
+use engine::space::{LatticeWorld, World, WorldKind};
 use serde::Deserialize;
 
 /// The registry's entry.

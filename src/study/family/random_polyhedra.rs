@@ -2,14 +2,14 @@
 
 use super::polyhedra_scene::QuerySettings;
 use super::{Entry, Family, Query};
-use crate::geometry::{Aabb, Axis, Convex, Segment, Vec3, distance_segment_convex};
-use crate::planner::Invalid;
-use crate::seed::{self, Stream};
-use crate::settings::{Settings, SettingsError};
-use crate::space::{PolyhedraWorld, WorldKind};
 use crate::study::StudyError;
-use crate::study::judge::POLYHEDRA_COLUMNS;
 use crate::study::prepared::{Prepared, polyhedra};
+use crate::study::verification::POLYHEDRA_COLUMNS;
+use base::seed::{self, Stream};
+use base::settings::{Settings, SettingsError};
+use engine::geometry::{Aabb, Axis, Convex, Segment, Vec3, distance_segment_convex};
+use engine::planner::Invalid;
+use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use serde::Deserialize;
 

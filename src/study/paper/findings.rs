@@ -1,7 +1,7 @@
 //! What a paper's file says was found, with places for our numbers.
 
 use super::Paper;
-use crate::settings::SettingsError;
+use base::settings::SettingsError;
 use std::collections::BTreeSet;
 
 /// `text` with every `{claim}` or `{claim:form}` replaced by what `with` says of the claim in that form.

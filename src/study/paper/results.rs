@@ -1,7 +1,7 @@
 //! Tables of our own results: rows of contenders, blocks of problems, cells of metrics.
 
 use super::Paper;
-use crate::settings::SettingsError;
+use base::settings::SettingsError;
 use serde::Deserialize;
 use toml::Spanned;
 

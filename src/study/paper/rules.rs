@@ -1,7 +1,7 @@
 //! What must hold in a paper as a whole: names that exist, tables that fit, a ledger without gaps.
 
 use super::{ClaimSpec, Paper, TableSpec};
-use crate::settings::SettingsError;
+use base::settings::SettingsError;
 use std::collections::BTreeSet;
 use toml::Spanned;
 

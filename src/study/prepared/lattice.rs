@@ -1,9 +1,9 @@
 //! A map turned into a lattice of moves, with what it is like.
 
 use super::{Entry, Prepared};
-use crate::grid::{CornerRule, Grid2, components};
-use crate::planner::{Counts, Exhibit, Invalid, Value};
-use crate::space::{LatticeWorld, World};
+use base::grid::{CornerRule, Grid2, components};
+use engine::planner::{Counts, Exhibit, Invalid, Value};
+use engine::space::{LatticeWorld, World};
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -5,8 +5,8 @@ pub mod nested_roadmap;
 pub mod polyhedra;
 pub mod workspace_map;
 
-use crate::planner::{Counts, Exhibit};
-use crate::space::World;
+use engine::planner::{Counts, Exhibit};
+use engine::space::World;
 
 /// A prepared object.
 #[derive(Debug)]

@@ -1,10 +1,10 @@
 //! A roadmap whose first N samples are a roadmap too, with what became of every pair it tried.
 
 use super::{Entry, Prepared};
-use crate::planner::{Counts, Exhibit, Value};
-use crate::space::World;
-use crate::space::cell::Rejection;
-use crate::space::roadmap::{Counted, Local, Roadmap, Sample};
+use engine::planner::{Counts, Exhibit, Value};
+use engine::space::World;
+use engine::space::cell::Rejection;
+use engine::space::roadmap::{Counted, Local, Roadmap, Sample};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

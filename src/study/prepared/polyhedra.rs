@@ -1,9 +1,9 @@
 //! A scene of polyhedra with its rasterised lattice.
 
 use super::{Entry, Prepared};
-use crate::geometry::Convex;
-use crate::planner::{Counts, Exhibit, Value};
-use crate::space::{PolyhedraWorld, World};
+use engine::geometry::Convex;
+use engine::planner::{Counts, Exhibit, Value};
+use engine::space::{PolyhedraWorld, World};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

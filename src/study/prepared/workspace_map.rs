@@ -1,11 +1,11 @@
 //! A planar arm's workspace, analysed point by point as the reproduced paper does before it plans.
 
 use super::{Entry, Prepared};
-use crate::geometry::Vec2;
-use crate::geometry::planar::{Circle, ConvexPolygon, Touch};
-use crate::kinematics::planar_2r::ElbowRule;
-use crate::planner::{Counts, Exhibit, Value};
-use crate::space::{ArmWorld, HopRule, Obstacle, World, Zone};
+use engine::geometry::Vec2;
+use engine::geometry::planar::{Circle, ConvexPolygon, Touch};
+use engine::kinematics::planar_2r::ElbowRule;
+use engine::planner::{Counts, Exhibit, Value};
+use engine::space::{ArmWorld, HopRule, Obstacle, World, Zone};
 use serde::Deserialize;
 use std::f64::consts::PI;
 

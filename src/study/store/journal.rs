@@ -3,9 +3,9 @@
 //! The first line names what the run depends on. A later line is a checksum and a JSON object; reading stops at the
 //! first line that is torn or damaged, and the file is cut there.
 
-use crate::hash::sha256;
 use crate::study::StudyError;
 use crate::study::record::Batch;
+use base::hash::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
@@ -97,8 +97,8 @@ fn parse(line: &[u8]) -> Option<Line> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planner::Exhibit;
     use crate::study::record::Kept;
+    use engine::planner::Exhibit;
 
     fn batch(number: u32) -> Batch {
         let values = vec![f64::from(number) / 3.0, 0.1 + 0.2, f64::MIN_POSITIVE];

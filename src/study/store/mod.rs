@@ -10,7 +10,7 @@ pub use journal::Journal;
 
 use super::StudyError;
 use super::record::{Batch, Timing};
-use crate::hash::sha256;
+use base::hash::sha256;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{ErrorKind, Write as _};

@@ -1,9 +1,9 @@
 //! Records as data frames and Parquet, and back.
 
-use crate::planner::{Exhibit, Value, fill_column};
 use crate::study::StudyError;
 use crate::study::column::{self, Kind};
 use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
+use engine::planner::{Exhibit, Value, fill_column};
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
 use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter, SerReader as _};
 use std::collections::BTreeSet;

@@ -6,16 +6,16 @@
 //! exact one on pairs of segments of the same samples.
 
 use super::{Entry, Task};
-use crate::geometry::{
-    Convex, Segment, Vec3, distance_segment_convex, distance_segment_segment, nearest_segment_convex_printed,
-    nearest_segment_segment_printed,
-};
-use crate::planner::Value;
-use crate::seed::{self, Stream};
-use crate::settings::Settings;
 use crate::study::checked::Study;
 use crate::study::record::{Batch, Status, Values};
 use crate::study::runner::Unit;
+use base::seed::{self, Stream};
+use base::settings::Settings;
+use engine::geometry::{
+    Convex, Segment, Vec3, distance_segment_convex, distance_segment_segment, nearest_segment_convex_printed,
+    nearest_segment_segment_printed,
+};
+use engine::planner::Value;
 use rand::RngExt as _;
 use serde::Deserialize;
 

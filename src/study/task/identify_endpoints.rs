@@ -1,15 +1,15 @@
 //! Looks for the pairs of lattice points that have printed lengths in all cases, under every variant asked for.
 
 use super::{Entry, Task};
-use crate::endpoints::{self, Match, NeverLowered, Pair};
-use crate::grid::Moves;
-use crate::planner::{Exhibit, Value};
-use crate::search::Ties;
-use crate::space::TipLattice;
 use crate::study::checked::Study;
-use crate::study::endpoints::{self as open, Case, Question, Variant};
+use crate::study::endpoint_variants::{self as open, Case, Question, Variant};
 use crate::study::record::{Batch, Kept, Row, Status, Values};
 use crate::study::runner::Unit;
+use base::grid::Moves;
+use engine::length_inversion::{self, Match, NeverLowered, Pair};
+use engine::planner::{Exhibit, Value};
+use engine::search::Ties;
+use engine::space::TipLattice;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -50,7 +50,7 @@ impl Question for Identify {
     type Answer = Found;
 
     fn shortest(&self, cases: &[Vec<Moves>], rule: Match) -> Vec<Found> {
-        let found = endpoints::pairs(cases, &self.lengths(), rule);
+        let found = length_inversion::pairs(cases, &self.lengths(), rule);
         found.into_iter().map(|pairs| Found { pairs, candidates: None }).collect()
     }
 

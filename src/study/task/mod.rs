@@ -9,21 +9,22 @@ use super::checked::{Study, slug};
 use super::prepared::Prepared;
 use super::record::{Batch, PreparedRow, Row, Status, Values};
 use super::runner::Unit;
-use crate::planner::{Invalid, Value};
-use crate::settings::{Settings, SettingsError};
-use crate::space::ArmRules;
+use base::settings::{Settings, SettingsError};
+use engine::planner::{Invalid, Value};
+use engine::space::ArmRules;
 
 /// A task with its settings.
 pub trait Task: Send + Sync {
     /// Does one unit of work: everything that shares one prepared object.
     fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch;
 
-    /// The names of the unit's trials: one a query, racer and repeat, unless the task does something else.
+    /// The names of the unit's trials: one a query, entrant and repeat, unless the task does something else.
     fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
         let mut trials = Vec::new();
         for query in &unit.queries() {
-            for racer in unit.racers {
-                trials.extend((0..racer.contender.repeats).map(|repeat| unit.trial(query, racer, repeat)));
+            for entrant in unit.entrants {
+                trials
+                    .extend((0..entrant.contender.repeats).map(|repeat| unit.trial(query, entrant, repeat)));
             }
         }
         trials

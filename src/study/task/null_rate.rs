@@ -1,15 +1,15 @@
 //! How often lengths that were not printed would have been met by some pair of lattice points just as well.
 
 use super::{Entry, Task};
-use crate::endpoints::{Match, NeverLowered, Targets, union};
-use crate::grid::Moves;
-use crate::planner::Value;
-use crate::search::Ties;
-use crate::space::ArmRules;
 use crate::study::checked::{Study, slug};
-use crate::study::endpoints::{self, Case, Question, Variant};
+use crate::study::endpoint_variants::{self as endpoints, Case, Question, Variant};
 use crate::study::record::{Batch, Row, Status, Values};
 use crate::study::runner::Unit;
+use base::grid::Moves;
+use engine::length_inversion::{Match, NeverLowered, Targets, union};
+use engine::planner::Value;
+use engine::search::Ties;
+use engine::space::ArmRules;
 use serde::Deserialize;
 
 /// The registry's entry.

@@ -1,14 +1,14 @@
 //! Every contender plans on every problem; the verifier judges what comes back.
 
 use super::{Entry, Task};
-use crate::planner::{Counts, Exhibit, Invalid, Plan, Request};
-use crate::seed;
 use crate::study::checked::{Pipeline, Study};
 use crate::study::family::Query;
-use crate::study::judge::{self, Truth};
 use crate::study::prepared::Prepared;
 use crate::study::record::{Batch, Kept, Row, Status};
-use crate::study::runner::{Racer, Unit};
+use crate::study::runner::{Entrant, Unit};
+use crate::study::verification::{self, Truth};
+use base::seed;
+use engine::planner::{Counts, Exhibit, Invalid, Plan, Request};
 use serde::Deserialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -42,10 +42,10 @@ impl Task for PlanTask {
         }
         for (index, query) in unit.queries().iter().enumerate() {
             let known = unit.family.known(index);
-            let truth = prepared.as_ref().ok().map(|p| judge::truth(&p.world, query));
-            for racer in unit.racers {
-                for repeat in 0..racer.contender.repeats {
-                    let trial = Trial { study, unit, query, racer, repeat, known: &known };
+            let truth = prepared.as_ref().ok().map(|p| verification::truth(&p.world, query));
+            for entrant in unit.entrants {
+                for repeat in 0..entrant.contender.repeats {
+                    let trial = Trial { study, unit, query, entrant, repeat, known: &known };
                     match (&prepared, &truth) {
                         (Ok(prepared), Some(truth)) => trial.run(prepared, truth, &mut batch),
                         (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
@@ -68,15 +68,15 @@ struct Trial<'a> {
     study: &'a Study,
     unit: &'a Unit<'a>,
     query: &'a Query,
-    racer: &'a Racer<'a>,
+    entrant: &'a Entrant<'a>,
     repeat: u32,
     known: &'a Counts,
 }
 
 impl Trial<'_> {
     fn run(&self, prepared: &Prepared, truth: &Truth, batch: &mut Batch) {
-        let seed = self.racer.seed(self.study, &self.problem(), self.repeat);
-        let trace = self.unit.is_kept(self.study, Some(&self.racer.contender.label), self.repeat);
+        let seed = self.entrant.seed(self.study, &self.problem(), self.repeat);
+        let trace = self.unit.is_kept(self.study, Some(&self.entrant.contender.label), self.repeat);
         let request = Request {
             world: &prepared.world,
             start: &self.query.start,
@@ -86,11 +86,11 @@ impl Trial<'_> {
             trace,
         };
         let mut row = self.row(seed);
-        match catch_unwind(AssertUnwindSafe(|| self.racer.pipeline.plan(&request))) {
+        match catch_unwind(AssertUnwindSafe(|| self.entrant.pipeline.plan(&request))) {
             Err(panic) => (row.status, row.reason) = (Status::Crashed, Some(panic_text(panic.as_ref()))),
             Ok(Err(invalid)) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),
             Ok(Ok(mut plan)) => {
-                let judged = judge::judge(&request, &plan, &self.racer.pipeline, truth);
+                let judged = verification::judge(&request, &plan, &self.entrant.pipeline, truth);
                 (row.status, row.reason) = judged.outcome;
                 row.values.extend(super::named(plan.counts.iter().chain(&judged.values)));
                 if trace {
@@ -104,7 +104,7 @@ impl Trial<'_> {
     }
 
     fn invalid(&self, invalid: &Invalid) -> Row {
-        let seed = self.racer.seed(self.study, &self.problem(), self.repeat);
+        let seed = self.entrant.seed(self.study, &self.problem(), self.repeat);
         let mut row = self.row(seed);
         (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0.clone()));
         row
@@ -117,12 +117,12 @@ impl Trial<'_> {
     fn row(&self, seed: u64) -> Row {
         let unit = self.unit;
         Row {
-            trial: unit.trial(self.query, self.racer, self.repeat),
+            trial: unit.trial(self.query, self.entrant, self.repeat),
             problem: self.problem(),
             group: unit.group.label.clone(),
             replicate: unit.replicate,
-            contender: self.racer.contender.label.clone(),
-            sweep: self.racer.sweep.name.clone(),
+            contender: self.entrant.contender.label.clone(),
+            sweep: self.entrant.sweep.name.clone(),
             reading: unit.point.name().to_owned(),
             repeat: self.repeat,
             seed,
@@ -144,7 +144,7 @@ impl Pipeline {
     }
 }
 
-impl Racer<'_> {
+impl Entrant<'_> {
     /// The seed of one run: it depends on names only, so that adding a contender moves no other.
     pub fn seed(&self, study: &Study, problem: &str, repeat: u32) -> u64 {
         let label = &self.contender.label;

@@ -1,7 +1,7 @@
 //! The least length there is, by Dijkstra's algorithm over postures that the verifier judges itself.
 
 use super::Case;
-use crate::grid::CornerRule;
+use base::grid::CornerRule;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 

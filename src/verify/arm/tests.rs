@@ -1,5 +1,5 @@
 use super::*;
-use crate::verify::arm::Body;
+use crate::arm::Body;
 
 fn case(ends: [&[f64]; 2], swept: bool) -> Case<'_> {
     Case {

@@ -1,6 +1,6 @@
 use super::*;
-use crate::grid::parse_text_map;
-use crate::seed::{derive, stream};
+use base::grid::parse_text_map;
+use base::seed::{derive, stream};
 use rand::RngExt as _;
 
 const RULES: [CornerRule; 3] = [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny];
@@ -107,7 +107,7 @@ fn grid_xy(cell: i32) -> [i32; 2] {
 fn relaxed(grid: &Grid2, rule: CornerRule, start: u32) -> Vec<f64> {
     let mut best = vec![f64::INFINITY; grid.cell_count() as usize];
     best[start as usize] = 0.0;
-    let moves = crate::grid::Moves::new(grid, rule);
+    let moves = base::grid::Moves::new(grid, rule);
     loop {
         let mut changed = false;
         for from in (0..grid.cell_count()).filter(|cell| grid.is_free(*cell)) {

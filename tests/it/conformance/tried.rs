@@ -1,9 +1,9 @@
 //! With which settings every entry is tried, and what is not asked of which: each exception is the smallest that its
 //! entry needs, and one that nothing needs any more fails.
 
-use replan::planner::Entry;
-use replan::settings::Settings;
-use replan::space::WorldKind;
+use base::settings::Settings;
+use engine::planner::Entry;
+use engine::space::WorldKind;
 use std::collections::BTreeSet;
 
 /// The settings that each entry is tried with.

@@ -2,15 +2,15 @@
 
 use super::{Case, Posed, Subject, Truth, flood};
 use crate::shapes::{Placed, body, obstacle, shaped};
+use base::grid::CornerRule;
+use base::seed;
+use engine::geometry::planar::Touch;
+use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
+use engine::planner::Plan;
+use engine::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
 use rand::RngExt as _;
-use replan::geometry::planar::Touch;
-use replan::grid::CornerRule;
-use replan::kinematics::planar_2r::{ElbowRule, Planar2r};
-use replan::planner::Plan;
-use replan::seed;
-use replan::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
 use replan::study::prepared::workspace_map::ShapeSetting;
-use replan::verify::arm::{Answer, Case as Query};
+use verify::arm::{Answer, Case as Query};
 
 const STEP_CM: f64 = 4.0;
 

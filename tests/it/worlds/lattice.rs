@@ -1,13 +1,13 @@
 //! Lattices of square cells, some with the goal walled off.
 
 use super::{Case, Posed, Subject, Truth};
+use base::grid::{CornerRule, Grid2, independent_cells};
+use base::seed;
+use engine::planner::Plan;
+use engine::space::{LatticeWorld, World};
 use rand::RngExt as _;
-use replan::grid::{CornerRule, Grid2, independent_cells};
-use replan::planner::Plan;
-use replan::seed;
-use replan::space::{LatticeWorld, World};
-use replan::verify::lattice::{Answer, Case as Query};
 use std::collections::BTreeSet;
+use verify::lattice::{Answer, Case as Query};
 
 pub fn lattice(number: u64) -> Case {
     let mut stream = seed::stream(seed::derive(1968, &["conformance", &number.to_string()]));

@@ -1,14 +1,14 @@
 //! Points among boxes and octahedra, some with the goal walled in; the oracle asks the verifier about every step.
 
 use super::{Case, Posed, Subject, Truth, flood};
+use base::grid::STEPS_26;
+use base::seed;
+use engine::geometry::{Aabb, Convex, Vec3};
+use engine::planner::Plan;
+use engine::space::{PolyhedraWorld, World};
 use rand::RngExt as _;
-use replan::geometry::{Aabb, Convex, Vec3};
-use replan::grid::STEPS_26;
-use replan::planner::Plan;
-use replan::seed;
-use replan::space::{PolyhedraWorld, World};
-use replan::verify::polyhedra::{Case as Query, Point, Solid};
 use std::sync::OnceLock;
+use verify::polyhedra::{Case as Query, Point, Solid};
 
 const SIDE: f64 = 12.0;
 

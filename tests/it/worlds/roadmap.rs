@@ -1,14 +1,14 @@
 //! Roadmaps of a particle among rectangles, some with the goal walled off; the oracle asks the verifier about every edge.
 
 use super::{Case, Posed, Subject, Truth, flood};
+use base::seed;
+use engine::geometry::Vec2;
+use engine::geometry::planar::ConvexPolygon;
+use engine::planner::Plan;
+use engine::space::World;
+use engine::space::roadmap::{Counted, Local, PlaneMap, Roadmap, Sample};
 use rand::RngExt as _;
-use replan::geometry::Vec2;
-use replan::geometry::planar::ConvexPolygon;
-use replan::planner::Plan;
-use replan::seed;
-use replan::space::World;
-use replan::space::roadmap::{Counted, Local, PlaneMap, Roadmap, Sample};
-use replan::verify::plane;
+use verify::plane;
 
 const SIDE_MM: f64 = 100.0;
 

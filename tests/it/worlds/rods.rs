@@ -3,19 +3,19 @@
 
 use super::polyhedra::{point, solids};
 use super::{Case, Posed, Truth, flood};
+use base::seed;
+use engine::geometry::{Aabb, Convex, Vec3};
+use engine::kinematics::{Joints, Robot};
+use engine::planner::Plan;
+use engine::space::polyhedra::{CarriedArm, DOWN};
+use engine::space::{PolyhedraWorld, World};
 use rand::RngExt as _;
-use replan::geometry::{Aabb, Convex, Vec3};
-use replan::kinematics::{Joints, Robot};
-use replan::planner::Plan;
-use replan::seed;
-use replan::space::polyhedra::{CarriedArm, DOWN};
-use replan::space::{PolyhedraWorld, World};
-use replan::verify::polyhedra::{Point, Solid};
-use replan::verify::rods::{Arm, Case as Query, Rod, Row};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
+use verify::polyhedra::{Point, Solid};
+use verify::rods::{Arm, Case as Query, Rod, Row};
 
 /// The step of the joints; the settings of planners must say the same.
 const DELTA_DEG: f64 = 12.0;

@@ -2,7 +2,7 @@ use super::*;
 use crate::render::chart::Axis;
 use crate::render::style::{BLUE, ORANGE, Width};
 use crate::render::vector::Provenance;
-use crate::seed;
+use base::seed;
 use rand::RngExt as _;
 
 fn view() -> View {

@@ -1,10 +1,10 @@
 //! What pictures and tables of a cell need: obstacles and the robot at the queries' ends, millimetres.
 
 use super::Query;
-use crate::geometry::{Solid, Vec3};
-use crate::planner::Exhibit;
-use crate::space::cell::Cell;
-use crate::space::roadmap::joints;
+use engine::geometry::{Solid, Vec3};
+use engine::planner::Exhibit;
+use engine::space::cell::Cell;
+use engine::space::roadmap::joints;
 
 fn mm(point: &Vec3) -> [f64; 3] {
     (point * 1e3).into()

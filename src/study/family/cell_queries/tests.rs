@@ -1,8 +1,8 @@
 use super::*;
-use crate::planner::Plan;
-use crate::planner::{self, Build, Ending, Planner, Request};
-use crate::space::roadmap::Roadmap;
-use crate::study::judge;
+use crate::study::verification;
+use engine::planner::Plan;
+use engine::planner::{self, Build, Ending, Planner, Request};
+use engine::space::roadmap::Roadmap;
 
 fn settings(over: &str) -> Settings {
     let text = r#"
@@ -167,7 +167,9 @@ fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
         (planner("samples = 900"), planner("samples = 900\ngoal_shot = 'before_expansion'"));
     let (mut solved, mut refused) = ([0, 0], 0);
     for query in posed.queries() {
-        let judge::Truth::Roadmap(case) = judge::truth(&prepared.world, query) else { panic!("a roadmap") };
+        let verification::Truth::Roadmap(case) = verification::truth(&prepared.world, query) else {
+            panic!("a roadmap")
+        };
         let request = Request {
             world: &prepared.world,
             start: &query.start,

@@ -34,7 +34,7 @@ fn accepted_maps_lie_in_the_band_and_rejection_leaves_the_distribution_alone() {
     let (any, band) = (family("bends = [0, 1e9]").unwrap(), family("path_cost_cells = [11, 12]").unwrap());
     let optimum = |prepared: &Prepared| {
         let query = &any.queries()[0];
-        crate::study::judge::truth(&prepared.world, query).optimal().unwrap()
+        crate::study::verification::truth(&prepared.world, query).optimal().unwrap()
     };
     let (mut inside, mut looked_at, mut tried) = (0, 0, 0.0);
     for seed in 0..400 {
@@ -85,7 +85,7 @@ fn a_listed_draw_is_what_a_search_finds() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let inputs = Inputs { roots: vec![root.to_owned()] };
     let study = crate::study::Study::load(&root.join("experiments/zhang/conditioned.toml"), &inputs).unwrap();
-    let point = crate::study::Point::new(&study.readings, &BTreeMap::new()).unwrap();
+    let point = crate::study::ReadingChoice::new(&study.readings, &BTreeMap::new()).unwrap();
     let mut longest = 0.0_f64;
     for group in &study.groups {
         let listed = group.family(&point, &inputs).unwrap();

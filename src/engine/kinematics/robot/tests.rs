@@ -1,0 +1,167 @@
+//! Robot files: what the committed ones say, and what is refused.
+
+use super::*;
+use crate::{
+    geometry::{distance_capsule_capsule, intersects_capsule_capsule},
+    kinematics::{
+        Joints,
+        tests::{UP6_POSES, draw, radians, robot},
+    },
+};
+use base::seed;
+
+const FILE: &str = include_str!("../../../../data/robots/motoman_up6.toml");
+
+fn refusal(find: &str, put: &str) -> String {
+    assert!(FILE.contains(find), "the file has no `{find}`");
+    let text = FILE.replacen(find, put, 1);
+    Robot::parse(&text, Path::new("up6.toml")).unwrap_err().to_string()
+}
+
+/// What is written in the file, what is put there instead, and what the refusal says.
+const REFUSALS: &[(&str, &str, &str)] = &[
+    ("a_mm = 150\n", "a_mm = nan\n", "up6.toml:18:1: joint 1: a_mm is NaN; accepted: a finite number"),
+    ("a_mm = 150\n", "a_m = 0.15\n", "up6.toml:20:1: unknown field `a_m`, expected one of"),
+    ("a_mm = 150\n", "", "missing field `a_mm`"),
+    ("a_mm = 150\n", "a_mm = \"150\"\n", "up6.toml:20:8: invalid type: string"),
+    ("a_mm = 150\n", "a_mm 150\n", "up6.toml:20:"),
+    ("lower_deg = -170", "lower_deg = 170", "joint 1: upper_deg is 170; accepted: more than lower_deg"),
+    ("speed_deg_s = 140", "speed_deg_s = 0", "joint 1: speed_deg_s is 0; accepted: more than 0"),
+    ("speed_deg_s = 140", "", "neither of speed_deg_s and speed_rad_s is given; accepted: exactly one"),
+    ("speed_deg_s = 140", "speed_deg_s = 1\nspeed_rad_s = 1", "both of speed_deg_s and speed_rad_s"),
+    (
+        "alpha_deg = -90",
+        "alpha_deg = -80",
+        "up6.toml:18:1: joint 1: alpha_deg is -80; accepted: 90 or -90, for the solver `spherical_wrist`",
+    ),
+    (
+        "d_mm = 0\noffset_deg = 0\nlower_deg = -135",
+        "d_mm = 9\noffset_deg = 0\nlower_deg = -135",
+        "joint 5: d_mm is 9; accepted: 0",
+    ),
+    ("\"spherical_wrist\"", "\"pieper\"", "up6.toml:6:10: solver `pieper` does not exist"),
+    ("length_mm = 150", "length_mm = -1", "tool.length_mm is -1; accepted: 0 (no tool) or more"),
+    ("length_mm = 150", "length_mm = inf", "tool.length_mm is inf; accepted: a finite number"),
+    ("length_mm = 150", "length_mm = 0", "capsule `tool_body` spans a share of the tool"),
+    ("position_mm = [0, 0, 0]", "position_mm = [0, nan, 0]", "base.position_mm is [0.0, NaN, 0.0]"),
+    ("radius_mm = 150", "radius_mm = -150", "the capsule's radius is -0.15; it must be greater than 0"),
+    ("link = 0", "link = 7", "capsule `base` is on link 7; accepted: 0 (base) to 6"),
+    (
+        "link = 0\n",
+        "",
+        "capsule `base` does not say where it is; accepted: link, from_mm and to_mm (and self_only), or",
+    ),
+    ("[0.0, 0.55]", "[0.6, 0.55]", "spans tool_share [0.6, 0.55]; accepted: two rising numbers"),
+    (
+        "[\"elbow\", \"base\"]",
+        "[\"elbow\", \"bas\"]",
+        "self_pairs names capsule `bas`; accepted: base, turret",
+    ),
+    ("[\"elbow\", \"base\"]", "[\"elbow\", \"forearm\"]", "accepted: capsules on two different links"),
+    ("name = \"turret\"", "name = \"base\"", "capsule `base` is given twice"),
+];
+
+#[test]
+fn a_file_that_cannot_be_is_refused_with_its_place_and_what_is_accepted() {
+    for (find, put, expected) in REFUSALS {
+        let found = refusal(find, put);
+        assert!(found.starts_with("up6.toml:") && found.contains(expected), "`{found}` has no `{expected}`");
+    }
+}
+
+#[test]
+fn an_arm_has_six_joints_and_a_robot_a_body() {
+    let joint = &FILE[FILE.find("[[joint]]").unwrap()..FILE.find("[base]").unwrap()];
+    let seventh = &joint[joint.rfind("[[joint]]").unwrap()..];
+    assert!(refusal(seventh, &seventh.repeat(2)).contains("7 joints were given; accepted: 6"));
+    assert!(refusal(seventh, "").contains("5 joints were given; accepted: 6"));
+    let bodies = &FILE[FILE.find("[[body]]").unwrap()..];
+    assert!(refusal(bodies, "").contains("missing field `body`"));
+    let missing = Robot::load(Path::new("data/robots/none.toml")).unwrap_err().to_string();
+    assert!(missing.starts_with("data/robots/none.toml: "), "{missing}");
+}
+
+#[test]
+fn millimetres_and_degrees_become_metres_and_radians() {
+    let (up6, aubo) = (robot("motoman_up6"), robot("aubo_i10"));
+    let joint = up6.arm().chain().joints()[0];
+    assert!((joint.a_m - 0.15).abs() < 1e-15 && (joint.d_m - 0.45).abs() < 1e-15, "{joint:?}");
+    assert!((joint.lower_rad + 2.967_059_728).abs() < 1e-9, "{joint:?}");
+    assert!((joint.speed_rad_s - 2.443_460_953).abs() < 1e-9, "{joint:?}");
+    assert!((up6.arm().chain().joints()[5].upper_rad - std::f64::consts::TAU).abs() < 1e-15);
+    assert!((aubo.arm().chain().joints()[2].speed_rad_s - 2.5656).abs() < 1e-15);
+    let moved = FILE.replace("position_mm = [0, 0, 0]", "position_mm = [0, 1500, 0]");
+    let moved = Robot::parse(&moved.replace("yaw_deg = 0", "yaw_deg = 450"), Path::new("up6.toml")).unwrap();
+    let base = moved.arm().chain().base();
+    assert!((base.origin.y - 1.5).abs() < 1e-15 && (base.axis(0).y - 1.0).abs() < 1e-12, "{base:?}");
+}
+
+/// Whether a pair that the body declares is in contact.
+fn hits_itself(body: &Body, robot: &Robot, q: &Joints) -> bool {
+    let mut placed = Vec::new();
+    body.place(&robot.arm().chain().frames(q), &mut placed);
+    body.self_pairs().iter().any(|[a, b]| intersects_capsule_capsule(&placed[*a], &placed[*b]))
+}
+
+#[test]
+fn robots_are_clear_of_themselves_where_papers_put_them_and_not_everywhere() {
+    let (seed, up6, aubo) = (731, robot("motoman_up6"), robot("aubo_i10"));
+    for pose in UP6_POSES {
+        assert!(!hits_itself(&up6.bodies()[0], &up6, &radians(pose.degrees)), "{}", pose.name);
+    }
+    for body in aubo.bodies() {
+        assert!(!hits_itself(body, &aubo, &[0.0; AXES]), "{}", body.name());
+    }
+    for (robot, body) in [(&up6, "capsules"), (&aubo, "paper"), (&aubo, "mesh")] {
+        let (mut stream, body) = (seed::stream(seed), robot.body(body).unwrap());
+        let drawn = (0..5_000).map(|_| draw(&mut stream, robot.arm().chain()));
+        let hits = drawn.filter(|q| hits_itself(body, robot, q)).count();
+        assert!((100..4_000).contains(&hits), "{}: {hits} of 5000 hit themselves", body.name());
+    }
+}
+
+#[test]
+fn capsules_join_where_links_do() {
+    let (seed, up6, aubo) = (732, robot("motoman_up6"), robot("aubo_i10"));
+    let neighbours =
+        [(&up6, "capsules", vec![[1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [6, 7]])].into_iter().chain([
+            (&aubo, "paper", vec![[0, 1], [1, 2], [2, 3], [3, 4]]),
+            (&aubo, "mesh", vec![[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6]]),
+        ]);
+    for (robot, body, pairs) in neighbours {
+        let (mut stream, body, mut placed) = (seed::stream(seed), robot.body(body).unwrap(), Vec::new());
+        for _ in 0..200 {
+            let q = draw(&mut stream, robot.arm().chain());
+            body.place(&robot.arm().chain().frames(&q), &mut placed);
+            for [a, b] in &pairs {
+                let gap = crate::geometry::distance_segment_segment(&placed[*a].segment, &placed[*b].segment);
+                assert!(gap < 1e-12, "{}: {a} and {b} are {gap} apart at {q:?}", body.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_longer_tool_takes_its_capsules_along_and_moves_nothing_else() {
+    let up6 = robot("motoman_up6");
+    let longer = up6.with_tool_length(0.25).unwrap();
+    assert_eq!((up6.tool_length_m(), longer.tool_length_m()), (0.15, 0.25));
+    let q = radians(UP6_POSES[3].degrees);
+    let reach = |robot: &Robot| robot.arm().chain().forward(&q).origin;
+    assert!(((reach(&longer) - reach(&up6)).norm() - 0.1).abs() < 1e-12);
+    let target = longer.arm().chain().forward(&q);
+    let (_, found) = longer.arm().inverse_nearest(&target, &q).unwrap();
+    assert!(found.iter().zip(&q).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+    let [before, after] = [&up6, &longer].map(|robot| robot.bodies()[0].parts().to_vec());
+    assert_eq!(before[..6], after[..6]);
+    let placed = after[7].placed(&longer.arm().chain().frames(&q));
+    assert!((placed.segment.b - reach(&longer)).norm() < 1e-12, "the finger ends at {placed:?}");
+    let finger = after[7].capsule();
+    assert!((finger.segment.a.z - 0.1375).abs() < 1e-15 && (finger.segment.b.z - 0.25).abs() < 1e-15);
+    assert!(distance_capsule_capsule(after[6].capsule(), finger) == 0.0);
+    let self_only = before.iter().filter(|part| part.is_self_only()).map(Part::name);
+    assert_eq!(self_only.collect::<Vec<_>>(), ["base", "turret"]);
+    let none = up6.with_tool_length(0.0).unwrap_err().to_string();
+    assert!(none.starts_with("capsule `tool_body` spans a share of the tool"), "{none}");
+    assert!(up6.with_tool_length(f64::NAN).is_err());
+}

@@ -1,0 +1,120 @@
+//! A* on a lattice with the Euclidean heuristic.
+
+use super::lattice::{self, COLUMNS, Posed, TiesSetting, UPDATE};
+use super::pool::Pool;
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::search::{
+    Combined, GridGraph, Heap, Observer, Octile, Report, Rules, Search, Stop, Terms, Trace, euclidean_to,
+    falling, weighted,
+};
+use crate::space::WorldKind;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "astar",
+    about: "A* with f = g + weight · h, h the Euclidean distance, the weight constant or Zhang's (R + r) / R",
+    revision: 2,
+    needs: WorldKind::Lattice,
+    columns: COLUMNS,
+    build: Build::Planner(|settings| {
+        let read: Astar = settings.read()?;
+        if let Weight::Constant(weight) = read.weight
+            && (!weight.is_finite() || weight < 0.0)
+        {
+            let message = format!(
+                "weight is {weight}; 0 (Dijkstra), 1 (A*), any larger number, or \"falling\" is accepted"
+            );
+            return Err(settings.error(message));
+        }
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Astar {
+    /// What h is multiplied by.
+    weight: Weight,
+    /// The order among equal f.
+    ties: TiesSetting,
+    #[serde(skip)]
+    pool: Pool<Search<Octile, Heap>>,
+}
+
+#[derive(Deserialize, Clone, Copy, PartialEq)]
+#[serde(untagged, expecting = "a number, or `falling`, is accepted as a weight")]
+enum Weight {
+    /// The same everywhere.
+    Constant(f64),
+    /// By a rule.
+    Ruled(Rule),
+}
+
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum Rule {
+    /// (R + r) / R, as Zhang's eq. 2.
+    Falling,
+}
+
+impl Astar {
+    /// Searches under the settings' weight; `observer` watches.
+    fn run<O: Observer>(&self, posed: &Posed<'_>, expansions: u64, observer: &mut O) -> Report<Octile> {
+        match self.weight {
+            Weight::Constant(weight) => self.run_with(posed, weighted(weight), expansions, observer),
+            Weight::Ruled(Rule::Falling) => {
+                let apart = euclidean_to(posed.world.grid(), posed.goal)(posed.start);
+                self.run_with(posed, falling(apart), expansions, observer)
+            }
+        }
+    }
+
+    fn run_with<O: Observer>(
+        &self,
+        posed: &Posed<'_>,
+        combine: impl Fn(f64, f64) -> f64,
+        expansions: u64,
+        observer: &mut O,
+    ) -> Report<Octile> {
+        let (grid, goal) = (posed.world.grid(), posed.goal);
+        let estimate = Combined { h: euclidean_to(grid, goal), combine };
+        let terms = Terms {
+            graph: &mut GridGraph::new(posed.world.moves()),
+            estimate: &estimate,
+            observer,
+            update: UPDATE,
+        };
+        let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
+        let mut search = self.pool.any(|| Search::new(Heap::new(self.ties.into())));
+        let report = search.run(terms, posed.start, |cell| cell == goal, rules, &mut ());
+        self.pool.keep(search);
+        report
+    }
+}
+
+impl Planner for Astar {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let posed = Posed::new(request)?;
+        let (grid, mut trace) = (posed.world.grid(), Trace::default());
+        let report = if request.trace {
+            self.run(&posed, request.expansions, &mut trace)
+        } else {
+            self.run(&posed, request.expansions, &mut ())
+        };
+        let mut exhibits = Vec::new();
+        if request.trace {
+            exhibits.push(lattice::cells(grid, "opened_start_side", &trace.opened));
+            exhibits.push(lattice::cells(grid, "closed_start_side", &trace.closed));
+        }
+        Ok(lattice::plan(grid, &report.outcome, &[report.counters], exhibits))
+    }
+
+    fn is_optimal(&self) -> bool {
+        matches!(self.weight, Weight::Constant(weight) if weight <= 1.0)
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+}

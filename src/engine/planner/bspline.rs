@@ -1,0 +1,115 @@
+//! A cubic B-spline through a tip path as a stage.
+//!
+//! A B-spline leaves its control points behind wherever the path bends, so on the few nodes of a straightened path
+//! it cuts into the obstacles that the path goes round. With a control point at every step it still cuts corners, by
+//! up to a fifth of a step; `guarded` raises the multiplicity of the control points where it touches, up to three,
+//! at which the curve follows the path itself.
+
+use super::polyhedra::{densified, exhibit, points, polyhedra, replace};
+use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
+use crate::geometry::{Segment, Vec3};
+use crate::shorten::cubic_spline;
+use crate::space::{PolyhedraWorld, WorldKind};
+use base::settings::Settings;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "bspline",
+    about: "a cubic B-spline over the path's nodes or over one control point a step, checked against the obstacles",
+    revision: 1,
+    needs: WorldKind::Polyhedra,
+    columns: &["cut_in_cm", "raised_points"],
+    build: Build::Stage(|settings: &Settings| {
+        let read: Spline = settings.read()?;
+        if !(1..=64).contains(&read.points_per_span) {
+            let message = format!("points_per_span is {}; 1 to 64 is accepted", read.points_per_span);
+            return Err(settings.error(message));
+        }
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Spline {
+    /// What the control points are.
+    control: Control,
+    /// Whether control points count more often where the curve touches an obstacle.
+    guarded: bool,
+    /// Points of the curve returned for each of its spans.
+    points_per_span: u32,
+}
+
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum Control {
+    /// The path's nodes.
+    Nodes,
+    /// A point at every step along the path.
+    Steps,
+}
+
+/// A curve as control point and place, in order.
+type Curve = Vec<(usize, [f64; 3])>;
+
+impl Stage for Spline {
+    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+        if plan.ending != Ending::Solved {
+            return plan;
+        }
+        let world = polyhedra(request.world);
+        let nodes = points(&plan);
+        let control: Vec<[f64; 3]> = match self.control {
+            Control::Nodes => nodes.iter().map(|node| (*node).into()).collect(),
+            Control::Steps => densified(&nodes, world.step()).iter().map(|node| (*node).into()).collect(),
+        };
+        let mut multiplicity = vec![1; control.len()];
+        let mut curve = cubic_spline(&control, &multiplicity, self.points_per_span);
+        plan.counts.insert("cut_in_cm", Value::Real(depth(world, &curve)));
+        while self.guarded && raise(world, &curve, &mut multiplicity) {
+            curve = cubic_spline(&control, &multiplicity, self.points_per_span);
+        }
+        let raised = multiplicity.iter().filter(|times| **times > 1).count();
+        plan.counts.insert("raised_points", Value::Count(raised as u64));
+        if request.trace {
+            plan.exhibits.push(exhibit("polyline", &nodes));
+        }
+        let mut smooth: Vec<Vec3> = curve.into_iter().map(|(_, point)| point.into()).collect();
+        smooth.dedup();
+        replace(&mut plan, &smooth);
+        plan
+    }
+}
+
+/// Lets the control points of every span that touches an obstacle count once more; whether any could.
+fn raise(world: &PolyhedraWorld, curve: &Curve, multiplicity: &mut [u8]) -> bool {
+    let mut raised = false;
+    let mut last = None;
+    for pair in curve.windows(2) {
+        let (span, way) = (pair[1].0, Segment::new(pair[0].1.into(), pair[1].1.into()));
+        if last == Some(span) || world.is_clear(&way) {
+            continue;
+        }
+        last = Some(span);
+        for times in multiplicity.iter_mut().skip(span.saturating_sub(1)).take(4) {
+            raised |= *times < 3;
+            *times = (*times + 1).min(3);
+        }
+    }
+    raised
+}
+
+/// How deep a point of the curve lies in an obstacle.
+fn depth(world: &PolyhedraWorld, curve: &Curve) -> f64 {
+    let below = |point: &Vec3| {
+        let within = |convex: &crate::geometry::Convex| {
+            convex.faces().iter().map(|face| -face.plane.height(point)).fold(f64::INFINITY, f64::min)
+        };
+        world.obstacles().iter().map(within).fold(0.0, f64::max)
+    };
+    curve.iter().map(|(_, point)| below(&(*point).into())).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,71 @@
+//! A* over the tip positions of a planar arm, with a neighbourhood of any size.
+
+use super::lattice::TiesSetting;
+use super::pool::Pool;
+use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting, TipSearch};
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::search::LatticeGraph;
+use crate::space::WorldKind;
+use base::grid::Offsets;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "lattice_astar",
+    about: "A* over an arm's tip positions; neighbours are all points of a square, disc or octagon",
+    revision: 1,
+    needs: WorldKind::Arm,
+    columns: COLUMNS,
+    build: Build::Planner(|settings| {
+        let read: LatticeAstar = settings.read()?;
+        let offsets = read.neighbourhood.offsets(settings)?;
+        Ok(Box::new(Ready { read, offsets, pool: Pool::default() }))
+    }),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LatticeAstar {
+    /// Which points are neighbours.
+    neighbourhood: RegionSetting,
+    /// Whether a better way to an open node is taken.
+    open_node: OpenSetting,
+    /// The order among equal f.
+    ties: TiesSetting,
+}
+
+struct Ready {
+    read: LatticeAstar,
+    offsets: Offsets,
+    pool: Pool<TipSearch>,
+}
+
+impl Planner for Ready {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let posed = Posed::new(request)?;
+        let (world, step_cm) = (posed.world, posed.world.rules().lattice.step_cm());
+        let mut graph =
+            LatticeGraph::new(world.grid(), &self.offsets, step_cm, |from, by| world.may_step(from, by));
+        let LatticeAstar { ties, open_node, .. } = self.read;
+        let mut search = self.pool.any(|| tips::search(ties));
+        let (report, scans) = posed.search(&mut search, &mut graph, open_node.into(), request.expansions);
+        self.pool.keep(search);
+        let mut plan = posed.plan(&report, scans, request.trace);
+        if request.trace {
+            plan.exhibits.push(tips::steps("region", self.offsets.steps()));
+        }
+        Ok(plan)
+    }
+
+    fn is_optimal(&self) -> bool {
+        self.read.open_node == OpenSetting::Lowered
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+
+    fn steps(&self) -> Option<&[[i32; 2]]> {
+        Some(self.offsets.steps())
+    }
+}

@@ -1,0 +1,60 @@
+//! Planners: one a file, all in [`REGISTRY`], over the kernel of `search`.
+//!
+//! A contender is a pipeline: a planner finds a plan, then stages tidy it. Both are entries of one registry; an
+//! entry says what world it needs, what columns its counts fill, and how to build it from its settings. Nothing
+//! here knows studies or records; nothing outside an entry's file knows its settings.
+
+mod astar;
+mod astar_octile;
+mod bidirectional;
+mod bspline;
+mod chaos_astar;
+mod delete_inflections;
+mod direct;
+mod entry;
+mod joint_astar;
+mod key_nodes;
+mod keynode_astar;
+mod lattice;
+mod lattice26_astar;
+mod lattice_astar;
+mod polyhedra;
+mod pool;
+mod posture;
+mod roadmap;
+mod roadmap_astar;
+mod shorten_best;
+mod straighten;
+mod straighten_from_previous;
+mod tips;
+mod visibility_edges;
+
+pub use entry::{
+    Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value, fill_column,
+};
+
+/// Every planner and stage, in the order of their names.
+pub static REGISTRY: &[&Entry] = &[
+    &astar::ENTRY,
+    &astar_octile::ENTRY,
+    &bidirectional::ENTRY,
+    &bspline::ENTRY,
+    &chaos_astar::ENTRY,
+    &delete_inflections::ENTRY,
+    &direct::ENTRY,
+    &joint_astar::ENTRY,
+    &keynode_astar::ENTRY,
+    &lattice26_astar::ENTRY,
+    &lattice_astar::ENTRY,
+    &posture::ENTRY,
+    &roadmap_astar::ENTRY,
+    &shorten_best::ENTRY,
+    &straighten::ENTRY,
+    &straighten_from_previous::ENTRY,
+    &visibility_edges::ENTRY,
+];
+
+/// The entry called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    REGISTRY.iter().copied().find(|entry| entry.name == name)
+}

@@ -1,0 +1,218 @@
+//! A* on a roadmap, as Fu et al. write it: f = depth + distance, with or without a shot at the goal.
+
+use super::roadmap::{EdgeCost, Part, Posed, solved, unsolved};
+use super::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Value};
+use crate::search::{
+    Combined, Counters, Heap, Outcome, Rules, Search, Shot, Stop, Terms, Ties, Trace, Update, sum,
+};
+use crate::space::WorldKind;
+use crate::space::roadmap::{Extent, Roadmap};
+use base::settings::{Settings, SettingsError};
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "roadmap_astar",
+    about: "A* on the first samples of a roadmap; f = depth or way so far + distance to the goal; perhaps a shot at the goal",
+    revision: 2,
+    needs: WorldKind::Roadmap,
+    columns: &[
+        "opened",
+        "closed",
+        "expansions",
+        "generated",
+        "shots",
+        "connected",
+        "components",
+        "start_links",
+        "goal_links",
+        "unjoined_legs",
+    ],
+    build: Build::Planner(|settings| {
+        let read: RoadmapAstar = settings.read()?;
+        read.check(settings)?;
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RoadmapAstar {
+    /// How many samples: N.
+    samples: u32,
+    /// How far apart neighbours may be: ρ.
+    neighbour_mm: f64,
+    /// At most this many nearest samples are neighbours of a node.
+    nearest: Option<u32>,
+    /// What g counts.
+    cost: CostSetting,
+    /// Whether the search is blind: `h = 0`, so that the path costs least in g.
+    #[serde(default)]
+    blind: bool,
+    /// When a local path straight to the goal is tried.
+    goal_shot: ShotSetting,
+    /// Which nodes make the path.
+    path: PathSetting,
+}
+
+#[derive(Deserialize, Clone, Copy)]
+#[serde(rename_all = "snake_case")]
+enum CostSetting {
+    Hops,
+    Length,
+}
+
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum ShotSetting {
+    Never,
+    FromStart,
+    BeforeExpansion,
+}
+
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum PathSetting {
+    /// From each node to the one it was reached from.
+    Parents,
+    /// All nodes of CLOSED in the order they came there (step 14, taken at its word).
+    ClosedSequence,
+}
+
+impl RoadmapAstar {
+    fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
+        if self.samples == 0 {
+            return Err(settings.error("samples is 0; at least 1 is accepted"));
+        }
+        if !self.neighbour_mm.is_finite() || self.neighbour_mm <= 0.0 {
+            let message = format!("neighbour_mm is {}; a length above 0 is accepted", self.neighbour_mm);
+            return Err(settings.error(message));
+        }
+        if self.nearest == Some(0) {
+            return Err(settings.error("nearest is 0; at least 1 is accepted, or leave it out"));
+        }
+        Ok(())
+    }
+
+    fn extent(&self) -> Extent {
+        Extent { samples: self.samples, radius_mm: self.neighbour_mm }
+    }
+
+    fn part<'a>(&self, posed: &Posed<'a>) -> Result<Part<'a>, Invalid> {
+        let prefix = posed.map.prefix(self.samples).map_err(Invalid)?;
+        let built = Extent { samples: self.samples, radius_mm: posed.map.radius_mm() };
+        if let Some(lack) = built.lacks(&self.extent()) {
+            return Err(Invalid(lack));
+        }
+        let cost = match self.cost {
+            CostSetting::Hops => EdgeCost::Hop,
+            CostSetting::Length => EdgeCost::Length,
+        };
+        let nearest = self.nearest.map(|count| count as usize);
+        Ok(Part::new(posed, prefix, self.neighbour_mm, nearest, cost))
+    }
+
+    fn counts(&self, part: &Part<'_>, counters: &Counters, shots: u64) -> Counts {
+        let components = part.map.components(part.prefix, part.radius_mm);
+        let mut counts = Counts::from([
+            ("opened", Value::Count(counters.opened)),
+            ("closed", Value::Count(counters.closed)),
+            ("expansions", Value::Count(counters.expansions)),
+            ("generated", Value::Count(counters.generated)),
+        ]);
+        if self.goal_shot != ShotSetting::Never {
+            counts.insert("shots", Value::Count(shots));
+        }
+        // With a cap on neighbours the relation is no longer mutual and has no components.
+        if self.nearest.is_none() {
+            let parts = components.iter().zip(0..).filter(|(part, node)| **part == *node).count();
+            counts.insert("components", Value::Count(parts as u64));
+            counts.insert("connected", Value::Count(u64::from(part.is_connected(&components))));
+            let [start, goal] = part.end_links();
+            counts.insert("start_links", Value::Count(start));
+            counts.insert("goal_links", Value::Count(goal));
+        }
+        counts
+    }
+}
+
+/// Where each node stands, as a closure over the roadmap's places.
+fn distance_to(map: &Roadmap, goal: u32) -> impl Fn(u32) -> f64 {
+    let goal_mm = map.place_mm(goal);
+    move |node| {
+        let at = map.place_mm(node);
+        (0..3).map(|i| (at[i] - goal_mm[i]) * (at[i] - goal_mm[i])).sum::<f64>().sqrt()
+    }
+}
+
+/// The plan along `nodes` in the order in which they were closed, with how many of its legs are no edges.
+fn along_closed(map: &Roadmap, part: &mut Part<'_>, nodes: &[u32], mut counts: Counts) -> Plan {
+    // The last leg is an edge or a shot that was found free.
+    let unjoined = part.unjoined(&nodes[..nodes.len() - 1]);
+    counts.insert("unjoined_legs", Value::Count(unjoined));
+    solved(map, nodes, counts)
+}
+
+impl Planner for RoadmapAstar {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let posed = Posed::new(request)?;
+        let mut part = self.part(&posed)?;
+        let (map, start, goal) = (posed.map, posed.start, posed.goal);
+        let (to_goal_mm, weight) = (distance_to(map, goal), if self.blind { 0.0 } else { 1.0 });
+        let estimate = Combined { h: |node| weight * to_goal_mm(node), combine: sum };
+        let (mut shots, mut lists) = (0, Trace::default());
+        let mut shoot = |node: u32, _: f64| {
+            let is_tried = match self.goal_shot {
+                ShotSetting::Never => false,
+                ShotSetting::FromStart => node == start,
+                ShotSetting::BeforeExpansion => true,
+            };
+            shots += u64::from(is_tried);
+            let is_free = is_tried && map.join(node, goal).is_ok();
+            is_free.then_some(Shot { goal, cost: 1.0 })
+        };
+        let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
+        let update = Update { lower_open: true, reopen_closed: false };
+        let terms = Terms { graph: &mut part, estimate: &estimate, observer: &mut lists, update };
+        let report =
+            Search::new(Heap::new(Ties::Fifo)).run(terms, start, |node| node == goal, rules, &mut shoot);
+        let counts = self.counts(&part, &report.counters, shots);
+        let mut plan = match report.outcome {
+            Outcome::NoPath => unsolved(Ending::NoPath, counts),
+            Outcome::BudgetSpent => unsolved(Ending::BudgetSpent, counts),
+            Outcome::Solved(route) if self.path == PathSetting::Parents => solved(map, &route.nodes, counts),
+            Outcome::Solved(_) => {
+                let nodes: Vec<u32> = lists.closed.iter().copied().chain([goal]).collect();
+                along_closed(map, &mut part, &nodes, counts)
+            }
+        };
+        if request.trace {
+            plan.exhibits.push(places("closed", map, &lists.closed));
+        }
+        Ok(plan)
+    }
+
+    /// The graph is what its settings leave of the roadmap; the straight distance never lies above the rest of a way and
+    /// falls by no more than an edge is long, so that no closed node could be reached cheaper.
+    fn is_optimal(&self) -> bool {
+        let searches_alone = self.goal_shot == ShotSetting::Never && self.path == PathSetting::Parents;
+        searches_alone && self.nearest.is_none() && matches!(self.cost, CostSetting::Length)
+    }
+
+    fn is_complete(&self) -> bool {
+        false
+    }
+
+    fn asks(&self) -> Option<Extent> {
+        Some(self.extent())
+    }
+}
+
+/// The places of nodes, in the order given.
+fn places(name: &str, map: &Roadmap, nodes: &[u32]) -> Exhibit {
+    let values = nodes.iter().flat_map(|node| map.place_mm(*node)).collect();
+    Exhibit { name: name.to_owned(), width: 3, values }
+}
+
+#[cfg(test)]
+mod tests;

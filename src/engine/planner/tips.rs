@@ -1,0 +1,168 @@
+//! What the planners share that move an arm's tip over its lattice: their ends, their settings' words, their plans.
+
+use super::lattice::TiesSetting;
+use super::{Counts, Ending, Exhibit, Invalid, Plan, Request, Value};
+use crate::search::{
+    Combined, Graph, Heap, ListScans, Outcome, Report, Rules, Search, Stop, Terms, Update, sum,
+};
+use crate::space::ArmWorld;
+use base::grid::Offsets;
+use base::settings::{Settings, SettingsError};
+use serde::Deserialize;
+
+/// The columns that every search over tip positions fills.
+pub(super) const COLUMNS: &[&str] = &[
+    "opened",
+    "closed",
+    "expansions",
+    "generated",
+    "minimum_comparisons",
+    "membership_comparisons",
+    "list_operations",
+];
+
+/// The widest neighbourhood that is accepted.
+const WIDEST_CELLS: u8 = 20;
+
+/// A neighbourhood as settings write it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RegionSetting {
+    pub(super) shape: RegionShape,
+    pub(super) radius_cells: u8,
+}
+
+/// The shape of a neighbourhood.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum RegionShape {
+    Square,
+    Disc,
+    /// With sides square to the axes.
+    Octagon,
+    /// With corners on the axes.
+    OctagonOnCorners,
+}
+
+impl RegionSetting {
+    pub(super) fn offsets(self, settings: &Settings) -> Result<Offsets, SettingsError> {
+        let radius = self.radius_cells;
+        if !(1..=WIDEST_CELLS).contains(&radius) {
+            let message = format!("radius_cells is {radius}; 1 to {WIDEST_CELLS} is accepted");
+            return Err(settings.error(message));
+        }
+        Ok(match self.shape {
+            RegionShape::Square => Offsets::square(radius),
+            RegionShape::Disc => Offsets::disc(radius),
+            RegionShape::Octagon => Offsets::octagon(radius),
+            RegionShape::OctagonOnCorners => Offsets::octagon_on_corners(radius),
+        })
+    }
+}
+
+/// What happens to an open node to which a better way is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum OpenSetting {
+    Lowered,
+    Never,
+}
+
+impl From<OpenSetting> for Update {
+    fn from(setting: OpenSetting) -> Self {
+        Self { lower_open: setting == OpenSetting::Lowered, reopen_closed: false }
+    }
+}
+
+/// A search over tip positions; its memory serves one query after another.
+pub(super) type TipSearch = Search<f64, Heap>;
+
+/// A search that takes open nodes of equal f in the order of `ties`.
+pub(super) fn search(ties: TiesSetting) -> TipSearch {
+    Search::new(Heap::new(ties.into()))
+}
+
+/// The workspace of a request with its start and goal cells.
+pub(super) struct Posed<'a> {
+    pub(super) world: &'a ArmWorld,
+    pub(super) start: u32,
+    pub(super) goal: u32,
+}
+
+impl<'a> Posed<'a> {
+    pub(super) fn new(request: &Request<'a>) -> Result<Self, Invalid> {
+        let world =
+            request.world.as_arm().expect("a checked study gives a planner the kind of world it needs");
+        let start = world.free_cell("start", request.start).map_err(Invalid)?;
+        let goal = world.free_cell("goal", request.goal).map_err(Invalid)?;
+        Ok(Self { world, start, goal })
+    }
+
+    /// A* with f = g + Euclidean distance, both in centimetres; ends when the goal is popped.
+    pub(super) fn search(
+        &self,
+        search: &mut TipSearch,
+        graph: &mut impl Graph<Cost = f64>,
+        update: Update,
+        expansions: u64,
+    ) -> (Report<f64>, ListScans) {
+        let lattice = self.world.rules().lattice;
+        let goal = lattice.point(self.goal);
+        let estimate = Combined { h: move |cell: u32| (lattice.point(cell) - goal).norm(), combine: sum };
+        let mut scans = ListScans::default();
+        let terms = Terms { graph, estimate: &estimate, observer: &mut scans, update };
+        let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
+        let is_goal = |cell| cell == self.goal;
+        (search.run(terms, self.start, is_goal, rules, &mut ()), scans)
+    }
+
+    /// The plan that a search's report amounts to; with `trace`, the arm's stations along its path.
+    pub(super) fn plan(&self, report: &Report<f64>, scans: ListScans, trace: bool) -> Plan {
+        let (counters, ListScans { minimum_comparisons, membership_comparisons }) = (report.counters, scans);
+        let counts = Counts::from([
+            ("opened", Value::Count(counters.opened)),
+            ("closed", Value::Count(counters.closed)),
+            ("expansions", Value::Count(counters.expansions)),
+            ("generated", Value::Count(counters.generated)),
+            ("minimum_comparisons", Value::Count(minimum_comparisons)),
+            ("membership_comparisons", Value::Count(membership_comparisons)),
+            ("list_operations", Value::Count(minimum_comparisons + membership_comparisons)),
+        ]);
+        let mut plan =
+            Plan { ending: Ending::NoPath, path: Vec::new(), cost: None, counts, exhibits: Vec::new() };
+        match &report.outcome {
+            Outcome::NoPath => {}
+            Outcome::BudgetSpent => plan.ending = Ending::BudgetSpent,
+            Outcome::Solved(route) => {
+                plan.ending = Ending::Solved;
+                plan.cost = Some(route.cost);
+                let point = |cell: &u32| {
+                    let at = self.world.rules().lattice.point(*cell);
+                    vec![at.x, at.y]
+                };
+                plan.path = route.nodes.iter().map(point).collect();
+                if trace {
+                    plan.exhibits.push(self.stations(&route.nodes));
+                }
+            }
+        }
+        plan
+    }
+
+    /// Joint angles in degrees, elbow and tip in centimetres at each cell: six numbers a station.
+    fn stations(&self, cells: &[u32]) -> Exhibit {
+        let arm = self.world.rules().arm;
+        let station = |cell: &u32| {
+            let posture = self.world.posture(*cell);
+            let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
+            [posture[0].to_degrees(), posture[1].to_degrees(), elbow.x, elbow.y, tip.x, tip.y]
+        };
+        Exhibit { name: "stations".to_owned(), width: 6, values: cells.iter().flat_map(station).collect() }
+    }
+}
+
+/// Steps as an exhibit.
+pub(super) fn steps(name: &str, steps: &[[i32; 2]]) -> Exhibit {
+    let values = steps.iter().flat_map(|step| step.map(f64::from)).collect();
+    Exhibit { name: name.to_owned(), width: 2, values }
+}

@@ -1,0 +1,108 @@
+//! The specialisation is the general form.
+
+use super::*;
+use base::grid::rectangles;
+
+#[test]
+fn the_specialised_search_costs_and_counts_what_the_general_one_does() {
+    let (mut solved, mut count) = (0, 0);
+    for case in cases(400, 0.35) {
+        let mut fast = OctileAstar::new(&case.moves).unwrap();
+        let mut general = Search::new(Buckets::default());
+        let mut stream = seed::stream(case.seed);
+        // Several queries each, so that what one leaves behind could mislead the next.
+        for _ in 0..6 {
+            let ends = [0, 1].map(|_| stream.random_range(0..case.grid.cell_count()));
+            let case = Case { ends, grid: case.grid.clone(), moves: case.moves.clone(), ..case };
+            if !ends.iter().all(|&cell| case.grid.is_free(cell)) {
+                continue;
+            }
+            let estimate = ScaledOctile::new(case.grid.width(), Some(ends[1]));
+            let truth = solve(&mut general, &mut GridGraph::new(&case.moves), &estimate, ends);
+            let got = fast.solve(ends[0], ends[1], u64::MAX);
+            assert_eq!(got.counters, truth.counters, "seed {}, {ends:?}", case.seed);
+            let cost = |report: &Report<Octile>| report.outcome.route().map(|route| walked(&case, route));
+            assert_eq!(cost(&got), cost(&truth), "seed {}, {ends:?}", case.seed);
+            let exact = astar(&case.grid, &case.moves, ends).outcome.route().map(|route| route.cost);
+            assert_eq!(got.outcome.route().map(|route| route.cost), exact, "seed {}, {ends:?}", case.seed);
+            (solved, count) = (solved + u32::from(exact.is_some()), count + 1);
+        }
+    }
+    assert!((count / 4..count).contains(&solved), "one-sided sample: {solved} of {count} solvable");
+}
+
+#[test]
+fn long_queries_in_numbers_that_lower_the_base_past_zero_stay_right() {
+    let grid = rectangles(&mut seed::stream(9), [257, 200], 150, [5, 25], &[]).unwrap();
+    let moves = Moves::new(&grid, CornerRule::ForbidAny);
+    let free: Vec<u32> = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).collect();
+    let mut fast = OctileAstar::new(&moves).unwrap();
+    let mut general = Search::new(Buckets::default());
+    let mut stream = seed::stream(10);
+    let mut solved = 0;
+    // 257 · 200 · 1393 fits 59 times into 32 bits.
+    for query in 0..130 {
+        let ends = [0, 1].map(|_| free[stream.random_range(0..free.len())]);
+        let estimate = ScaledOctile::new(grid.width(), Some(ends[1]));
+        let truth = solve(&mut general, &mut GridGraph::new(&moves), &estimate, ends);
+        let got = fast.solve(ends[0], ends[1], u64::MAX);
+        assert_eq!(got.counters, truth.counters, "query {query}");
+        let cost = |report: &Report<Octile>| report.outcome.route().map(|route| route.cost);
+        assert_eq!(cost(&got), cost(&truth), "query {query}");
+        solved += u32::from(cost(&got).is_some());
+    }
+    assert!(solved > 65, "only {solved} queries had a path");
+}
+
+#[test]
+fn a_budget_ends_it_where_it_ends_the_general_form() {
+    let grid = Grid2::new(20, 10).unwrap();
+    let ends = [0, grid.cell_count() - 1];
+    let mut fast = OctileAstar::new(&Moves::new(&grid, CornerRule::Allow)).unwrap();
+    let full = fast.solve(ends[0], ends[1], u64::MAX).counters.expansions;
+    assert!(full > 3);
+    assert!(fast.solve(ends[0], ends[1], full).outcome.route().is_some());
+    let spent = fast.solve(ends[0], ends[1], full - 1);
+    assert_eq!((spent.outcome, spent.counters.expansions), (Outcome::BudgetSpent, full - 1));
+}
+
+#[test]
+fn a_grid_whose_costs_could_overflow_is_refused() {
+    let moves = Moves::new(&Grid2::new(1_100, 1_600).unwrap(), CornerRule::Allow);
+    let message = |height, cells| {
+        format!(
+            "a grid of 1100 × {height} cells, {cells} with what surrounds them; up to 3083250 are accepted"
+        )
+    };
+    assert_eq!(OctileAstar::new(&moves).unwrap_err().to_string(), message(1_600, 3_282_945));
+    let moves = Moves::new(&Grid2::new(1_100, 2_900).unwrap(), CornerRule::Allow);
+    let error = ManyGrids::new(&[moves]).unwrap_err().to_string();
+    assert_eq!(error, message(2_900, 3_192_202));
+}
+
+#[test]
+fn a_flood_visits_what_can_be_reached_once_at_the_cost_of_a_single_query() {
+    let (mut reached, mut beyond) = (0, 0);
+    for case in cases(60, 0.35) {
+        let mut search = OctileAstar::new(&case.moves).unwrap();
+        let [start, _] = case.ends;
+        if !case.grid.is_free(start) {
+            continue;
+        }
+        let most = 12 * ScaledOctile::STRAIGHT;
+        let mut visits = Vec::new();
+        search.flood(start, most, |cell, cost| visits.push((cell, cost)));
+        assert!(visits.windows(2).all(|pair| pair[0].1 <= pair[1].1), "seed {}", case.seed);
+        for goal in (0..case.grid.cell_count()).filter(|&goal| case.grid.is_free(goal)) {
+            let route = astar(&case.grid, &case.moves, [start, goal]).outcome;
+            let truth = route.route().map(|route| ScaledOctile::scaled(route.cost));
+            beyond += u32::from(truth.is_some_and(|cost| cost > most));
+            let found: Vec<u32> =
+                visits.iter().filter(|(cell, _)| *cell == goal).map(|visit| visit.1).collect();
+            let expected: Vec<u32> = truth.into_iter().filter(|&cost| cost <= most).collect();
+            assert_eq!(found, expected, "seed {}, from {start} to {goal}", case.seed);
+            reached += expected.len();
+        }
+    }
+    assert!(reached > 500 && beyond > 50, "one-sided sample: {reached} within, {beyond} beyond");
+}

@@ -1,0 +1,222 @@
+//! The planar arm over a lattice of tip positions, among obstacles.
+//!
+//! The base is the origin; lengths are centimetres, angles radians. A state is a lattice point at which the tip
+//! stands, with the one posture that the elbow rule names. It is free if the arm reaches it outside of the inner
+//! radius and if both links (without width) and the tip are clear of every obstacle; what touching is, the world
+//! says ([`Touch`]). A motion is a hop between two free states: its end points alone are looked at, or the joints
+//! are moved evenly from one posture to the other and both links swept ([`HopRule`]).
+
+mod hops;
+mod lattice;
+mod obstacle;
+mod sweep;
+#[cfg(test)]
+mod tests;
+
+pub use lattice::TipLattice;
+pub use obstacle::Obstacle;
+#[cfg(test)]
+pub use tests::rules as reproduced_rules;
+
+use crate::geometry::Vec2;
+use crate::geometry::planar::{Segment2, Touch};
+use crate::kinematics::planar_2r::{ElbowRule, Planar2r};
+use base::grid::{CornerRule, DIRECTIONS, Grid2, Moves};
+use hops::Hops;
+use sweep::Sweep;
+
+/// What decides whether a hop between free states is free.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HopRule {
+    /// Nothing: free end points make a free hop, whatever lies between.
+    EndPoints,
+    /// The joints move evenly from one posture to the other and both links must stay clear all the way.
+    Continuous,
+}
+
+/// Everything about a workspace but its obstacles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ArmRules {
+    /// The arm, in centimetres.
+    pub arm: Planar2r,
+    /// Which of the two postures is taken.
+    pub elbow: ElbowRule,
+    /// Where the tip may stand.
+    pub lattice: TipLattice,
+    /// Points nearer to the base than this are forbidden.
+    pub inner_radius_cm: f64,
+    /// Whether touching an obstacle is contact.
+    pub touch: Touch,
+    /// Which diagonal hops of one cell are refused for the cells that flank them.
+    pub corner_rule: CornerRule,
+    /// Which hops are free.
+    pub hop: HopRule,
+}
+
+/// What a lattice point is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Zone {
+    /// The tip may stand here.
+    Free,
+    /// Farther away than the arm is long.
+    OuterReach,
+    /// Within the inner radius, or nearer to the base than the arm can fold.
+    InnerReach,
+    /// Inside an obstacle.
+    Obstacle,
+    /// Clear itself, but a link would hit an obstacle.
+    Link,
+}
+
+/// A workspace, analysed point by point.
+#[derive(Debug)]
+pub struct ArmWorld {
+    rules: ArmRules,
+    obstacles: Vec<Obstacle>,
+    zones: Vec<Zone>,
+    postures: Vec<[f64; 2]>,
+    clearances_cm: Vec<f64>,
+    grid: Grid2,
+    /// The swept hops that were looked at; none where end points are enough.
+    hops: Hops,
+}
+
+impl ArmWorld {
+    /// Analyses every lattice point.
+    pub fn new(rules: ArmRules, obstacles: Vec<Obstacle>) -> Self {
+        let mut grid = rules.lattice.grid();
+        let (mut zones, mut postures) = (Vec::new(), Vec::new());
+        for cell in 0..grid.cell_count() {
+            let (zone, posture) = analysed(&rules, &obstacles, &rules.lattice.point(cell));
+            grid.set_blocked(cell, zone != Zone::Free);
+            zones.push(zone);
+            postures.push(posture.unwrap_or([f64::NAN; 2]));
+        }
+        let sweep = Sweep { arm: &rules.arm, obstacles: &obstacles, touch: rules.touch };
+        let clearance = |cell: u32| match rules.hop {
+            HopRule::Continuous if grid.is_free(cell) => sweep.clearance(postures[cell as usize]),
+            HopRule::Continuous | HopRule::EndPoints => 0.0,
+        };
+        let clearances_cm = (0..grid.cell_count()).map(clearance).collect();
+        let hops = Hops::new(if rules.hop == HopRule::Continuous { grid.cell_count() } else { 0 });
+        Self { rules, obstacles, zones, postures, clearances_cm, grid, hops }
+    }
+
+    /// Everything but the obstacles.
+    pub fn rules(&self) -> &ArmRules {
+        &self.rules
+    }
+
+    /// The obstacles.
+    pub fn obstacles(&self) -> &[Obstacle] {
+        &self.obstacles
+    }
+
+    /// The lattice with every point blocked that is not free.
+    pub fn grid(&self) -> &Grid2 {
+        &self.grid
+    }
+
+    /// What each lattice point is, by cell.
+    pub fn zones(&self) -> &[Zone] {
+        &self.zones
+    }
+
+    /// The joint angles with the tip on `cell`, `[q1, q2]`; NaN where the arm does not reach.
+    pub fn posture(&self, cell: u32) -> [f64; 2] {
+        self.postures[cell as usize]
+    }
+
+    /// Whether the hop between two free cells may be made.
+    pub fn may_hop(&self, from: u32, to: u32) -> bool {
+        let [[x, y], [to_x, to_y]] = [self.grid.xy(from), self.grid.xy(to)];
+        self.may_step(from, [to_x - x, to_y - y])
+    }
+
+    /// Whether the hop by `[dx, dy]` cells from one free cell to another may be made.
+    #[inline]
+    pub fn may_step(&self, from: u32, [dx, dy]: [i32; 2]) -> bool {
+        if dx.abs() == 1 && dy.abs() == 1 && self.rules.corner_rule != CornerRule::Allow {
+            let [x, y] = self.grid.xy(from);
+            let flanks = [self.grid.is_free_xy(x + dx, y), self.grid.is_free_xy(x, y + dy)];
+            if !self.rules.corner_rule.permits(flanks) {
+                return false;
+            }
+        }
+        let to = || from.wrapping_add_signed(dy * self.grid.width() as i32 + dx);
+        match self.rules.hop {
+            HopRule::EndPoints => true,
+            HopRule::Continuous => self.hops.is_free(from, [dx, dy], || self.is_swept_free(from, to())),
+        }
+    }
+
+    fn is_swept_free(&self, from: u32, to: u32) -> bool {
+        let Self { rules, obstacles, .. } = self;
+        let sweep = Sweep { arm: &rules.arm, obstacles, touch: rules.touch };
+        let clearances_cm = [from, to].map(|cell| self.clearances_cm[cell as usize]);
+        sweep.is_free(self.posture(from), self.posture(to), clearances_cm)
+    }
+
+    /// The free hops to the eight nearest points of every cell.
+    pub fn eight_moves(&self) -> Moves {
+        let legal = |cell: u32| {
+            let [x, y] = self.grid.xy(cell);
+            let is_legal = |[dx, dy]: [i32; 2]| {
+                let to = self.grid.cell(x + dx, y + dy).filter(|&to| self.grid.is_free(to));
+                self.grid.is_free(cell) && to.is_some_and(|to| self.may_hop(cell.min(to), cell.max(to)))
+            };
+            DIRECTIONS
+                .into_iter()
+                .enumerate()
+                .fold(0, |mask, (bit, step)| mask | u8::from(is_legal(step)) << bit)
+        };
+        Moves::from_masks(self.grid.width(), (0..self.grid.cell_count()).map(legal).collect())
+    }
+
+    /// The free cell at `point` = [x, y], centimetres.
+    ///
+    /// # Errors
+    /// A sentence about `what` (start or goal): no lattice point, or forbidden and why.
+    pub fn free_cell(&self, what: &str, point: &[f64]) -> Result<u32, String> {
+        let cell = self.rules.lattice.cell(point).ok_or_else(|| {
+            format!("the {what} {point:?} is not a point of the workspace; {}", self.rules.lattice)
+        })?;
+        let at = self.rules.lattice.point(cell);
+        let [inner, outer] = self.rules.arm.reach();
+        match self.zones[cell as usize] {
+            Zone::Free => Ok(cell),
+            Zone::OuterReach | Zone::InnerReach => Err(format!(
+                "the {what} {point:?} is {:.4} cm from the base; the arm may stand from {} to {outer} cm",
+                at.norm(),
+                inner.max(self.rules.inner_radius_cm)
+            )),
+            Zone::Obstacle => Err(format!("the {what} {point:?} lies in {}", self.culprit(&at))),
+            Zone::Link => Err(format!("with the tip on the {what} {point:?} a link hits an obstacle")),
+        }
+    }
+
+    fn culprit(&self, tip: &Vec2) -> String {
+        let found = self.obstacles.iter().position(|obstacle| obstacle.holds(tip, self.rules.touch));
+        found.map_or_else(|| "an obstacle".to_owned(), |index| format!("obstacle {}", index + 1))
+    }
+}
+
+/// What the point at `tip` is, and the posture that reaches it, if any does.
+fn analysed(rules: &ArmRules, obstacles: &[Obstacle], tip: &Vec2) -> (Zone, Option<[f64; 2]>) {
+    let Ok(branches) = rules.arm.inverse(tip) else {
+        let is_outer = tip.norm() > rules.arm.reach()[1];
+        return (if is_outer { Zone::OuterReach } else { Zone::InnerReach }, None);
+    };
+    let posture = rules.arm.pick(&branches, rules.elbow);
+    let zone = if tip.norm_squared() < rules.inner_radius_cm * rules.inner_radius_cm {
+        Zone::InnerReach
+    } else if obstacles.iter().any(|obstacle| obstacle.holds(tip, rules.touch)) {
+        Zone::Obstacle
+    } else {
+        let elbow = rules.arm.elbow(posture);
+        let links = [Segment2::new(Vec2::zeros(), elbow), Segment2::new(elbow, *tip)];
+        let is_hit = |obstacle: &Obstacle| links.iter().any(|link| obstacle.meets(link, rules.touch));
+        if obstacles.iter().any(is_hit) { Zone::Link } else { Zone::Free }
+    };
+    (zone, Some(posture))
+}

@@ -1,0 +1,234 @@
+//! Scenes from files: still obstacles by name, in millimetres as drawings give them.
+
+use crate::geometry::{Capsule, Convex, Frame, GeometryError, HalfSpace, OrientedBox, Solid, Sphere, Vec3};
+use base::settings::{Document, SettingsError};
+use serde::Deserialize;
+use std::path::Path;
+use toml::Spanned;
+
+/// What stands still around a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    name: String,
+    obstacles: Vec<Obstacle>,
+}
+
+/// One obstacle of a scene, in metres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstacle {
+    /// Its name in messages and pictures.
+    pub name: String,
+    /// Its shape.
+    pub solid: Solid,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneFile {
+    name: String,
+    floor: Option<Spanned<FloorEntry>>,
+    #[serde(default, rename = "box")]
+    boxes: Vec<Spanned<BoxEntry>>,
+    #[serde(default, rename = "sphere")]
+    spheres: Vec<Spanned<SphereEntry>>,
+    #[serde(default, rename = "capsule")]
+    capsules: Vec<Spanned<CapsuleEntry>>,
+    #[serde(default, rename = "convex")]
+    convexes: Vec<Spanned<ConvexEntry>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FloorEntry {
+    height_mm: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BoxEntry {
+    name: String,
+    min_mm: [f64; 3],
+    max_mm: [f64; 3],
+    /// Turn about the vertical through the middle.
+    #[serde(default)]
+    yaw_deg: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SphereEntry {
+    name: String,
+    center_mm: [f64; 3],
+    radius_mm: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CapsuleEntry {
+    name: String,
+    from_mm: [f64; 3],
+    to_mm: [f64; 3],
+    radius_mm: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ConvexEntry {
+    name: String,
+    vertices_mm: Vec<[f64; 3]>,
+}
+
+fn metres(point_mm: [f64; 3]) -> Vec3 {
+    Vec3::from(point_mm) * 1e-3
+}
+
+impl BoxEntry {
+    fn solid(&self) -> Result<Solid, GeometryError> {
+        let (min, max) = (metres(self.min_mm), metres(self.max_mm));
+        let turn = Frame::turned(&Vec3::z(), self.yaw_deg.to_radians());
+        let solid = OrientedBox::new(Frame::at((min + max) * 0.5) * turn, max - min)?;
+        Ok(Solid::Box(solid))
+    }
+}
+
+impl SphereEntry {
+    fn solid(&self) -> Result<Solid, GeometryError> {
+        Ok(Solid::Sphere(Sphere::new(metres(self.center_mm), self.radius_mm * 1e-3)?))
+    }
+}
+
+impl CapsuleEntry {
+    fn solid(&self) -> Result<Solid, GeometryError> {
+        let radius_m = self.radius_mm * 1e-3;
+        Ok(Solid::Capsule(Capsule::new(metres(self.from_mm), metres(self.to_mm), radius_m)?))
+    }
+}
+
+impl ConvexEntry {
+    fn solid(&self) -> Result<Solid, GeometryError> {
+        let vertices = self.vertices_mm.iter().map(|vertex| metres(*vertex)).collect();
+        Ok(Solid::Convex(Convex::from_vertices(vertices)?))
+    }
+}
+
+impl Scene {
+    /// The scene in the file at `path`.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse), and if the file cannot be read.
+    pub fn load(path: &Path) -> Result<Self, SettingsError> {
+        Self::parse(Document::open(path)?.as_ref())
+    }
+
+    /// The scene that `document` describes.
+    ///
+    /// # Errors
+    /// The line and column of an unknown key, a number that is not finite, a size that is not above 0, a shape that
+    /// encloses nothing, or a name that stands twice.
+    pub fn parse(document: &Document) -> Result<Self, SettingsError> {
+        let file: SceneFile = document.read()?;
+        let mut scene = Self { name: file.name, obstacles: Vec::new() };
+        if let Some(floor) = &file.floor {
+            let solid = HalfSpace::below(floor.get_ref().height_mm * 1e-3).map(Solid::HalfSpace);
+            scene.add(document, "floor", floor, solid)?;
+        }
+        for entry in &file.boxes {
+            scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid())?;
+        }
+        for entry in &file.spheres {
+            scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid())?;
+        }
+        for entry in &file.capsules {
+            scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid())?;
+        }
+        for entry in &file.convexes {
+            scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid())?;
+        }
+        Ok(scene)
+    }
+
+    fn add<T>(
+        &mut self,
+        document: &Document,
+        name: &str,
+        entry: &Spanned<T>,
+        solid: Result<Solid, GeometryError>,
+    ) -> Result<(), SettingsError> {
+        let fault = |message: String| document.error(entry.span(), format!("obstacle `{name}`: {message}"));
+        if self.obstacles.iter().any(|obstacle| obstacle.name == name) {
+            return Err(fault("the name stands twice; accepted: a name of its own".to_owned()));
+        }
+        let solid = solid.map_err(|error| fault(format!("{error} (lengths in metres)")))?;
+        self.obstacles.push(Obstacle { name: name.to_owned(), solid });
+        Ok(())
+    }
+
+    /// The scene without anything in it.
+    pub fn empty() -> Self {
+        Self { name: "empty".to_owned(), obstacles: Vec::new() }
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The obstacles, the floor first, in the order of the file within each kind.
+    pub fn obstacles(&self) -> &[Obstacle] {
+        &self.obstacles
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(text: &str) -> String {
+        let document = Document::new(Path::new("s.toml"), format!("name = 's'\n{text}"));
+        Scene::parse(&document).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn every_kind_of_obstacle_is_read_in_metres() {
+        let text = "name = 's'\n[floor]\nheight_mm = -5\n[[box]]\nname = 'b'\nmin_mm = [0, 0, 0]\nmax_mm = [100, 200, 300]\n\
+                    yaw_deg = 90\n[[sphere]]\nname = 'k'\ncenter_mm = [1, 2, 3]\nradius_mm = 50\n[[capsule]]\nname = 'c'\n\
+                    from_mm = [0, 0, 0]\nto_mm = [0, 0, 10]\nradius_mm = 5\n[[convex]]\nname = 'p'\n\
+                    vertices_mm = [[0, 0, 0], [10, 0, 0], [0, 10, 0], [0, 0, 10]]\n";
+        let scene = Scene::parse(&Document::new(Path::new("s.toml"), text.to_owned())).unwrap();
+        let names: Vec<&str> = scene.obstacles().iter().map(|o| o.name.as_str()).collect();
+        assert_eq!(names, ["floor", "b", "k", "c", "p"]);
+        let turned = scene.obstacles()[1].solid.aabb();
+        assert!((turned.max - Vec3::new(0.15, 0.15, 0.3)).norm() < 1e-12, "{turned:?}");
+    }
+
+    #[test]
+    fn a_wrong_scene_says_which_obstacle_where_and_what_is_accepted() {
+        for (text, parts) in [
+            (
+                "[[box]]\nname = 'b'\nmin_mm = [0, 0, 0]\nmax_mm = [1, -2, 3]\n",
+                ["s.toml:2:1", "`b`", "greater than 0"],
+            ),
+            (
+                "[[sphere]]\nname = 'k'\ncenter_mm = [0, nan, 0]\nradius_mm = 1\n",
+                ["s.toml:2:1", "`k`", "finite"],
+            ),
+            (
+                "[[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 0]\nradius_mm = -1\n",
+                ["s.toml:2:1", "radius", "0"],
+            ),
+            ("[floor]\nheight_mm = 0\nwidth_mm = 3\n", ["s.toml:4:1", "width_mm", "height_mm"]),
+            (
+                "[[convex]]\nname = 'p'\nvertices_mm = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]\n",
+                ["`p`", "enclose nothing", "plane"],
+            ),
+            (
+                "[[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 0]\nradius_mm = 1\n[[sphere]]\nname = 'k'\n\
+                 center_mm = [0, 0, 9]\nradius_mm = 1\n",
+                ["s.toml:6:1", "twice", "name of its own"],
+            ),
+        ] {
+            let message = refusal(text);
+            assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Hands what a planner returned to the verifier, in the verifier's own terms.
+//!
+//! The verifier shares no code with planners; this module only takes worlds apart for it and turns its answer
+//! into the trial's status and measured values.
+
+mod arm;
+mod polyhedra;
+pub mod roadmap;
+
+pub use arm::ARM_COLUMNS;
+pub use polyhedra::{CARRIED_COLUMNS, POLYHEDRA_COLUMNS};
+
+use super::checked::Pipeline;
+use super::family::Query;
+use super::record::Status;
+use engine::planner::{Counts, Ending, Exhibit, Plan, Request, Value};
+use engine::shorten::{TurnAngle, bends, path_length, turn_sum_deg};
+use engine::space::{LatticeWorld, World};
+use verify::lattice::{Answer, Case};
+
+/// The columns of every trial on a lattice.
+pub const LATTICE_COLUMNS: &[&str] =
+    &["path_cost_cells", "turn_exterior_deg", "turn_interior_deg", "bends", "optimal_cost_cells"];
+
+/// What the verifier found out about a query before any planner ran.
+#[derive(Debug)]
+pub enum Truth {
+    /// On a lattice: the least cost in the world's graph; `None` if the goal cannot be reached.
+    Lattice(Option<f64>),
+    /// Among polyhedra: the solids, and the arm if there is one.
+    Polyhedra(Box<polyhedra::Truth>),
+    /// On a roadmap: its robot and surroundings.
+    Roadmap(roadmap::Case),
+    /// For a planar arm nothing is known beforehand.
+    Arm,
+}
+
+#[cfg(test)]
+impl Truth {
+    /// The least cost in a lattice's graph.
+    pub fn optimal(&self) -> Option<f64> {
+        match self {
+            Self::Lattice(optimal) => *optimal,
+            Self::Polyhedra(_) | Self::Roadmap(_) | Self::Arm => panic!("a lattice is tested"),
+        }
+    }
+}
+
+/// The verifier's answer about one plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// The trial's status, and the reason unless solved.
+    pub outcome: (Status, Option<String>),
+    /// What was measured.
+    pub values: Counts,
+    /// What figures need of what was measured, if the request asked for it.
+    pub exhibits: Vec<Exhibit>,
+}
+
+/// The truth about `query` in `world`.
+pub fn truth(world: &World, query: &Query) -> Truth {
+    match world {
+        // Its optimum depends on the planner's neighbourhood and is found when a plan is judged.
+        World::Arm(_) => Truth::Arm,
+        World::Lattice(lattice) => Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost()),
+        World::Roadmap(roadmap) => Truth::Roadmap(roadmap::Case::new(roadmap)),
+        World::Polyhedra(world) => Truth::Polyhedra(Box::new(polyhedra::truth(world))),
+    }
+}
+
+/// Judges `plan`, which `pipeline` returned for `request`.
+pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Judged {
+    match (request.world, truth) {
+        (World::Arm(world), _) => arm::judge(world, request, plan, pipeline),
+        (World::Lattice(lattice), Truth::Lattice(optimal)) => {
+            judge_lattice(lattice, request, plan, pipeline, *optimal)
+        }
+        (World::Polyhedra(world), Truth::Polyhedra(truth)) => polyhedra::judge(world, request, plan, truth),
+        (_, Truth::Roadmap(case)) => case.judge(request, plan),
+        _ => unreachable!("the truth is about the request's world"),
+    }
+}
+
+fn case<'a>(lattice: &'a LatticeWorld, start: &'a [f64], goal: &'a [f64]) -> Case<'a> {
+    Case { grid: lattice.grid(), corner_rule: lattice.corner_rule(), start, goal }
+}
+
+fn judge_lattice(
+    lattice: &LatticeWorld,
+    request: &Request<'_>,
+    plan: &Plan,
+    pipeline: &Pipeline,
+    optimal: Option<f64>,
+) -> Judged {
+    let case = case(lattice, request.start, request.goal);
+    let mut values = Counts::new();
+    if let Some(optimal) = optimal {
+        values.insert("optimal_cost_cells", Value::Real(optimal));
+    }
+    let untouched = pipeline.stages.is_empty();
+    let answer = Answer {
+        path: &plan.path,
+        cost: plan.cost,
+        in_graph: untouched,
+        optimal: untouched && pipeline.planner.is_optimal(),
+    };
+    let refusal = refuse_ending(request, plan).or_else(|| match plan.ending {
+        Ending::Solved => case.refuse_path(&answer, optimal),
+        Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(optimal),
+        Ending::NoPath | Ending::BudgetSpent => None,
+    });
+    if plan.ending == Ending::Solved && refusal.is_none() {
+        values.extend(measured(&plan.path));
+    }
+    Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+}
+
+/// The status of a trial that ended as `plan` did and was refused for `refusal`, if it was, and the reason.
+fn outcome(request: &Request<'_>, plan: &Plan, refusal: Option<String>) -> (Status, Option<String>) {
+    match (refusal, plan.ending) {
+        (Some(refusal), _) => (Status::Rejected, Some(refusal)),
+        (None, Ending::Solved) => (Status::Solved, None),
+        (None, Ending::NoPath) => (Status::NoPath, Some("the planner found no path".to_owned())),
+        (None, Ending::BudgetSpent) => {
+            (Status::BudgetSpent, Some(format!("budget of {} expansions spent", request.expansions)))
+        }
+    }
+}
+
+/// What is measured of an accepted path on a lattice.
+pub fn measured(path: &[Vec<f64>]) -> Counts {
+    let inner = bends(path).len().saturating_sub(2);
+    Counts::from([
+        ("path_cost_cells", Value::Real(path_length(path))),
+        ("turn_exterior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Exterior))),
+        ("turn_interior_deg", Value::Real(turn_sum_deg(path, TurnAngle::Interior))),
+        ("bends", Value::Count(inner as u64)),
+    ])
+}
+
+/// Why `plan` contradicts its own ending; `None` if it does not, or counts no expansions.
+fn refuse_ending(request: &Request<'_>, plan: &Plan) -> Option<String> {
+    if plan.ending != Ending::Solved && (!plan.path.is_empty() || plan.cost.is_some()) {
+        return Some("a path or a cost is given although none is claimed".to_owned());
+    }
+    let expansions = plan.counts.get("expansions")?.as_f64();
+    (plan.ending == Ending::BudgetSpent && expansions < request.expansions as f64).then(|| {
+        format!("the budget is said to be spent after {expansions} of {} expansions", request.expansions)
+    })
+}
+
+#[cfg(test)]
+mod tests;
