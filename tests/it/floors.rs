@@ -5,6 +5,9 @@ use crate::source::{File, PACKAGES, files};
 use std::collections::BTreeMap;
 use std::path::Path;
 
+/// Packages whose lib.rs stands on floors; the others are small, and their modules stand side by side.
+const FLOORED: [&str; 3] = ["base", "engine", "replan"];
+
 /// The most lines that a file may have.
 const FILE_LINES: usize = 400;
 
@@ -138,8 +141,7 @@ fn modules_name_only_lower_floors() {
     let files = files();
     let named: usize = files.iter().map(|file| named(file).len()).sum();
     assert!(named > 200, "only {named} paths were read; the reader is blind");
-    let packages = PACKAGES.iter().copied().chain(["replan"]);
-    let found: Vec<String> = packages.flat_map(|package| violations(&files, package)).collect();
+    let found: Vec<String> = FLOORED.iter().flat_map(|package| violations(&files, package)).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
