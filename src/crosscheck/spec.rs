@@ -2,10 +2,10 @@
 
 use super::CrosscheckError;
 use super::case::{Case, Given};
-use super::model::Still;
+use super::model::{Freedom, Still};
 use super::planar::PlanarArm;
 use super::sample::Sizes;
-use super::stored::{Freedom, StoredPaths};
+use super::stored::StoredPaths;
 use super::subject::{Check, SerialArm, Subject};
 use crate::study::{Inputs, slug};
 use base::seed;

@@ -1,7 +1,7 @@
 //! Paths that a study kept, and the worlds that it posed.
 
 use super::CrosscheckError;
-use super::model::Pair;
+use super::model::Freedom;
 use super::path::Path as JointPath;
 use crate::study::manifest::Manifest;
 use crate::study::record::{Kept, Status};
@@ -28,38 +28,6 @@ pub struct StoredPaths {
     pub unit: AngleUnit,
     /// What the study says the paths are free of, all the way.
     pub free_of: Freedom,
-}
-
-/// What a path is said to be free of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Freedom {
-    /// Nothing is promised.
-    Nothing,
-    /// What stands around the robot; it may hit itself.
-    Scene,
-    /// All contact.
-    Contact,
-}
-
-impl Freedom {
-    /// In the report's words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Nothing => "nothing",
-            Self::Scene => "obstacles",
-            Self::Contact => "all contact",
-        }
-    }
-
-    /// Whether a path with contact of `pair` is not as promised.
-    pub fn is_broken_by(self, pair: Pair) -> bool {
-        match self {
-            Self::Nothing => false,
-            Self::Scene => pair.still().is_some(),
-            Self::Contact => true,
-        }
-    }
 }
 
 /// A unit of angles.

@@ -2,7 +2,7 @@
 //!
 //! A [`Variant`] is one way to fill it in; [`answers`] asks a question of [`engine::length_inversion`] under each.
 
-use crate::study::checked::slug;
+use crate::study::name::slug;
 use crate::study::prepared::lattice::CornerSetting;
 use crate::study::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use base::grid::{Grid2, Moves};

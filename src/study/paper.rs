@@ -11,6 +11,7 @@ pub use findings::filled;
 
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
+pub use super::spec::Digits;
 use super::{Inputs, Reading, Study, StudyError};
 use base::settings::{Document, Settings, SettingsError};
 use serde::Deserialize;
@@ -105,18 +106,6 @@ struct ClaimSpec {
     theorem: Option<String>,
     #[serde(default)]
     check: BTreeMap<String, Spanned<Table>>,
-}
-
-/// How a printed number's digits end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Digits {
-    /// To the nearest.
-    Rounded,
-    /// Cut off.
-    Truncated,
-    /// Either.
-    Unknown,
 }
 
 /// What the paper says.

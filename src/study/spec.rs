@@ -2,7 +2,6 @@
 //!
 //! Unknown keys are refused everywhere; settings stay tables and are read by the entry they name.
 
-use super::paper::Digits;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::{Spanned, Table};
@@ -143,6 +142,18 @@ pub struct OptionSpec {
     pub metric: BTreeMap<String, String>,
     /// How printed digits end, for claims that do not say so themselves: no trial is rerun.
     pub digits: Option<Digits>,
+}
+
+/// How a printed number's digits end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Digits {
+    /// To the nearest.
+    Rounded,
+    /// Cut off.
+    Truncated,
+    /// Either.
+    Unknown,
 }
 
 /// Which readings a study explores: the defaults, every other option by itself, and a sample of their product.

@@ -171,6 +171,39 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     REGISTRY.iter().copied().find(|entry| entry.name == name)
 }
 
+/// The checks of a claim, built.
+pub fn checks<'a>(
+    paper: &'a Paper,
+    point: &'a ReadingChoice,
+    claim: &'a Claim,
+) -> Result<Vec<(&'static str, Box<dyn Check + 'a>)>, SettingsError> {
+    let mut built = Vec::new();
+    for (name, settings) in &claim.checks {
+        let entry = find(name).ok_or_else(|| {
+            let known: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
+            let message = format!(
+                "claim `{}` asks for the check `{name}`, which does not exist; the checks are {}",
+                claim.id,
+                known.join(", ")
+            );
+            settings.error(message)
+        })?;
+        built.push((entry.name, (entry.build)(&Context { claim, settings, paper, point })?));
+    }
+    Ok(built)
+}
+
+/// The verdict on one claim under the evidence's reading, without the reasons.
+///
+/// # Errors
+/// Those of [`validate`].
+fn verdict_on(evidence: &Evidence<'_>, claim: &Claim) -> Result<Verdict, SettingsError> {
+    let checks = checks(evidence.paper, &evidence.point, claim)?;
+    let untestable = claim.untestable.as_ref().map(|_| Verdict::Untestable);
+    let found = checks.iter().filter_map(|(_, check)| check.verdict(evidence)).chain(untestable);
+    Ok(found.max().unwrap_or(Verdict::Undecided))
+}
+
 #[cfg(test)]
 mod tests;
 

@@ -1,7 +1,6 @@
 //! A sentence that is asked in several ways, each a claim of its own: whether all of them, some or none hold.
 
-use super::{Check, Entry};
-use crate::analysis::claims::verdict_on;
+use super::{Check, Entry, verdict_on};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use crate::study::paper::Claim;

@@ -6,9 +6,8 @@
 //! exact one on pairs of segments of the same samples.
 
 use super::{Entry, Task};
-use crate::study::checked::Study;
 use crate::study::record::{Batch, Status, Values};
-use crate::study::runner::Unit;
+use crate::study::unit::Unit;
 use base::seed::{self, Stream};
 use base::settings::Settings;
 use engine::geometry::{
@@ -119,7 +118,7 @@ impl Task for FormulaError {
         vec![super::variant_name(unit, LABEL)]
     }
 
-    fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
+    fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut row = super::variant_row(unit, LABEL, "");
         let prepared = unit.family.prepare(unit.seed);
         // Stored units are known by what was prepared for them: without this row every run would measure anew.

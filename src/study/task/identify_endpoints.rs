@@ -1,10 +1,9 @@
 //! Looks for the pairs of lattice points that have printed lengths in all cases, under every variant asked for.
 
 use super::{Entry, Task};
-use crate::study::checked::Study;
 use crate::study::endpoint_variants::{self as open, Case, Question, Variant};
 use crate::study::record::{Batch, Kept, Row, Status, Values};
-use crate::study::runner::Unit;
+use crate::study::unit::Unit;
 use base::grid::Moves;
 use engine::length_inversion::{self, Match, NeverLowered, Pair};
 use engine::planner::{Exhibit, Value};
@@ -66,7 +65,7 @@ impl Task for Identify {
         self.variants.iter().map(|variant| super::variant_name(unit, &variant.label)).collect()
     }
 
-    fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch {
+    fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut batch = Batch::default();
         let prepared = unit.family.prepare(unit.seed);
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
@@ -81,7 +80,7 @@ impl Task for Identify {
             }
         };
         let answers = open::answers(self, &base, &self.cases, &variants);
-        let keeps = unit.is_kept(study, None, 0);
+        let keeps = unit.is_kept(None, 0);
         for (variant, answer) in variants.into_iter().zip(answers) {
             match answer {
                 Ok(found) => {

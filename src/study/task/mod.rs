@@ -5,10 +5,10 @@ mod identify_endpoints;
 mod null_rate;
 mod plan;
 
-use super::checked::{Study, slug};
+use super::name::slug;
 use super::prepared::Prepared;
 use super::record::{Batch, PreparedRow, Row, Status, Values};
-use super::runner::Unit;
+use super::unit::Unit;
 use base::settings::{Settings, SettingsError};
 use engine::planner::{Invalid, Value};
 use engine::space::ArmRules;
@@ -16,7 +16,7 @@ use engine::space::ArmRules;
 /// A task with its settings.
 pub trait Task: Send + Sync {
     /// Does one unit of work: everything that shares one prepared object.
-    fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch;
+    fn run(&self, unit: &Unit<'_>) -> Batch;
 
     /// The names of the unit's trials: one a query, entrant and repeat, unless the task does something else.
     fn trials(&self, unit: &Unit<'_>) -> Vec<String> {

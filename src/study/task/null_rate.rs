@@ -1,10 +1,10 @@
 //! How often lengths that were not printed would have been met by some pair of lattice points just as well.
 
 use super::{Entry, Task};
-use crate::study::checked::{Study, slug};
 use crate::study::endpoint_variants::{self as endpoints, Case, Question, Variant};
+use crate::study::name::slug;
 use crate::study::record::{Batch, Row, Status, Values};
-use crate::study::runner::Unit;
+use crate::study::unit::Unit;
 use base::grid::Moves;
 use engine::length_inversion::{Match, NeverLowered, Targets, union};
 use engine::planner::Value;
@@ -93,7 +93,7 @@ impl Task for NullRate {
         labels.map(|label| super::variant_name(unit, label)).collect()
     }
 
-    fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
+    fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut batch = Batch::default();
         let prepared = unit.family.prepare(unit.seed);
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
