@@ -10,6 +10,7 @@ pub mod clock;
 pub mod column;
 mod error;
 mod inputs;
+pub mod key;
 pub mod name;
 pub mod spec;
 
@@ -36,6 +37,8 @@ pub mod store;
 pub mod runner;
 
 pub mod manifest;
+
+pub mod reuse;
 
 pub mod session;
 

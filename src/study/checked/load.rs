@@ -4,7 +4,7 @@ use super::super::contender::StageUse;
 use super::super::error::StudyError;
 use super::super::family::Family;
 use super::super::inputs::Inputs;
-use super::super::name::slug;
+use super::super::name::{self, slug};
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
 use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint};
@@ -121,7 +121,8 @@ impl Study {
         for (group, family) in self.groups.iter().zip(families) {
             let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));
             let Some(lack) = lack else { continue };
-            let swept = if sweep.name.is_empty() { String::new() } else { format!(" at {}", sweep.name) };
+            let at = name::sweep(&sweep.key);
+            let swept = if at.is_empty() { at } else { format!(" at {at}") };
             let message =
                 format!("contender `{}`{swept} on problems `{}`: {lack}", contender.label, group.label);
             return Err(contender.stages[0].settings.error(message).into());
@@ -130,7 +131,17 @@ impl Study {
     }
 
     fn check_sweeps(&self) -> Result<(), StudyError> {
+        let mut keys = BTreeSet::new();
         for sweep in &self.sweeps {
+            let wrong = if sweep.key_values().is_none() {
+                Some("has a value that is neither a number nor a word nor a truth value")
+            } else {
+                (!keys.insert(&sweep.key)).then_some("is the second over this setting; one is accepted")
+            };
+            if let Some(wrong) = wrong {
+                let message = format!("sweep `{}` {wrong}", sweep.key);
+                return Err(self.document.error(self.key_span("sweep"), message).into());
+            }
             let used: BTreeSet<&str> = self.stage_names();
             if !used.contains(sweep.of.as_str()) {
                 let message = format!(
