@@ -10,6 +10,7 @@ mod committed;
 mod conformance;
 mod crosscheck;
 mod floors;
+mod guards;
 mod latex;
 mod laws;
 mod paper;
