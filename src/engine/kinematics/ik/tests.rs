@@ -28,7 +28,7 @@ fn change(a: &Joints, b: &Joints) -> f64 {
 
 #[test]
 fn every_file_here_is_a_solver_registered_under_its_own_name() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kinematics/ik");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("kinematics/ik");
     let mut files: Vec<String> = fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned())

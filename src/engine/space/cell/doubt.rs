@@ -1,4 +1,4 @@
-//! Steps of a path that come near something, looked at more closely.
+//! Steps of a path on which a part may touch something between the two checked ends: they are halved and checked again.
 
 use super::line::between;
 use super::way::Way;
@@ -7,12 +7,12 @@ use crate::geometry::Capsule;
 use crate::kinematics::Joints;
 use crate::kinematics::ik::Branch;
 
-/// Half a chord with room for the arc above it.
+/// Half the chord between two places of an axis end, with 2 % for the arc being longer than its chord.
 pub(super) const HALF_WAY: f64 = 0.51;
-/// How often a doubtful step is halved.
+/// How many times a step is halved at most.
 pub(super) const HALVINGS: u32 = 3;
 
-/// A path with a step that must be looked at more closely.
+/// A path with a step that must be halved.
 pub(super) struct Doubt<'a> {
     pub(super) lines: &'a Lines,
     pub(super) way: Option<&'a Way>,
@@ -53,7 +53,7 @@ impl Doubt<'_> {
     }
 }
 
-/// The longest way that an end of a capsule's axis goes.
+/// The longest distance that an end of a capsule's axis moves in a step.
 #[inline]
 pub(super) fn axis_way_m(from: &Capsule, to: &Capsule) -> f64 {
     let a = (to.segment.a - from.segment.a).norm_squared();

@@ -112,7 +112,7 @@ pub struct Pose {
     pub branch: Branch,
 }
 
-/// Memory that one attempt after another uses.
+/// Buffers that are reused from attempt to attempt.
 #[derive(Debug, Default)]
 pub struct Scratch {
     pub(super) states: Vec<Joints>,
@@ -129,7 +129,7 @@ impl Scratch {
     }
 }
 
-/// How a way of the tool is taken.
+/// How a tool path is divided into steps.
 pub(super) struct Pace {
     /// How many steps it takes.
     pub(super) steps: f64,
@@ -183,7 +183,7 @@ impl Lines {
 
     /// Whether the local path between two free configurations can be executed.
     ///
-    /// Eight configurations are looked at at once, and one at a time where that left a doubt.
+    /// Eight configurations are checked at once; what lies within the error band is checked again one at a time.
     ///
     /// # Errors
     /// The first reason against it.

@@ -40,7 +40,7 @@ pub struct Cell {
     outline: Outline,
 }
 
-/// How a configuration stands in its cell when parts are thickened.
+/// Whether a configuration is free when its parts are thickened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Standing {
     /// Free even with every part thickened.
@@ -135,7 +135,7 @@ impl Cell {
         touching.map(|[a, b]| format!("part `{}` is in contact with part `{}`", name(*a), name(*b)))
     }
 
-    /// How the placed body stands if part `i` is thickened by `margin_m(i)`.
+    /// Whether the placed body is free when part `i` is thickened by `margin_m(i)`.
     #[inline]
     pub fn standing(&self, placed: &[Capsule], margin_m: impl Fn(usize) -> f64) -> Standing {
         let mut standing = Standing::Clear;
@@ -182,7 +182,7 @@ impl Cell {
     }
 }
 
-/// How a gap stands that is contact up to the first bound and near up to the second.
+/// Classifies a gap: contact up to the first bound, near up to the second.
 #[inline]
 fn stand(gap_m: f64, [touching_m, near_m]: [f64; 2]) -> Standing {
     if gap_m <= touching_m {
@@ -194,7 +194,7 @@ fn stand(gap_m: f64, [touching_m, near_m]: [f64; 2]) -> Standing {
     }
 }
 
-/// Whether the balls about two capsules are further apart than `margin_m`: a third of the work of the distance.
+/// Whether the bounding spheres of two capsules are further apart than `margin_m`; a third of the cost of their distance.
 #[inline]
 fn are_far(a: &Capsule, b: &Capsule, margin_m: f64) -> bool {
     let (p, q) = (a.segment, b.segment);

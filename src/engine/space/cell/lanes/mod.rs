@@ -1,13 +1,14 @@
 //! Local paths, eight configurations at once.
 //!
-//! The same steps, reasons and margins as one configuration at a time. The joints along a tool's way are found in f64, four
-//! at once; places and distances in f32, eight at once, which is right to a few micrometres. Every comparison that decides
-//! anything is therefore made with a band about its bound ([`SLACK`] in f64, [`Outline`]'s in f32); inside the band, near
-//! singular poses, where another branch may be nearer, and for shapes that have no lanes, the answer is `None` and the
-//! whole path is left to the scalar code. So a verdict from here is the scalar code's verdict.
+//! Steps, reasons and margins are those of the scalar code, which checks one configuration at a time. Inverse kinematics
+//! runs in f64, four lanes at once; positions and distances run in f32, eight lanes at once, with errors of a few micrometres.
+//! Every comparison that decides a verdict therefore has an error band around its bound ([`SLACK`] in f64, [`Outline`]'s in
+//! f32). Inside the band, near singular poses, where another branch may be nearer, and for shapes that have no lanes, the
+//! answer is `None` and the scalar code checks the whole path. So a verdict from here is the scalar code's verdict.
 //!
-//! What comes near something is looked at more closely, and finds nothing on a free path. So a configuration that is close
-//! to being near counts as near without a doubt, and a contact found between two configurations is not a verdict.
+//! A configuration is *near* something if its thickened body may touch it; the steps beside it are then halved and checked.
+//! Halving can only confirm that a path is free. A configuration within the error band of near therefore counts as near,
+//! and a contact found between two configurations is handed to the scalar code.
 
 mod follow;
 mod outline;
@@ -30,8 +31,8 @@ use crate::kinematics::ik::Branch;
 use crate::kinematics::{AXES, Arm, Joints};
 use std::f64::consts::TAU;
 
-/// The greatest angle, either way, that is placed in f32: a turn, and room for who stops at one. Beyond it the last digit
-/// of an angle is too coarse for the band.
+/// The largest absolute angle that is converted to f32: slightly over one turn. Beyond it an f32 angle is too coarse for
+/// the error band.
 const MOST_RAD: f64 = 1.01 * TAU;
 
 /// The axis of one part at eight configurations: x, y and z of its first end, then of the second.
@@ -54,7 +55,7 @@ fn store<S: Simd>([a, b]: [Point<Rough<S>>; 2], [ax, ay, az, bx, by, bz]: &mut A
     b.z.store_array(bz);
 }
 
-/// What the configurations of a path are on.
+/// The course that the configurations of a path follow.
 enum Course<'a> {
     /// A straight line of the joints, by the angles at its start and their changes in a step.
     Line { from: [f32; AXES], step: [f32; AXES] },
@@ -70,20 +71,20 @@ struct Track {
     /// How many configurations there are.
     count: usize,
     angles: Vec<[RoughRow; AXES]>,
-    /// By block, then by part.
+    /// Placed axes, by block, then by part.
     placed: Vec<Axis>,
-    /// By how much parts are thickened, and the band: by block, then by part.
+    /// By how much each part is thickened, error band included: by block, then by part.
     rooms: Vec<RoughRow>,
-    /// How much room each part has on the whole path.
+    /// The largest thickening of each part on the whole path.
     reaches: Vec<f32>,
-    /// The box that each part sweeps with that room: its least and its greatest corner.
+    /// The box that each thickened part sweeps: its least and its greatest corner.
     swept: Vec<[[f32; 3]; 2]>,
     close: Close,
     /// Which configurations may come near something: one bit each, a number a block.
     near: Vec<u64>,
 }
 
-/// Memory that one path after another uses.
+/// Buffers that are reused from path to path.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     track: Track,
@@ -91,7 +92,7 @@ pub(super) struct Memory {
 }
 
 impl Track {
-    /// Makes room for `count` configurations of so many parts. What is in it is written over.
+    /// Makes room for `count` configurations of so many parts and overwrites what the buffers held.
     fn open(&mut self, count: usize, parts: usize) {
         let blocks = count.div_ceil(ROUGH_LANES);
         self.count = count;
@@ -133,7 +134,7 @@ impl Track {
 }
 
 impl Memory {
-    /// What the configurations on a course come to, with what is between them if they are free.
+    /// The verdict on the configurations of a course and, if all are free, on the motion between them.
     #[expect(clippy::inline_always, reason = "lanes are compiled for the instructions of their caller")]
     #[inline(always)]
     fn judge<S: Simd>(&mut self, simd: S, arm: &Arm, outline: &Outline, course: &Course) -> Look {
@@ -149,7 +150,7 @@ impl Memory {
     }
 }
 
-/// Whether f32 holds the angles well enough.
+/// Whether the angles are small enough for f32.
 fn is_rough(q: &Joints) -> bool {
     q.iter().all(|angle| angle.abs() <= MOST_RAD)
 }

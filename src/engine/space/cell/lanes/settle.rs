@@ -1,7 +1,7 @@
-//! The steps of a free path that may come near something, looked at more closely: eight steps at once.
+//! Halving the steps of a free path beside configurations that are near something, eight steps at once.
 //!
-//! A step is halved as the scalar code halves it, in more cases rather than fewer: what may be near is halved too. So a step
-//! that is free here is free there; one that is not is left to the scalar code.
+//! A step is halved whenever the scalar code would halve it, and also within the error band. So a step that is free here
+//! is free in the scalar code; any other step is left to the scalar code.
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"
@@ -22,7 +22,7 @@ const PARTS: usize = 1 << HALVINGS;
 #[derive(Debug, Default)]
 struct Stop {
     placed: Vec<Axis>,
-    /// How far each part may be from where it is at the nearer end of the step.
+    /// How far each part may stray from its place at the nearer end of the step.
     offsets: Vec<RoughRow>,
     /// The steps of which both halves beside this stop are to be halved.
     near: u64,

@@ -1,4 +1,4 @@
-//! How eight configurations stand in their cell.
+//! Eight configurations at once: free, near something, or in contact.
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"
@@ -12,16 +12,16 @@ use crate::geometry::lanes::{
 };
 use crate::space::cell::line::middle_outwards;
 
-/// What a path's configurations came to.
+/// The verdict on the configurations of a path.
 pub(super) enum Look {
     Free,
-    /// In contact, with the first one's place in the order from the middle outwards.
+    /// In contact; holds the rank of the first such configuration, counted from the middle outwards.
     Contact(usize),
-    /// A comparison was too close, or a solid has no lanes.
+    /// Undecided: a comparison fell within its error band, or a solid has no lanes.
     Doubt,
 }
 
-/// What may meet somewhere on a path.
+/// The pairs that may touch somewhere on a path.
 #[derive(Debug, Default)]
 pub(super) struct Close {
     /// Parts and obstacles.
@@ -34,14 +34,14 @@ pub(super) struct Close {
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Bits {
     pub(super) contact: u64,
-    /// Neither surely in contact nor surely free.
+    /// Within the error band of contact.
     pub(super) unsure: u64,
-    /// Not surely clear of everything when thickened.
+    /// Near something, or within the error band of it.
     pub(super) near: u64,
 }
 
 impl Bits {
-    /// Takes in how wide gaps are, and how wide they must be to be surely clear.
+    /// Adds a gap, given its width and the width that makes it clear beyond the error band.
     #[inline(always)]
     fn judge<S: Simd>(&mut self, gap: Rough<S>, room: Rough<S>, band: f32) {
         let near = !gap.simd_gt(room);
@@ -72,7 +72,7 @@ fn corners<S: Simd>(simd: S, [a, b, c, d, e, f]: &[RoughRow; 6]) -> [Point<Rough
     [Point::load(simd, [a, b, c]), Point::load(simd, [d, e, f])]
 }
 
-/// How eight placed bodies stand whose parts have `rooms` about them.
+/// The verdict on eight placed bodies whose parts are thickened by `rooms`.
 pub(super) fn stand<S: Simd>(
     simd: S,
     outline: &Outline,
