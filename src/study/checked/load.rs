@@ -6,14 +6,14 @@ use super::{
     Build, Contender, Family, Group, Inputs, Reading, ReadingChoice, Settings, StageUse, Study, StudyError,
     Sweep, SweepPoint, slug,
 };
-use base::settings::{Document, SettingsError};
+use base::settings::{Document, SettingsError, Spanned};
 use engine::planner;
 use engine::space::roadmap::Extent;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
-use toml::{Spanned, Table};
+use toml::Table;
 
 impl Study {
     /// Reads and checks the study in `path`.
