@@ -1,6 +1,7 @@
 //! A robot among obstacles as the judge is told of it: the numbers of the files, and nothing worked out from them.
 
 use engine::geometry::{Capsule, Frame, Solid, Vec3};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// One row of Denavit–Hartenberg parameters with its joint's limits.
@@ -146,7 +147,7 @@ fn moved(solid: &Solid, by_m: &Vec3) -> Solid {
 }
 
 /// What a path is said to be free of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Freedom {
     /// Nothing is promised.

@@ -10,12 +10,13 @@ use crate::study::record::{Kept, Row, Status};
 use crate::study::store::read_records;
 use crate::study::{Inputs, ReadingChoice, Study, StudyError};
 use engine::space::World;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Which paths of a study are judged.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StoredPaths {
     /// The study.
@@ -33,7 +34,7 @@ pub struct StoredPaths {
 }
 
 /// A unit of angles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AngleUnit {
     /// Degrees.

@@ -143,7 +143,7 @@ impl Manifest {
         if !path.exists() {
             return Err(StudyError::stored(&path, "no stored run; run the study first"));
         }
-        Ok(Document::open(&path)?.read()?)
+        Ok(Document::open(&path)?.read_stored()?)
     }
 
     /// Stages the manifest for `folder`.

@@ -11,6 +11,7 @@ mod committed;
 mod conformance;
 mod crosscheck;
 mod floors;
+mod guards;
 mod latex;
 mod laws;
 mod paper;

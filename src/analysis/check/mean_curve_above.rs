@@ -7,6 +7,8 @@ use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use crate::study::name::sweep;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bands::sup_t;
 use stats::bootstrap::Resampling;
@@ -16,6 +18,13 @@ use stats::interval::Interval;
 pub static ENTRY: Entry = Entry {
     name: "mean_curve_above",
     about: "is one contender's mean share of solved queries above another's at every point of the sweep, draws paired?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+contender = "Improved A*"
+against = "Original A*"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.against.as_str()];
@@ -25,7 +34,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

@@ -55,7 +55,7 @@ use super::verdict::{Finding, Verdict};
 use crate::study::paper::{self, Claim, Paper};
 use crate::study::{ReadingChoice, Study};
 use audit::printed::{Digits, Printed};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 
 /// A check with its settings.
 pub trait Check {
@@ -113,6 +113,10 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it.
     pub build: for<'a> fn(&Context<'a>) -> Result<Box<dyn Check + 'a>, SettingsError>,
 }

@@ -8,12 +8,13 @@ use crate::render::scene3::{Camera, Paint, ScaleBar, Scene, SceneMark, Vec3};
 use crate::render::style::{BLACK, SKY, Stroke, WHITE};
 use crate::study::key::{DrawKey, Owner};
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// From where a scene is seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum View {
     /// From the front, a little from above: x to the right.

@@ -11,6 +11,8 @@ use crate::render::style::{Dash, GREY, Stroke, Width, series_color, series_marke
 use crate::study::Study;
 use crate::study::key::SweepKey;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 
@@ -18,6 +20,12 @@ use stats::bootstrap::{self, Resampling};
 pub static ENTRY: Entry = Entry {
     name: "share_bars",
     about: "shares of solved queries by problem group and contender at one point of the sweeps, and paired differences from one group",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = ["cell"]
+sweep = "samples=800"
+printed = ["t2.original.800"]
+"#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         let named: Vec<String> = read.problems.iter().chain(&read.against).cloned().collect();
@@ -29,7 +37,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
     problems: Vec<String>,

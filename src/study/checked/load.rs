@@ -8,14 +8,14 @@ use super::super::name::{self, slug};
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
 use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint};
-use base::settings::{Document, SettingsError};
+use base::settings::{Document, SettingsError, Spanned};
 use engine::planner::{self, Build};
 use engine::space::roadmap::Extent;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
-use toml::{Spanned, Table};
+use toml::Table;
 
 impl Study {
     /// Reads and checks the study in `path`.

@@ -3,7 +3,7 @@
 use crate::study::StudyError;
 use crate::study::inputs::Inputs;
 use crate::study::prepared::Prepared;
-use base::settings::Settings;
+use base::settings::{Accepted, Settings};
 use engine::planner::{Counts, Invalid};
 use engine::space::roadmap::Extent;
 use engine::space::{World, WorldKind};
@@ -78,6 +78,10 @@ pub struct Entry {
     pub prepared: &'static str,
     /// The columns that every trial on its problems has.
     pub columns: &'static [&'static str],
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it from its settings.
     pub build: fn(&Settings, &Inputs) -> Result<Box<dyn Family>, StudyError>,
 }

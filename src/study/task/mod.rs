@@ -9,7 +9,7 @@ use super::key::{SweepKey, TrialKey};
 use super::prepared::Prepared;
 use super::record::{Batch, PreparedRow, Row, Status, Values};
 use super::unit::Unit;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::{Invalid, Value};
 use engine::space::ArmRules;
 
@@ -43,6 +43,10 @@ pub struct Entry {
     pub revision: u32,
     /// The columns that it fills besides those of planners and families.
     pub columns: &'static [&'static str],
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it from its settings.
     pub build: fn(&Settings) -> Result<Box<dyn Task>, SettingsError>,
 }

@@ -7,8 +7,8 @@ use crate::study::prepared::Prepared;
 use crate::study::record::{Batch, Kept, Row, Status};
 use crate::study::unit::{Entrant, Unit};
 use crate::study::verification::{self, Truth};
+use base::settings::{Accepted, NoSettings};
 use engine::planner::{Counts, Exhibit, Invalid, Plan, Request};
-use serde::Deserialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The registry's entry.
@@ -17,15 +17,13 @@ pub static ENTRY: Entry = Entry {
     about: "every contender plans on every problem; the verifier judges what comes back",
     revision: 1,
     columns: &[],
+    settings: Accepted::of::<NoSettings>(),
+    example: "",
     build: |settings| {
         let NoSettings {} = settings.read()?;
         Ok(Box::new(PlanTask))
     },
 };
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct NoSettings {}
 
 struct PlanTask;
 
