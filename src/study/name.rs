@@ -87,3 +87,55 @@ pub fn slug(label: &str) -> String {
     let dashed: String = spelled.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     dashed.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::key::SweepValue;
+    use std::sync::Arc;
+
+    /// One numbered group and one that is not, two contenders, two readings.
+    fn names() -> Names {
+        let text = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect();
+        let default = |id: &str, option: &str| (id.to_owned(), option.to_owned());
+        Names {
+            numbered_groups: text(&["Maps, drawn"]),
+            contenders: BTreeMap::from([("A*".to_owned(), false), ("Chaos".to_owned(), true)]),
+            defaults: BTreeMap::from([default("corners", "allow"), default("ties", "fifo")]),
+        }
+    }
+
+    fn key(group: &str, draw: u32, corners: &str, contender: &str, repeat: u32) -> TrialKey {
+        let options = [("corners", corners), ("ties", "fifo")];
+        let reading = ReadingKey::new(options.map(|(id, option)| (id.into(), option.into())).into());
+        let on = Arc::new(DrawKey { group: group.into(), draw, reading });
+        TrialKey { on, query: None, contender: contender.into(), sweep: SweepKey::default(), repeat }
+    }
+
+    #[test]
+    fn a_name_leaves_out_what_goes_without_saying() {
+        let sweep = SweepKey::new(vec![
+            ("weight".into(), SweepValue::Real(12.0)),
+            ("samples".into(), SweepValue::Whole(100)),
+            ("kind".into(), SweepValue::Text("a".into())),
+        ]);
+        let swept =
+            TrialKey { sweep, query: Some("7".into()), ..key("Maps, drawn", 3, "forbid", "Chaos", 2) };
+        for (key, name) in [
+            (key("W1", 0, "allow", "A*", 0), "w1/a-star"),
+            (key("Maps, drawn", 3, "allow", "A*", 0), "maps-drawn/3/a-star"),
+            (key("W1", 0, "allow", "Chaos", 0), "w1/chaos/0"),
+            (key("W1", 0, "forbid", "A*", 0), "w1/a-star/corners=forbid"),
+            (key("W1", 0, "allow", "a variant", 0), "w1/a-variant"),
+            (key("W1", 0, "allow", "a variant", 1), "w1/a-variant/pair-0"),
+            (swept, "maps-drawn/3/7/chaos/weight=12.0,samples=100,kind=a/2/corners=forbid"),
+        ] {
+            assert_eq!(names().trial(&key), name);
+        }
+        let drawn = key("Maps, drawn", 3, "forbid", "A*", 0);
+        assert_eq!(names().prepared(&drawn.on), "maps-drawn/3/corners=forbid");
+        assert_eq!(names().problem(&drawn.on, Some("7")), "maps-drawn/3/7");
+        assert_eq!(names().reading(&drawn.on.reading), "corners=forbid");
+        assert_eq!(names().reading(&key("W1", 0, "allow", "A*", 0).on.reading), "default");
+    }
+}

@@ -104,11 +104,9 @@ impl Reusable {
         }
     }
 
-    /// How many trials are stored.
-    pub fn trials(&self) -> usize {
-        let whole = self.units.values().map(|batch| batch.rows.len());
-        let parts = self.parts.values().map(|part| part.stored.rows.len());
-        whole.chain(parts).sum()
+    /// How many trials are stored of units of which others are not.
+    pub fn kept(&self) -> usize {
+        self.parts.values().map(|part| part.stored.rows.len()).sum()
     }
 }
 
@@ -142,3 +140,6 @@ pub fn moved(manifest: &Manifest, before: &Manifest, old: &Batch, new: &Batch, n
     let differs = |row: &&Row| old.get(&row.key).is_some_and(|stored| *stored != *row);
     new.rows.iter().filter(differs).filter(unchanged).map(|row| names.trial(&row.key)).collect()
 }
+
+#[cfg(test)]
+mod tests;

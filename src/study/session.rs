@@ -51,7 +51,7 @@ pub struct Report {
     pub resumed: usize,
     /// How many units came whole from stored records.
     pub reused: usize,
-    /// How many trials came from stored records.
+    /// How many trials of the other units came from stored records: those of contenders that have not changed.
     pub kept: usize,
     /// How many units there are.
     pub units: usize,
@@ -123,15 +123,15 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         stored.as_ref().filter(|(before, _)| !options.fresh && manifest.is_as(before))
     {
         journal.remove()?;
-        let counts = Counts { resumed, units, reused: units, kept: records.batch.rows.len() };
+        let counts = Counts { resumed, units, reused: units, kept: 0 };
         return Ok(Report::new(before.clone(), counts, &records.batch, built.names(), why));
     }
     let found = match &stored {
         Some((before, records)) if !options.fresh => Reusable::new(&built, &manifest, before, records),
         _ => Reusable::default(),
     };
-    let counts = Counts { resumed, units, reused: found.units.len(), kept: found.trials() };
-    if let Some((before, _)) = stored.as_ref().filter(|_| counts.kept > 0) {
+    let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
+    if let Some((before, _)) = stored.as_ref().filter(|_| counts.reused + counts.kept > 0) {
         // These trials were seen under the former claims, so that a margin which has moved since stays marked.
         manifest.claims.clone_from(&before.claims);
     }

@@ -186,31 +186,4 @@ pub fn remove_temporaries(folder: &Path, study: &str) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn staged_files_are_all_put_in_place_or_none_is() {
-        let folder = tempfile::tempdir().unwrap();
-        let at = |name: &str| folder.path().join(name);
-        write_whole(&at("a"), b"old").unwrap();
-        fs::create_dir(at("c")).unwrap();
-        let mut staged = Staged::default();
-        staged.add(&at("a"), b"new").unwrap();
-        staged.add(&at("b"), b"new").unwrap();
-        let error = staged.add(&at("c"), b"new").unwrap_err().to_string();
-        assert!(error.ends_with("c: writing the file: is a directory"), "{error}");
-        drop(staged);
-        let names = || {
-            let mut names: Vec<_> =
-                fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-            names.sort();
-            names
-        };
-        assert_eq!((fs::read(at("a")).unwrap(), names()), (b"old".to_vec(), vec!["a".into(), "c".into()]));
-        fs::write(at("s.trials.parquet.77.tmp"), b"half").unwrap();
-        fs::write(at("other.77.tmp"), b"half").unwrap();
-        remove_temporaries(folder.path(), "s");
-        assert_eq!(names(), ["a", "c", "other.77.tmp"]);
-    }
-}
+mod tests;
