@@ -2,6 +2,7 @@
 
 use super::model::{Model, Pair};
 use super::subject::Subject;
+use base::limit::count;
 use base::seed::{self, Stream};
 use rand::RngExt as _;
 use serde::Deserialize;
@@ -62,14 +63,19 @@ pub struct Question {
 #[serde(deny_unknown_fields)]
 pub struct Sizes {
     /// Drawn evenly.
+    #[serde(deserialize_with = "count::<0, 1_000_000, _, _>")]
     pub random: u32,
     /// Of these, how many are also asked for their frames.
+    #[serde(deserialize_with = "count::<0, 1_000_000, _, _>")]
     pub random_frames: u32,
     /// Of these, how many are also asked for their distances.
+    #[serde(deserialize_with = "count::<0, 1_000_000, _, _>")]
     pub random_distances: u32,
     /// Within [`NEAR_M`] of contact.
+    #[serde(deserialize_with = "count::<0, 1_000_000, _, _>")]
     pub near_contact: u32,
     /// Singular.
+    #[serde(deserialize_with = "count::<0, 1_000_000, _, _>")]
     pub singular: u32,
     /// Piercing.
     pub piercing: u32,

@@ -24,7 +24,7 @@ pub mod store;
 pub mod task;
 pub mod verification;
 
-pub use checked::{Contender, Group, StageUse, Study, Sweep, slug};
+pub use checked::{Contender, Families, Group, StageUse, Study, Sweep, slug};
 pub use error::StudyError;
 pub use reading::{Reading, ReadingChoice};
 

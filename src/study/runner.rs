@@ -4,7 +4,7 @@
 //! Units are numbered by reading, problem group and replicate; results are put together in that order, so the
 //! number of threads and the order of completion change nothing.
 
-use super::checked::{Contender, Group, Pipeline, Study, SweepPoint, slug};
+use super::checked::{Contender, Families, Group, Pipeline, Study, SweepPoint, slug};
 use super::family::{Family, Query};
 use super::prepared::Prepared;
 use super::reading::ReadingChoice;
@@ -17,8 +17,8 @@ use base::seed;
 use engine::planner::Request;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// Who watches a run.
 pub trait Progress: Sync {
@@ -133,7 +133,7 @@ pub struct BuiltStudy<'a> {
     study: &'a Study,
     task: Box<dyn Task>,
     points: &'a [ReadingChoice],
-    families: Vec<Vec<Box<dyn Family>>>,
+    families: Vec<Vec<Arc<dyn Family>>>,
     entrants: Vec<Vec<Entrant<'a>>>,
 }
 
@@ -143,11 +143,11 @@ impl<'a> BuiltStudy<'a> {
     /// # Errors
     /// Those of families and pipelines; none in a study that was loaded with the same inputs.
     pub fn new(study: &'a Study, points: &'a [ReadingChoice], inputs: &Inputs) -> Result<Self, StudyError> {
-        let mut families = Vec::new();
+        let (mut families, mut built) = (Vec::new(), Families::default());
         let mut entrants = Vec::new();
         for point in points {
-            let built = study.groups.iter().map(|group| group.family(point, inputs));
-            families.push(built.collect::<Result<Vec<_>, _>>()?);
+            let of = |group| built.of(group, point, inputs);
+            families.push(study.groups.iter().map(of).collect::<Result<Vec<_>, _>>()?);
             let mut line_up = Vec::new();
             for contender in &study.contenders {
                 for sweep in study.sweep_points() {

@@ -3,6 +3,7 @@
 //! Unknown keys are refused everywhere; settings stay tables and are read by the entry they name.
 
 use super::paper::Digits;
+use base::limit::count;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::{Spanned, Table};
@@ -64,6 +65,7 @@ pub struct ProblemsSpec {
     /// The problem family.
     pub family: Spanned<String>,
     /// How many independent draws.
+    #[serde(default, deserialize_with = "count::<0, 1_000_000, _, _>")]
     pub replicates: Option<Spanned<u32>>,
     /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
     /// what their settings do can be compared in pairs. The study and the label if absent.
@@ -86,6 +88,7 @@ pub struct ContenderSpec {
     #[serde(default)]
     pub then: Vec<StageSpec>,
     /// How many seeds it runs on each problem; more than 1 only where it draws.
+    #[serde(default, deserialize_with = "count::<0, 100_000, _, _>")]
     pub repeats: Option<Spanned<u32>>,
     /// Readings, with the option, that its settings take in place of the one in hand: it is then shown under these.
     #[serde(default)]
@@ -150,6 +153,7 @@ pub struct OptionSpec {
 #[serde(deny_unknown_fields)]
 pub struct ExploreSpec {
     /// How many points of the product are drawn, without repetition, besides those that differ in one option.
+    #[serde(deserialize_with = "count::<0, 10_000, _, _>")]
     pub sample: u32,
 }
 
@@ -158,6 +162,7 @@ pub struct ExploreSpec {
 #[serde(deny_unknown_fields)]
 pub struct BudgetSpec {
     /// At most this many expansions.
+    #[serde(deserialize_with = "count::<0, 1_000_000_000_000, _, _>")]
     pub expansions: u64,
 }
 
@@ -166,10 +171,13 @@ pub struct BudgetSpec {
 #[serde(deny_unknown_fields)]
 pub struct TimingSpec {
     /// How many problems of each group are timed, from the first replicate on.
+    #[serde(deserialize_with = "count::<0, 1_000_000, _, _>")]
     pub problems: u32,
     /// How many timed runs of each.
+    #[serde(deserialize_with = "count::<0, 1_000_000, _, _>")]
     pub repeats: u32,
     /// How many of a contender's seeds are timed; the first one if absent.
+    #[serde(default, deserialize_with = "count::<0, 100_000, _, _>")]
     pub seeds: Option<u32>,
 }
 
@@ -204,7 +212,7 @@ pub struct QuickSpec {
 }
 
 /// A figure: its kind and what that kind wants to know.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FigureSpec {
     /// Its file name, after the paper's figure where there is one.

@@ -13,6 +13,7 @@ mod floors;
 mod guards;
 mod latex;
 mod laws;
+mod mutation;
 mod paper;
 mod polyhedra;
 mod registries;

@@ -10,6 +10,7 @@ use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::geometry::{Segment, Vec3};
 use crate::shorten::cubic_spline;
 use crate::space::{PolyhedraWorld, WorldKind};
+use base::limit::count;
 use base::settings::Settings;
 use serde::Deserialize;
 
@@ -38,6 +39,7 @@ struct Spline {
     /// Whether control points count more often where the curve touches an obstacle.
     guarded: bool,
     /// Points of the curve returned for each of its spans.
+    #[serde(deserialize_with = "count::<0, 1000, _, _>")]
     points_per_span: u32,
 }
 

@@ -10,6 +10,7 @@ use crate::render::style::{
     series_stroke,
 };
 use crate::study::record::Row;
+use base::limit::count;
 use engine::planner::Exhibit;
 use serde::Deserialize;
 
@@ -40,6 +41,7 @@ struct ArmPlane {
     #[serde(default = "yes")]
     paths: bool,
     /// At how many points of the first path the arm is drawn.
+    #[serde(deserialize_with = "count::<0, 1000, _, _>")]
     stations: usize,
     panels: Vec<PanelSetting>,
 }

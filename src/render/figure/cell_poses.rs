@@ -8,6 +8,7 @@ use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{GREY, Rgb, WHITE, Width, YELLOW, series_color};
 use crate::study::slug;
+use base::limit::count;
 use engine::planner::Exhibit;
 use serde::Deserialize;
 
@@ -37,6 +38,7 @@ struct CellPoses {
     /// What they are called.
     names: Vec<String>,
     /// How many of them are shown in one picture.
+    #[serde(deserialize_with = "count::<0, 1000, _, _>")]
     at_once: usize,
 }
 

@@ -9,6 +9,7 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{INK, Stroke, Width, series_stroke};
+use base::limit::count;
 use base::settings::Settings;
 use serde::Deserialize;
 use stats::summary::quantile_type7;
@@ -33,6 +34,7 @@ const PLOT_PT: f64 = 118.0;
 #[serde(deny_unknown_fields)]
 struct Draws {
     panels: Vec<PanelSpec>,
+    #[serde(deserialize_with = "count::<1, 12, _, _>")]
     columns: usize,
 }
 

@@ -10,6 +10,7 @@ use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{BLUE, INK, Marker, Stroke, VERMILLION, Width};
+use base::limit::count;
 use serde::Deserialize;
 use stats::bootstrap::Estimate;
 
@@ -43,6 +44,7 @@ const ROW_PT: f64 = 11.0;
 #[serde(deny_unknown_fields)]
 struct Reductions {
     panels: Vec<PanelSpec>,
+    #[serde(deserialize_with = "count::<1, 12, _, _>")]
     columns: usize,
     /// From the top.
     contenders: Vec<String>,

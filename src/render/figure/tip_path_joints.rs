@@ -6,6 +6,7 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
 use crate::study::record::Row;
+use base::limit::count;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -32,7 +33,7 @@ struct TipPathJoints {
     #[serde(default)]
     differences: bool,
     /// How many panels stand side by side: θ1 and θ2 of a problem follow each other.
-    #[serde(default = "two")]
+    #[serde(default = "two", deserialize_with = "count::<1, 12, _, _>")]
     columns: usize,
     panels: Vec<PanelSetting>,
 }

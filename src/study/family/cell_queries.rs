@@ -6,6 +6,7 @@ use super::{Entry, Family, Query};
 use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::ARM_COLUMNS;
 use crate::study::{Inputs, StudyError};
+use base::limit::count;
 use base::seed;
 use base::settings::{Document, Settings, SettingsError};
 use engine::kinematics::ik::Branch;
@@ -46,6 +47,7 @@ struct CellQueries {
     /// Instead of the robot file's tool.
     tool_mm: Option<f64>,
     queries: String,
+    #[serde(deserialize_with = "count::<0, 100_000, _, _>")]
     samples: u32,
     counted: CountedSetting,
     region: Region,

@@ -4,6 +4,7 @@ use super::{Entry, Family, Query};
 use crate::study::StudyError;
 use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::PLANE_COLUMNS;
+use base::limit::count;
 use base::seed;
 use base::settings::{Document, SettingsError};
 use engine::geometry::Vec2;
@@ -49,6 +50,7 @@ const RASTER_MM: f64 = 1.0 / 16.0;
 #[serde(deny_unknown_fields)]
 struct PlaneQueries {
     map: String,
+    #[serde(deserialize_with = "count::<0, 100_000, _, _>")]
     samples: u32,
     radius_mm: f64,
 }

@@ -6,6 +6,7 @@ use crate::study::StudyError;
 use crate::study::prepared::lattice;
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::bars;
+use base::limit::count;
 use base::seed::Stream;
 use serde::Deserialize;
 
@@ -34,6 +35,7 @@ struct RandomBars {
     goal: [u32; 2],
     corner_rule: lattice::CornerSetting,
     /// How many are drawn.
+    #[serde(deserialize_with = "count::<0, 1_000_000, _, _>")]
     count: u32,
     /// Least and most length.
     length_cells: [u32; 2],

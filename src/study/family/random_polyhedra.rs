@@ -5,6 +5,7 @@ use super::{Entry, Family, Query};
 use crate::study::StudyError;
 use crate::study::prepared::{Prepared, polyhedra};
 use crate::study::verification::POLYHEDRA_COLUMNS;
+use base::limit::count;
 use base::seed::{self, Stream};
 use base::settings::{Settings, SettingsError};
 use engine::geometry::{Aabb, Axis, Convex, Segment, Vec3, distance_segment_convex};
@@ -37,6 +38,7 @@ struct RandomPolyhedra {
     side_cm: f64,
     step_cm: f64,
     /// The fewest and the most obstacles; each number in between is as likely.
+    #[serde(deserialize_with = "count::<0, 10_000, _, _>")]
     count: [u32; 2],
     /// The least and the greatest extent along each axis.
     size_cm: [f64; 2],

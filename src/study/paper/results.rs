@@ -1,6 +1,7 @@
 //! Tables of our own results: rows of contenders, blocks of problems, cells of metrics.
 
 use super::Paper;
+use base::limit::count;
 use base::settings::SettingsError;
 use serde::Deserialize;
 use toml::Spanned;
@@ -47,6 +48,7 @@ pub struct CellSpec {
     /// Its head, if the metric's own title does not say it.
     pub label: Option<String>,
     /// How many decimals it is shown with.
+    #[serde(deserialize_with = "count::<0, 15, _, _>")]
     pub decimals: usize,
     /// Whether it is of the block's other problem group.
     #[serde(default)]

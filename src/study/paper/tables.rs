@@ -1,5 +1,6 @@
 //! The paper's own tables as they are asked for beside ours.
 
+use base::limit::count;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -16,6 +17,7 @@ pub struct TableSpec {
     /// What stands below it; the paper's notes if absent.
     pub notes: Option<Vec<String>>,
     /// With how many decimals our numbers are shown; two if absent.
+    #[serde(default, deserialize_with = "count::<0, 15, _, _>")]
     pub decimals: Option<usize>,
     /// Its rows.
     #[serde(rename = "row")]

@@ -9,6 +9,7 @@ use super::{Entry, Task};
 use crate::study::checked::Study;
 use crate::study::record::{Batch, Status, Values};
 use crate::study::runner::Unit;
+use base::limit::count;
 use base::seed::{self, Stream};
 use base::settings::Settings;
 use engine::geometry::{
@@ -56,6 +57,7 @@ const LABEL: &str = "Printed distance";
 #[serde(deny_unknown_fields)]
 struct FormulaError {
     /// Segments drawn beside each obstacle.
+    #[serde(deserialize_with = "count::<0, 10_000_000, _, _>")]
     samples: u32,
     /// Their ends lie in the box about the obstacle, grown by this share of its extent.
     reach: f64,
