@@ -3,7 +3,9 @@
 //! A solver belongs to a family of geometries, never to a robot by name: it reads the chain's rows, and
 //! refuses a chain that its closed form does not fit.
 
+mod form;
 mod offset_wrist;
+mod reach;
 mod spherical_wrist;
 #[cfg(test)]
 mod tests;
@@ -134,53 +136,4 @@ pub fn solver(name: &str, chain: &Chain) -> Result<Arc<dyn Solver>, KinematicsEr
         return Err(KinematicsError::UnknownSolver { found: name.to_owned(), known });
     };
     (family.build)(chain)
-}
-
-/// Which numbers of a chain's rows a closed form allows.
-struct Shape {
-    name: &'static str,
-    /// Sine and cosine of each twist; a right angle of either sign if `None`.
-    twists: [Option<(f64, f64)>; AXES],
-    /// Rows whose `a` must be 0.
-    a_zero: [bool; AXES],
-    /// Rows whose `d` must be 0.
-    d_zero: [bool; AXES],
-}
-
-impl Shape {
-    /// Refuses a chain that has another shape.
-    fn check(&self, chain: &Chain) -> Result<(), KinematicsError> {
-        for (i, joint) in chain.joints().iter().enumerate() {
-            let refuse = |key, found, accepted: &str| {
-                let accepted = format!("{accepted}, for the solver `{}`", self.name);
-                Err(KinematicsError::joint(i, key, found, &accepted))
-            };
-            let (twist, expected) = (chain.twists()[i], self.twists[i]);
-            if expected.is_none() && twist.1 != 0.0 {
-                return refuse("alpha_deg", joint.alpha_rad, "90 or -90");
-            }
-            if let Some((s, c)) = expected.filter(|expected| *expected != twist) {
-                return refuse("alpha_deg", joint.alpha_rad, &libm::atan2(s, c).to_degrees().to_string());
-            }
-            if self.a_zero[i] && joint.a_m != 0.0 {
-                return refuse("a_mm", joint.a_m, "0");
-            }
-            if !self.a_zero[i] && i == 1 && joint.a_m <= 0.0 {
-                return refuse("a_mm", joint.a_m, "more than 0");
-            }
-            if self.d_zero[i] && joint.d_m != 0.0 {
-                return refuse("d_mm", joint.d_m, "0");
-            }
-        }
-        Ok(())
-    }
-}
-
-/// The cosine by which two links `first` and `second` span the distance whose square is `distance2`.
-///
-/// `None` out of reach; beyond it by rounding is within.
-#[inline]
-fn opening_cosine(distance2: f64, first: f64, second: f64) -> Option<f64> {
-    let cosine = (distance2 - first * first - second * second) / (2.0 * first * second);
-    (cosine.abs() <= 1.0 + 1e-12).then(|| cosine.clamp(-1.0, 1.0))
 }
