@@ -23,7 +23,7 @@ use std::{f64::consts::FRAC_PI_2, sync::Arc};
 /// Row angles at which the arm stands upright, where the formulas count from.
 const UPRIGHT: Joints = [0.0, FRAC_PI_2, 0.0, -FRAC_PI_2, 0.0, 0.0];
 
-pub(super) const FAMILY: Family = Family { name: "offset_wrist", build };
+pub(super) const FAMILY: Family = Family { name: "offset_wrist", is_complete: true, build };
 
 const SHAPE: Shape = Shape {
     solver: FAMILY.name,

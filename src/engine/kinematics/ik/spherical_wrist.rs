@@ -22,7 +22,7 @@ use crate::geometry::Vec3;
 use crate::geometry::lanes::{self, PoseRows, dispatch};
 use std::{f64::consts::PI, sync::Arc};
 
-pub(super) const FAMILY: Family = Family { name: "spherical_wrist", build };
+pub(super) const FAMILY: Family = Family { name: "spherical_wrist", is_complete: true, build };
 
 const SHAPE: Shape = Shape {
     solver: FAMILY.name,
