@@ -1,8 +1,8 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 done, but what was checked is not as stored, or an independent judge disagrees; 4 `crosscheck`
-//! lacks Python or the network; 130 interrupted, and what was done is kept.
+//! wrong input files; 3 a check said no: something is not as stored, is judged otherwise, or an independent judge disagrees;
+//! 4 `crosscheck` lacks Python or the network; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
 macro_rules! say {

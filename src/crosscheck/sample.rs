@@ -4,6 +4,7 @@ use super::model::{Model, Pair};
 use super::subject::Subject;
 use base::seed::{self, Stream};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Why a configuration is asked about.
@@ -58,7 +59,7 @@ pub struct Question {
 }
 
 /// How many configurations of each kind are asked about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sizes {
     /// Drawn evenly.

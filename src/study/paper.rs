@@ -11,17 +11,19 @@ pub use findings::filled;
 
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
+pub use super::spec::Digits;
 use super::{Inputs, Reading, Study, StudyError};
-use base::settings::{Document, Settings, SettingsError};
+use base::settings::{AnyTable, Document, Settings, SettingsError, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use toml::{Spanned, Table};
+use toml::Table;
 
 /// `paper.toml` as written.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PaperSpec {
     source: Source,
@@ -39,7 +41,7 @@ struct PaperSpec {
 }
 
 /// Where the paper was published, as far as its text says.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
     /// Title.
@@ -59,7 +61,7 @@ pub struct Source {
 }
 
 /// How many numbered things the paper has.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Prints {
     /// Figures.
@@ -71,7 +73,7 @@ pub struct Prints {
 }
 
 /// One thing that the paper prints and what answers it.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LedgerRow {
     /// `Fig. 4`, `Table 1`, `Eq. 2`, or the place of a sentence.
@@ -91,7 +93,7 @@ pub struct LedgerRow {
     pub none: Option<String>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ClaimSpec {
     id: Spanned<String>,
@@ -104,19 +106,8 @@ struct ClaimSpec {
     untestable: Option<String>,
     theorem: Option<String>,
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
     check: BTreeMap<String, Spanned<Table>>,
-}
-
-/// How a printed number's digits end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Digits {
-    /// To the nearest.
-    Rounded,
-    /// Cut off.
-    Truncated,
-    /// Either.
-    Unknown,
 }
 
 /// What the paper says.

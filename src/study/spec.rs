@@ -2,13 +2,14 @@
 //!
 //! Unknown keys are refused everywhere; settings stay tables and are read by the entry they name.
 
-use super::paper::Digits;
+use base::settings::{AnyTable, AnyValue, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use toml::{Spanned, Table};
+use toml::Table;
 
 /// One study file.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudySpec {
     /// The paper it belongs to: the name of its folder.
@@ -20,6 +21,7 @@ pub struct StudySpec {
     /// What is done with the problems; `plan` unless said otherwise.
     pub task: Option<Spanned<String>>,
     /// Settings of the task.
+    #[schemars(with = "Option<AnyTable>")]
     pub task_settings: Option<Spanned<Table>>,
     /// Inputs were searched for so that claims would hold: at best *attainable*.
     #[serde(default)]
@@ -56,7 +58,7 @@ pub struct StudySpec {
 }
 
 /// A group of problems drawn from one family.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ProblemsSpec {
     /// Its name in records.
@@ -69,11 +71,12 @@ pub struct ProblemsSpec {
     /// what their settings do can be compared in pairs. The study and the label if absent.
     pub draw: Option<String>,
     /// The family's settings.
+    #[schemars(with = "AnyTable")]
     pub settings: Spanned<Table>,
 }
 
 /// A pipeline under a label.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContenderSpec {
     /// Its name in records and tables.
@@ -81,6 +84,7 @@ pub struct ContenderSpec {
     /// The planner.
     pub planner: Spanned<String>,
     /// The planner's settings.
+    #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
     /// Stages that tidy the plan, in order.
     #[serde(default)]
@@ -93,17 +97,18 @@ pub struct ContenderSpec {
 }
 
 /// A stage of a pipeline.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StageSpec {
     /// Its name in the registry.
     pub stage: Spanned<String>,
     /// Its settings.
+    #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
 }
 
 /// A factor that the paper varies.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepSpec {
     /// The setting that it fills, in every planner or stage named by `of`.
@@ -111,11 +116,12 @@ pub struct SweepSpec {
     /// The planner or stage whose setting it is.
     pub of: Spanned<String>,
     /// The values, in the paper's order.
+    #[schemars(with = "Vec<AnyValue>")]
     pub values: Spanned<Vec<toml::Value>>,
 }
 
 /// A way to fill in what the paper leaves open.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReadingSpec {
     /// Its name.
@@ -129,14 +135,16 @@ pub struct ReadingSpec {
 }
 
 /// What one option of a reading changes.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptionSpec {
     /// Settings laid over every problem's.
     #[serde(default)]
+    #[schemars(with = "AnyTable")]
     pub problem: Table,
     /// Settings laid over those of a planner or stage, by its name.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
     pub stage: BTreeMap<String, Table>,
     /// What a metric's name stands for under this option: no trial is rerun.
     #[serde(default)]
@@ -145,8 +153,20 @@ pub struct OptionSpec {
     pub digits: Option<Digits>,
 }
 
+/// How a printed number's digits end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Digits {
+    /// To the nearest.
+    Rounded,
+    /// Cut off.
+    Truncated,
+    /// Either.
+    Unknown,
+}
+
 /// Which readings a study explores: the defaults, every other option by itself, and a sample of their product.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExploreSpec {
     /// How many points of the product are drawn, without repetition, besides those that differ in one option.
@@ -154,7 +174,7 @@ pub struct ExploreSpec {
 }
 
 /// Limits on each trial.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BudgetSpec {
     /// At most this many expansions.
@@ -162,7 +182,7 @@ pub struct BudgetSpec {
 }
 
 /// How clocks are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimingSpec {
     /// How many problems of each group are timed, from the first replicate on.
@@ -174,7 +194,7 @@ pub struct TimingSpec {
 }
 
 /// Which trials.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TrialsSpec {
     /// The problem group's label.
@@ -188,7 +208,7 @@ pub struct TrialsSpec {
 }
 
 /// What `--quick` cuts down to.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct QuickSpec {
     /// Draws kept of each problem group.
@@ -200,11 +220,12 @@ pub struct QuickSpec {
     /// How clocks are read, where the study reads any.
     pub timing: Option<TimingSpec>,
     /// Settings laid over those of the task.
+    #[schemars(with = "Option<AnyTable>")]
     pub task_settings: Option<Table>,
 }
 
 /// A figure: its kind and what that kind wants to know.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FigureSpec {
     /// Its file name, after the paper's figure where there is one.
@@ -221,5 +242,6 @@ pub struct FigureSpec {
     #[serde(default)]
     pub shows: Vec<TrialsSpec>,
     /// The kind's settings.
+    #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
 }

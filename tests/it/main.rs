@@ -2,6 +2,7 @@
 
 mod arm;
 mod cell_threads;
+mod circles;
 mod cli_input;
 mod cli_places;
 mod cli_run;
@@ -10,6 +11,7 @@ mod committed;
 mod conformance;
 mod crosscheck;
 mod floors;
+mod guards;
 mod latex;
 mod laws;
 mod paper;

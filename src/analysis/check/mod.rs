@@ -55,7 +55,7 @@ use super::verdict::{Finding, Verdict};
 use crate::study::paper::{self, Claim, Paper};
 use crate::study::{ReadingChoice, Study};
 use audit::printed::{Digits, Printed};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 
 /// A check with its settings.
 pub trait Check {
@@ -113,6 +113,10 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it.
     pub build: for<'a> fn(&Context<'a>) -> Result<Box<dyn Check + 'a>, SettingsError>,
 }
@@ -169,6 +173,39 @@ pub static REGISTRY: &[&Entry] = &[
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
     REGISTRY.iter().copied().find(|entry| entry.name == name)
+}
+
+/// The checks of a claim, built.
+pub fn checks<'a>(
+    paper: &'a Paper,
+    point: &'a ReadingChoice,
+    claim: &'a Claim,
+) -> Result<Vec<(&'static str, Box<dyn Check + 'a>)>, SettingsError> {
+    let mut built = Vec::new();
+    for (name, settings) in &claim.checks {
+        let entry = find(name).ok_or_else(|| {
+            let known: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
+            let message = format!(
+                "claim `{}` asks for the check `{name}`, which does not exist; the checks are {}",
+                claim.id,
+                known.join(", ")
+            );
+            settings.error(message)
+        })?;
+        built.push((entry.name, (entry.build)(&Context { claim, settings, paper, point })?));
+    }
+    Ok(built)
+}
+
+/// The verdict on one claim under the evidence's reading, without the reasons.
+///
+/// # Errors
+/// Those of [`validate`].
+fn verdict_on(evidence: &Evidence<'_>, claim: &Claim) -> Result<Verdict, SettingsError> {
+    let checks = checks(evidence.paper, &evidence.point, claim)?;
+    let untestable = claim.untestable.as_ref().map(|_| Verdict::Untestable);
+    let found = checks.iter().filter_map(|(_, check)| check.verdict(evidence)).chain(untestable);
+    Ok(found.max().unwrap_or(Verdict::Undecided))
 }
 
 #[cfg(test)]

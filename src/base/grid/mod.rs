@@ -18,7 +18,7 @@ mod sight;
 mod text;
 
 pub use components::{Components, components};
-pub use cubic::{Grid3, MAX_SIDE_NODES, STEPS_26};
+pub use cubic::{Grid3, STEPS_26};
 pub use error::GridError;
 pub use moves::{CornerRule, DIRECTIONS, Moves};
 pub use movingai::{Scenario, parse_movingai_map, parse_scenarios, read_movingai_map, read_scenarios};
@@ -29,6 +29,9 @@ pub use text::{parse_text_map, read_text_map};
 
 /// The longest side that is accepted, in cells; 65 535² cells still have `u32` indices.
 pub const MAX_SIDE_CELLS: u32 = 65_535;
+
+/// The most nodes along one side of a lattice in space.
+pub const MAX_SIDE_NODES: u32 = 1023;
 
 /// A dense occupancy grid.
 #[derive(Clone, Debug, PartialEq, Eq)]

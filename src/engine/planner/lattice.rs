@@ -4,13 +4,14 @@ use super::{Counts, Ending, Exhibit, Invalid, Plan, Request, Value};
 use crate::search::{Cost as _, Counters, Octile, Outcome, Ties, Update};
 use crate::space::{LatticeWorld, World};
 use base::grid::Grid2;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The columns that every search on a lattice fills.
 pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated"];
 
 /// The order among equal f, as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum TiesSetting {
     Fifo,

@@ -41,7 +41,7 @@ use crate::analysis::verdict::Verdicts;
 use crate::study::Study;
 use crate::study::paper::Paper;
 use crate::study::spec::FigureSpec;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use toml::Table as Toml;
 
 /// What a figure is drawn from.
@@ -77,6 +77,10 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it from its settings.
     pub build: fn(&Settings, &Study, &Paper) -> Result<Box<dyn Kind>, SettingsError>,
 }

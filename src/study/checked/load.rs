@@ -1,19 +1,21 @@
 //! From a spec to checked types: what is wrong is said with file, line, column, what was found and what is accepted.
 
+use super::super::contender::StageUse;
+use super::super::error::StudyError;
+use super::super::family::Family;
+use super::super::inputs::Inputs;
+use super::super::name::slug;
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
-use super::{
-    Build, Contender, Family, Group, Inputs, Reading, ReadingChoice, Settings, StageUse, Study, StudyError,
-    Sweep, SweepPoint, slug,
-};
-use base::settings::{Document, SettingsError};
-use engine::planner;
+use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint};
+use base::settings::{Document, SettingsError, Spanned};
+use engine::planner::{self, Build};
 use engine::space::roadmap::Extent;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
-use toml::{Spanned, Table};
+use toml::Table;
 
 impl Study {
     /// Reads and checks the study in `path`.
@@ -144,8 +146,7 @@ impl Study {
     }
 
     fn check_selections(&self) -> Result<(), StudyError> {
-        let shown = self.figures.iter().flat_map(|figure| &figure.shows);
-        for selection in shown.chain(&self.keeps) {
+        for selection in self.kept() {
             let labels = || self.groups.iter().map(|g| g.label.as_str()).collect::<Vec<_>>().join(", ");
             if !self.groups.iter().any(|group| group.label == selection.problems) {
                 let message =

@@ -8,8 +8,10 @@ use super::{Entry, Family, Query};
 use crate::study::StudyError;
 use crate::study::prepared::{Prepared, lattice};
 use base::grid::{Grid2, Scenario, read_movingai_map, read_scenarios};
+use base::settings::Accepted;
 use engine::planner::{Counts, Invalid, Value};
 use engine::space::WorldKind;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -27,6 +29,12 @@ pub static ENTRY: Entry = Entry {
         "optimal_cost_cells",
         "printed_optimal_cells",
     ],
+    settings: Accepted::of::<MovingAi>(),
+    example: r#"
+map = "data/maps/movingai_sample.map"
+scenarios = "data/maps/movingai_sample.scen"
+corner_rule = "forbid_any"
+"#,
     build: |settings, inputs| {
         let read: MovingAi = settings.read()?;
         let file = |name: &str| inputs.locate(name).map_err(|message| settings.error(message));
@@ -48,7 +56,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MovingAi {
     map: String,

@@ -1,12 +1,12 @@
 //! Tables of our own results: rows of contenders, blocks of problems, cells of metrics.
 
 use super::Paper;
-use base::settings::SettingsError;
+use base::settings::{SettingsError, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use toml::Spanned;
 
 /// A table of results.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResultsSpec {
     /// Its file name.
@@ -25,7 +25,7 @@ pub struct ResultsSpec {
 }
 
 /// A block: all rows on one group of problems.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlockSpec {
     /// Its heading.
@@ -37,7 +37,7 @@ pub struct BlockSpec {
 }
 
 /// One column.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CellSpec {
     /// The metric.
@@ -54,7 +54,7 @@ pub struct CellSpec {
 }
 
 /// What is shown of a metric over the trials of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Show {
     /// The median, failed trials counted as infinite.

@@ -1,9 +1,8 @@
 //! What must hold in a paper as a whole: names that exist, tables that fit, a ledger without gaps.
 
 use super::{ClaimSpec, Paper, TableSpec};
-use base::settings::SettingsError;
+use base::settings::{SettingsError, Spanned};
 use std::collections::BTreeSet;
-use toml::Spanned;
 
 impl Paper {
     pub(super) fn check(&self, specs: &[ClaimSpec]) -> Result<(), SettingsError> {

@@ -1,10 +1,11 @@
 //! The paper's own tables as they are asked for beside ours.
 
+use base::settings::Spanned;
+use schemars::JsonSchema;
 use serde::Deserialize;
-use toml::Spanned;
 
 /// One of the paper's tables, to be set beside ours.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TableSpec {
     /// Its file name.
@@ -28,7 +29,7 @@ pub struct TableSpec {
 }
 
 /// The problem that a table's own rows are from.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OursSpec {
     /// The study.
@@ -42,7 +43,7 @@ pub struct OursSpec {
 }
 
 /// A row of a table.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TableRow {
     /// Its head.

@@ -8,11 +8,12 @@ use crate::{
         serial::{AXES, Chain, Joint},
     },
 };
+use base::settings::Spanned;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::{ops::Range, path::Path};
-use toml::Spanned;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RobotFile {
     name: String,
@@ -23,20 +24,20 @@ struct RobotFile {
     body: Spanned<Vec<BodyEntry>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BaseEntry {
     position_mm: Spanned<[f64; 3]>,
     yaw_deg: Spanned<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ToolEntry {
     length_mm: Spanned<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct JointEntry {
     alpha_deg: f64,
@@ -49,7 +50,7 @@ struct JointEntry {
     speed_rad_s: Option<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BodyEntry {
     name: Spanned<String>,
@@ -57,7 +58,7 @@ struct BodyEntry {
     self_pairs: Vec<Spanned<[String; 2]>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CapsuleEntry {
     name: String,
