@@ -57,22 +57,32 @@ impl Shape {
             let twist = accepted.map(|accepted| ("alpha_deg", joint.alpha_rad, accepted));
             let length = |key, found_m: f64, accepted| match accepted {
                 Length::Zero if found_m.abs() > ROUNDING_M => Some((key, found_m, "0")),
-                Length::NotZero if found_m.abs() <= ROUNDING_M => Some((key, found_m, "another number than 0")),
+                Length::NotZero if found_m.abs() <= ROUNDING_M => {
+                    Some((key, found_m, "another number than 0"))
+                }
                 _ => None,
             };
             let fault = twist
                 .or_else(|| length("a_mm", joint.a_m, self.a[i]))
                 .or_else(|| length("d_mm", joint.d_m, self.d[i]));
             if let Some((key, found, accepted)) = fault {
-                return Err(self.refusal(i, key, found, accepted));
+                return Err(self.refusal(chain, i, key, found, accepted));
             }
         }
         Ok(())
     }
 
-    /// The refusal of a joint, counted from 0, for a quantity in metres or radians.
-    pub fn refusal(&self, joint: usize, key: &'static str, found: f64, accepted: &str) -> KinematicsError {
-        KinematicsError::joint(joint, key, found, &format!("{accepted}, for the solver `{}`", self.solver))
+    /// The refusal of a row, counted from 0, for a quantity in metres or radians.
+    pub fn refusal(
+        &self,
+        chain: &Chain,
+        row: usize,
+        key: &'static str,
+        found: f64,
+        accepted: &str,
+    ) -> KinematicsError {
+        let accepted = format!("{accepted}, for the solver `{}`", self.solver);
+        KinematicsError::joint(chain.written_in(row, key), key, found, &accepted)
     }
 }
 

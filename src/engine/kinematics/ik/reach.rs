@@ -2,7 +2,8 @@
 //!
 //! What a pose leaves free keeps its reference: joint 1 where the wrist is on axis 1 and the arm has no shoulder offset, joint 2
 //! where links of equal length are folded onto each other and the wrist is on axis 2. At full stretch, fully folded, and at
-//! the shoulder offset's distance from axis 1, two branches coincide and both are given.
+//! the shoulder offset's distance from axis 1, two branches coincide and both are given. Where the last two of these meet,
+//! rounding decides whether the pose is within reach.
 
 use crate::geometry::Vec3;
 

@@ -54,8 +54,8 @@ fn build(chain: &Chain) -> Result<Arc<dyn Solver>, KinematicsError> {
     let Form { a, d, .. } = form;
     let forearm = libm::hypot(a[2], d[3]);
     if without_rounding(forearm) == 0.0 {
-        let accepted = "another number than 0 where a_mm of joint 3 is 0";
-        return Err(SHAPE.refusal(3, "d_mm", d[3], accepted));
+        let accepted = "another number than 0, since the row before has no a_mm";
+        return Err(SHAPE.refusal(chain, 3, "d_mm", d[3], accepted));
     }
     let signs = [0, 2, 3, 4].map(|joint: usize| form.twists[joint].0);
     Ok(Arc::new(SphericalWrist {

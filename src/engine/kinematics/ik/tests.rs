@@ -15,7 +15,9 @@ use base::seed;
 use rand::RngExt as _;
 use std::{f64::consts::PI, f64::consts::TAU, fs, path::Path};
 
+mod closed;
 mod numerical;
+mod tables;
 
 const ROBOTS: [(u64, &str); 2] = [(721, "motoman_up6"), (722, "aubo_i10")];
 
@@ -222,7 +224,9 @@ fn closed_forms_hold_for_other_signs_offsets_bases_and_tools_than_the_robots_hav
             joints[joint].offset_rad = 0.3 * f64::from(signs) - 2.0;
         }
         joints[2].a_m = 0.02 * f64::from(signs) - 0.1;
-        assert_round_trips(&Arm::new(Chain::new(joints, base, tool).unwrap(), Some("spherical_wrist")).unwrap());
+        assert_round_trips(
+            &Arm::new(Chain::new(joints, base, tool).unwrap(), Some("spherical_wrist")).unwrap(),
+        );
     }
     let mut joints = *aubo.arm().chain().joints();
     for (i, joint) in joints.iter_mut().enumerate() {
@@ -255,19 +259,22 @@ fn a_chain_of_another_family_is_refused_with_the_joint_and_the_number() {
     let cases = [
         (
             refusal("aubo_i10", |_| (), "spherical_wrist"),
-            "joint 2: alpha_deg is 180; accepted: 0, for the solver",
+            "joint 3: alpha_deg is 180; accepted: 90 or -90, for the solver `spherical_wrist`; `offset_wrist` fits",
         ),
-        (refusal("motoman_up6", |_| (), "offset_wrist"), "joint 1: alpha_deg is -90; accepted: 90, for"),
+        (refusal("motoman_up6", |_| (), "offset_wrist"), "joint 1: a_mm is 150; accepted: 0, for"),
         (refusal("motoman_up6", |j| j[4].d_m = 0.01, "spherical_wrist"), "joint 5: d_mm is 10; accepted: 0"),
         (refusal("motoman_up6", |j| j[3].a_m = 0.02, "spherical_wrist"), "joint 4: a_mm is 20; accepted: 0"),
-        (refusal("motoman_up6", |j| j[1].a_m = 0.0, "spherical_wrist"), "joint 2: a_mm is 0; accepted: more"),
+        (
+            refusal("motoman_up6", |j| j[1].a_m = 0.0, "spherical_wrist"),
+            "joint 2: a_mm is 0; accepted: another",
+        ),
         (
             refusal("motoman_up6", |j| j[3].alpha_rad = 1.4, "spherical_wrist"),
             "joint 4: alpha_deg is 80.2140",
         ),
         (
             refusal("motoman_up6", |_| (), "newton"),
-            "solver `newton` does not exist; the solvers are offset_wrist",
+            "solver `newton` does not exist; the solvers are numerical, offset_wrist, spherical_wrist",
         ),
     ];
     for (found, expected) in cases {
