@@ -10,7 +10,7 @@ use std::mem::discriminant;
 use toml::Table;
 
 /// A pipeline under a label.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Contender {
     /// Its name in records and tables.
     pub label: String,
@@ -25,7 +25,7 @@ pub struct Contender {
 }
 
 /// An entry of the planner registry with its settings.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct StageUse {
     /// The entry.
     pub entry: &'static planner::Entry,
@@ -75,7 +75,7 @@ impl StageUse {
 }
 
 /// A factor that the paper varies.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Sweep {
     /// The setting.
     pub key: String,

@@ -8,6 +8,7 @@ use super::checked::Study;
 use super::clock;
 use super::error::StudyError;
 use super::family::Family;
+use super::group::Families;
 use super::inputs::Inputs;
 use super::key::{DrawKey, Owner, ReadingKey, Text, TrialKey};
 use super::name::Names;
@@ -71,7 +72,7 @@ pub struct BuiltStudy<'a> {
     task: Box<dyn Task>,
     points: &'a [ReadingChoice],
     readings: Vec<ReadingKey>,
-    families: Vec<Vec<Box<dyn Family>>>,
+    families: Vec<Vec<Arc<dyn Family>>>,
     entrants: Vec<Vec<Entrant<'a>>>,
 }
 
@@ -85,12 +86,12 @@ impl<'a> BuiltStudy<'a> {
         points: &'a [ReadingChoice],
         inputs: &'a Inputs,
     ) -> Result<Self, StudyError> {
-        let (mut families, mut entrants) = (Vec::new(), Vec::new());
+        let (mut families, mut entrants, mut built) = (Vec::new(), Vec::new(), Families::default());
         let labels: Vec<Text> = study.contenders.iter().map(|c| c.label.as_str().into()).collect();
         let sweeps = study.sweep_points();
         for point in points {
-            let built = study.groups.iter().map(|group| group.family(point, inputs));
-            families.push(built.collect::<Result<Vec<_>, _>>()?);
+            let of = |group| built.of(group, point, inputs);
+            families.push(study.groups.iter().map(of).collect::<Result<Vec<_>, _>>()?);
             let mut line_up = Vec::new();
             for (contender, label) in study.contenders.iter().zip(&labels) {
                 for sweep in &sweeps {
