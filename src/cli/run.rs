@@ -8,6 +8,7 @@ use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
 use crate::study::session::{self, Options, Report, UnexpectedStatus};
+use base::settings::Faults;
 use clap::Args;
 
 /// Runs the studies of a paper.
@@ -45,9 +46,11 @@ impl Run {
 pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
     let paper = how.apply(Paper::load(&places.folder, &places.inputs)?);
     how.check_readings(&paper)?;
-    claims::validate(&paper)?;
-    crate::render::figure::validate(&paper)?;
-    crate::render::results::validate(&paper)?;
+    let mut faults = Faults::default();
+    faults.keep(claims::validate(&paper));
+    faults.keep(crate::render::figure::validate(&paper));
+    faults.keep(crate::render::results::validate(&paper));
+    faults.done()?;
     Ok(paper)
 }
 

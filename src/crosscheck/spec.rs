@@ -215,7 +215,7 @@ impl Spec {
         if let Some(twice) = known.iter().enumerate().find(|(at, name)| known[..*at].contains(name)) {
             let message =
                 format!("two cases are called `{}`; accepted: labels that tell them apart", twice.1);
-            return Err(self.document.error(0..0, message));
+            return Err(self.document.error_at("case", message));
         }
         Ok(())
     }

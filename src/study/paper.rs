@@ -13,7 +13,7 @@ use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
 pub use super::spec::Digits;
 use super::{Inputs, Reading, Study, StudyError};
-use base::settings::{AnyTable, Document, Settings, SettingsError, Spanned};
+use base::settings::{AnyTable, Document, Faults, Settings, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -176,15 +176,23 @@ impl Paper {
             return Err(StudyError::Missing { path, what });
         }
         let document = Document::open(&path)?;
-        let spec: PaperSpec = document.read()?;
+        let mut faults = Faults::default();
+        let spec = faults.keep(document.read::<PaperSpec>());
+        let files = study_files(folder)?;
         let mut studies = Vec::new();
-        for path in study_files(folder)? {
-            studies.push(Study::load(&path, inputs)?);
+        for path in &files {
+            match Study::load(path, inputs) {
+                Ok(study) => studies.push(study),
+                Err(StudyError::Settings(fault)) => faults.add(fault),
+                Err(other) => return Err(other),
+            }
         }
-        if studies.is_empty() {
+        if files.is_empty() {
             let what = "no study; a study is a TOML file beside paper.toml".to_owned();
             return Err(StudyError::Missing { path: folder.to_owned(), what });
         }
+        let Some(spec) = spec else { return Err(faults.error().into()) };
+        let claims = spec.claims.iter().filter_map(|c| faults.keep(claim(&document, c))).collect();
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -192,14 +200,18 @@ impl Paper {
             source: spec.source,
             prints: spec.prints,
             ledger: spec.ledger,
-            claims: spec.claims.iter().map(|c| claim(&document, c)).collect::<Result<_, _>>()?,
+            claims,
             tables: spec.tables,
             results: spec.results,
             series: spec.series,
             studies,
             document,
         };
-        paper.check(&spec.claims)?;
+        // Names that are missing because their file is wrong are no faults of those that use them.
+        if faults.is_empty() {
+            paper.check(&spec.claims, &mut faults);
+        }
+        faults.done()?;
         Ok(paper)
     }
 

@@ -66,7 +66,8 @@ pub struct ProblemsSpec {
     /// The problem family.
     pub family: Spanned<String>,
     /// How many independent draws.
-    pub replicates: Option<Spanned<u32>>,
+    #[schemars(range(min = 1))]
+    pub replicates: Option<u32>,
     /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
     /// what their settings do can be compared in pairs. The study and the label if absent.
     pub draw: Option<String>,
@@ -90,7 +91,8 @@ pub struct ContenderSpec {
     #[serde(default)]
     pub then: Vec<StageSpec>,
     /// How many seeds it runs on each problem; more than 1 only where it draws.
-    pub repeats: Option<Spanned<u32>>,
+    #[schemars(range(min = 1))]
+    pub repeats: Option<u32>,
     /// Readings, with the option, that its settings take in place of the one in hand: it is then shown under these.
     #[serde(default)]
     pub departs: BTreeMap<String, String>,
@@ -178,6 +180,7 @@ pub struct ExploreSpec {
 #[serde(deny_unknown_fields)]
 pub struct BudgetSpec {
     /// At most this many expansions.
+    #[schemars(range(min = 1))]
     pub expansions: u64,
 }
 

@@ -101,16 +101,17 @@ impl Faults {
         self.0.is_empty()
     }
 
-    /// Nothing, or all that is wrong in the order of the places.
+    /// All that is wrong, in the order of the places; only for who has added a fault.
+    pub fn error(mut self) -> SettingsError {
+        self.0.sort_by(|a, b| a.place().cmp(&b.place()));
+        if self.0.len() == 1 { self.0.remove(0) } else { SettingsError::Several(self.0) }
+    }
+
+    /// Nothing, or all that is wrong.
     ///
     /// # Errors
-    /// The faults: the one itself, or [`SettingsError::Several`].
-    pub fn done(mut self) -> Result<(), SettingsError> {
-        self.0.sort_by(|a, b| a.place().cmp(&b.place()));
-        match self.0.len() {
-            0 => Ok(()),
-            1 => Err(self.0.remove(0)),
-            _ => Err(SettingsError::Several(self.0)),
-        }
+    /// As [`error`](Self::error), if there is any.
+    pub fn done(self) -> Result<(), SettingsError> {
+        if self.is_empty() { Ok(()) } else { Err(self.error()) }
     }
 }

@@ -1,10 +1,10 @@
 //! What somebody may have meant who wrote a name that does not exist.
 
-/// `; did you mean X?` with the known name nearest to `written`, or nothing if none is near.
+/// ` (did you mean X?)` with the known name nearest to `written`, or nothing if none is near.
 ///
 /// Near is at most a third of the letters added, left out, changed or swapped with their neighbour, whatever their case.
 pub fn did_you_mean<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    nearest(written, known).map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+    nearest(written, known).map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"))
 }
 
 /// The known name nearest to `written`, if one is near.
@@ -21,8 +21,5 @@ pub fn none_called<'a>(what: &str, written: &str, known: impl IntoIterator<Item 
     let known: Vec<&str> = known.into_iter().collect();
     let hint = did_you_mean(written, known.iter().copied());
     let known = if known.is_empty() { "none at all".to_owned() } else { known.join(", ") };
-    match hint.is_empty() {
-        true => format!("there is no {what} `{written}`; there are {known}"),
-        false => format!("there is no {what} `{written}`{hint} there are {known}"),
-    }
+    format!("there is no {what} `{written}`{hint}; there are {known}")
 }

@@ -88,6 +88,18 @@ impl Settings {
         }
     }
 
+    /// An error about `word`, a name that these settings give: at the first text of the table that is it.
+    pub fn error_about(&self, word: &str, message: impl Into<String>) -> SettingsError {
+        match &self.origin {
+            Origin::Written { document, span } => {
+                let whole = document.parsed().ok().and_then(|whole| find(whole, span));
+                let at = whole.and_then(|table| text(table, word)).unwrap_or_else(|| span.clone());
+                document.error(at, message)
+            }
+            Origin::Composed(_) => self.error(message),
+        }
+    }
+
     fn place(&self) -> String {
         match &self.origin {
             Origin::Composed(origin) => origin.clone(),
@@ -126,6 +138,19 @@ fn find<'a, 't>(
     match value.get_ref() {
         DeValue::Table(table) => table.iter().find_map(|(_, v)| find(v, span)),
         DeValue::Array(array) => array.iter().find_map(|v| find(v, span)),
+        _ => None,
+    }
+}
+
+/// Where the first text inside `value` that is `word` stands.
+fn text(value: &toml::Spanned<DeValue<'_>>, word: &str) -> Option<Range<usize>> {
+    match value.get_ref() {
+        DeValue::String(found) => (found == word).then(|| value.span()),
+        DeValue::Table(table) => {
+            let found = table.iter().filter_map(|(_, inner)| text(inner, word));
+            found.min_by_key(|span| span.start)
+        }
+        DeValue::Array(array) => array.iter().find_map(|inner| text(inner, word)),
         _ => None,
     }
 }

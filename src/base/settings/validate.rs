@@ -200,10 +200,7 @@ fn unknown(node: Node<'_>, name: &str) -> String {
     let hint = did_you_mean(name, known.iter().copied());
     let known: Vec<String> = known.iter().map(|key| format!("`{key}`")).collect();
     let accepted = if known.is_empty() { "no key".to_owned() } else { known.join(", ") };
-    format!(
-        "unknown key `{name}`{hint}{} {accepted} is accepted here",
-        if hint.is_empty() { ";" } else { "" }
-    )
+    format!("unknown key `{name}`{hint}; accepted: {accepted}")
 }
 
 fn missing(node: Node<'_>, key: &str) -> String {
@@ -222,8 +219,7 @@ fn refused(subject: Subject<'_>, accepted: &str) -> Fault {
 
 fn no_such_word(subject: Subject<'_>, word: &str, known: &[&str], accepted: &str) -> Fault {
     let hint = did_you_mean(word, known.iter().copied());
-    let separator = if hint.is_empty() { ";" } else { "" };
-    let message = format!("`{}` is \"{word}\"{hint}{separator} {accepted} is accepted", subject.name);
+    let message = format!("`{}` is \"{word}\"{hint}; {accepted} is accepted", subject.name);
     Fault { span: subject.span(), message }
 }
 

@@ -200,7 +200,7 @@ fn read_queries(document: &Document) -> Result<Vec<Query>, SettingsError> {
     };
     let queries: Vec<Query> = file.groups.iter().map(query).collect::<Result<_, _>>()?;
     if queries.is_empty() {
-        return Err(document.error(0..0, "there is no group; at least one is accepted"));
+        return Err(document.error_at("group", "there is no group; at least one is accepted"));
     }
     Ok(queries)
 }

@@ -91,7 +91,7 @@ impl MapFile {
         };
         if !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
             let message = format!("size_mm is {:?}; two lengths above 0 are accepted", self.size_mm);
-            return Err(document.error(0..0, message));
+            return Err(document.error_at("size_mm", message));
         }
         Ok(PlaneMap::new(self.size_mm, self.obstacles.iter().map(polygon).collect::<Result<_, _>>()?))
     }
