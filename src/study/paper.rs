@@ -12,21 +12,26 @@ pub use findings::filled;
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
 pub use super::spec::Digits;
-use super::{Inputs, Reading, Study, StudyError};
-use base::settings::{AnyTable, Document, Faults, Settings, SettingsError, Spanned};
+use super::{Inputs, Reading, Study, StudyError, files};
+use base::settings::{Accepted, AnyTable, Document, Faults, Settings, SettingsError, Spanned};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Table;
 
+/// What `paper.toml` may hold.
+pub const FILE: Accepted = Accepted::of::<PaperSpec>();
+
 /// `paper.toml` as written.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PaperSpec {
     source: Source,
+    /// How many numbered things the paper has, each of which then needs a row in the ledger; none if absent.
+    #[serde(default)]
     prints: Prints,
     #[serde(default)]
     ledger: Vec<LedgerRow>,
@@ -61,8 +66,8 @@ pub struct Source {
 }
 
 /// How many numbered things the paper has.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Prints {
     /// Figures.
     pub figures: u32,
@@ -158,6 +163,8 @@ pub struct Paper {
     pub series: BTreeMap<String, usize>,
     /// Its studies, in the order of their names.
     pub studies: Vec<Study>,
+    /// TOML files of its folder that are no studies, with the kind that each is.
+    pub others: Vec<(PathBuf, &'static str)>,
     /// The file it was read from.
     pub document: Arc<Document>,
 }
@@ -180,14 +187,22 @@ impl Paper {
         let spec = faults.keep(document.read::<PaperSpec>());
         let files = study_files(folder)?;
         let mut studies = Vec::new();
+        let mut others = Vec::new();
         for path in &files {
+            if let Ok(document) = Document::open(path)
+                && let Some(kind) = files::other_than_study(&document)
+            {
+                faults.keep(files::validate(&document, kind));
+                others.push((path.clone(), kind.name));
+                continue;
+            }
             match Study::load(path, inputs) {
                 Ok(study) => studies.push(study),
                 Err(StudyError::Settings(fault)) => faults.add(fault),
                 Err(other) => return Err(other),
             }
         }
-        if files.is_empty() {
+        if files.len() == others.len() && faults.is_empty() {
             let what = "no study; a study is a TOML file beside paper.toml".to_owned();
             return Err(StudyError::Missing { path: folder.to_owned(), what });
         }
@@ -205,6 +220,7 @@ impl Paper {
             results: spec.results,
             series: spec.series,
             studies,
+            others,
             document,
         };
         // Names that are missing because their file is wrong are no faults of those that use them.

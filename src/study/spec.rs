@@ -4,7 +4,7 @@
 
 use base::settings::{AnyTable, AnyValue, Spanned};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use toml::Table;
 
@@ -51,6 +51,7 @@ pub struct StudySpec {
     #[serde(default, rename = "keep")]
     pub keeps: Vec<TrialsSpec>,
     /// What `--quick` cuts down to.
+    #[serde(default)]
     pub quick: QuickSpec,
     /// Figures drawn from this study.
     #[serde(default, rename = "figure")]
@@ -176,7 +177,7 @@ pub struct ExploreSpec {
 }
 
 /// Limits on each trial.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BudgetSpec {
     /// At most this many expansions.
@@ -185,7 +186,7 @@ pub struct BudgetSpec {
 }
 
 /// How clocks are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimingSpec {
     /// How many problems of each group are timed, from the first replicate on.
@@ -211,10 +212,11 @@ pub struct TrialsSpec {
 }
 
 /// What `--quick` cuts down to.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct QuickSpec {
     /// Draws kept of each problem group.
+    #[serde(default = "few")]
     pub replicates: u32,
     /// Seeds kept of each contender.
     pub repeats: Option<u32>,
@@ -225,6 +227,17 @@ pub struct QuickSpec {
     /// Settings laid over those of the task.
     #[schemars(with = "Option<AnyTable>")]
     pub task_settings: Option<Table>,
+}
+
+/// Draws kept of each group by `--quick` where the spec does not say: what shows that a study runs, and no more.
+fn few() -> u32 {
+    2
+}
+
+impl Default for QuickSpec {
+    fn default() -> Self {
+        Self { replicates: few(), repeats: None, budget: None, timing: None, task_settings: None }
+    }
 }
 
 /// A figure: its kind and what that kind wants to know.

@@ -50,6 +50,23 @@ impl SettingsError {
         }
     }
 
+    /// The same with `before` in front of what is wrong.
+    #[must_use]
+    pub fn prefixed(self, before: &str) -> Self {
+        match self {
+            Self::At { path, line, column, message, excerpt } => {
+                Self::At { path, line, column, message: format!("{before}{message}"), excerpt }
+            }
+            Self::Composed { origin, message } => {
+                Self::Composed { origin, message: format!("{before}{message}") }
+            }
+            Self::Several(errors) => {
+                Self::Several(errors.into_iter().map(|error| error.prefixed(before)).collect())
+            }
+            unreadable @ Self::Unreadable { .. } => unreadable,
+        }
+    }
+
     /// Each fault by itself.
     pub fn each(self) -> Vec<Self> {
         match self {
@@ -86,6 +103,15 @@ impl Faults {
     pub fn add(&mut self, error: SettingsError) {
         for fault in error.each() {
             if !self.0.contains(&fault) {
+                self.0.push(fault);
+            }
+        }
+    }
+
+    /// Adds what is wrong where nothing was found yet: a second look that says the same in other words adds nothing.
+    pub fn add_elsewhere(&mut self, error: SettingsError) {
+        for fault in error.each() {
+            if !self.0.iter().any(|known| known.place() == fault.place()) {
                 self.0.push(fault);
             }
         }

@@ -205,7 +205,8 @@ fn unknown(node: Node<'_>, name: &str) -> String {
 
 fn missing(node: Node<'_>, key: &str) -> String {
     let own = node.properties().find(|(name, _)| *name == key).and_then(|(_, part)| part.text("description"));
-    let meaning = own.map_or_else(String::new, |text| format!(": {}", super::describe::first_sentence(text)));
+    let meaning =
+        own.map_or_else(String::new, |text| format!(" ({})", super::describe::first_sentence(text)));
     let accepted =
         node.property(key).map_or_else(String::new, |part| format!("; {} is accepted", part.accepted()));
     format!("missing key `{key}`{meaning}{accepted}")
@@ -213,6 +214,9 @@ fn missing(node: Node<'_>, key: &str) -> String {
 
 fn refused(subject: Subject<'_>, accepted: &str) -> Fault {
     let found = shown(subject.value.get_ref());
+    let is_finite = number(subject.value.get_ref()).is_none_or(f64::is_finite);
+    let accepted =
+        if is_finite { accepted.to_owned() } else { accepted.replace("a number", "a finite number") };
     let name = if subject.name.is_empty() { "the value".to_owned() } else { format!("`{}`", subject.name) };
     Fault { span: subject.span(), message: format!("{name} is {found}; {accepted} is accepted") }
 }

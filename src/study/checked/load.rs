@@ -256,13 +256,14 @@ fn reading(spec: ReadingSpec) -> Reading {
 fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
     let known = family::REGISTRY.iter().map(|entry| entry.name);
     let replicates = spec.replicates.unwrap_or(1);
+    let family = look_up(document, "problem family", &spec.family, family::find, known)?;
     Ok(Group {
         label: spec.label.get_ref().clone(),
-        family: look_up(document, "problem family", &spec.family, family::find, known)?,
+        family,
         replicates,
         draw: spec.draw.clone(),
         is_numbered: replicates > 1,
-        settings: Settings::written(document, &spec.settings),
+        settings: Settings::written(document, &spec.settings).completed(family.settings),
     })
 }
 
@@ -302,5 +303,6 @@ fn stage(
         document.error(name.span(), message)
     })?;
     let settings = optional(document, settings, &format!("contender `{label}`, {what} `{}`", entry.name));
+    let settings = settings.completed(entry.settings);
     Ok(StageUse { entry, settings })
 }

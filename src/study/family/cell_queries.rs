@@ -164,6 +164,9 @@ impl CellQueries {
 }
 
 /// The file of poses and of groups that join two of them.
+/// What a file of groups may hold.
+pub const GROUPS_FILE: Accepted = Accepted::of::<GroupsFile>();
+
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GroupsFile {

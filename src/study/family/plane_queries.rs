@@ -59,6 +59,9 @@ struct PlaneQueries {
     radius_mm: f64,
 }
 
+/// What a file of polygons may hold.
+pub const MAP_FILE: Accepted = Accepted::of::<MapFile>();
+
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MapFile {
