@@ -27,6 +27,7 @@ pub mod verification;
 
 pub mod unit;
 
+pub mod files;
 pub mod task;
 
 mod checked;
