@@ -29,18 +29,24 @@ pub const FILE: Accepted = Accepted::of::<PaperSpec>();
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PaperSpec {
+    /// Where it was published.
     source: Source,
     /// How many numbered things the paper has, each of which then needs a row in the ledger; none if absent.
     #[serde(default)]
     prints: Prints,
+    /// Everything that it prints, and what answers it.
     #[serde(default)]
     ledger: Vec<LedgerRow>,
+    /// What it says.
     #[serde(default, rename = "claim")]
     claims: Vec<ClaimSpec>,
+    /// Its own tables, to be set beside ours.
     #[serde(default, rename = "table")]
     tables: Vec<TableSpec>,
+    /// Tables of our results.
     #[serde(default)]
     results: Vec<ResultsSpec>,
+    /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
     #[serde(default)]
     series: BTreeMap<String, usize>,
 }
@@ -101,15 +107,25 @@ pub struct LedgerRow {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ClaimSpec {
+    /// Its name.
     id: Spanned<String>,
+    /// Where it stands in the paper.
     at: String,
+    /// The sentence, where it is not a number alone.
     says: Option<String>,
+    /// The paper's own words, where they are given word for word.
     quote: Option<String>,
+    /// The number as printed, digits and all.
     printed: Option<Spanned<String>>,
+    /// The number's unit; absent if the paper gives none.
     unit: Option<String>,
+    /// How the number's digits end, where the claim says so; otherwise the reading decides.
     digits: Option<Digits>,
+    /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
     untestable: Option<String>,
+    /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
     theorem: Option<String>,
+    /// How it is judged: the settings of each check, by the check's name.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, AnyTable>")]
     check: BTreeMap<String, Spanned<Table>>,
@@ -185,27 +201,7 @@ impl Paper {
         let document = Document::open(&path)?;
         let mut faults = Faults::default();
         let spec = faults.keep(document.read::<PaperSpec>());
-        let files = study_files(folder)?;
-        let mut studies = Vec::new();
-        let mut others = Vec::new();
-        for path in &files {
-            if let Ok(document) = Document::open(path)
-                && let Some(kind) = files::other_than_study(&document)
-            {
-                faults.keep(files::validate(&document, kind));
-                others.push((path.clone(), kind.name));
-                continue;
-            }
-            match Study::load(path, inputs) {
-                Ok(study) => studies.push(study),
-                Err(StudyError::Settings(fault)) => faults.add(fault),
-                Err(other) => return Err(other),
-            }
-        }
-        if files.len() == others.len() && faults.is_empty() {
-            let what = "no study; a study is a TOML file beside paper.toml".to_owned();
-            return Err(StudyError::Missing { path: folder.to_owned(), what });
-        }
+        let (studies, others) = studies(folder, inputs, &mut faults)?;
         let Some(spec) = spec else { return Err(faults.error().into()) };
         let claims = spec.claims.iter().filter_map(|c| faults.keep(claim(&document, c))).collect();
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
@@ -270,6 +266,35 @@ impl Paper {
     pub fn claim(&self, id: &str) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.id == id)
     }
+}
+
+/// The studies in `folder`, and the files in it that are of another kind; what is wrong with them goes to `faults`.
+fn studies(
+    folder: &Path,
+    inputs: &Inputs,
+    faults: &mut Faults,
+) -> Result<(Vec<Study>, Vec<(PathBuf, &'static str)>), StudyError> {
+    let files = study_files(folder)?;
+    let (mut studies, mut others) = (Vec::new(), Vec::new());
+    for path in &files {
+        if let Ok(document) = Document::open(path)
+            && let Some(kind) = files::other_than_study(&document)
+        {
+            faults.keep(files::validate(&document, kind));
+            others.push((path.clone(), kind.name));
+            continue;
+        }
+        match Study::load(path, inputs) {
+            Ok(study) => studies.push(study),
+            Err(StudyError::Settings(fault)) => faults.add(fault),
+            Err(other) => return Err(other),
+        }
+    }
+    if files.len() == others.len() && faults.is_empty() {
+        let what = "no study; a study is a TOML file beside paper.toml".to_owned();
+        return Err(StudyError::Missing { path: folder.to_owned(), what });
+    }
+    Ok((studies, others))
 }
 
 /// Files of a paper's folder that are no studies: the paper itself, and what an independent judge is asked.

@@ -52,6 +52,7 @@ struct ArmPlane {
     paths: bool,
     /// At how many points of the first path the arm is drawn.
     stations: usize,
+    /// The panels, in their order.
     panels: Vec<PanelSetting>,
 }
 

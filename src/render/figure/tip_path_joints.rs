@@ -43,6 +43,7 @@ struct TipPathJoints {
     /// How many panels stand side by side: θ1 and θ2 of a problem follow each other.
     #[serde(default = "two")]
     columns: usize,
+    /// The panels, in their order.
     panels: Vec<PanelSetting>,
 }
 
