@@ -10,6 +10,7 @@ pub mod clock;
 pub mod column;
 mod error;
 mod inputs;
+pub mod key;
 pub mod name;
 pub mod spec;
 
@@ -38,6 +39,8 @@ pub mod runner;
 
 pub mod manifest;
 
+pub mod reuse;
+
 pub mod session;
 
 pub mod rerun;
@@ -45,7 +48,7 @@ pub mod rerun;
 pub use checked::Study;
 pub use contender::{Contender, StageUse, Sweep};
 pub use error::StudyError;
-pub use group::Group;
+pub use group::{Families, Group};
 pub use inputs::Inputs;
 pub use name::slug;
 pub use reading::{Reading, ReadingChoice};

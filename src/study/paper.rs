@@ -76,10 +76,13 @@ pub struct Source {
 #[serde(default, deny_unknown_fields)]
 pub struct Prints {
     /// Figures.
+    #[schemars(range(max = 1000))]
     pub figures: u32,
     /// Tables.
+    #[schemars(range(max = 1000))]
     pub tables: u32,
     /// Equations.
+    #[schemars(range(max = 1000))]
     pub equations: u32,
 }
 
@@ -201,9 +204,32 @@ impl Paper {
         let document = Document::open(&path)?;
         let mut faults = Faults::default();
         let spec = faults.keep(document.read::<PaperSpec>());
-        let (studies, others) = studies(folder, inputs, &mut faults)?;
+        let files = study_files(folder)?;
+        let (studies, others) = read_files(&files, inputs, &mut faults)?;
+        if files.len() == others.len() && faults.is_empty() {
+            let what = "no study; a study is a TOML file beside paper.toml".to_owned();
+            return Err(StudyError::Missing { path: folder.to_owned(), what });
+        }
         let Some(spec) = spec else { return Err(faults.error().into()) };
-        let claims = spec.claims.iter().filter_map(|c| faults.keep(claim(&document, c))).collect();
+        Self::assemble(folder, &document, spec, (studies, others), faults)
+    }
+
+    /// The paper in `folder` whose paper.toml is `document`, with studies that were loaded.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load), but for those of the studies.
+    pub fn of(folder: &Path, document: &Arc<Document>, studies: Vec<Study>) -> Result<Self, StudyError> {
+        Self::assemble(folder, document, document.read()?, (studies, Vec::new()), Faults::default())
+    }
+
+    fn assemble(
+        folder: &Path,
+        document: &Arc<Document>,
+        spec: PaperSpec,
+        (studies, others): Files,
+        mut faults: Faults,
+    ) -> Result<Self, StudyError> {
+        let claims = spec.claims.iter().filter_map(|c| faults.keep(claim(document, c))).collect();
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -217,7 +243,7 @@ impl Paper {
             series: spec.series,
             studies,
             others,
-            document,
+            document: document.clone(),
         };
         // Names that are missing because their file is wrong are no faults of those that use them.
         if faults.is_empty() {
@@ -268,15 +294,12 @@ impl Paper {
     }
 }
 
-/// The studies in `folder`, and the files in it that are of another kind; what is wrong with them goes to `faults`.
-fn studies(
-    folder: &Path,
-    inputs: &Inputs,
-    faults: &mut Faults,
-) -> Result<(Vec<Study>, Vec<(PathBuf, &'static str)>), StudyError> {
-    let files = study_files(folder)?;
+/// The studies of a paper's folder, and its other TOML files with the kind that each is.
+type Files = (Vec<Study>, Vec<(PathBuf, &'static str)>);
+
+fn read_files(files: &[PathBuf], inputs: &Inputs, faults: &mut Faults) -> Result<Files, StudyError> {
     let (mut studies, mut others) = (Vec::new(), Vec::new());
-    for path in &files {
+    for path in files {
         if let Ok(document) = Document::open(path)
             && let Some(kind) = files::other_than_study(&document)
         {
@@ -289,10 +312,6 @@ fn studies(
             Err(StudyError::Settings(fault)) => faults.add(fault),
             Err(other) => return Err(other),
         }
-    }
-    if files.len() == others.len() && faults.is_empty() {
-        let what = "no study; a study is a TOML file beside paper.toml".to_owned();
-        return Err(StudyError::Missing { path: folder.to_owned(), what });
     }
     Ok((studies, others))
 }

@@ -67,7 +67,7 @@ pub struct ProblemsSpec {
     /// The problem family.
     pub family: Spanned<String>,
     /// How many independent draws.
-    #[schemars(range(min = 1))]
+    #[schemars(range(min = 1, max = 1_000_000))]
     pub replicates: Option<u32>,
     /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
     /// what their settings do can be compared in pairs. The study and the label if absent.
@@ -92,7 +92,7 @@ pub struct ContenderSpec {
     #[serde(default)]
     pub then: Vec<StageSpec>,
     /// How many seeds it runs on each problem; more than 1 only where it draws.
-    #[schemars(range(min = 1))]
+    #[schemars(range(min = 1, max = 100_000))]
     pub repeats: Option<u32>,
     /// Readings, with the option, that its settings take in place of the one in hand: it is then shown under these.
     #[serde(default)]
@@ -173,6 +173,7 @@ pub enum Digits {
 #[serde(deny_unknown_fields)]
 pub struct ExploreSpec {
     /// How many points of the product are drawn, without repetition, besides those that differ in one option.
+    #[schemars(range(max = 10_000))]
     pub sample: u32,
 }
 
@@ -181,7 +182,7 @@ pub struct ExploreSpec {
 #[serde(deny_unknown_fields)]
 pub struct BudgetSpec {
     /// At most this many expansions.
-    #[schemars(range(min = 1))]
+    #[schemars(range(min = 1, max = 1_000_000_000_000_u64))]
     pub expansions: u64,
 }
 
@@ -190,10 +191,13 @@ pub struct BudgetSpec {
 #[serde(deny_unknown_fields)]
 pub struct TimingSpec {
     /// How many problems of each group are timed, from the first replicate on.
+    #[schemars(range(max = 1_000_000))]
     pub problems: u32,
     /// How many timed runs of each.
+    #[schemars(range(max = 1_000_000))]
     pub repeats: u32,
     /// How many of a contender's seeds are timed; the first one if absent.
+    #[schemars(range(max = 100_000))]
     pub seeds: Option<u32>,
 }
 
@@ -241,7 +245,7 @@ impl Default for QuickSpec {
 }
 
 /// A figure: its kind and what that kind wants to know.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FigureSpec {
     /// Its file name, after the paper's figure where there is one.

@@ -16,6 +16,7 @@ mod floors;
 mod guards;
 mod latex;
 mod laws;
+mod mutation;
 mod paper;
 mod polyhedra;
 mod registries;

@@ -116,6 +116,7 @@ fn plain() -> String {
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
+#[expect(dead_code, reason = "read by the deserializer only")]
 enum Weight {
     /// The same everywhere.
     Constant(f64),

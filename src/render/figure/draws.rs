@@ -50,6 +50,7 @@ struct Draws {
     /// The panels, in their order.
     panels: Vec<PanelSpec>,
     /// How many panels stand beside each other.
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
 }
 

@@ -63,6 +63,7 @@ struct Reductions {
     /// The panels, in their order.
     panels: Vec<PanelSpec>,
     /// How many panels stand beside each other.
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
     /// From the top.
     contenders: Vec<String>,

@@ -42,6 +42,7 @@ struct TipPathJoints {
     differences: bool,
     /// How many panels stand side by side: θ1 and θ2 of a problem follow each other.
     #[serde(default = "two")]
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
     /// The panels, in their order.
     panels: Vec<PanelSetting>,
@@ -144,7 +145,7 @@ fn at(curve: &[[f64; 2]], way: f64) -> f64 {
 
 /// The way along the path and the joint's angle at every station.
 fn curve(scene: &Scene<'_>, row: &Row, joint: usize) -> Option<Vec<[f64; 2]>> {
-    let stations = scene.run.exhibit(&row.trial, "stations")?;
+    let stations = scene.run.exhibit(&row.key, "stations")?;
     let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
     let mut way = 0.0;
     let mut before = [stations[0][4], stations[0][5]];

@@ -3,8 +3,9 @@
 use super::super::contender::StageUse;
 use super::super::error::StudyError;
 use super::super::family::Family;
+use super::super::group::Families;
 use super::super::inputs::Inputs;
-use super::super::name::slug;
+use super::super::name::{self, slug};
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
 use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint};
@@ -84,7 +85,11 @@ impl Study {
             self.check_sweeps(faults);
         }
         match self.single_options() {
-            Ok(points) => points.iter().try_for_each(|point| self.check_point(point, inputs, faults)),
+            Ok(points) => {
+                let mut known = Families::default();
+                let mut check = |point| self.check_point(point, inputs, &mut known, faults);
+                points.iter().try_for_each(&mut check)
+            }
             Err(error) => keep(faults, Err(error)).map(|_: Option<()>| ()),
         }
     }
@@ -93,11 +98,12 @@ impl Study {
         &self,
         point: &ReadingChoice,
         inputs: &Inputs,
+        known: &mut Families,
         faults: &mut Faults,
     ) -> Result<(), StudyError> {
-        let mut families: Vec<(&Group, Box<dyn Family>)> = Vec::new();
+        let mut families: Vec<(&Group, Arc<dyn Family>)> = Vec::new();
         for group in &self.groups {
-            families.extend(keep(faults, group.family(point, inputs))?.map(|family| (group, family)));
+            families.extend(keep(faults, known.of(group, point, inputs))?.map(|family| (group, family)));
         }
         let kinds: BTreeSet<_> = families.iter().map(|(_, family)| family.world()).collect();
         for contender in &self.contenders {
@@ -123,7 +129,18 @@ impl Study {
     }
 
     fn check_sweeps(&self, faults: &mut Faults) {
+        let mut keys = BTreeSet::new();
         for (index, sweep) in self.sweeps.iter().enumerate() {
+            let wrong = if sweep.key_values().is_none() {
+                Some("has a value that is neither a number nor a word nor a truth value")
+            } else {
+                (!keys.insert(&sweep.key)).then_some("is the second over this setting; one is accepted")
+            };
+            if let Some(wrong) = wrong {
+                let message = format!("sweep `{}` {wrong}", sweep.key);
+                faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
+                continue;
+            }
             let used: BTreeSet<&str> = self.stage_names();
             if !used.contains(sweep.of.as_str()) {
                 let hint = did_you_mean(&sweep.of, used.iter().copied());
@@ -160,12 +177,13 @@ fn check_extent(
     contender: &Contender,
     sweep: &SweepPoint,
     asked: Option<Extent>,
-    families: &[(&Group, Box<dyn Family>)],
+    families: &[(&Group, Arc<dyn Family>)],
 ) -> Result<(), SettingsError> {
     for (group, family) in families {
         let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));
         let Some(lack) = lack else { continue };
-        let swept = if sweep.name.is_empty() { String::new() } else { format!(" at {}", sweep.name) };
+        let at = name::sweep(&sweep.key);
+        let swept = if at.is_empty() { at } else { format!(" at {at}") };
         let message = format!("contender `{}`{swept} on problems `{}`: {lack}", contender.label, group.label);
         return Err(contender.stages[0].settings.error(message));
     }

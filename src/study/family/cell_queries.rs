@@ -70,6 +70,7 @@ struct CellQueries {
     /// The file with the groups of poses that are started from and planned to.
     queries: String,
     /// How many samples the roadmap is built from.
+    #[schemars(range(max = 100_000))]
     samples: u32,
     /// Which samples the number counts.
     counted: CountedSetting,

@@ -57,6 +57,7 @@ struct PlaneQueries {
     /// The map file.
     map: String,
     /// How many samples the roadmap is built from.
+    #[schemars(range(max = 100_000))]
     samples: u32,
     /// How far two samples may be apart to be tried as neighbours.
     radius_mm: f64,

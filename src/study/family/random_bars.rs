@@ -49,6 +49,7 @@ struct RandomBars {
     /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
     /// How many are drawn.
+    #[schemars(range(max = 1_000_000))]
     count: u32,
     /// Least and most length.
     length_cells: [u32; 2],

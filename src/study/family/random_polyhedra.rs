@@ -51,6 +51,7 @@ struct RandomPolyhedra {
     /// The side of a lattice cell.
     step_cm: f64,
     /// The fewest and the most obstacles; each number in between is as likely.
+    #[schemars(inner(range(max = 10_000)))]
     count: [u32; 2],
     /// The least and the greatest extent along each axis.
     size_cm: [f64; 2],

@@ -135,7 +135,7 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
         return Err(source.fault(&file.tool.length_mm.span(), message));
     }
     let chain = chain(&source, &file.joint, base, tool_frame(tool_length_m))?;
-    let arm = Arm::new(chain, file.solver.get_ref()).map_err(|error| {
+    let arm = Arm::new(chain, Some(file.solver.get_ref())).map_err(|error| {
         let span = match &error {
             KinematicsError::Joint { joint, .. } => file.joint.get_ref()[joint - 1].span(),
             _ => file.solver.span(),
