@@ -61,6 +61,23 @@ fn title(what: What) -> String {
     what.to_possible_value().expect("no variant is hidden").get_name().to_owned()
 }
 
+fn singular(what: What) -> &'static str {
+    match what {
+        What::Papers => "paper",
+        What::Studies => "study",
+        What::Readings => "reading",
+        What::Planners => "planner",
+        What::Stages => "stage",
+        What::Families => "family",
+        What::Prepared => "kind of prepared object",
+        What::Tasks => "task",
+        What::Checks => "check",
+        What::Metrics => "metric",
+        What::Figures => "kind of figure",
+        What::Files => "kind of file",
+    }
+}
+
 /// What the one thing of the kind `what` that is called `name` is.
 fn one(what: What, name: &str) -> Result<(), Failure> {
     let Some(items) = items(what) else {
@@ -68,13 +85,13 @@ fn one(what: What, name: &str) -> Result<(), Failure> {
         let rows = rows(what, &papers);
         let known = rows.iter().map(|(known, _)| known.as_str());
         let found = rows.iter().find(|(known, _)| known == name);
-        let (_, about) = found.ok_or_else(|| Failure::input(none_called(&title(what), name, known)))?;
+        let (_, about) = found.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
         say!("{name}\n{}", wrapped("  ", about, 2));
         return all(results, "papers cannot be listed");
     };
     let known = items.iter().map(|item| item.name);
     let item = items.iter().find(|item| item.name == name);
-    let item = item.ok_or_else(|| Failure::input(none_called(&title(what), name, known)))?;
+    let item = item.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
     say!("{}", explained(item));
     Ok(())
 }

@@ -3,6 +3,7 @@
 mod arm;
 mod cell_threads;
 mod circles;
+mod cli_explains;
 mod cli_input;
 mod cli_places;
 mod cli_run;
@@ -10,6 +11,7 @@ mod cli_stop;
 mod committed;
 mod conformance;
 mod crosscheck;
+mod documented;
 mod floors;
 mod guards;
 mod latex;

@@ -30,6 +30,7 @@ pub static ENTRY: Entry = Entry {
 struct Settings {
     /// The ends, where the paper prints them; without, any 8-connected path counts.
     start: Option<[i32; 2]>,
+    /// The column and row of the goal; given with `start` or not at all.
     goal: Option<[i32; 2]>,
     /// Columns and rows, if the ends' neighbours are to be tried as well.
     size: Option<[i32; 2]>,

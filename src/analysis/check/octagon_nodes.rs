@@ -20,7 +20,7 @@ nodes = 48
         let settings: OctagonNodes = context.settings.read()?;
         if settings.nodes == 0 || settings.nodes > 10_000 {
             let message = format!("nodes is {}; 1 to 10000 is accepted", settings.nodes);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("nodes", message));
         }
         Ok(Box::new(settings))
     },

@@ -27,7 +27,9 @@ to = [26.5, 28.5]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// x and y of the first point as printed.
     from: [f64; 2],
+    /// x and y of the second point as printed.
     to: [f64; 2],
 }
 

@@ -28,7 +28,9 @@ goal = [26.0, 28.0]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// x and y of the start as printed.
     start: [f64; 2],
+    /// x and y of the goal as printed.
     goal: [f64; 2],
     /// Columns and rows, if start and goal are cells: then their neighbours are tried as well.
     size: Option<[i32; 2]>,

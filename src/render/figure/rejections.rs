@@ -30,6 +30,7 @@ problems = ["cell"]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Rejections {
+    /// The problem groups, by their labels.
     problems: Vec<String>,
 }
 

@@ -8,7 +8,7 @@ use crate::{
         serial::{AXES, Chain, Joint},
     },
 };
-use base::settings::{Accepted, Spanned};
+use base::settings::{Accepted, Document, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::{ops::Range, path::Path};
@@ -19,77 +19,94 @@ pub const ROBOT_FILE: Accepted = Accepted::of::<RobotFile>();
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RobotFile {
+    /// Its name.
     name: String,
+    /// The closed form that solves the inverse kinematics; it says which joints it accepts.
     solver: Spanned<String>,
+    /// Where the base stands.
     base: BaseEntry,
+    /// The tool at the flange.
     tool: ToolEntry,
+    /// The joints, from the base on, by standard Denavit-Hartenberg parameters.
     joint: Spanned<Vec<Spanned<JointEntry>>>,
+    /// Bodies: sets of capsules that stand for the arm and its tool; a study picks one.
     body: Spanned<Vec<BodyEntry>>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BaseEntry {
+    /// x, y and z of the base in the world.
     position_mm: Spanned<[f64; 3]>,
+    /// How far the base is turned about the vertical.
     yaw_deg: Spanned<f64>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ToolEntry {
+    /// How far the tool's tip is from the flange.
     length_mm: Spanned<f64>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct JointEntry {
+    /// The twist: the turn about x from this joint's axis to the next one's.
     alpha_deg: f64,
+    /// The link's length: the way along x to the next axis.
     a_mm: f64,
+    /// The offset: the way along this joint's axis.
     d_mm: f64,
+    /// What is added to the joint's angle.
     offset_deg: f64,
+    /// The least angle.
     lower_deg: f64,
+    /// The greatest angle.
     upper_deg: f64,
+    /// The greatest speed; given like this or as `speed_rad_s`.
     speed_deg_s: Option<f64>,
+    /// The greatest speed; given like this or as `speed_deg_s`.
     speed_rad_s: Option<f64>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BodyEntry {
+    /// Its name.
     name: Spanned<String>,
+    /// Its capsules.
     capsule: Vec<Spanned<CapsuleEntry>>,
+    /// Pairs of capsules, by name, that must not touch.
     self_pairs: Vec<Spanned<[String; 2]>>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CapsuleEntry {
+    /// Its name.
     name: String,
+    /// The link that it moves with: 0 is the base.
     link: Option<usize>,
+    /// x, y and z of one end, in the link's frame.
     from_mm: Option<[f64; 3]>,
+    /// x, y and z of the other end, in the link's frame.
     to_mm: Option<[f64; 3]>,
+    /// Instead of link and ends: where it begins and ends along the tool.
     tool_share: Option<[f64; 2]>,
+    /// Whether it counts for collisions of the arm with itself alone.
     #[serde(default)]
     self_only: bool,
+    /// The radius.
     radius_mm: f64,
 }
 
-/// The text being read, to turn a place in it into a line and a column.
-struct Source<'a> {
-    text: &'a str,
-    path: &'a Path,
-}
+/// The file being read, which knows the places in it.
+struct Source<'a>(&'a Document);
 
 impl Source<'_> {
     fn fault(&self, span: &Range<usize>, message: impl Into<String>) -> KinematicsError {
-        let before = self.text.get(..span.start).unwrap_or(self.text);
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        KinematicsError::File {
-            path: self.path.to_owned(),
-            line: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
-            message: message.into(),
-        }
+        self.0.error(span.clone(), message).into()
     }
 
     /// A function that says where an error of a lower floor comes from.
@@ -107,9 +124,9 @@ impl Source<'_> {
 }
 
 pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
-    let source = Source { text, path };
-    let file: RobotFile =
-        toml::from_str(text).map_err(|error| source.fault(&error.span().unwrap_or(0..0), error.message()))?;
+    let document = Document::new(path, text.to_owned());
+    let source = Source(&document);
+    let file: RobotFile = document.read()?;
     let base = base(&source, &file.base)?;
     let tool_length_m = 1e-3 * source.finite("tool.length_mm", &file.tool.length_mm)?;
     if tool_length_m < 0.0 {
