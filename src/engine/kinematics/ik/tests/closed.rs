@@ -170,7 +170,10 @@ fn singular_poses_are_reached_to_a_nanometre() {
                 q[1] += if kind >= 8 { by } else { 0.0 };
             }
             let place = format!("{name}, seed {seed} case {index}: {q:?}");
-            let found = held(&arm, &q, &draw(&mut stream, arm.chain()), &place);
+            // Where joint 6 keeps its reference, another one may put the pose out of reach.
+            let mut reference = draw(&mut stream, arm.chain());
+            reference[5] = q[5];
+            let found = held(&arm, &q, &reference, &place);
             // At the edge of reach in two ways at once, rounding decides.
             let is_twice_at_the_edge = kind & 2 != 0 && kind >= 4;
             assert!(found > 0 || is_twice_at_the_edge, "{place}: not reached");
