@@ -63,14 +63,19 @@ pub struct Question {
 #[serde(deny_unknown_fields)]
 pub struct Sizes {
     /// Drawn evenly.
+    #[schemars(range(max = 1_000_000))]
     pub random: u32,
     /// Of these, how many are also asked for their frames.
+    #[schemars(range(max = 1_000_000))]
     pub random_frames: u32,
     /// Of these, how many are also asked for their distances.
+    #[schemars(range(max = 1_000_000))]
     pub random_distances: u32,
     /// Within [`NEAR_M`] of contact.
+    #[schemars(range(max = 1_000_000))]
     pub near_contact: u32,
     /// Singular.
+    #[schemars(range(max = 1_000_000))]
     pub singular: u32,
     /// Piercing.
     pub piercing: u32,

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// A checked study.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Study {
     /// Its name: the stem of its file.
     pub name: String,

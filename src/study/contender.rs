@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use toml::Table;
 
 /// A pipeline under a label.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Contender {
     /// Its name in records and tables.
     pub label: String,
@@ -22,7 +22,7 @@ pub struct Contender {
 }
 
 /// An entry of the planner registry with its settings.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct StageUse {
     /// The entry.
     pub entry: &'static planner::Entry,
@@ -72,7 +72,7 @@ impl StageUse {
 }
 
 /// A factor that the paper varies.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Sweep {
     /// The setting.
     pub key: String,

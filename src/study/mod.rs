@@ -44,7 +44,7 @@ pub mod rerun;
 pub use checked::Study;
 pub use contender::{Contender, StageUse, Sweep};
 pub use error::StudyError;
-pub use group::Group;
+pub use group::{Families, Group};
 pub use inputs::Inputs;
 pub use name::slug;
 pub use reading::{Reading, ReadingChoice};

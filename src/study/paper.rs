@@ -65,10 +65,13 @@ pub struct Source {
 #[serde(deny_unknown_fields)]
 pub struct Prints {
     /// Figures.
+    #[schemars(range(max = 1000))]
     pub figures: u32,
     /// Tables.
+    #[schemars(range(max = 1000))]
     pub tables: u32,
     /// Equations.
+    #[schemars(range(max = 1000))]
     pub equations: u32,
 }
 
@@ -177,10 +180,25 @@ impl Paper {
         }
         let document = Document::open(&path)?;
         let spec: PaperSpec = document.read()?;
-        let mut studies = Vec::new();
-        for path in study_files(folder)? {
-            studies.push(Study::load(&path, inputs)?);
-        }
+        let files = study_files(folder)?;
+        let studies = files.iter().map(|path| Study::load(path, inputs)).collect::<Result<_, _>>()?;
+        Self::assemble(folder, &document, spec, studies)
+    }
+
+    /// The paper in `folder` whose paper.toml is `document`, with studies that were loaded.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load), but for those of the studies.
+    pub fn of(folder: &Path, document: &Arc<Document>, studies: Vec<Study>) -> Result<Self, StudyError> {
+        Self::assemble(folder, document, document.read()?, studies)
+    }
+
+    fn assemble(
+        folder: &Path,
+        document: &Arc<Document>,
+        spec: PaperSpec,
+        studies: Vec<Study>,
+    ) -> Result<Self, StudyError> {
         if studies.is_empty() {
             let what = "no study; a study is a TOML file beside paper.toml".to_owned();
             return Err(StudyError::Missing { path: folder.to_owned(), what });
@@ -192,12 +210,12 @@ impl Paper {
             source: spec.source,
             prints: spec.prints,
             ledger: spec.ledger,
-            claims: spec.claims.iter().map(|c| claim(&document, c)).collect::<Result<_, _>>()?,
+            claims: spec.claims.iter().map(|c| claim(document, c)).collect::<Result<_, _>>()?,
             tables: spec.tables,
             results: spec.results,
             series: spec.series,
             studies,
-            document,
+            document: document.clone(),
         };
         paper.check(&spec.claims)?;
         Ok(paper)

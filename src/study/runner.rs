@@ -8,7 +8,7 @@ use super::checked::Study;
 use super::clock;
 use super::error::StudyError;
 use super::family::Family;
-use super::group::Group;
+use super::group::{Families, Group};
 use super::inputs::Inputs;
 use super::prepared::Prepared;
 use super::reading::ReadingChoice;
@@ -21,8 +21,8 @@ use base::seed;
 use engine::planner::Request;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// Who watches a run.
 pub trait Progress: Sync {
@@ -53,7 +53,7 @@ pub struct BuiltStudy<'a> {
     terms: Terms<'a>,
     task: Box<dyn Task>,
     points: &'a [ReadingChoice],
-    families: Vec<Vec<Box<dyn Family>>>,
+    families: Vec<Vec<Arc<dyn Family>>>,
     entrants: Vec<Vec<Entrant<'a>>>,
 }
 
@@ -63,11 +63,11 @@ impl<'a> BuiltStudy<'a> {
     /// # Errors
     /// Those of families and pipelines; none in a study that was loaded with the same inputs.
     pub fn new(study: &'a Study, points: &'a [ReadingChoice], inputs: &Inputs) -> Result<Self, StudyError> {
-        let mut families = Vec::new();
+        let (mut families, mut built) = (Vec::new(), Families::default());
         let mut entrants = Vec::new();
         for point in points {
-            let built = study.groups.iter().map(|group| group.family(point, inputs));
-            families.push(built.collect::<Result<Vec<_>, _>>()?);
+            let of = |group| built.of(group, point, inputs);
+            families.push(study.groups.iter().map(of).collect::<Result<Vec<_>, _>>()?);
             let mut line_up = Vec::new();
             for contender in &study.contenders {
                 for sweep in study.sweep_points() {

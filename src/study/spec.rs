@@ -66,6 +66,7 @@ pub struct ProblemsSpec {
     /// The problem family.
     pub family: Spanned<String>,
     /// How many independent draws.
+    #[schemars(range(max = 1_000_000))]
     pub replicates: Option<Spanned<u32>>,
     /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
     /// what their settings do can be compared in pairs. The study and the label if absent.
@@ -90,6 +91,7 @@ pub struct ContenderSpec {
     #[serde(default)]
     pub then: Vec<StageSpec>,
     /// How many seeds it runs on each problem; more than 1 only where it draws.
+    #[schemars(range(max = 100_000))]
     pub repeats: Option<Spanned<u32>>,
     /// Readings, with the option, that its settings take in place of the one in hand: it is then shown under these.
     #[serde(default)]
@@ -170,6 +172,7 @@ pub enum Digits {
 #[serde(deny_unknown_fields)]
 pub struct ExploreSpec {
     /// How many points of the product are drawn, without repetition, besides those that differ in one option.
+    #[schemars(range(max = 10_000))]
     pub sample: u32,
 }
 
@@ -178,6 +181,7 @@ pub struct ExploreSpec {
 #[serde(deny_unknown_fields)]
 pub struct BudgetSpec {
     /// At most this many expansions.
+    #[schemars(range(max = 1_000_000_000_000_u64))]
     pub expansions: u64,
 }
 
@@ -186,10 +190,13 @@ pub struct BudgetSpec {
 #[serde(deny_unknown_fields)]
 pub struct TimingSpec {
     /// How many problems of each group are timed, from the first replicate on.
+    #[schemars(range(max = 1_000_000))]
     pub problems: u32,
     /// How many timed runs of each.
+    #[schemars(range(max = 1_000_000))]
     pub repeats: u32,
     /// How many of a contender's seeds are timed; the first one if absent.
+    #[schemars(range(max = 100_000))]
     pub seeds: Option<u32>,
 }
 
@@ -225,7 +232,7 @@ pub struct QuickSpec {
 }
 
 /// A figure: its kind and what that kind wants to know.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FigureSpec {
     /// Its file name, after the paper's figure where there is one.

@@ -14,6 +14,7 @@ mod floors;
 mod guards;
 mod latex;
 mod laws;
+mod mutation;
 mod paper;
 mod polyhedra;
 mod registries;

@@ -35,7 +35,15 @@ refused_below = 0.05
         let study = context.study(&settings.study, std::slice::from_ref(&settings.problems), &contenders)?;
         let metric = context.metric(&settings.metric, study)?;
         let end = |id: &String| context.printed_of(id).map(|(printed, _)| printed.interval(Digits::Rounded));
-        let range = Interval::new(end(&settings.least)?.low, end(&settings.greatest)?.high);
+        let (least, greatest) = (end(&settings.least)?.low, end(&settings.greatest)?.high);
+        if least > greatest {
+            let message = format!(
+                "the claim `{}`, named as `least`, prints more than `{}`, named as `greatest`; the other way round is accepted",
+                settings.least, settings.greatest
+            );
+            return Err(context.settings.error(message));
+        }
+        let range = Interval::new(least, greatest);
         Ok(Box::new(SavingsWithin { settings, study, metric, range }))
     },
 };

@@ -45,6 +45,7 @@ struct Spline {
     /// Whether control points count more often where the curve touches an obstacle.
     guarded: bool,
     /// Points of the curve returned for each of its spans.
+    #[schemars(range(max = 1000))]
     points_per_span: u32,
 }
 

@@ -51,6 +51,7 @@ struct ArmPlane {
     #[serde(default = "yes")]
     paths: bool,
     /// At how many points of the first path the arm is drawn.
+    #[schemars(range(max = 1000))]
     stations: usize,
     panels: Vec<PanelSetting>,
 }

@@ -46,6 +46,7 @@ struct CellPoses {
     /// What they are called.
     names: Vec<String>,
     /// How many of them are shown in one picture.
+    #[schemars(range(max = 1000))]
     at_once: usize,
 }
 

@@ -48,6 +48,7 @@ const PLOT_PT: f64 = 118.0;
 #[serde(deny_unknown_fields)]
 struct Draws {
     panels: Vec<PanelSpec>,
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
 }
 

@@ -61,6 +61,7 @@ const ROW_PT: f64 = 11.0;
 #[serde(deny_unknown_fields)]
 struct Reductions {
     panels: Vec<PanelSpec>,
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
     /// From the top.
     contenders: Vec<String>,

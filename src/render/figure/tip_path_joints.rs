@@ -42,6 +42,7 @@ struct TipPathJoints {
     differences: bool,
     /// How many panels stand side by side: θ1 and θ2 of a problem follow each other.
     #[serde(default = "two")]
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
     panels: Vec<PanelSetting>,
 }

@@ -3,6 +3,7 @@
 use super::super::contender::StageUse;
 use super::super::error::StudyError;
 use super::super::family::Family;
+use super::super::group::Families;
 use super::super::inputs::Inputs;
 use super::super::name::slug;
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
@@ -82,12 +83,18 @@ impl Study {
         (self.task.build)(&self.quick_task_settings())?;
         self.check_sweeps()?;
         self.check_selections()?;
-        self.single_options()?.iter().try_for_each(|point| self.check_point(point, inputs))
+        let mut families = Families::default();
+        self.single_options()?.iter().try_for_each(|point| self.check_point(point, inputs, &mut families))
     }
 
-    fn check_point(&self, point: &ReadingChoice, inputs: &Inputs) -> Result<(), StudyError> {
-        let families: Vec<Box<dyn Family>> =
-            self.groups.iter().map(|group| group.family(point, inputs)).collect::<Result<_, _>>()?;
+    fn check_point(
+        &self,
+        point: &ReadingChoice,
+        inputs: &Inputs,
+        families: &mut Families,
+    ) -> Result<(), StudyError> {
+        let of = |group| families.of(group, point, inputs);
+        let families: Vec<Arc<dyn Family>> = self.groups.iter().map(of).collect::<Result<_, _>>()?;
         let kinds: BTreeSet<_> = families.iter().map(|family| family.world()).collect();
         for contender in &self.contenders {
             for sweep in self.sweep_points() {
@@ -116,7 +123,7 @@ impl Study {
         contender: &Contender,
         sweep: &SweepPoint,
         asked: Option<Extent>,
-        families: &[Box<dyn Family>],
+        families: &[Arc<dyn Family>],
     ) -> Result<(), StudyError> {
         for (group, family) in self.groups.iter().zip(families) {
             let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));

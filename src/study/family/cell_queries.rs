@@ -65,6 +65,7 @@ struct CellQueries {
     /// Instead of the robot file's tool.
     tool_mm: Option<f64>,
     queries: String,
+    #[schemars(range(max = 100_000))]
     samples: u32,
     counted: CountedSetting,
     region: Region,

@@ -103,6 +103,7 @@ struct Conditioned {
     /// At most this many expansions a try.
     expansions: u64,
     /// At most this many tries a draw; a draw that is not accepted is an invalid problem.
+    #[schemars(range(max = 1_000_000_000))]
     tries: u64,
     /// A file that lists how many tries draws took, so that they need not be tried again.
     found: Option<String>,
@@ -171,7 +172,9 @@ impl Conditioned {
             let mut table = self.shared.clone();
             table.extend(of.settings.clone());
             table.insert("corner_rule".to_owned(), Toml::String(self.corner_rule.clone()));
-            let family = (entry.build)(&Settings::composed(format!("`of` {}", of.family), table), inputs)?;
+            let origin = format!("`of` {}", of.family);
+            let family = (entry.build)(&Settings::composed(&*origin, table), inputs);
+            let family = family.map_err(|error| placed(settings, &origin, error))?;
             if family.world() == WorldKind::Lattice {
                 Ok(family)
             } else {
@@ -188,9 +191,20 @@ impl Conditioned {
         );
         let entry = planner::find(&self.planner).filter(|entry| entry.needs == WorldKind::Lattice);
         match entry.map(|entry| entry.build) {
-            Some(Build::Planner(build)) => build(&table),
+            Some(Build::Planner(build)) => build(&table)
+                .map_err(|error| settings.error(format!("planner_settings: {}", error.message()))),
             _ => Err(settings.error(format!("there is no planner `{}` for a lattice", self.planner))),
         }
+    }
+}
+
+/// `error` of settings that were put together from `settings`, with their place in the file.
+fn placed(settings: &Settings, origin: &str, error: StudyError) -> StudyError {
+    match error {
+        StudyError::Settings(SettingsError::Composed { message, .. }) => {
+            settings.error(format!("{origin}: {message}")).into()
+        }
+        other => other,
     }
 }
 

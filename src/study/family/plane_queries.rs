@@ -55,6 +55,7 @@ const RASTER_MM: f64 = 1.0 / 16.0;
 #[serde(deny_unknown_fields)]
 struct PlaneQueries {
     map: String,
+    #[schemars(range(max = 100_000))]
     samples: u32,
     radius_mm: f64,
 }

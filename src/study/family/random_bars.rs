@@ -45,6 +45,7 @@ struct RandomBars {
     goal: [u32; 2],
     corner_rule: lattice::CornerSetting,
     /// How many are drawn.
+    #[schemars(range(max = 1_000_000))]
     count: u32,
     /// Least and most length.
     length_cells: [u32; 2],

@@ -49,6 +49,7 @@ struct RandomPolyhedra {
     side_cm: f64,
     step_cm: f64,
     /// The fewest and the most obstacles; each number in between is as likely.
+    #[schemars(inner(range(max = 10_000)))]
     count: [u32; 2],
     /// The least and the greatest extent along each axis.
     size_cm: [f64; 2],

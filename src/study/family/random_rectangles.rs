@@ -46,6 +46,7 @@ struct RandomRectangles {
     goal: [u32; 2],
     corner_rule: lattice::CornerSetting,
     /// How many are drawn.
+    #[schemars(range(max = 1_000_000))]
     count: u32,
     /// Least and most side.
     side_cells: [u32; 2],

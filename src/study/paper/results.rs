@@ -47,6 +47,7 @@ pub struct CellSpec {
     /// Its head, if the metric's own title does not say it.
     pub label: Option<String>,
     /// How many decimals it is shown with.
+    #[schemars(range(max = 15))]
     pub decimals: usize,
     /// Whether it is of the block's other problem group.
     #[serde(default)]

@@ -17,6 +17,7 @@ pub struct TableSpec {
     /// What stands below it; the paper's notes if absent.
     pub notes: Option<Vec<String>>,
     /// With how many decimals our numbers are shown; two if absent.
+    #[schemars(range(max = 15))]
     pub decimals: Option<usize>,
     /// Its rows.
     #[serde(rename = "row")]

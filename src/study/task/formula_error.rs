@@ -61,6 +61,7 @@ const LABEL: &str = "Printed distance";
 #[serde(deny_unknown_fields)]
 struct FormulaError {
     /// Segments drawn beside each obstacle.
+    #[schemars(range(max = 10_000_000))]
     samples: u32,
     /// Their ends lie in the box about the obstacle, grown by this share of its extent.
     reach: f64,

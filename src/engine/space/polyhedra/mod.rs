@@ -64,7 +64,7 @@ impl PolyhedraWorld {
             .map(|(index, body)| grown(body, growth).map_err(|source| obstacle(index, source)))
             .collect::<Result<_, _>>()?;
         // Room for the rounding of a side that is a whole number of steps.
-        let size = sides.map(|side| (side / step + 1e-9) as u32 + 1);
+        let size = sides.map(|side| ((side / step + 1e-9) as u32).saturating_add(1));
         let grid = Grid3::new(size.into())?;
         let near = vec![false; grid.node_count()];
         let mut world = Self { obstacles, bodies, growth, domain, step, grid, near, arm: None };
