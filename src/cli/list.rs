@@ -7,8 +7,12 @@ use crate::render::figure;
 use crate::study::paper::Paper;
 use crate::study::{Inputs, family, prepared, task};
 use clap::{Args, ValueEnum};
+use engine::kinematics::{Robot, robot::Body};
 use engine::planner::{self, Build};
 use std::path::{Path, PathBuf};
+
+/// Where robots are shipped.
+const ROBOTS: &str = "data/robots";
 
 /// Lists what there is.
 #[derive(Args)]
@@ -22,6 +26,7 @@ enum What {
     Papers,
     Studies,
     Readings,
+    Robots,
     Planners,
     Stages,
     Families,
@@ -37,21 +42,25 @@ impl List {
     pub fn run(self) -> Result<(), Failure> {
         let wanted = [What::Papers, What::Studies, What::Readings];
         let is_about_papers = self.what.is_none_or(|what| wanted.contains(&what));
-        let (papers, results) = if is_about_papers { loaded() } else { (Vec::new(), Vec::new()) };
+        let (papers, mut results) = if is_about_papers { loaded() } else { (Vec::new(), Vec::new()) };
+        let robots = if self.what.is_none_or(|what| what == What::Robots) { robots() } else { Vec::new() };
+        let (robots, broken): (Vec<_>, Vec<_>) = robots.into_iter().partition(Result::is_ok);
+        let robots: Vec<Robot> = robots.into_iter().flatten().collect();
+        results.extend(broken.into_iter().map(|robot| robot.map(drop)));
         for what in What::value_variants() {
             if self.what.is_none_or(|wanted| wanted == *what) {
                 let name = what.to_possible_value().expect("no variant is hidden");
                 say!("{}", name.get_name());
-                for (name, about) in rows(*what, &papers) {
+                for (name, about) in rows(*what, &papers, &robots) {
                     say!("  {name:<26} {about}");
                 }
             }
         }
-        all(results, "papers cannot be listed")
+        all(results, "papers and robots cannot be listed")
     }
 }
 
-fn rows(what: What, papers: &[Paper]) -> Vec<(String, String)> {
+fn rows(what: What, papers: &[Paper], robots: &[Robot]) -> Vec<(String, String)> {
     let row = |name: &str, about: &str| (name.to_owned(), about.to_owned());
     let planners = |first: bool| {
         let fits = move |entry: &&planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
@@ -75,6 +84,7 @@ fn rows(what: What, papers: &[Paper]) -> Vec<(String, String)> {
                 })
                 .collect()
         }
+        What::Robots => robots.iter().map(|robot| row(robot.name(), &about(robot))).collect(),
         What::Planners => planners(true),
         What::Stages => planners(false),
         What::Families => family::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
@@ -84,6 +94,21 @@ fn rows(what: What, papers: &[Paper]) -> Vec<(String, String)> {
         What::Metrics => metric::METRICS.iter().map(|m| row(m.name, &m.title())).collect(),
         What::Figures => figure::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
     }
+}
+
+/// What one line says of a robot.
+fn about(robot: &Robot) -> String {
+    let bodies: Vec<&str> = robot.bodies().iter().map(Body::name).collect();
+    format!("{}; bodies: {}", robot.arm().solver(), bodies.join(", "))
+}
+
+/// Every robot file of the project, by name.
+fn robots() -> Vec<Result<Robot, Failure>> {
+    let files = std::fs::read_dir(ROBOTS).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut files: Vec<PathBuf> =
+        files.filter(|file| file.extension().is_some_and(|e| e == "toml")).collect();
+    files.sort_unstable();
+    files.iter().map(|file| Robot::load(file).map_err(|error| Failure::input(error.to_string()))).collect()
 }
 
 /// Every paper that can be read, and how reading each went.
