@@ -9,7 +9,7 @@ use super::stored::StoredPaths;
 use super::subject::{Check, SerialArm, Subject};
 use crate::study::{Inputs, slug};
 use base::seed;
-use base::settings::{Document, SettingsError, Spanned};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
 use engine::geometry::{Convex, Solid};
 use engine::kinematics::{AXES, Robot};
 use engine::space::cell::{Cell, Obstacle, Scene};
@@ -22,6 +22,8 @@ use std::sync::Arc;
 
 /// The file's name.
 pub const SPEC: &str = "crosscheck.toml";
+/// What `crosscheck.toml` may hold.
+pub const FILE: Accepted = Accepted::of::<SpecFile>();
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -215,7 +217,7 @@ impl Spec {
         if let Some(twice) = known.iter().enumerate().find(|(at, name)| known[..*at].contains(name)) {
             let message =
                 format!("two cases are called `{}`; accepted: labels that tell them apart", twice.1);
-            return Err(self.document.error(0..0, message));
+            return Err(self.document.error_at("case", message));
         }
         Ok(())
     }

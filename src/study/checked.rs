@@ -92,7 +92,7 @@ impl Study {
     fn points(&self, sample: u32) -> Result<Vec<ReadingChoice>, StudyError> {
         let seed = seed::derive(self.seed, &[&self.paper, &self.name, "explore"]);
         reading::explored(&self.readings, sample, seed)
-            .map_err(|message| StudyError::from(self.document.error(self.key_span("reading"), message)))
+            .map_err(|message| StudyError::from(self.document.error_at("reading", message)))
     }
 
     /// Every combination of the sweeps' values, the first sweep varying slowest; one empty point without sweeps.

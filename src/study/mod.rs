@@ -26,6 +26,7 @@ pub mod verification;
 
 pub mod unit;
 
+pub mod files;
 pub mod task;
 
 mod checked;

@@ -4,7 +4,7 @@
 
 use base::settings::{AnyTable, AnyValue, Spanned};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use toml::Table;
 
@@ -51,6 +51,7 @@ pub struct StudySpec {
     #[serde(default, rename = "keep")]
     pub keeps: Vec<TrialsSpec>,
     /// What `--quick` cuts down to.
+    #[serde(default)]
     pub quick: QuickSpec,
     /// Figures drawn from this study.
     #[serde(default, rename = "figure")]
@@ -66,8 +67,8 @@ pub struct ProblemsSpec {
     /// The problem family.
     pub family: Spanned<String>,
     /// How many independent draws.
-    #[schemars(range(max = 1_000_000))]
-    pub replicates: Option<Spanned<u32>>,
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub replicates: Option<u32>,
     /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
     /// what their settings do can be compared in pairs. The study and the label if absent.
     pub draw: Option<String>,
@@ -91,8 +92,8 @@ pub struct ContenderSpec {
     #[serde(default)]
     pub then: Vec<StageSpec>,
     /// How many seeds it runs on each problem; more than 1 only where it draws.
-    #[schemars(range(max = 100_000))]
-    pub repeats: Option<Spanned<u32>>,
+    #[schemars(range(min = 1, max = 100_000))]
+    pub repeats: Option<u32>,
     /// Readings, with the option, that its settings take in place of the one in hand: it is then shown under these.
     #[serde(default)]
     pub departs: BTreeMap<String, String>,
@@ -177,16 +178,16 @@ pub struct ExploreSpec {
 }
 
 /// Limits on each trial.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BudgetSpec {
     /// At most this many expansions.
-    #[schemars(range(max = 1_000_000_000_000_u64))]
+    #[schemars(range(min = 1, max = 1_000_000_000_000_u64))]
     pub expansions: u64,
 }
 
 /// How clocks are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimingSpec {
     /// How many problems of each group are timed, from the first replicate on.
@@ -215,10 +216,11 @@ pub struct TrialsSpec {
 }
 
 /// What `--quick` cuts down to.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct QuickSpec {
     /// Draws kept of each problem group.
+    #[serde(default = "few")]
     pub replicates: u32,
     /// Seeds kept of each contender.
     pub repeats: Option<u32>,
@@ -229,6 +231,17 @@ pub struct QuickSpec {
     /// Settings laid over those of the task.
     #[schemars(with = "Option<AnyTable>")]
     pub task_settings: Option<Table>,
+}
+
+/// Draws kept of each group by `--quick` where the spec does not say: what shows that a study runs, and no more.
+fn few() -> u32 {
+    2
+}
+
+impl Default for QuickSpec {
+    fn default() -> Self {
+        Self { replicates: few(), repeats: None, budget: None, timing: None, task_settings: None }
+    }
 }
 
 /// A figure: its kind and what that kind wants to know.

@@ -11,6 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Clone, Copy)]
 pub struct Accepted {
     inside: fn(&mut SchemaGenerator) -> Schema,
+    with: fn(SchemaGenerator) -> Schema,
     whole: fn() -> Arc<Value>,
 }
 
@@ -23,12 +24,21 @@ impl std::fmt::Debug for Accepted {
 impl Accepted {
     /// The shape of `T`.
     pub const fn of<T: JsonSchema + 'static>() -> Self {
-        Self { inside: |generator| generator.subschema_for::<T>(), whole: schema_of::<T> }
+        Self {
+            inside: |generator| generator.subschema_for::<T>(),
+            with: |generator| generator.into_root_schema_for::<T>(),
+            whole: schema_of::<T>,
+        }
     }
 
     /// The schema by itself, with the definitions that it refers to under `$defs`.
     pub fn schema(&self) -> Arc<Value> {
         (self.whole)()
+    }
+
+    /// The schema by itself, with the definitions that `generator` has made besides its own.
+    pub fn whole_with(&self, generator: SchemaGenerator) -> Value {
+        (self.with)(generator).to_value()
     }
 
     /// The schema as a part of a larger one that `generator` makes.

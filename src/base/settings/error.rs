@@ -50,6 +50,23 @@ impl SettingsError {
         }
     }
 
+    /// The same with `before` in front of what is wrong.
+    #[must_use]
+    pub fn prefixed(self, before: &str) -> Self {
+        match self {
+            Self::At { path, line, column, message, excerpt } => {
+                Self::At { path, line, column, message: format!("{before}{message}"), excerpt }
+            }
+            Self::Composed { origin, message } => {
+                Self::Composed { origin, message: format!("{before}{message}") }
+            }
+            Self::Several(errors) => {
+                Self::Several(errors.into_iter().map(|error| error.prefixed(before)).collect())
+            }
+            unreadable @ Self::Unreadable { .. } => unreadable,
+        }
+    }
+
     /// Each fault by itself.
     pub fn each(self) -> Vec<Self> {
         match self {
@@ -91,6 +108,15 @@ impl Faults {
         }
     }
 
+    /// Adds what is wrong where nothing was found yet: a second look that says the same in other words adds nothing.
+    pub fn add_elsewhere(&mut self, error: SettingsError) {
+        for fault in error.each() {
+            if !self.0.iter().any(|known| known.place() == fault.place()) {
+                self.0.push(fault);
+            }
+        }
+    }
+
     /// The value if there is one; otherwise what is wrong is added.
     pub fn keep<T>(&mut self, result: Result<T, SettingsError>) -> Option<T> {
         result.map_err(|error| self.add(error)).ok()
@@ -101,16 +127,17 @@ impl Faults {
         self.0.is_empty()
     }
 
-    /// Nothing, or all that is wrong in the order of the places.
+    /// All that is wrong, in the order of the places; only for who has added a fault.
+    pub fn error(mut self) -> SettingsError {
+        self.0.sort_by(|a, b| a.place().cmp(&b.place()));
+        if self.0.len() == 1 { self.0.remove(0) } else { SettingsError::Several(self.0) }
+    }
+
+    /// Nothing, or all that is wrong.
     ///
     /// # Errors
-    /// The faults: the one itself, or [`SettingsError::Several`].
-    pub fn done(mut self) -> Result<(), SettingsError> {
-        self.0.sort_by(|a, b| a.place().cmp(&b.place()));
-        match self.0.len() {
-            0 => Ok(()),
-            1 => Err(self.0.remove(0)),
-            _ => Err(SettingsError::Several(self.0)),
-        }
+    /// As [`error`](Self::error), if there is any.
+    pub fn done(self) -> Result<(), SettingsError> {
+        if self.is_empty() { Ok(()) } else { Err(self.error()) }
     }
 }

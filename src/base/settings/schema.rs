@@ -187,7 +187,7 @@ impl<'a> Node<'a> {
         if !each.is_empty() {
             return format!("an array of {}", each.join(" and "));
         }
-        let of = self.part("items").map_or_else(String::new, |item| format!(", each {}", item.accepted()));
+        let of = self.part("items").map_or_else(String::new, |item| format!(" ({} each)", item.accepted()));
         match self.counts() {
             (0, u64::MAX) => format!("an array{of}"),
             (least, u64::MAX) => format!("an array of {least} or more{of}"),

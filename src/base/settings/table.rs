@@ -2,7 +2,7 @@
 
 use super::document::{in_words, parse, span_of};
 use super::validate::faults;
-use super::{Document, Faults, SettingsError, Spanned, schema_of};
+use super::{Accepted, Document, Faults, SettingsError, Spanned, schema_of};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer as _};
 use std::ops::Range;
@@ -51,6 +51,18 @@ impl Settings {
         Self::composed(format!("{} with {origin}", self.place()), table)
     }
 
+    /// These settings with the values that hold where they leave a key out, so that a record of them says all that moved a
+    /// number and a default that changes makes the record stale.
+    ///
+    /// Switches stay out: one that may be left out is off, and leaving it out cannot come to mean on.
+    #[must_use]
+    pub fn completed(mut self, accepted: Accepted) -> Self {
+        for (key, value) in defaults(&accepted.schema()) {
+            self.table.entry(key).or_insert(value);
+        }
+        self
+    }
+
     /// The settings as a `T`, held against the schema of `T` first.
     ///
     /// # Errors
@@ -83,6 +95,18 @@ impl Settings {
             Origin::Written { document, span } => {
                 let value = document.parsed().ok().and_then(|whole| find(whole, span));
                 document.error(value.map_or_else(|| span.clone(), |value| span_of(value, path)), message)
+            }
+            Origin::Composed(_) => self.error(message),
+        }
+    }
+
+    /// An error about `word`, a name that these settings give: at the first text of the table that is it.
+    pub fn error_about(&self, word: &str, message: impl Into<String>) -> SettingsError {
+        match &self.origin {
+            Origin::Written { document, span } => {
+                let whole = document.parsed().ok().and_then(|whole| find(whole, span));
+                let at = whole.and_then(|table| text(table, word)).unwrap_or_else(|| span.clone());
+                document.error(at, message)
             }
             Origin::Composed(_) => self.error(message),
         }
@@ -128,4 +152,26 @@ fn find<'a, 't>(
         DeValue::Array(array) => array.iter().find_map(|v| find(v, span)),
         _ => None,
     }
+}
+
+/// Where the first text inside `value` that is `word` stands.
+fn text(value: &toml::Spanned<DeValue<'_>>, word: &str) -> Option<Range<usize>> {
+    match value.get_ref() {
+        DeValue::String(found) => (found == word).then(|| value.span()),
+        DeValue::Table(table) => {
+            let found = table.iter().filter_map(|(_, inner)| text(inner, word));
+            found.min_by_key(|span| span.start)
+        }
+        DeValue::Array(array) => array.iter().find_map(|inner| text(inner, word)),
+        _ => None,
+    }
+}
+
+/// What the keys of a table are where they are left out, switches and empty values aside.
+fn defaults(schema: &serde_json::Value) -> Vec<(String, toml::Value)> {
+    let keys = schema.get("properties").and_then(serde_json::Value::as_object).into_iter().flatten();
+    let said = keys.filter_map(|(key, part)| Some((key.clone(), part.get("default")?)));
+    said.filter(|(_, value)| !matches!(value, serde_json::Value::Null | serde_json::Value::Bool(false)))
+        .filter_map(|(key, value)| Some((key, toml::Value::try_from(value).ok()?)))
+        .collect()
 }

@@ -200,15 +200,13 @@ fn unknown(node: Node<'_>, name: &str) -> String {
     let hint = did_you_mean(name, known.iter().copied());
     let known: Vec<String> = known.iter().map(|key| format!("`{key}`")).collect();
     let accepted = if known.is_empty() { "no key".to_owned() } else { known.join(", ") };
-    format!(
-        "unknown key `{name}`{hint}{} {accepted} is accepted here",
-        if hint.is_empty() { ";" } else { "" }
-    )
+    format!("unknown key `{name}`{hint}; accepted: {accepted}")
 }
 
 fn missing(node: Node<'_>, key: &str) -> String {
     let own = node.properties().find(|(name, _)| *name == key).and_then(|(_, part)| part.text("description"));
-    let meaning = own.map_or_else(String::new, |text| format!(": {}", super::describe::first_sentence(text)));
+    let meaning =
+        own.map_or_else(String::new, |text| format!(" ({})", super::describe::first_sentence(text)));
     let accepted =
         node.property(key).map_or_else(String::new, |part| format!("; {} is accepted", part.accepted()));
     format!("missing key `{key}`{meaning}{accepted}")
@@ -216,14 +214,16 @@ fn missing(node: Node<'_>, key: &str) -> String {
 
 fn refused(subject: Subject<'_>, accepted: &str) -> Fault {
     let found = shown(subject.value.get_ref());
+    let is_finite = number(subject.value.get_ref()).is_none_or(f64::is_finite);
+    let accepted =
+        if is_finite { accepted.to_owned() } else { accepted.replace("a number", "a finite number") };
     let name = if subject.name.is_empty() { "the value".to_owned() } else { format!("`{}`", subject.name) };
     Fault { span: subject.span(), message: format!("{name} is {found}; {accepted} is accepted") }
 }
 
 fn no_such_word(subject: Subject<'_>, word: &str, known: &[&str], accepted: &str) -> Fault {
     let hint = did_you_mean(word, known.iter().copied());
-    let separator = if hint.is_empty() { ";" } else { "" };
-    let message = format!("`{}` is \"{word}\"{hint}{separator} {accepted} is accepted", subject.name);
+    let message = format!("`{}` is \"{word}\"{hint}; {accepted} is accepted", subject.name);
     Fault { span: subject.span(), message }
 }
 

@@ -93,8 +93,8 @@ fn the_ur5_and_the_puma_at_zero_are_where_their_tables_add_up_to() {
 
 /// One row of the modified convention, entry by entry.
 fn modified_row(joint: &Joint, angle_rad: f64) -> Matrix4<f64> {
-    let (s, c) = (angle_rad + joint.offset_rad).sin_cos();
-    let ((sa, ca), d) = (joint.alpha_rad.sin_cos(), joint.d_m);
+    let (s, c) = libm::sincos(angle_rad + joint.offset_rad);
+    let ((sa, ca), d) = (libm::sincos(joint.alpha_rad), joint.d_m);
     #[rustfmt::skip]
     let row = Matrix4::new(
         c, -s, 0.0, joint.a_m,

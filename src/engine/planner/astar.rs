@@ -44,6 +44,7 @@ struct Astar {
     /// What h is multiplied by.
     weight: Weight,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
     #[serde(skip)]
     pool: Pool<Search<Octile, Heap>>,

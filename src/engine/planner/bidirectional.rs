@@ -42,6 +42,7 @@ struct TwoSided {
     /// Which side moves next.
     side: SideSetting,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
     #[serde(skip)]
     pool: Pool<Memory>,

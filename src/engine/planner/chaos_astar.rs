@@ -65,6 +65,7 @@ struct ChaosAstar {
     /// Whether a better way to an open node is taken.
     open_node: OpenSetting,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
 }
 

@@ -46,6 +46,7 @@ struct Lattice26 {
     /// Which part of a move must be free.
     checked: Checked,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
     #[serde(skip)]
     pool: Pool<LatticeSearch>,

@@ -39,6 +39,7 @@ struct LatticeAstar {
     /// Whether a better way to an open node is taken.
     open_node: OpenSetting,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
 }
 

@@ -165,6 +165,9 @@ impl CellQueries {
 }
 
 /// The file of poses and of groups that join two of them.
+/// What a file of groups may hold.
+pub const GROUPS_FILE: Accepted = Accepted::of::<GroupsFile>();
+
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GroupsFile {
@@ -201,7 +204,7 @@ fn read_queries(document: &Document) -> Result<Vec<Query>, SettingsError> {
     };
     let queries: Vec<Query> = file.groups.iter().map(query).collect::<Result<_, _>>()?;
     if queries.is_empty() {
-        return Err(document.error(0..0, "there is no group; at least one is accepted"));
+        return Err(document.error_at("group", "there is no group; at least one is accepted"));
     }
     Ok(queries)
 }

@@ -4,12 +4,12 @@
 //! it. Its settings come from the study, with the reading's options laid on top.
 
 mod arm_workspace;
-mod cell_queries;
+pub(super) mod cell_queries;
 mod conditioned;
 mod entry;
 mod grid_map;
 mod movingai;
-mod plane_queries;
+pub(super) mod plane_queries;
 mod polyhedra_scene;
 mod random_bars;
 mod random_cells;

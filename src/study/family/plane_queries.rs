@@ -60,6 +60,9 @@ struct PlaneQueries {
     radius_mm: f64,
 }
 
+/// What a file of polygons may hold.
+pub const MAP_FILE: Accepted = Accepted::of::<MapFile>();
+
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MapFile {
@@ -92,7 +95,7 @@ impl MapFile {
         };
         if !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
             let message = format!("size_mm is {:?}; two lengths above 0 are accepted", self.size_mm);
-            return Err(document.error(0..0, message));
+            return Err(document.error_at("size_mm", message));
         }
         Ok(PlaneMap::new(self.size_mm, self.obstacles.iter().map(polygon).collect::<Result<_, _>>()?))
     }

@@ -1,7 +1,7 @@
 //! Tables of our own results: rows of contenders, blocks of problems, cells of metrics.
 
 use super::Paper;
-use base::settings::{SettingsError, Spanned};
+use base::settings::{Faults, Spanned, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -74,13 +74,13 @@ pub enum Show {
 
 impl Paper {
     /// Every study and problem group that a table of results names exists.
-    pub(super) fn check_results(&self) -> Result<(), SettingsError> {
+    pub(super) fn check_results(&self, faults: &mut Faults) {
         for table in &self.results {
             let Some(study) = self.study(table.study.get_ref()) else {
-                let known: Vec<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
-                let message =
-                    format!("there is no study `{}`; there are {}", table.study.get_ref(), known.join(", "));
-                return Err(self.document.error(table.study.span(), message));
+                let known = self.studies.iter().map(|study| study.name.as_str());
+                let message = none_called("study", table.study.get_ref(), known);
+                faults.add(self.document.error(table.study.span(), message));
+                continue;
             };
             for named in
                 table.blocks.iter().flat_map(|block| std::iter::once(&block.problems).chain(&block.beside))
@@ -93,10 +93,9 @@ impl Paper {
                         named.get_ref(),
                         known.join(", ")
                     );
-                    return Err(self.document.error(named.span(), message));
+                    faults.add(self.document.error(named.span(), message));
                 }
             }
         }
-        Ok(())
     }
 }

@@ -8,10 +8,13 @@ use crate::{
         serial::{AXES, Chain, Joint},
     },
 };
-use base::settings::Spanned;
+use base::settings::{Accepted, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::{ops::Range, path::Path};
+
+/// What a robot file may hold.
+pub const ROBOT_FILE: Accepted = Accepted::of::<RobotFile>();
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -17,7 +17,7 @@ mod way;
 
 pub use line::Scratch;
 pub use lines::{EdgeEnd, LineRules, Lines, Path, Pose, Rejection};
-pub use scene::{Obstacle, Scene};
+pub use scene::{Obstacle, SCENE_FILE, Scene};
 pub use time_law::SpeedRule;
 
 use lanes::Outline;

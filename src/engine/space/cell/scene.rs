@@ -1,7 +1,7 @@
 //! Scenes from files: still obstacles by name, in millimetres as drawings give them.
 
 use crate::geometry::{Capsule, Convex, Frame, GeometryError, HalfSpace, OrientedBox, Solid, Sphere, Vec3};
-use base::settings::{Document, SettingsError, Spanned};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
@@ -21,6 +21,9 @@ pub struct Obstacle {
     /// Its shape.
     pub solid: Solid,
 }
+
+/// What a scene file may hold.
+pub const SCENE_FILE: Accepted = Accepted::of::<SceneFile>();
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -1,7 +1,7 @@
 //! Scene files: obstacles by name of their shape, or by vertices or planes.
 
 use crate::geometry::{Aabb, Axis, Convex, GeometryError, Vec3};
-use base::settings::{Document, SettingsError, Spanned};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
@@ -17,6 +17,9 @@ pub struct Scene {
     /// Where the point may be.
     pub domain: Aabb,
 }
+
+/// What a scene file may hold.
+pub const SCENE_FILE: Accepted = Accepted::of::<SceneFile>();
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -89,7 +89,9 @@ fn drawn_table(stream: &mut Stream, is_spherical: bool) -> tables::Table {
             [alpha6, a6, d[5], 0.0],
         ]
     };
-    table.iter_mut().for_each(|row| row[3] = stream.random_range(-180.0..180.0));
+    for row in &mut table {
+        row[3] = stream.random_range(-180.0..180.0);
+    }
     table
 }
 
