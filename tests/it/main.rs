@@ -10,6 +10,7 @@ mod committed;
 mod conformance;
 mod crosscheck;
 mod floors;
+mod jump_points;
 mod latex;
 mod laws;
 mod paper;
