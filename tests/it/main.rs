@@ -2,6 +2,7 @@
 
 mod arm;
 mod cell_threads;
+mod circles;
 mod cli_input;
 mod cli_places;
 mod cli_run;
@@ -10,9 +11,11 @@ mod committed;
 mod conformance;
 mod crosscheck;
 mod floors;
+mod guards;
 mod jump_points;
 mod latex;
 mod laws;
+mod mutation;
 mod paper;
 mod polyhedra;
 mod registries;

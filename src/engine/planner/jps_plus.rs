@@ -13,6 +13,7 @@ use super::jump_points::{COLUMNS, JumpPoints, Preparation};
 use super::lattice::Posed;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::space::{JumpTable, WorldKind};
+use base::settings::Accepted;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -21,6 +22,8 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Lattice,
     columns: COLUMNS,
+    settings: Accepted::of::<JumpPoints>(),
+    example: "preparation = \"kept\"",
     build: Build::Planner(|settings| {
         let read: JumpPoints = settings.read()?;
         Ok(Box::new(JpsPlus(read)))

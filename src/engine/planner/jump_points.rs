@@ -5,13 +5,14 @@ use super::pool::Pool;
 use super::{Invalid, Plan, Request, Value};
 use crate::search::JumpSearch;
 use crate::space::Jumps;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The columns that every search by jump points fills.
 pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated", "prepared_bytes"];
 
 /// When what a planner needs of a map is made.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Preparation {
     /// Once for each map, before or in the first query on it; a study reads no clock in the first query.
@@ -22,7 +23,7 @@ pub(super) enum Preparation {
 }
 
 /// A planner by jump points with its settings.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct JumpPoints {
     /// When what it needs of a map is made.
