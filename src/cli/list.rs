@@ -87,6 +87,7 @@ fn singular(what: What) -> &'static str {
         What::Papers => "paper",
         What::Studies => "study",
         What::Readings => "reading",
+        What::Robots => "robot",
         What::Planners => "planner",
         What::Stages => "stage",
         What::Families => "family",

@@ -14,6 +14,7 @@ mod crosscheck;
 mod documented;
 mod floors;
 mod guards;
+mod jump_points;
 mod latex;
 mod laws;
 mod mutation;
