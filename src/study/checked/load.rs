@@ -45,7 +45,12 @@ impl Study {
             question: spec.question,
             seed: spec.seed,
             task,
-            task_settings: optional(document, spec.task_settings.as_ref(), "task_settings"),
+            task_settings: optional(
+                document,
+                spec.task_settings.as_ref(),
+                spec.task.as_ref().map_or(0, |task| task.span().start),
+                "task_settings",
+            ),
             searched: spec.searched,
             fitted_to: spec.fitted_to.into_iter().map(Spanned::into_inner).collect(),
             groups: spec.problems.iter().map(|p| group(document, p)).collect::<Result<_, _>>()?,
@@ -226,11 +231,13 @@ fn look_up<T>(
     })
 }
 
-fn optional(document: &Arc<Document>, table: Option<&Spanned<Table>>, whose: &str) -> Settings {
-    match table {
-        Some(table) => Settings::written(document, table),
-        None => Settings::composed(format!("{}: {whose}", document.path().display()), Table::new()),
-    }
+/// The settings in `table`; without it, empty ones of what is named at byte `at`.
+fn optional(document: &Arc<Document>, table: Option<&Spanned<Table>>, at: usize, whose: &str) -> Settings {
+    let Some(table) = table else {
+        let line = document.text()[..at].matches('\n').count() + 1;
+        return Settings::composed(format!("{}:{line}: {whose}", document.path().display()), Table::new());
+    };
+    Settings::written(document, table)
 }
 
 fn sweep(spec: SweepSpec) -> Sweep {
@@ -304,6 +311,7 @@ fn stage(
         );
         document.error(name.span(), message)
     })?;
-    let settings = optional(document, settings, &format!("contender `{label}`, {what} `{}`", entry.name));
+    let whose = format!("contender `{label}`, {what} `{}`", entry.name);
+    let settings = optional(document, settings, name.span().start, &whose);
     Ok(StageUse { entry, settings })
 }
