@@ -193,6 +193,10 @@ impl<'a> Run<'a> {
 
     /// The trials of two contenders on the same problems, solved by both.
     pub fn pairs(&self, group: &str, base: &str, other: &str) -> Vec<Pair<'_>> {
+        if base == other {
+            let solved = self.rows(group, base).into_iter().filter(|row| row.status == Status::Solved);
+            return solved.map(|row| Pair { base: row, other: row }).collect();
+        }
         fn key(row: &Row) -> (&str, &str, u32) {
             (&row.problem, &row.sweep, row.repeat)
         }

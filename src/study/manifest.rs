@@ -77,9 +77,12 @@ impl Manifest {
         quick: bool,
     ) -> Result<Self, StudyError> {
         let mut inputs = BTreeMap::new();
+        let folder = study.document.path().parent().unwrap_or(Path::new(""));
         for path in built.inputs() {
             let bytes = fs::read(&path).map_err(StudyError::io(&path, "reading an input file"))?;
-            inputs.insert(path.display().to_string(), sha256(&bytes));
+            // A file of the paper's own folder is named from there, so that it is the same however the folder is spelled.
+            let name = path.strip_prefix(folder).unwrap_or(&path);
+            inputs.insert(name.display().to_string(), sha256(&bytes));
         }
         let problems = problem_hashes(study, points, &inputs);
         let contenders = contender_hashes(study, points);

@@ -86,7 +86,11 @@ impl Study {
         self.check_sweeps()?;
         self.check_selections()?;
         let mut families = Families::default();
-        self.single_options()?.iter().try_for_each(|point| self.check_point(point, inputs, &mut families))
+        let points = self.single_options()?;
+        points.iter().try_for_each(|point| self.check_point(point, inputs, &mut families))?;
+        // Under other readings an end may well be in collision: its trials are then rows that say so.
+        let default = &points[0];
+        self.groups.iter().try_for_each(|group| Ok(families.of(group, default, inputs)?.check_ends()?))
     }
 
     fn check_point(

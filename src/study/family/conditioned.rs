@@ -245,6 +245,10 @@ impl Family for Rejection {
         &self.queries
     }
 
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        self.families.iter().try_for_each(|family| family.check_ends())
+    }
+
     fn inputs(&self) -> &[PathBuf] {
         &self.files
     }
