@@ -9,7 +9,7 @@ use super::{
 use base::settings::{Document, SettingsError};
 use engine::planner;
 use engine::space::roadmap::Extent;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
@@ -88,9 +88,28 @@ impl Study {
         let mut families = Families::default();
         let points = self.single_options()?;
         points.iter().try_for_each(|point| self.check_point(point, inputs, &mut families))?;
-        // Under other readings an end may well be in collision: its trials are then rows that say so.
-        let default = &points[0];
-        self.groups.iter().try_for_each(|group| Ok(families.of(group, default, inputs)?.check_ends()?))
+        self.check_ends(&points[0], inputs, &mut families)
+    }
+
+    /// Refuses problems whose start or goal is in collision under the default reading.
+    ///
+    /// Under other readings, and in groups that vary another group of their family, an end may be in collision: the
+    /// trials are then rows that say so.
+    fn check_ends(
+        &self,
+        default: &ReadingChoice,
+        inputs: &Inputs,
+        families: &mut Families,
+    ) -> Result<(), StudyError> {
+        let mut posed = BTreeMap::new();
+        for group in &self.groups {
+            let ends = families.of(group, default, inputs)?.check_ends();
+            let of_family = posed.entry(group.family.name).or_insert(ends.clone());
+            if ends.is_ok() {
+                *of_family = ends;
+            }
+        }
+        Ok(posed.into_values().collect::<Result<(), _>>()?)
     }
 
     fn check_point(
