@@ -4,7 +4,6 @@
 //! floors. Nothing here plans and nothing here judges, so that the verifier can stand on it alone.
 
 pub mod hash;
-pub mod limit;
 pub mod seed;
 pub mod settings;
 

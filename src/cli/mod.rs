@@ -12,8 +12,11 @@ macro_rules! say {
     }};
 }
 
+pub mod catalogue;
 mod check;
 mod crosscheck;
+mod explain;
+pub mod file_schema;
 mod judge;
 mod list;
 mod places;
@@ -21,6 +24,7 @@ mod progress;
 mod render;
 mod repro;
 mod run;
+mod schema;
 mod trial;
 mod verdicts;
 
@@ -44,7 +48,8 @@ const EXAMPLES: &str = "Examples:
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
   replan render zhang --check        are the committed plots and tables what the stored run gives?
-  replan list planners               what contenders can name";
+  replan list planners               what contenders can name
+  replan list checks table_cell      what one check can be told, with an example";
 
 #[derive(Subcommand)]
 enum Command {
@@ -60,6 +65,8 @@ enum Command {
     Render(render::Render),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
+    /// Write a JSON Schema of every kind of TOML file, for editors
+    Schema(schema::Schema),
     /// List papers, studies, planners, tasks, checks, metrics, figure kinds, readings and more
     List(list::List),
 }
@@ -162,6 +169,7 @@ pub fn run() -> ExitCode {
         Command::Render(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
         Command::List(command) => command.run(),
+        Command::Schema(command) => command.run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,28 +2,30 @@
 
 use super::CrosscheckError;
 use super::case::{Case, Given};
-use super::model::Still;
+use super::model::{Freedom, Still};
 use super::planar::PlanarArm;
 use super::sample::Sizes;
-use super::stored::{Freedom, StoredPaths};
+use super::stored::StoredPaths;
 use super::subject::{Check, SerialArm, Subject};
 use crate::study::{Inputs, slug};
 use base::seed;
-use base::settings::{Document, SettingsError};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
 use engine::geometry::{Convex, Solid};
 use engine::kinematics::{AXES, Robot};
 use engine::space::cell::{Cell, Obstacle, Scene};
 use engine::space::polyhedra::{CarriedArm, read_scene};
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::Arc;
-use toml::Spanned;
 
 /// The file's name.
 pub const SPEC: &str = "crosscheck.toml";
+/// What `crosscheck.toml` may hold.
+pub const FILE: Accepted = Accepted::of::<SpecFile>();
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SpecFile {
     seed: u64,
@@ -40,7 +42,7 @@ struct SpecFile {
 }
 
 /// What the picture shows.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PictureEntry {
     case: Spanned<String>,
@@ -50,7 +52,7 @@ struct PictureEntry {
     zoom: f64,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RobotEntry {
     label: String,
@@ -60,14 +62,14 @@ struct RobotEntry {
     straight: Straight,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Straight {
     Tool,
     Joints,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneEntry {
     label: String,
@@ -75,7 +77,7 @@ struct SceneEntry {
     format: SceneFormat,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum SceneFormat {
     /// A robot's cell, in millimetres.
@@ -85,7 +87,7 @@ enum SceneFormat {
 }
 
 /// Paths of one robot in one scene.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct StoredEntry {
     robot: String,
@@ -94,7 +96,7 @@ struct StoredEntry {
 }
 
 /// A planar arm and its obstacles as a study poses them, and that study's paths.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct WorkspaceEntry {
     label: String,
@@ -215,7 +217,7 @@ impl Spec {
         if let Some(twice) = known.iter().enumerate().find(|(at, name)| known[..*at].contains(name)) {
             let message =
                 format!("two cases are called `{}`; accepted: labels that tell them apart", twice.1);
-            return Err(self.document.error(0..0, message));
+            return Err(self.document.error_at("case", message));
         }
         Ok(())
     }

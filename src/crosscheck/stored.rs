@@ -1,19 +1,20 @@
 //! Paths that a study kept, and the worlds that it posed.
 
 use super::CrosscheckError;
-use super::model::Pair;
+use super::model::Freedom;
 use super::path::Path as JointPath;
 use crate::study::manifest::Manifest;
 use crate::study::record::{Kept, Status};
 use crate::study::store::read_records;
 use crate::study::{Inputs, ReadingChoice, Study, StudyError, slug};
 use engine::space::World;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Which paths of a study are judged.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StoredPaths {
     /// The study.
@@ -30,40 +31,8 @@ pub struct StoredPaths {
     pub free_of: Freedom,
 }
 
-/// What a path is said to be free of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Freedom {
-    /// Nothing is promised.
-    Nothing,
-    /// What stands around the robot; it may hit itself.
-    Scene,
-    /// All contact.
-    Contact,
-}
-
-impl Freedom {
-    /// In the report's words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Nothing => "nothing",
-            Self::Scene => "obstacles",
-            Self::Contact => "all contact",
-        }
-    }
-
-    /// Whether a path with contact of `pair` is not as promised.
-    pub fn is_broken_by(self, pair: Pair) -> bool {
-        match self {
-            Self::Nothing => false,
-            Self::Scene => pair.still().is_some(),
-            Self::Contact => true,
-        }
-    }
-}
-
 /// A unit of angles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AngleUnit {
     /// Degrees.

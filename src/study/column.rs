@@ -50,6 +50,7 @@ pub static COLUMNS: &[Column] = &[
     count("closed", "nodes ever put on a closed list, both sides"),
     count("expansions", "nodes expanded"),
     count("generated", "successors generated, known ones included"),
+    count("prepared_bytes", "memory that the planner prepared for the map, besides its legal moves"),
     count("minimum_comparisons", "comparisons that finding the least f would take in a plain list"),
     count("membership_comparisons", "comparisons that looking successors up would take in plain lists"),
     count("list_operations", "minimum and membership comparisons together"),

@@ -1,9 +1,11 @@
 //! What a study's records depend on, so that a stored trial is reused only if nothing of it has changed.
 
-use super::checked::{Study, SweepPoint};
+use super::checked::Study;
+use super::contender::SweepPoint;
+use super::error::StudyError;
 use super::reading::ReadingChoice;
+use super::runner::BuiltStudy;
 use super::store::Staged;
-use super::{StudyError, runner::BuiltStudy};
 use base::hash::sha256;
 use base::settings::Document;
 use serde::{Deserialize, Serialize};
@@ -118,7 +120,7 @@ impl Manifest {
         if !path.exists() {
             return Err(StudyError::stored(&path, "no stored run; run the study first"));
         }
-        Ok(Document::open(&path)?.read()?)
+        Ok(Document::open(&path)?.read_stored()?)
     }
 
     /// Stages the manifest for `folder`.
@@ -217,7 +219,7 @@ fn problem_hashes(
                 group.family.name,
                 group.family.revision,
                 (settings.table(), study.task_settings.table()),
-                study.kept(&group.label).collect::<Vec<_>>(),
+                study.kept().filter(|trials| trials.problems == group.label).collect::<Vec<_>>(),
             );
             hashes.insert(key(point.name(), &group.label), sha256(text.as_bytes()));
         }

@@ -1,7 +1,6 @@
 //! Readings: ways to fill in what a paper leaves open, and points in their product.
 
-use super::paper::Digits;
-use super::spec::OptionSpec;
+use super::spec::{Digits, OptionSpec};
 use base::seed::{self, Stream};
 use rand::RngExt as _;
 use std::collections::{BTreeMap, BTreeSet};

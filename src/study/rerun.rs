@@ -3,8 +3,9 @@
 use super::manifest::Manifest;
 use super::reading::ReadingChoice;
 use super::record::Row;
-use super::runner::{BuiltStudy, Unit};
+use super::runner::BuiltStudy;
 use super::store::read_records;
+use super::unit::Unit;
 use super::{Inputs, Study, StudyError};
 use base::seed;
 use rand::RngExt as _;

@@ -4,19 +4,23 @@
 //! Units are numbered by reading, problem group and replicate; results are put together in that order, so the
 //! number of threads and the order of completion change nothing.
 
-use super::checked::{Contender, Families, Group, Pipeline, Study, SweepPoint, slug};
-use super::family::{Family, Query};
+use super::checked::Study;
+use super::clock;
+use super::error::StudyError;
+use super::family::Family;
+use super::group::{Families, Group};
+use super::inputs::Inputs;
 use super::prepared::Prepared;
 use super::reading::ReadingChoice;
 use super::record::{Batch, Timing};
 use super::spec::TimingSpec;
 use super::store::Journal;
 use super::task::Task;
-use super::{Inputs, StudyError, clock};
+use super::unit::{Entrant, Terms, Unit, draw_name, reading_suffix};
 use base::seed;
 use engine::planner::Request;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
@@ -43,94 +47,10 @@ impl Progress for Unwatched {
 /// How many times the clock's sample is gone through; each time takes its share of the repeats.
 const PASSES: u32 = 4;
 
-/// One prepared object and the trials that share it.
-pub struct Unit<'a> {
-    /// Its name in records.
-    pub name: String,
-    /// The group its problems belong to.
-    pub group: &'a Group,
-    /// The group's family under this reading.
-    pub family: &'a dyn Family,
-    /// The reading.
-    pub point: &'a ReadingChoice,
-    /// Who runs on it.
-    pub entrants: &'a [Entrant<'a>],
-    /// Which draw of the group.
-    pub replicate: u32,
-    /// The draw's seed; the same under every reading and for every contender.
-    pub seed: u64,
-    /// Keeps every exhibit, whatever the study asks for.
-    pub keeps_all: bool,
-    /// The trials that are asked for, if not all; a task whose trials share little may leave out others.
-    pub wanted: Option<BTreeSet<String>>,
-}
-
-/// A contender at one point of the sweeps, ready to run.
-pub struct Entrant<'a> {
-    /// The contender.
-    pub contender: &'a Contender,
-    /// The sweeps' values.
-    pub sweep: SweepPoint,
-    /// The pipeline built from both.
-    pub pipeline: Pipeline,
-}
-
-impl Unit<'_> {
-    /// The queries asked of this draw.
-    pub fn queries(&self) -> Vec<Query> {
-        self.family.queries_for(self.seed)
-    }
-
-    /// The name of the problem that `query` poses in this unit.
-    pub fn problem(&self, query: &Query) -> String {
-        let draw = draw_name(self.group, self.replicate);
-        if query.name.is_empty() { draw } else { format!("{draw}/{}", query.name) }
-    }
-
-    /// The name of a trial in this unit.
-    pub fn trial(&self, query: &Query, entrant: &Entrant<'_>, repeat: u32) -> String {
-        let mut name = format!("{}/{}", self.problem(query), slug(&entrant.contender.label));
-        if !entrant.sweep.name.is_empty() {
-            name += &format!("/{}", entrant.sweep.name);
-        }
-        if entrant.contender.is_numbered {
-            name += &format!("/{repeat}");
-        }
-        name + &reading_suffix(self.point)
-    }
-
-    /// Whether a trial is asked for whose name `is_it`.
-    pub fn is_wanted(&self, is_it: impl Fn(&str) -> bool) -> bool {
-        self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|name| is_it(name)))
-    }
-
-    /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
-    pub fn is_kept(&self, study: &Study, contender: Option<&str>, repeat: u32) -> bool {
-        let mut wanted = study.kept(&self.group.label);
-        self.keeps_all
-            || wanted.any(|trials| {
-                let named = match (contender, &trials.contender) {
-                    (Some(contender), Some(wanted)) => contender == wanted,
-                    _ => true,
-                };
-                let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
-                named && is_early && self.replicate < trials.replicates
-            })
-    }
-}
-
-fn draw_name(group: &Group, replicate: u32) -> String {
-    let slug = slug(&group.label);
-    if group.is_numbered { format!("{slug}/{replicate}") } else { slug }
-}
-
-fn reading_suffix(point: &ReadingChoice) -> String {
-    if *point.name() == *"default" { String::new() } else { format!("/{}", point.name()) }
-}
-
 /// A study with everything built that its trials share.
 pub struct BuiltStudy<'a> {
     study: &'a Study,
+    terms: Terms<'a>,
     task: Box<dyn Task>,
     points: &'a [ReadingChoice],
     families: Vec<Vec<Arc<dyn Family>>>,
@@ -157,7 +77,9 @@ impl<'a> BuiltStudy<'a> {
             }
             entrants.push(line_up);
         }
-        Ok(Self { study, task: (study.task.build)(&study.task_settings)?, points, families, entrants })
+        let (paper, name, keeps) = (&study.paper, &study.name, study.kept().collect());
+        let terms = Terms { paper, study: name, seed: study.seed, budget: study.budget, keeps };
+        Ok(Self { study, terms, task: (study.task.build)(&study.task_settings)?, points, families, entrants })
     }
 
     /// Every unit, in the order of records.
@@ -174,7 +96,7 @@ impl<'a> BuiltStudy<'a> {
     }
 
     fn unit<'b>(
-        &self,
+        &'b self,
         point: &'b ReadingChoice,
         entrants: &'b [Entrant<'b>],
         group: &'b Group,
@@ -187,6 +109,7 @@ impl<'a> BuiltStudy<'a> {
             None => &[&self.study.paper, &self.study.name, "problem", &group.label, &number],
         };
         Unit {
+            terms: &self.terms,
             name: draw_name(group, replicate) + &reading_suffix(point),
             group,
             family,
@@ -215,7 +138,7 @@ impl<'a> BuiltStudy<'a> {
 
     /// One unit's records.
     pub fn run_unit(&self, unit: &Unit<'_>) -> Batch {
-        self.task.run(self.study, unit)
+        self.task.run(unit)
     }
 
     /// Runs every unit that `done` does not hold yet, in the current thread pool.
@@ -310,7 +233,7 @@ impl<'a> BuiltStudy<'a> {
                 start: &query.start,
                 goal: &query.goal,
                 expansions: self.study.budget.expansions,
-                seed: entrant.seed(self.study, &unit.problem(query), *seed),
+                seed: entrant.seed(&self.terms, &unit.problem(query), *seed),
                 trace: false,
             };
             let warmed: Vec<_> = runs.filter(|run| run.0.pipeline.plan(&request(run)).is_ok()).collect();

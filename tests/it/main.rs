@@ -2,6 +2,7 @@
 
 mod arm;
 mod cell_threads;
+mod circles;
 mod cli_input;
 mod cli_places;
 mod cli_run;

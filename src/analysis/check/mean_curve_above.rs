@@ -6,6 +6,8 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bands::sup_t;
 use stats::bootstrap::Resampling;
@@ -15,6 +17,13 @@ use stats::interval::Interval;
 pub static ENTRY: Entry = Entry {
     name: "mean_curve_above",
     about: "is one contender's mean share of solved queries above another's at every point of the sweep, draws paired?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+contender = "Improved A*"
+against = "Original A*"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.against.as_str()];
@@ -24,7 +33,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

@@ -7,6 +7,8 @@ use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use audit::printed::Digits;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
 use stats::proportion::clopper_pearson;
@@ -16,6 +18,17 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "savings_within",
     about: "do the savings on all queries of a draw lie between two printed ones often enough for the range to be one draw's?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "length"
+problems = "cell"
+metric = "path_length_mm"
+contender = "Improved A*"
+against = "Original A*"
+least = "length.least"
+greatest = "length.greatest"
+refused_below = 0.05
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.against.as_str()];
@@ -35,7 +48,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

@@ -6,6 +6,8 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use audit::printed::Printed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::predictive;
 use stats::summary::mean;
@@ -14,6 +16,13 @@ use stats::summary::mean;
 pub static ENTRY: Entry = Entry {
     name: "table_cell",
     about: "does the printed share of solved queries lie where one more draw of ours would, with 95 % probability?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+contender = "Original A*"
+sweep = "samples=100"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let problems = std::slice::from_ref(&settings.problems);
@@ -33,7 +42,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

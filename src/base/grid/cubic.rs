@@ -1,9 +1,6 @@
 //! Cubic lattices in space: which nodes are free, and the 26 steps to neighbours in a written order.
 
-use super::{GridError, MAX_CELLS};
-
-/// The most nodes along one side.
-pub const MAX_SIDE_NODES: u32 = 1023;
+use super::{GridError, MAX_CELLS, MAX_SIDE_NODES};
 
 /// The 26 steps from a node to its neighbours: dz rises, for each dz dy, for each dy dx.
 pub const STEPS_26: [[i32; 3]; 26] = {

@@ -1,7 +1,6 @@
 //! What can be wrong with a grid or with a file that describes one.
 
-use super::cubic::MAX_SIDE_NODES;
-use super::{MAX_CELLS, MAX_SIDE_CELLS};
+use super::{MAX_CELLS, MAX_SIDE_CELLS, MAX_SIDE_NODES};
 use std::path::{Path, PathBuf};
 
 /// Why a grid, a map file or a scenario file was refused.

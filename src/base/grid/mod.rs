@@ -7,6 +7,7 @@
 //! The order of neighbours is written once, as [`DIRECTIONS`], and every mask, search and tie rule follows it.
 //! Costs belong to the search floor.
 
+mod built;
 mod components;
 mod cubic;
 mod error;
@@ -17,8 +18,9 @@ mod random;
 mod sight;
 mod text;
 
+pub use built::{maze, rooms, streets};
 pub use components::{Components, components};
-pub use cubic::{Grid3, MAX_SIDE_NODES, STEPS_26};
+pub use cubic::{Grid3, STEPS_26};
 pub use error::GridError;
 pub use moves::{CornerRule, DIRECTIONS, Moves};
 pub use movingai::{Scenario, parse_movingai_map, parse_scenarios, read_movingai_map, read_scenarios};
@@ -29,6 +31,9 @@ pub use text::{parse_text_map, read_text_map};
 
 /// The longest side that is accepted, in cells.
 pub const MAX_SIDE_CELLS: u32 = 65_535;
+
+/// The most nodes along one side of a lattice in space.
+pub const MAX_SIDE_NODES: u32 = 1023;
 
 /// The most cells of one grid, and the most nodes of one lattice in space: beyond them a search fills the memory.
 pub const MAX_CELLS: u32 = 1 << 26;

@@ -2,7 +2,7 @@
 
 use crate::space::roadmap::Extent;
 use crate::space::{World, WorldKind};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -151,6 +151,10 @@ pub struct Entry {
     pub needs: WorldKind,
     /// The columns that its counts fill.
     pub columns: &'static [&'static str],
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it.
     pub build: Build,
 }

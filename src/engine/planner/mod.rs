@@ -13,6 +13,9 @@ mod delete_inflections;
 mod direct;
 mod entry;
 mod joint_astar;
+mod jps;
+mod jps_plus;
+mod jump_points;
 mod key_nodes;
 mod keynode_astar;
 mod lattice;
@@ -43,6 +46,8 @@ pub static REGISTRY: &[&Entry] = &[
     &delete_inflections::ENTRY,
     &direct::ENTRY,
     &joint_astar::ENTRY,
+    &jps::ENTRY,
+    &jps_plus::ENTRY,
     &keynode_astar::ENTRY,
     &lattice26_astar::ENTRY,
     &lattice_astar::ENTRY,

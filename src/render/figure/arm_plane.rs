@@ -10,14 +10,24 @@ use crate::render::style::{
     series_stroke,
 };
 use crate::study::record::Row;
-use base::limit::count;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "arm_plane",
     about: "a planar arm among obstacles: zones, paths of the tip, the arm at stations along them",
+    settings: Accepted::of::<ArmPlane>(),
+    example: r#"
+zones = false
+stations = 7
+panels = [
+    { problem = "case 1", contenders = ["A* 8"] },
+    { problem = "case 2", contenders = ["A* 8"] },
+]
+"#,
     build: |settings, study, _paper| {
         let read: ArmPlane = settings.read()?;
         for panel in &read.panels {
@@ -30,7 +40,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 150.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmPlane {
     /// Whether points are coloured by what they are.
@@ -41,12 +51,12 @@ struct ArmPlane {
     #[serde(default = "yes")]
     paths: bool,
     /// At how many points of the first path the arm is drawn.
-    #[serde(deserialize_with = "count::<0, 1000, _, _>")]
+    #[schemars(range(max = 1000))]
     stations: usize,
     panels: Vec<PanelSetting>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
     /// The problem group; its first draw is shown.

@@ -8,12 +8,21 @@ use crate::render::chart::{Key, Sheet, Swatch};
 use crate::render::scene3::{Paint, Scene as Solids};
 use crate::render::style::{GREEN, ORANGE, PURPLE, Rgb, Stroke, VERMILLION, WHITE, Width};
 use crate::study::record::{Row, Status};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "arm_poses",
     about: "the whole arm along its path among polyhedra, one row a contender, one panel a view",
+    settings: Accepted::of::<ArmPoses>(),
+    example: r#"
+problem = "C1"
+contenders = ["Jia's A*, 12 neighbours", "This method"]
+views = ["corner"]
+sweep = "delta_deg=10.0"
+"#,
     build: |settings, study, _paper| {
         let read: ArmPoses = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
@@ -24,7 +33,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 220.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmPoses {
     /// The problem group; its first draw is shown, or the first that only the first contender solves.

@@ -9,6 +9,8 @@ use crate::render::chart::{Panel, Sheet};
 use crate::render::scene3::Paint;
 use crate::render::style::{Dash, GREY, Stroke, WHITE, Width, series_color};
 use crate::study::slug;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::median;
 
@@ -16,6 +18,12 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "cell_paths",
     about: "ways of the tool in a work cell: paths of contenders on one query, from two sides",
+    settings: Accepted::of::<CellPaths>(),
+    example: r#"
+problems = "cell"
+query = "1"
+contenders = ["Original A*", "Improved A*"]
+"#,
     build: |settings, study, _paper| {
         let read: CellPaths = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
@@ -23,7 +31,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CellPaths {
     problems: String,

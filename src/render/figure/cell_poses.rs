@@ -8,14 +8,22 @@ use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{GREY, Rgb, WHITE, Width, YELLOW, series_color};
 use crate::study::slug;
-use base::limit::count;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "cell_poses",
     about: "a work cell with its robot at several poses, from two sides",
+    settings: Accepted::of::<CellPoses>(),
+    example: r#"
+problems = "cell"
+poses = ["4/start", "1/start", "3/start", "2/goal", "7/start", "9/start"]
+names = ["H", "P1", "P2", "P3", "P5", "P6"]
+at_once = 3
+"#,
     build: |settings, study, _paper| {
         let read: CellPoses = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &[])?;
@@ -29,7 +37,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CellPoses {
     problems: String,
@@ -38,7 +46,7 @@ struct CellPoses {
     /// What they are called.
     names: Vec<String>,
     /// How many of them are shown in one picture.
-    #[serde(deserialize_with = "count::<0, 1000, _, _>")]
+    #[schemars(range(max = 1000))]
     at_once: usize,
 }
 

@@ -6,12 +6,22 @@ use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{Stroke, WHITE, Width, series_color, series_marker};
 use crate::study::slug;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "endpoint_pairs",
     about: "where pairs of end points lie that have the printed lengths, one series a variant",
+    settings: Accepted::of::<EndpointPairs>(),
+    example: r#"
+problem = "workspace"
+panels = [
+    { title = "one shape for all", variants = ["circles", "squares", "hexagons", "triangles"] },
+    { title = "any shape for each", variants = ["each obstacle of any shape"] },
+]
+"#,
     build: |settings, study, _paper| {
         let read: EndpointPairs = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problem), &[])?;
@@ -25,7 +35,7 @@ type Pairs = Vec<[[f64; 2]; 2]>;
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 190.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct EndpointPairs {
     /// The problem group.
@@ -33,7 +43,7 @@ struct EndpointPairs {
     panels: Vec<PanelSetting>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
     title: String,

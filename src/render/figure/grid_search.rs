@@ -9,13 +9,20 @@ use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, Marker, ORANGE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "grid_search",
     about: "searches on one grid map: opened cells of each side, raw and tidied path, one panel a contender",
+    settings: Accepted::of::<GridSearch>(),
+    example: r#"
+problem = "W1"
+contenders = ["A*", "Improved A*"]
+"#,
     build: |settings, study, _paper| {
         let read: GridSearch = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
@@ -26,7 +33,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 215.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GridSearch {
     /// The problem group; its first draw is shown.

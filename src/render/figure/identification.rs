@@ -8,6 +8,8 @@ use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, Fill, GREY, Stroke, Width, series_color, series_marker, series_stroke};
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 
@@ -15,6 +17,16 @@ use stats::bootstrap::{self, Resampling};
 pub static ENTRY: Entry = Entry {
     name: "identification",
     about: "shares of solved queries against a swept value, one curve a study, printed shares as lines",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+contender = "Original A*"
+sweep = "neighbour_mm"
+axis = "neighbour threshold ρ (mm)"
+others = ["samples=800", "samples=1500"]
+printed = ["t2.original.800", "t2.original.1500"]
+row = { sweep = "samples", printed = "t2.original." }
+studies = ["identify_full", "identify_front", "identify_branch", "identify_poses"]
+"#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         ask::known(settings, study, &[], std::slice::from_ref(&read.contender))?;
@@ -46,7 +58,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
     contender: String,
@@ -62,7 +74,7 @@ struct Read {
     studies: Vec<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RowOf {
     /// The sweep along the row.

@@ -5,12 +5,20 @@ use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "joint_curves",
     about: "joint angles along the paths of contenders on one query, over time; one panel a contender",
+    settings: Accepted::of::<JointCurves>(),
+    example: r#"
+problems = "cell"
+query = "1"
+contenders = ["Original A*", "Improved A*"]
+"#,
     build: |settings, study, _paper| {
         let read: JointCurves = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
@@ -18,7 +26,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct JointCurves {
     problems: String,

@@ -7,12 +7,21 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
 use crate::study::record::Row;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "motion_curves",
     about: "how tip, posture or joints change over the time of a motion, one panel a contender",
+    settings: Accepted::of::<MotionCurves>(),
+    example: r#"
+problem = "C1"
+contenders = ["This method"]
+quantity = "joints"
+sweep = "delta_deg=10.0"
+"#,
     build: |settings, study, _paper| {
         let read: MotionCurves = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
@@ -23,7 +32,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 150.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MotionCurves {
     /// The problem group; its first draw is shown.
@@ -36,7 +45,7 @@ struct MotionCurves {
     sweep: Option<String>,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum Quantity {
     Tip,

@@ -6,13 +6,20 @@ use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{BLUE, GREY, Marker, Stroke, VERMILLION, WHITE, Width};
 use crate::study::record::Row;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "neighbourhoods",
     about: "the neighbours of a lattice point, one panel a contender; those that were drawn, where some are",
+    settings: Accepted::of::<Neighbourhoods>(),
+    example: r#"
+problem = "case 1"
+contenders = ["A* 8"]
+"#,
     build: |settings, study, _paper| {
         let read: Neighbourhoods = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problem), &read.contenders)?;
@@ -23,7 +30,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 120.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Neighbourhoods {
     /// The problem group whose first trials hold the neighbourhoods.

@@ -10,6 +10,8 @@ use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color};
 use crate::study::record::Status;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::{mean, median, quantile_type7};
 use std::collections::BTreeMap;
@@ -18,6 +20,14 @@ use std::collections::BTreeMap;
 pub static ENTRY: Entry = Entry {
     name: "paired_boxes",
     about: "a metric by query and contender, boxes over the draws on which all compared contenders solve the query, and savings",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = "cell"
+metric = "path_length_mm"
+contenders = ["Original A*", "Improved A*"]
+axis = "group of Table 1"
+savings = ["length.least", "length.greatest"]
+"#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
@@ -29,7 +39,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
     problems: String,

@@ -9,13 +9,22 @@ use crate::render::style::{
 };
 use crate::study::record::Row;
 use crate::study::slug;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "plane_search",
     about: "a particle's searches on one roadmap in the plane: nodes closed so far, shots at the goal, paths",
+    settings: Accepted::of::<PlaneSearch>(),
+    example: r#"
+problems = "plane"
+draw = 13
+radius_mm = 220
+panels = [{ contender = "Original A*", title = "", bare = true }]
+"#,
     build: |settings, study, _paper| {
         let read: PlaneSearch = settings.read()?;
         let contenders: Vec<String> = read.panels.iter().map(|panel| panel.contender.clone()).collect();
@@ -24,7 +33,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneSearch {
     problems: String,
@@ -35,7 +44,7 @@ struct PlaneSearch {
     panels: Vec<PanelOf>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelOf {
     contender: String,

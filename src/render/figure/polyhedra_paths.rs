@@ -7,12 +7,20 @@ use crate::render::chart::{Key, Sheet, Swatch};
 use crate::render::scene3::{Paint, Scene as Solids};
 use crate::render::style::{BLUE, Dash, GREEN, PURPLE, Stroke, VERMILLION, Width};
 use crate::study::record::Row;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "polyhedra_paths",
     about: "tip paths among solid, depth-sorted polyhedra, one row a contender, one panel a view",
+    settings: Accepted::of::<PolyhedraPaths>(),
+    example: r#"
+problem = "E1"
+contenders = ["A*", "Improved A*"]
+views = ["corner"]
+"#,
     build: |settings, study, _paper| {
         let read: PolyhedraPaths = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
@@ -26,7 +34,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 205.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PolyhedraPaths {
     /// The problem group; its first draw is shown.

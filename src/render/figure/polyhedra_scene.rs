@@ -7,11 +7,12 @@ use crate::render::chart::{Axis, Key, Panel, Trim};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene, SceneMark, Vec3};
 use crate::render::style::{BLACK, SKY, Stroke, WHITE};
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// From where a scene is seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum View {
     /// From the front, a little from above: x to the right.

@@ -10,6 +10,8 @@ use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color, series_marker};
 use crate::study::Study;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 
@@ -17,6 +19,12 @@ use stats::bootstrap::{self, Resampling};
 pub static ENTRY: Entry = Entry {
     name: "share_bars",
     about: "shares of solved queries by problem group and contender at one point of the sweeps, and paired differences from one group",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = ["cell"]
+sweep = "samples=800"
+printed = ["t2.original.800"]
+"#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         let named: Vec<String> = read.problems.iter().chain(&read.against).cloned().collect();
@@ -27,7 +35,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
     problems: Vec<String>,

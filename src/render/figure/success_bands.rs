@@ -9,7 +9,8 @@ use crate::render::style::{Fill, Stroke, Width, series_color, series_marker, ser
 use crate::study::Study;
 use crate::study::paper::Paper;
 use base::seed;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bands::{Band as Curve, sup_t};
 use stats::bootstrap::Resampling;
@@ -18,6 +19,16 @@ use stats::bootstrap::Resampling;
 pub static ENTRY: Entry = Entry {
     name: "success_bands",
     about: "shares of solved queries along a sweep: mean over draws with a simultaneous band, printed rows on top",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = "cell"
+sweep = "samples"
+axis = "samples N"
+rows = [
+    { contender = "Original A*", printed = "t2.original." },
+    { contender = "Improved A*", printed = "t2.improved." },
+]
+"#,
     build: |settings, study, paper| Ok(Box::new(Shown::new(settings, study, paper)?)),
 };
 
@@ -36,16 +47,16 @@ pub(super) struct RowOf {
     pub(super) printed: Vec<[f64; 2]>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Read {
+pub(super) struct Read {
     problems: String,
     sweep: String,
     axis: String,
     rows: Vec<ReadRow>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ReadRow {
     contender: String,

@@ -6,13 +6,21 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
 use crate::study::record::Row;
-use base::limit::count;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "tip_path_joints",
     about: "joint angles of a planar arm along the paths of its tip: θ1 beside θ2, one row a problem",
+    settings: Accepted::of::<TipPathJoints>(),
+    example: r#"
+panels = [
+    { problem = "case 1", contenders = ["A* 8"] },
+    { problem = "case 2", contenders = ["A* 8"] },
+]
+"#,
     build: |settings, study, _paper| {
         let read: TipPathJoints = settings.read()?;
         for panel in &read.panels {
@@ -25,7 +33,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 105.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct TipPathJoints {
     /// Draws, at each share of the way, how far each curve is from that of the panel's first contender, which is not
@@ -33,7 +41,8 @@ struct TipPathJoints {
     #[serde(default)]
     differences: bool,
     /// How many panels stand side by side: θ1 and θ2 of a problem follow each other.
-    #[serde(default = "two", deserialize_with = "count::<1, 12, _, _>")]
+    #[serde(default = "two")]
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
     panels: Vec<PanelSetting>,
 }
@@ -42,7 +51,7 @@ fn two() -> usize {
     2
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
     /// The problem group; its first draw is shown.

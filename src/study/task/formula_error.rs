@@ -6,18 +6,17 @@
 //! exact one on pairs of segments of the same samples.
 
 use super::{Entry, Task};
-use crate::study::checked::Study;
 use crate::study::record::{Batch, Status, Values};
-use crate::study::runner::Unit;
-use base::limit::count;
+use crate::study::unit::Unit;
 use base::seed::{self, Stream};
-use base::settings::Settings;
+use base::settings::{Accepted, Settings};
 use engine::geometry::{
     Convex, Segment, Vec3, distance_segment_convex, distance_segment_segment, nearest_segment_convex_printed,
     nearest_segment_segment_printed,
 };
 use engine::planner::Value;
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -34,6 +33,11 @@ pub static ENTRY: Entry = Entry {
         "segment_pairs_wrong",
         "largest_excess_cm",
     ],
+    settings: Accepted::of::<FormulaError>(),
+    example: r#"
+samples = 500
+reach = 0.5
+"#,
     build: |settings: &Settings| {
         let read: FormulaError = settings.read()?;
         if read.samples == 0 {
@@ -53,11 +57,11 @@ const SAME: f64 = 1e-6;
 /// What stands in a contender's place.
 const LABEL: &str = "Printed distance";
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct FormulaError {
     /// Segments drawn beside each obstacle.
-    #[serde(deserialize_with = "count::<0, 10_000_000, _, _>")]
+    #[schemars(range(max = 10_000_000))]
     samples: u32,
     /// Their ends lie in the box about the obstacle, grown by this share of its extent.
     reach: f64,
@@ -121,7 +125,7 @@ impl Task for FormulaError {
         vec![super::variant_name(unit, LABEL)]
     }
 
-    fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
+    fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut row = super::variant_row(unit, LABEL, "");
         let prepared = unit.family.prepare(unit.seed);
         // Stored units are known by what was prepared for them: without this row every run would measure anew.

@@ -1,15 +1,16 @@
 //! Looks for the pairs of lattice points that have printed lengths in all cases, under every variant asked for.
 
 use super::{Entry, Task};
-use crate::study::checked::Study;
 use crate::study::endpoint_variants::{self as open, Case, Question, Variant};
 use crate::study::record::{Batch, Kept, Row, Status, Values};
-use crate::study::runner::Unit;
+use crate::study::unit::Unit;
 use base::grid::Moves;
+use base::settings::Accepted;
 use engine::length_inversion::{self, Match, NeverLowered, Pair};
 use engine::planner::{Exhibit, Value};
 use engine::search::Ties;
 use engine::space::TipLattice;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -18,6 +19,53 @@ pub static ENTRY: Entry = Entry {
     about: "which pairs of lattice points have the printed lengths in all cases, by exact single-source searches",
     revision: 3,
     columns: &["start_x_cm", "start_y_cm", "goal_x_cm", "goal_y_cm", "pairs", "pairs_on_fives", "candidates"],
+    settings: Accepted::of::<Identify>(),
+    example: r#"
+excess_steps = 3.0
+cases = [
+    { obstacles_cm = [[35, 18], [7, 35], [-13, 35], [-30, 20]], hops = [29, 31] },
+    { obstacles_cm = [[41, 10], [7, 40], [-16, 33]], hops = [17, 38] },
+]
+variants = [
+    { label = "circles", shape = "circle", diameter_cm = 10 },
+    { label = "circles, 8 cm", shape = "circle", diameter_cm = 8 },
+    { label = "circles, 9 cm", shape = "circle", diameter_cm = 9 },
+    { label = "circles, 11 cm", shape = "circle", diameter_cm = 11 },
+    { label = "circles, 12 cm", shape = "circle", diameter_cm = 12 },
+    { label = "squares", shape = "square", diameter_cm = 10 },
+    { label = "squares, 8 cm", shape = "square", diameter_cm = 8 },
+    { label = "squares, 9 cm", shape = "square", diameter_cm = 9 },
+    { label = "squares, 11 cm", shape = "square", diameter_cm = 11 },
+    { label = "squares, 12 cm", shape = "square", diameter_cm = 12 },
+    { label = "hexagons", shape = "hexagon", diameter_cm = 10 },
+    { label = "hexagons, 8 cm", shape = "hexagon", diameter_cm = 8 },
+    { label = "hexagons, 9 cm", shape = "hexagon", diameter_cm = 9 },
+    { label = "hexagons, 11 cm", shape = "hexagon", diameter_cm = 11 },
+    { label = "hexagons, 12 cm", shape = "hexagon", diameter_cm = 12 },
+    { label = "triangles", shape = "triangle", diameter_cm = 10 },
+    { label = "triangles, 8 cm", shape = "triangle", diameter_cm = 8 },
+    { label = "triangles, 9 cm", shape = "triangle", diameter_cm = 9 },
+    { label = "triangles, 11 cm", shape = "triangle", diameter_cm = 11 },
+    { label = "triangles, 12 cm", shape = "triangle", diameter_cm = 12 },
+    { label = "circles, touching free", shape = "circle", diameter_cm = 10, touching = "free" },
+    { label = "squares, touching free", shape = "square", diameter_cm = 10, touching = "free" },
+    { label = "hexagons, touching free", shape = "hexagon", diameter_cm = 10, touching = "free" },
+    { label = "triangles, touching free", shape = "triangle", diameter_cm = 10, touching = "free" },
+    { label = "circles, inner radius 10", shape = "circle", diameter_cm = 10, inner_radius_cm = 10 },
+    { label = "circles, higher elbow", shape = "circle", diameter_cm = 10, elbow = "higher" },
+    { label = "circles, corners: not between two", shape = "circle", diameter_cm = 10, corner_rule = "forbid_both" },
+    { label = "circles, corners: not past one", shape = "circle", diameter_cm = 10, corner_rule = "forbid_any" },
+    { label = "circles, hops swept", shape = "circle", diameter_cm = 10, hop_check = "continuous" },
+    { label = "squares, 10 cm across corners", shape = "square_inscribed", diameter_cm = 10 },
+    { label = "hexagons, corner on top", shape = "hexagon_turned", diameter_cm = 10 },
+    { label = "triangles, corner below", shape = "triangle_turned", diameter_cm = 10 },
+    { label = "never lowered, first in first out", shape = "circle", diameter_cm = 10, open_node = "never", ties = "fifo" },
+    { label = "never lowered, last in first out", shape = "circle", diameter_cm = 10, open_node = "never", ties = "lifo" },
+    { label = "never lowered, larger g first", shape = "circle", diameter_cm = 10, open_node = "never", ties = "larger_g" },
+    { label = "each obstacle of any shape", shape = ["circle", "square", "hexagon", "triangle"], diameter_cm = 10 },
+    { label = "each obstacle of any shape, squares across corners", shape = ["circle", "square_inscribed", "hexagon", "triangle"], diameter_cm = 10 },
+]
+"#,
     build: |settings| {
         let read: Identify = settings.read()?;
         let fault = open::fault(&read.cases, &read.variants);
@@ -28,7 +76,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Identify {
     /// Obstacles and printed length of each case.
@@ -66,7 +114,7 @@ impl Task for Identify {
         self.variants.iter().map(|variant| super::variant_name(unit, &variant.label)).collect()
     }
 
-    fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch {
+    fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut batch = Batch::default();
         let prepared = unit.family.prepare(unit.seed);
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
@@ -81,7 +129,7 @@ impl Task for Identify {
             }
         };
         let answers = open::answers(self, &base, &self.cases, &variants);
-        let keeps = unit.is_kept(study, None, 0);
+        let keeps = unit.is_kept(None, 0);
         for (variant, answer) in variants.into_iter().zip(answers) {
             match answer {
                 Ok(found) => {

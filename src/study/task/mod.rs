@@ -5,18 +5,18 @@ mod identify_endpoints;
 mod null_rate;
 mod plan;
 
-use super::checked::{Study, slug};
+use super::name::slug;
 use super::prepared::Prepared;
 use super::record::{Batch, PreparedRow, Row, Status, Values};
-use super::runner::Unit;
-use base::settings::{Settings, SettingsError};
+use super::unit::Unit;
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::{Invalid, Value};
 use engine::space::ArmRules;
 
 /// A task with its settings.
 pub trait Task: Send + Sync {
     /// Does one unit of work: everything that shares one prepared object.
-    fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch;
+    fn run(&self, unit: &Unit<'_>) -> Batch;
 
     /// The names of the unit's trials: one a query, entrant and repeat, unless the task does something else.
     fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
@@ -42,6 +42,10 @@ pub struct Entry {
     pub revision: u32,
     /// The columns that it fills besides those of planners and families.
     pub columns: &'static [&'static str],
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it from its settings.
     pub build: fn(&Settings) -> Result<Box<dyn Task>, SettingsError>,
 }

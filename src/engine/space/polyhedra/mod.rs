@@ -12,7 +12,7 @@ mod tests;
 
 pub use arm::{CarriedArm, Contact, DOWN};
 pub use error::PolyhedraError;
-pub use scene::{Scene, read_scene};
+pub use scene::{SCENE_FILE, Scene, read_scene};
 
 use crate::geometry::{Aabb, Convex, Segment, Vec3};
 use base::grid::Grid3;
