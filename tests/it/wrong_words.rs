@@ -144,7 +144,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "replicates = 24",
         "replicates = 4000000000",
-        "mini/draws.toml:18:14: found 4000000000; a whole number from 0 to 1000000 is accepted",
+        "mini/draws.toml:18:14: `replicates` is 4000000000; a whole number from 1 to 1000000 is accepted",
     ),
     wrong(
         "room",

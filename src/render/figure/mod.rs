@@ -100,7 +100,7 @@ impl<'a> Shown<'a> {
 
     /// Whether `study` keeps it.
     fn is_kept(&self, study: &Study) -> bool {
-        study.kept(self.problems).any(|trials| {
+        study.kept().filter(|trials| trials.problems == self.problems).any(|trials| {
             let is_by = |label: &str| trials.contender.as_deref().is_none_or(|kept| kept == label);
             trials.replicates > self.draw && self.contender.is_none_or(is_by)
         })
