@@ -92,10 +92,13 @@ pub fn run_studies(
 /// What a run did, in a few words.
 pub fn summary(report: &Report, why: bool) -> String {
     let mut text = format!("{}: {} trials", report.manifest.study, report.trials);
-    let parts = [(report.resumed, "resumed"), (report.reused, "reused")];
-    let parts = parts.iter().filter(|(count, _)| *count > 0);
-    let said: Vec<String> =
-        parts.map(|(count, what)| format!("{count} of {} units {what}", report.units)).collect();
+    let parts = [
+        (report.resumed, report.units, "units resumed"),
+        (report.reused, report.units, "units reused"),
+        (report.kept, report.trials, "trials reused"),
+    ];
+    let parts = parts.iter().filter(|(count, ..)| *count > 0);
+    let said: Vec<String> = parts.map(|(count, all, what)| format!("{count} of {all} {what}")).collect();
     if !said.is_empty() {
         text += &format!(" ({})", said.join(", "));
     }

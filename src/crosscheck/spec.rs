@@ -255,7 +255,7 @@ impl Spec {
         let subject = subject.checked_by(check);
         let fits = |entry: &&StoredEntry| entry.robot == r.label && entry.scene == s.label;
         let stored = self.file.stored.iter().map(Spanned::get_ref).filter(fits).map(|entry| &entry.paths);
-        let given = given(stored, sources.runs, AXES)?;
+        let given = given(stored, &sources, AXES)?;
         self.case(name, Box::new(subject), given).map_err(|message| at_scene(message).into())
     }
 
@@ -276,7 +276,7 @@ impl Spec {
         let name = slug(label);
         let subject = PlanarArm::new(name.clone(), arm).map_err(|error| at(error.to_string()))?;
         let joints = subject.model().rows.len();
-        let given = given([paths].into_iter(), sources.runs, joints)?;
+        let given = given([paths].into_iter(), &sources, joints)?;
         self.case(name, Box::new(subject), given).map_err(|message| at(message).into())
     }
 
@@ -289,12 +289,12 @@ impl Spec {
 /// The stored paths of a robot with this many joints.
 fn given<'a>(
     stored: impl Iterator<Item = &'a StoredPaths>,
-    runs: &Path,
+    sources: &Sources<'_>,
     joints: usize,
 ) -> Result<Given, CrosscheckError> {
     let mut given = Given { paths: Vec::new(), free_of: Freedom::Contact };
     for paths in stored {
-        given.paths.extend(paths.read(runs, joints)?);
+        given.paths.extend(paths.read(sources.folder, sources.inputs, sources.runs, joints)?);
         given.free_of = given.free_of.min(paths.free_of);
     }
     Ok(given)

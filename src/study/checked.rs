@@ -5,6 +5,8 @@ mod load;
 use super::contender::{Contender, Sweep, SweepPoint};
 use super::error::StudyError;
 use super::group::Group;
+use super::key::{KeyColumns, SweepKey, SweepValue, Text};
+use super::name::{self, Names};
 use super::reading::{self, Reading, ReadingChoice};
 use super::spec::{BudgetSpec, ExploreSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::task;
@@ -97,16 +99,48 @@ impl Study {
 
     /// Every combination of the sweeps' values, the first sweep varying slowest; one empty point without sweeps.
     pub fn sweep_points(&self) -> Vec<SweepPoint> {
-        self.sweeps.iter().fold(vec![SweepPoint::default()], |points, sweep| {
-            let with = |point: &SweepPoint, value: &toml::Value| {
-                let mut next = point.clone();
-                next.over.entry(sweep.of.clone()).or_default().insert(sweep.key.clone(), value.clone());
-                let comma = if next.name.is_empty() { "" } else { "," };
-                next.name += &format!("{comma}{}={}", sweep.key, value.to_string().trim_matches('"'));
-                next
+        let mut points = vec![(Vec::new(), SweepPoint::default())];
+        for sweep in &self.sweeps {
+            let key: Text = sweep.key.as_str().into();
+            let values = sweep.key_values().expect("a checked sweep has values that records can have");
+            let values: Vec<_> = values.into_iter().zip(&sweep.values).collect();
+            let with = |(keys, point): &(Vec<(Text, SweepValue)>, SweepPoint),
+                        (value, written): &(_, &toml::Value)| {
+                let (mut keys, mut next) = (keys.clone(), point.clone());
+                keys.push((key.clone(), SweepValue::clone(value)));
+                let over = next.over.entry(sweep.of.clone()).or_default();
+                over.insert(sweep.key.clone(), (*written).clone());
+                (keys, next)
             };
-            points.iter().flat_map(|point| sweep.values.iter().map(move |value| with(point, value))).collect()
-        })
+            points =
+                points.iter().flat_map(|point| values.iter().map(move |value| with(point, value))).collect();
+        }
+        points.into_iter().map(|(keys, point)| SweepPoint { key: SweepKey::new(keys), ..point }).collect()
+    }
+
+    /// The point of the sweeps that people write as `text`: empty without sweeps.
+    pub fn sweep_point(&self, text: &str) -> Option<SweepPoint> {
+        self.sweep_points().into_iter().find(|point| name::sweep(&point.key) == text)
+    }
+
+    /// How its records are named.
+    pub fn names(&self) -> Names {
+        let numbered = self.groups.iter().filter(|group| group.is_numbered);
+        Names {
+            numbered_groups: numbered.map(|group| group.label.clone()).collect(),
+            contenders: self.contenders.iter().map(|c| (c.label.clone(), c.is_numbered)).collect(),
+            defaults: self.readings.iter().map(|r| (r.id.clone(), r.default.clone())).collect(),
+        }
+    }
+
+    /// The columns of its records' keys besides those that every study has.
+    pub fn key_columns(&self) -> KeyColumns {
+        let sweep = |sweep: &Sweep| (sweep.key.as_str().into(), sweep.of.as_str().into());
+        let moving = self.readings.iter().filter(|reading| reading.touches_trials());
+        KeyColumns {
+            sweeps: self.sweeps.iter().map(sweep).collect(),
+            readings: moving.map(|reading| reading.id.as_str().into()).collect(),
+        }
     }
 
     /// Every column that its records can have.

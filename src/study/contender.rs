@@ -1,9 +1,12 @@
 //! Contenders: pipelines of a planner and stages under a label, at one point of the sweeps.
 
+use super::key::{SweepKey, SweepValue};
+use super::name;
 use super::reading::ReadingChoice;
 use base::settings::{Settings, SettingsError};
 use engine::planner::{self, Build, Invalid, Plan, Planner, Request, Stage};
 use std::collections::BTreeMap;
+use std::mem::discriminant;
 use toml::Table;
 
 /// A pipeline under a label.
@@ -65,7 +68,7 @@ impl StageUse {
             .over_stage(self.entry.name)
             .fold(self.settings.clone(), |settings, (over, origin)| settings.overlaid(over, origin));
         match sweep.over.get(self.entry.name) {
-            Some(table) => read.overlaid(table, &format!("sweep {}", sweep.name)),
+            Some(table) => read.overlaid(table, &format!("sweep {}", name::sweep(&sweep.key))),
             None => read,
         }
     }
@@ -82,11 +85,35 @@ pub struct Sweep {
     pub values: Vec<toml::Value>,
 }
 
+impl Sweep {
+    /// Its values as records have them: all of one kind, words where kinds are mixed; `None` for a value that is neither a
+    /// number nor a word nor a truth value.
+    pub fn key_values(&self) -> Option<Vec<SweepValue>> {
+        let value = |value: &toml::Value| match value {
+            toml::Value::Boolean(flag) => Some(SweepValue::Flag(*flag)),
+            toml::Value::Integer(whole) => Some(SweepValue::Whole(*whole)),
+            toml::Value::Float(real) => Some(SweepValue::Real(*real)),
+            toml::Value::String(text) => Some(SweepValue::Text(text.as_str().into())),
+            _ => None,
+        };
+        let mut values = self.values.iter().map(value).collect::<Option<Vec<_>>>()?;
+        let is_one_kind = values.windows(2).all(|two| discriminant(&two[0]) == discriminant(&two[1]));
+        let are_numbers = values.iter().all(|value| value.as_f64().is_some());
+        for value in values.iter_mut().filter(|_| !is_one_kind) {
+            *value = match value.as_f64().filter(|_| are_numbers) {
+                Some(number) => SweepValue::Real(number),
+                None => SweepValue::Text(value.to_string().into()),
+            };
+        }
+        Some(values)
+    }
+}
+
 /// One value of every sweep.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SweepPoint {
-    /// Its name in records; empty without sweeps.
-    pub name: String,
+    /// What names it in records; empty without sweeps.
+    pub key: SweepKey,
     pub(super) over: BTreeMap<String, Table>,
 }
 

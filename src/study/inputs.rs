@@ -1,6 +1,6 @@
 //! Where input files named by specs are found.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Where input files named by specs are looked for, in order.
 #[derive(Debug, Clone, Default)]
@@ -27,5 +27,11 @@ impl Inputs {
         }
         let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();
         Err(format!("input file `{name}` does not exist; looked for {}", places.join(", ")))
+    }
+
+    /// The name of `path` below the first root that it lies in: the same however the root's own path is spelled.
+    pub fn spelled(&self, path: &Path) -> String {
+        let below = self.roots.iter().find_map(|root| path.strip_prefix(root).ok());
+        below.unwrap_or(path).display().to_string()
     }
 }

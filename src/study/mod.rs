@@ -10,6 +10,7 @@ pub mod clock;
 pub mod column;
 mod error;
 mod inputs;
+pub mod key;
 pub mod name;
 pub mod spec;
 
@@ -37,6 +38,8 @@ pub mod store;
 pub mod runner;
 
 pub mod manifest;
+
+pub mod reuse;
 
 pub mod session;
 

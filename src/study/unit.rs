@@ -3,11 +3,13 @@
 use super::contender::{Contender, Pipeline, SweepPoint};
 use super::family::{Family, Query};
 use super::group::Group;
-use super::name::slug;
+use super::key::{DrawKey, Text, TrialKey};
+use super::name::Names;
 use super::reading::ReadingChoice;
 use super::spec::{BudgetSpec, TrialsSpec};
 use base::seed;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// What all units of a study share.
 pub struct Terms<'a> {
@@ -15,6 +17,8 @@ pub struct Terms<'a> {
     pub paper: &'a str,
     /// The study's name.
     pub study: &'a str,
+    /// How its records are named.
+    pub names: Names,
     /// The root of every seed.
     pub seed: u64,
     /// Limits on each trial.
@@ -24,11 +28,12 @@ pub struct Terms<'a> {
 }
 
 /// One prepared object and the trials that share it.
+#[derive(Clone)]
 pub struct Unit<'a> {
     /// What it shares with the study's other units.
     pub terms: &'a Terms<'a>,
-    /// Its name in records.
-    pub name: String,
+    /// What names it in records.
+    pub key: Arc<DrawKey>,
     /// The group its problems belong to.
     pub group: &'a Group,
     /// The group's family under this reading.
@@ -36,21 +41,21 @@ pub struct Unit<'a> {
     /// The reading.
     pub point: &'a ReadingChoice,
     /// Who runs on it.
-    pub entrants: &'a [Entrant<'a>],
-    /// Which draw of the group.
-    pub replicate: u32,
+    pub entrants: Vec<&'a Entrant<'a>>,
     /// The draw's seed; the same under every reading and for every contender.
     pub seed: u64,
     /// Keeps every exhibit, whatever the study asks for.
     pub keeps_all: bool,
     /// The trials that are asked for, if not all; a task whose trials share little may leave out others.
-    pub wanted: Option<BTreeSet<String>>,
+    pub wanted: Option<BTreeSet<TrialKey>>,
 }
 
 /// A contender at one point of the sweeps, ready to run.
 pub struct Entrant<'a> {
     /// The contender.
     pub contender: &'a Contender,
+    /// Its label, as keys share it.
+    pub label: Text,
     /// The sweeps' values.
     pub sweep: SweepPoint,
     /// The pipeline built from both.
@@ -63,27 +68,25 @@ impl Unit<'_> {
         self.family.queries_for(self.seed)
     }
 
-    /// The name of the problem that `query` poses in this unit.
+    /// The name of the problem that `query` poses in this unit: seeds derive from it.
     pub fn problem(&self, query: &Query) -> String {
-        let draw = draw_name(self.group, self.replicate);
-        if query.name.is_empty() { draw } else { format!("{draw}/{}", query.name) }
+        self.terms.names.problem(&self.key, query_key(query).as_deref())
     }
 
-    /// The name of a trial in this unit.
-    pub fn trial(&self, query: &Query, entrant: &Entrant<'_>, repeat: u32) -> String {
-        let mut name = format!("{}/{}", self.problem(query), slug(&entrant.contender.label));
-        if !entrant.sweep.name.is_empty() {
-            name += &format!("/{}", entrant.sweep.name);
+    /// What names a trial in this unit.
+    pub fn trial(&self, query: &Query, entrant: &Entrant<'_>, repeat: u32) -> TrialKey {
+        TrialKey {
+            on: self.key.clone(),
+            query: query_key(query),
+            contender: entrant.label.clone(),
+            sweep: entrant.sweep.key.clone(),
+            repeat,
         }
-        if entrant.contender.is_numbered {
-            name += &format!("/{repeat}");
-        }
-        name + &reading_suffix(self.point)
     }
 
-    /// Whether a trial is asked for whose name `is_it`.
-    pub fn is_wanted(&self, is_it: impl Fn(&str) -> bool) -> bool {
-        self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|name| is_it(name)))
+    /// Whether a trial is asked for whose key `is_it`.
+    pub fn is_wanted(&self, is_it: impl Fn(&TrialKey) -> bool) -> bool {
+        self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(is_it))
     }
 
     /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
@@ -96,18 +99,13 @@ impl Unit<'_> {
                     _ => true,
                 };
                 let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
-                named && is_early && self.replicate < trials.replicates
+                named && is_early && self.key.draw < trials.replicates
             })
     }
 }
 
-pub(super) fn draw_name(group: &Group, replicate: u32) -> String {
-    let slug = slug(&group.label);
-    if group.is_numbered { format!("{slug}/{replicate}") } else { slug }
-}
-
-pub(super) fn reading_suffix(point: &ReadingChoice) -> String {
-    if *point.name() == *"default" { String::new() } else { format!("/{}", point.name()) }
+fn query_key(query: &Query) -> Option<Text> {
+    (!query.name.is_empty()).then(|| query.name.as_str().into())
 }
 
 impl Entrant<'_> {

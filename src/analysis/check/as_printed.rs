@@ -88,7 +88,7 @@ impl Check for AsPrinted<'_> {
             (true, false, true) => Verdict::Attainable,
             (true, false, false) => Verdict::Reproduced,
         });
-        finding.trial = rows.and_then(|(_, rows)| Some(format!("{study}/{}", rows.first()?.trial)));
+        finding.trial = rows.and_then(|(run, rows)| rows.first().map(|row| run.trial(row)));
         let what = format!("{} of {contender}", self.metric.label.to_lowercase());
         finding.ours = Some(Estimate { value, interval: None, what, n: values.len() });
         let verb = if agrees { "prints as" } else { "does not print as" };

@@ -195,10 +195,10 @@ impl<'a> Attained<'a> {
         let pairs = run.pairs(group, base, contender);
         let seen = pairs.iter().filter_map(|pair| {
             Some(Seen {
-                problem: (run.study.name.clone(), pair.other.problem.clone()),
+                problem: (run.study.name.clone(), run.problem(pair.other)),
                 contender: contender.to_owned(),
                 value: value(pair)?,
-                trial: format!("{}/{}", run.study.name, pair.other.trial),
+                trial: run.trial(pair.other),
                 reading: reading.clone(),
                 selected: false,
             })

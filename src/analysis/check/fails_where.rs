@@ -65,7 +65,7 @@ impl Check for FailsWhere {
                 (true, true) => {}
             }
             if is_found == (value == 0.0) || is_refused {
-                against = against.or(Some(format!("{}/{}", run.study.name, row.trial)));
+                against = against.or(Some(run.trial(row)));
             }
         }
         let wrongly_found = measured - explained - unexplained - found;

@@ -64,7 +64,7 @@ impl Check for Settings {
                 refused += usize::from(base.status == Status::Rejected);
                 match (base.status == Status::Solved, own.status == Status::Solved) {
                     (true, true) => both_find += 1,
-                    (true, false) => only_other.push(own.trial.clone()),
+                    (true, false) => only_other.push(run.trial(own)),
                     (false, true) => more += 1,
                     (false, false) => {}
                 }
@@ -75,7 +75,7 @@ impl Check for Settings {
             (true, _) => Verdict::Reproduced,
             (false, _) => Verdict::NotReproduced,
         });
-        finding.trial = only_other.first().map(|trial| format!("{}/{trial}", run.study.name));
+        finding.trial = only_other.first().cloned();
         finding.because.push(format!(
             "{} finds a path on {both_find} of the {} problems on which {} does, and on {more} others",
             self.contender,

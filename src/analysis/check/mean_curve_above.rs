@@ -5,6 +5,7 @@ use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
+use crate::study::name::sweep;
 use base::seed;
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -67,7 +68,7 @@ impl Check for MeanCurveAbove<'_> {
         let Some(run) = evidence.run(study) else { return finding };
         let points = self.study.sweep_points();
         let shares = |who: &str| -> Vec<Vec<f64>> {
-            points.iter().map(|point| solved_percents(run, problems, who, &point.name)).collect()
+            points.iter().map(|point| solved_percents(run, problems, who, &point.key)).collect()
         };
         let (own, other) = (shares(contender), shares(against));
         let draws = own.iter().chain(&other).map(Vec::len).min().unwrap_or(0);
@@ -80,8 +81,10 @@ impl Check for MeanCurveAbove<'_> {
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by(|a, b| found.mean[*a].total_cmp(&found.mean[*b]));
         let [least, most] = [order[0], order[order.len() - 1]];
-        let what =
-            format!("least mean difference in points, at {}, simultaneous 95 % band", points[least].name);
+        let what = format!(
+            "least mean difference in points, at {}, simultaneous 95 % band",
+            sweep(&points[least].key)
+        );
         finding.ours = Some(Estimate::new(found.mean[least], found.band[least], what, draws));
         finding.because.push(format!(
             "{contender} less {against} on {problems}: the mean share of solved queries differs by {:.1} points (band {:.1} to {:.1}) \
@@ -89,9 +92,9 @@ impl Check for MeanCurveAbove<'_> {
             found.mean[least],
             found.band[least].low,
             found.band[least].high,
-            points[least].name,
+            sweep(&points[least].key),
             found.mean[most],
-            points[most].name,
+            sweep(&points[most].key),
             found.band.iter().filter(|b| b.low > 0.0).count(),
             points.len()
         ));

@@ -68,7 +68,7 @@ impl Check for Oracle {
                 worst = worst.max(apart);
                 if apart > self.settings.within {
                     off += 1;
-                    finding.trial.get_or_insert_with(|| format!("{}/{}", run.study.name, row.trial));
+                    finding.trial.get_or_insert_with(|| run.trial(row));
                 }
             }
         }

@@ -118,7 +118,7 @@ impl RowAmongDraws {
                 *value = self.printed.value();
             }
         }
-        let prepared = run.records.batch.prepared.iter().filter(|row| set.problems.contains(&row.group));
+        let prepared = set.problems.iter().flat_map(|group| run.prepared(group));
         let tried: Vec<u64> =
             prepared.filter_map(|row| row.values.get("tries").map(|tries| tries.as_f64() as u64)).collect();
         if !tried.is_empty() {

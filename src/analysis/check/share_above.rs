@@ -74,7 +74,7 @@ impl Check for ShareAbove<'_> {
         let Some(run) = evidence.run(study) else { return finding };
         let (mut above, mut equal, mut below) = (0, 0, 0);
         for point in self.study.sweep_points() {
-            let shares = |who: &str| solved_percents(run, problems, who, &point.name);
+            let shares = |who: &str| solved_percents(run, problems, who, &point.key);
             for (own, other) in shares(contender).iter().zip(shares(against)) {
                 above += u32::from(*own > other);
                 equal += u32::from(*own == other);

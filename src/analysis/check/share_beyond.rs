@@ -76,7 +76,7 @@ impl Check for ShareBeyond {
                     known.partition(|(_, value)| *value > set.above + EQUAL);
                 let n = beyond.len() + not.len();
                 all += n;
-                below = below.or(not.first().map(|(pair, _)| format!("{}/{}", set.study, pair.other.trial)));
+                below = below.or(not.first().map(|(pair, _)| run.trial(pair.other)));
                 let Some(interval) = wilson(beyond.len(), n, 0.95) else { continue };
                 finding.because.push(format!(
                     "{group}: {} above {} on {:.1} % of {n} maps ({:.1} to {:.1} %)",

@@ -157,7 +157,7 @@ impl Check for TableRow<'_> {
         let points = self.study.sweep_points();
         let wanted = rows.iter().flat_map(|row| points.iter().map(move |point| (&row.contender, point)));
         let cells: Vec<Vec<f64>> = evidence.run(study).map_or_else(Vec::new, |run| {
-            wanted.map(|(contender, point)| solved_percents(run, problems, contender, &point.name)).collect()
+            wanted.map(|(contender, point)| solved_percents(run, problems, contender, &point.key)).collect()
         });
         let row: Vec<f64> = self.printed.iter().map(|printed| printed.value()).collect();
         let (Some(place), Some(level)) = (place(&row, &cells), Level::of(&row, &cells)) else {

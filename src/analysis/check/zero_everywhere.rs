@@ -78,11 +78,11 @@ impl Check for ZeroEverywhere {
         for contender in contenders {
             let mut own: Tally = [0; 3];
             for (row, seen) in self.returned(run, contender) {
-                for tally in [&mut own, draws.entry(row.replicate).or_default()] {
+                for tally in [&mut own, draws.entry(row.draw()).or_default()] {
                     tally.iter_mut().zip(seen).for_each(|(sum, one)| *sum += one);
                 }
                 if seen[1] > 0 && finding.trial.is_none() {
-                    finding.trial = Some(format!("{}/{}", run.study.name, row.trial));
+                    finding.trial = Some(run.trial(row));
                 }
             }
             finding.because.push(format!(

@@ -43,14 +43,6 @@ impl Value {
     }
 }
 
-/// Puts the cells of the column called `name` into those of `rows` that have one. It stands here, and not with the stored
-/// tables it is for, because there are millions of cells and this package is optimised in every build.
-pub fn fill_column(rows: &mut [BTreeMap<String, Value>], name: &str, cells: &[Option<Value>]) {
-    for (row, cell) in rows.iter_mut().zip(cells) {
-        row.extend(cell.map(|cell| (name.to_owned(), cell)));
-    }
-}
-
 /// What a planner counted, by column name.
 pub type Counts = BTreeMap<&'static str, Value>;
 

@@ -32,9 +32,7 @@ mod straighten_from_previous;
 mod tips;
 mod visibility_edges;
 
-pub use entry::{
-    Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value, fill_column,
-};
+pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
 
 /// Every planner and stage, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[

@@ -87,7 +87,7 @@ impl ArmPlane {
     fn panel(&self, scene: &Scene<'_>, setting: &PanelSetting) -> Result<Panel, RenderError> {
         let rows = setting.contenders.iter().map(|label| ask::trial(scene, &setting.problem, 0, None, label));
         let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
-        let map = rows.first().and_then(|row| scene.run.prepared_of(row)).map_or("", |map| &map.prepared);
+        let map = ask::draw(scene, &setting.problem, 0)?;
         let lattice = &ask::exhibit(scene, map, "lattice")?.values;
         let (low, step, size) = ([lattice[0], lattice[1]], lattice[2], [lattice[3], lattice[4]]);
         let ends = |axis: usize| match self.window_cm {
@@ -114,7 +114,7 @@ impl ArmPlane {
     }
 
     fn add_path(&self, scene: &Scene<'_>, row: &Row, index: usize, panel: &mut Panel) {
-        let Some(stations) = scene.run.exhibit(&row.trial, "stations") else { return };
+        let Some(stations) = scene.run.exhibit(&row.key, "stations") else { return };
         let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
         if index == 0 {
             for station in spread(&stations, self.stations) {
@@ -133,8 +133,8 @@ impl ArmPlane {
             let points = at.into_iter().copied().collect();
             panel.add(Points { points, marker, radius_pt: 3.0, color: GREEN, label: label.to_owned() });
         }
-        let stroke = series_stroke(ask::place(scene, &row.contender));
-        panel.add(Line::through(path, stroke).labelled(row.contender.clone()));
+        let stroke = series_stroke(ask::place(scene, &row.key.contender));
+        panel.add(Line::through(path, stroke).labelled(row.key.contender.to_string()));
     }
 }
 
@@ -156,7 +156,7 @@ fn title(problem: &str, rows: &[&Row]) -> String {
                 Some(hops) if hops > 0.0 => format!(", {hops:.0} of its hops hit"),
                 _ => String::new(),
             };
-            format!("{problem}, {}: {length}{hits}", row.contender)
+            format!("{problem}, {}: {length}{hits}", row.key.contender)
         }
         _ => problem.to_owned(),
     }

@@ -41,8 +41,7 @@ impl Kind for ArmPostures {
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let map = scene.run.records.batch.prepared.iter().find(|map| map.group == self.problem);
-        let both = ask::exhibit(scene, map.map_or("", |map| &map.prepared), "branches")?;
+        let both = ask::exhibit(scene, ask::draw(scene, &self.problem, 0)?, "branches")?;
         let stations: Vec<&[f64]> = both.values.chunks(both.width).collect();
         let mut sheet = Sheet::new(Width::Double, 2, PLOT_PT);
         for (name, station) in [("elbow down", stations[1]), ("elbow up", stations[0])] {

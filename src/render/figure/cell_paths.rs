@@ -8,7 +8,6 @@ use crate::render::RenderError;
 use crate::render::chart::{Panel, Sheet};
 use crate::render::scene3::Paint;
 use crate::render::style::{Dash, GREY, Stroke, WHITE, Width, series_color};
-use crate::study::slug;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -65,14 +64,14 @@ impl CellPaths {
         index: usize,
         view: usize,
     ) -> Result<Panel, RenderError> {
-        let draw = format!("{}/{replicate}", slug(&self.problems));
+        let draw = ask::draw(scene, &self.problems, replicate)?;
         let (contender, (seen, camera)) = (&self.contenders[index], VIEWS[view]);
-        let mut solids = furnished(scene, &draw)?;
-        let body = ask::exhibit(scene, &draw, &format!("body {}/start", self.query))?;
+        let mut solids = furnished(scene, draw)?;
+        let body = ask::exhibit(scene, draw, &format!("body {}/start", self.query))?;
         let pale = Paint { outlined: false, ..Paint::solid(GREY.mixed(WHITE, 0.45)) };
         add_capsules(&mut solids, body, pale);
         let row = ask::trial(scene, &self.problems, replicate, Some(&self.query), contender)?;
-        let stops = ask::exhibit(scene, &row.trial, "trajectory")?;
+        let stops = ask::exhibit(scene, &row.key, "trajectory")?;
         let points: Vec<[f64; 3]> =
             stops.values.chunks(stops.width).map(|stop| [stop[7], stop[8], stop[9]]).collect();
         let color = series_color(ask::series(scene, contender, index));

@@ -5,7 +5,6 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{Stroke, WHITE, Width, series_color, series_marker};
-use crate::study::slug;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -57,8 +56,6 @@ impl Kind for EndpointPairs {
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let map = scene.run.records.batch.prepared.iter().find(|map| map.group == self.problem);
-        let map = map.map_or("", |map| map.prepared.as_str());
         let mut sheet = Sheet::new(Width::Double, self.panels.len(), PLOT_PT);
         let mut first = 0;
         for setting in &self.panels {
@@ -68,7 +65,8 @@ impl Kind for EndpointPairs {
                 if scene.run.manifest.quick && scene.run.rows(&self.problem, label).is_empty() {
                     continue;
                 }
-                let found = ask::exhibit(scene, &format!("{map}/{}", slug(label)), "pairs")?;
+                let row = ask::trial(scene, &self.problem, 0, None, label)?;
+                let found = ask::exhibit(scene, &row.key, "pairs")?;
                 let pairs = found.values.chunks(4).map(|p| [[p[0], p[1]], [p[2], p[3]]]);
                 series.push((label, pairs.collect::<Pairs>()));
             }

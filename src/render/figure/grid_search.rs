@@ -76,11 +76,11 @@ fn panel(scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
     let map = map(scene, row)?;
     let mut panel = map.panel(title(row))?;
     panel.add(cells(scene, row, &map));
-    if let Some(raw) = scene.run.exhibit(&row.trial, "raw_path") {
+    if let Some(raw) = scene.run.exhibit(&row.key, "raw_path") {
         let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
         panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
     }
-    if let Some(path) = scene.run.exhibit(&row.trial, "path") {
+    if let Some(path) = scene.run.exhibit(&row.key, "path") {
         panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
         add_ends(&mut panel, &centres(path));
     }
@@ -95,11 +95,7 @@ pub(super) struct Map<'a> {
 
 /// The map that the trial `row` was run on.
 pub(super) fn map<'a>(scene: &Scene<'a>, row: &Row) -> Result<Map<'a>, RenderError> {
-    let of = scene.run.prepared_of(row).map_or("", |prepared| &prepared.prepared);
-    let stored = |name: &str| {
-        let found = scene.run.exhibit(of, name);
-        found.ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
-    };
+    let stored = |name: &str| super::ask::exhibit(scene, &row.key.on, name);
     let (size, walls) = (stored("size_cells")?, stored("blocked")?);
     Ok(Map { size: [size.values[0] as usize, size.values[1] as usize], walls })
 }
@@ -172,7 +168,7 @@ fn title(row: &Row) -> String {
     };
     format!(
         "{}: cost {}, turns {}°, opened {}",
-        row.contender,
+        row.key.contender,
         number("path_cost_cells", 2),
         number("turn_exterior_deg", 2),
         number("opened", 0)
@@ -185,7 +181,7 @@ pub(super) fn centres(path: &Exhibit) -> Vec<[f64; 2]> {
 }
 
 fn cells(scene: &Scene<'_>, row: &Row, map: &Map<'_>) -> Cells {
-    let side = |name: &str| listed(scene.run.exhibit(&row.trial, name));
+    let side = |name: &str| listed(scene.run.exhibit(&row.key, name));
     let layers = [(side("opened_goal_side"), goal_side()), (side("opened_start_side"), start_side())];
     let keys = vec![
         cell_key("blocked", blocked()),

@@ -44,7 +44,7 @@ impl Kind for JointCurves {
         let mut found = Vec::new();
         for contender in &self.contenders {
             let row = ask::trial(scene, &self.problems, draw, Some(&self.query), contender)?;
-            found.push((row, ask::exhibit(scene, &row.trial, "trajectory")?));
+            found.push((row, ask::exhibit(scene, &row.key, "trajectory")?));
         }
         let angles =
             || found.iter().flat_map(|(_, e)| e.values.chunks(e.width).flat_map(|stop| &stop[1..7]).copied());
@@ -56,7 +56,7 @@ impl Kind for JointCurves {
             let number = |column: &str| row.value(column).unwrap_or(f64::NAN);
             let title = format!(
                 "{}: {} local paths, travel {:.0}°, peak {:.0} °/s²",
-                row.contender,
+                row.key.contender,
                 number("local_paths"),
                 number("joint_travel_deg"),
                 number("joint_peak_deg_s2")

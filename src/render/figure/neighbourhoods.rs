@@ -50,8 +50,8 @@ impl Kind for Neighbourhoods {
         let width = if rows.len() == 1 { Width::Single } else { Width::Double };
         let mut sheet = Sheet::new(width, rows.len().min(4), PLOT_PT);
         for row in rows {
-            let region = ask::exhibit(scene, &row.trial, "region")?;
-            sheet.add(panel(row, region, scene.run.exhibit(&row.trial, "drawn"))?);
+            let region = ask::exhibit(scene, &row.key, "region")?;
+            sheet.add(panel(row, region, scene.run.exhibit(&row.key, "drawn"))?);
         }
         Ok(sheet)
     }
@@ -62,7 +62,7 @@ fn panel(row: &Row, region: &Exhibit, drawn: Option<&Exhibit>) -> Result<Panel, 
     let reach = region.values.iter().copied().fold(1.0, f64::max) + 0.6;
     let axis = |label: &str| Axis::linear(label, -reach, reach).map(Axis::whole);
     let (tried, all) = (steps(drawn.unwrap_or(region)), steps(region));
-    let title = format!("{}: {} of {}", row.contender, tried.len(), all.len());
+    let title = format!("{}: {} of {}", row.key.contender, tried.len(), all.len());
     let mut panel =
         Panel::new(title, axis("x (steps)")?, axis("y (steps)")?).trimmed(Trim::Grid).with_equal_scales();
     for &step in &tried {

@@ -9,6 +9,7 @@ use crate::render::chart::rows::BoxStrip;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color};
+use crate::study::key::SweepKey;
 use crate::study::record::Status;
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -35,7 +36,8 @@ savings = ["length.least", "length.greatest"]
             .ok_or_else(|| settings.error(format!("there is no metric `{}`", read.metric)))?;
         let printed = read.savings.iter().flatten().map(|id| ask::printed(settings, paper, id));
         let printed = printed.collect::<Result<_, _>>()?;
-        Ok(Box::new(PairedBoxes { read, metric, printed }))
+        let sweep = ask::sweep(settings, study, &read.sweep)?;
+        Ok(Box::new(PairedBoxes { read, metric, sweep, printed }))
     },
 };
 
@@ -57,6 +59,7 @@ struct Read {
 struct PairedBoxes {
     read: Read,
     metric: &'static Metric,
+    sweep: SweepKey,
     /// Printed savings.
     printed: Vec<f64>,
 }
@@ -72,14 +75,13 @@ impl PairedBoxes {
         let mut order: Vec<String> = Vec::new();
         let mut found: BTreeMap<(String, u32), Vec<f64>> = BTreeMap::new();
         for contender in &self.read.contenders {
-            let rows = scene.run.rows(&self.read.problems, contender).into_iter();
-            for row in rows.filter(|row| row.sweep == self.read.sweep) {
-                let name = ask::query(row).to_owned();
+            for row in scene.run.rows_at(&self.read.problems, contender, &self.sweep) {
+                let name = row.query().to_owned();
                 if !order.contains(&name) {
                     order.push(name.clone());
                 }
                 if let (Status::Solved, Some(value)) = (row.status, scene.run.value(row, self.metric)) {
-                    found.entry((name, row.replicate)).or_default().push(value);
+                    found.entry((name, row.draw())).or_default().push(value);
                 }
             }
         }

@@ -8,7 +8,6 @@ use crate::render::style::{
     BLACK, BLUE, Dash, Fill, GREEN, GREY, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
-use crate::study::slug;
 use base::settings::Accepted;
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
@@ -80,7 +79,7 @@ impl Kind for PlaneSearch {
         for of in &self.panels {
             let mut panel = self.map(scene, &of.title)?;
             let row = ask::trial(scene, &self.problems, self.draw, None, &of.contender)?;
-            let path = points(ask::exhibit(scene, &row.trial, "path")?);
+            let path = points(ask::exhibit(scene, &row.key, "path")?);
             if !of.bare {
                 match of.straightened {
                     Some(kept) => straightened(&mut panel, scene, row, &path, kept)?,
@@ -96,13 +95,13 @@ impl Kind for PlaneSearch {
 
 impl PlaneSearch {
     fn map(&self, scene: &Scene<'_>, title: &str) -> Result<Panel, RenderError> {
-        let draw = format!("{}/{}", slug(&self.problems), self.draw);
-        let size = ask::exhibit(scene, &draw, "size_mm")?;
+        let draw = ask::draw(scene, &self.problems, self.draw)?;
+        let size = ask::exhibit(scene, draw, "size_mm")?;
         let x = Axis::linear("x (mm)", 0.0, size.values[0])?;
         let mut panel = Panel::new(title, x, Axis::linear("y (mm)", 0.0, size.values[1])?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
-        let corners = ask::exhibit(scene, &draw, "obstacles")?;
+        let corners = ask::exhibit(scene, draw, "obstacles")?;
         let numbered: Vec<[f64; 3]> = corners.values.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
         for obstacle in numbered.chunk_by(|a, b| a[0] == b[0]) {
             let fill = Some(Fill::solid(BLUE.mixed(BLACK, 0.45)));
@@ -110,7 +109,7 @@ impl PlaneSearch {
             panel.add(Shape { corners, fill, stroke: None, label: "obstacle".to_owned() });
         }
         panel.add(Points {
-            points: points(ask::exhibit(scene, &draw, "samples")?),
+            points: points(ask::exhibit(scene, draw, "samples")?),
             marker: Marker::Circle,
             radius_pt: 1.2,
             color: GREY.mixed(WHITE, 0.35),
@@ -127,7 +126,7 @@ impl PlaneSearch {
         path: &[[f64; 2]],
         of: &PanelOf,
     ) -> Result<(), RenderError> {
-        let closed = points(ask::exhibit(scene, &row.trial, "closed")?);
+        let closed = points(ask::exhibit(scene, &row.key, "closed")?);
         let all = of.searches.is_none();
         let shown = of.searches.unwrap_or(closed.len()).min(closed.len());
         let Some(goal) = path.last() else { return Ok(()) };
@@ -178,7 +177,7 @@ fn straightened(
     path: &[[f64; 2]],
     kept: usize,
 ) -> Result<(), RenderError> {
-    let raw = points(ask::exhibit(scene, &row.trial, "raw_path")?);
+    let raw = points(ask::exhibit(scene, &row.key, "raw_path")?);
     let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
     panel.add(Line::through(raw.clone(), stroke).labelled("path as searched"));
     let inner = raw[1..raw.len() - 1].to_vec();

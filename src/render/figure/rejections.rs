@@ -56,7 +56,7 @@ fn count(row: &PreparedRow, column: &str) -> Option<f64> {
 
 impl Rejections {
     fn rows<'s>(scene: &'s Scene<'_>, problems: &str) -> Vec<&'s PreparedRow> {
-        scene.run.records.batch.prepared.iter().filter(|row| row.group == problems).collect()
+        scene.run.prepared(problems).collect()
     }
 
     /// The bars that any roadmap of the figure has pairs for, without those left out.

@@ -64,7 +64,7 @@ impl Kind for SearchFlow {
 }
 
 fn panel(scene: &Scene<'_>, row: &Row, share: f64) -> Result<Panel, RenderError> {
-    let exhibit = |name: &str| scene.run.exhibit(&row.trial, name);
+    let exhibit = |name: &str| scene.run.exhibit(&row.key, name);
     let sides = ["opened_start_side", "opened_goal_side"].map(|name| listed(exhibit(name)));
     let shown = sides.each_ref().map(|side| (side.len() as f64 * share).ceil() as usize);
     let all: usize = sides.iter().map(Vec::len).sum();

@@ -9,6 +9,7 @@ use crate::render::chart::rows::Interval;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color, series_marker};
 use crate::study::Study;
+use crate::study::key::SweepKey;
 use base::seed;
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -31,7 +32,8 @@ printed = ["t2.original.800"]
         ask::known(settings, study, &named, &[])?;
         let printed = read.printed.iter().map(|id| ask::printed(settings, paper, id));
         let printed = printed.collect::<Result<_, _>>()?;
-        Ok(Box::new(ShareBars { contenders: labels(study), printed, read }))
+        let sweep = ask::sweep(settings, study, &read.sweep)?;
+        Ok(Box::new(ShareBars { contenders: labels(study), printed, read, sweep }))
     },
 };
 
@@ -49,6 +51,7 @@ struct Read {
 
 struct ShareBars {
     read: Read,
+    sweep: SweepKey,
     contenders: Vec<String>,
     printed: Vec<f64>,
 }
@@ -116,7 +119,7 @@ impl ShareBars {
         let mut panel = Panel::new("", axis, Axis::names("", vec![String::new(); rows]));
         Self::rule(&mut panel, 0.0, rows, "");
         self.fill(scene, &mut panel, false, &|problems, contender| {
-            differences_percent(scene.run, [against, problems], contender, &self.read.sweep)
+            differences_percent(scene.run, [against, problems], contender, &self.sweep)
         });
         Ok(panel)
     }
@@ -132,7 +135,7 @@ impl Kind for ShareBars {
             Self::rule(&mut panel, *value, rows, "printed");
         }
         self.fill(scene, &mut panel, true, &|problems, contender| {
-            solved_percents(scene.run, problems, contender, &self.read.sweep)
+            solved_percents(scene.run, problems, contender, &self.sweep)
         });
         let per_row = if self.is_single() { 15.0 } else { 6.0 + 5.0 * self.contenders.len() as f64 };
         let columns = 1 + usize::from(self.read.against.is_some());

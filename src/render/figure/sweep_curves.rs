@@ -88,11 +88,10 @@ impl Kind for SweepCurves {
 impl SweepCurves {
     /// (value of the sweep, metric), in the sweep's order.
     fn curve(&self, scene: &Scene<'_>, contender: &str, metric: &Metric) -> Vec<[f64; 2]> {
-        let prefix = format!("{}=", self.settings.along);
         let rows = scene.run.rows(&self.settings.problem, contender);
         let points = rows.iter().filter_map(|row| {
-            let part = row.sweep.split(',').find_map(|part| part.strip_prefix(&prefix))?;
-            Some([part.parse().ok()?, scene.run.value(row, metric)?])
+            let along = row.key.sweep.value(&self.settings.along)?.as_f64()?;
+            Some([along, scene.run.value(row, metric)?])
         });
         points.collect()
     }

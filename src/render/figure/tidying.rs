@@ -61,9 +61,10 @@ impl Tidying {
             what: format!("a trial of `{}` on `{problem}`", self.contender),
         })?;
         let stored = |name: &str| {
-            let missing =
-                || RenderError::NotStored { what: format!("the exhibit `{name}` of `{}`", row.trial) };
-            scene.run.exhibit(&row.trial, name).ok_or_else(missing)
+            let missing = || RenderError::NotStored {
+                what: format!("the exhibit `{name}` of `{}`", scene.run.trial(row)),
+            };
+            scene.run.exhibit(&row.key, name).ok_or_else(missing)
         };
         let (raw, path, refused) = (stored("raw_path")?, stored("path")?, stored("refused_sight")?);
         let raw_points: Vec<&[f64]> = raw.values.chunks(raw.width).collect();

@@ -148,7 +148,7 @@ fn at(curve: &[[f64; 2]], way: f64) -> f64 {
 
 /// The way along the path and the joint's angle at every station.
 fn curve(scene: &Scene<'_>, row: &Row, joint: usize) -> Option<Vec<[f64; 2]>> {
-    let stations = scene.run.exhibit(&row.trial, "stations")?;
+    let stations = scene.run.exhibit(&row.key, "stations")?;
     let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
     let mut way = 0.0;
     let mut before = [stations[0][4], stations[0][5]];

@@ -5,7 +5,7 @@ use super::super::error::StudyError;
 use super::super::family::Family;
 use super::super::group::Families;
 use super::super::inputs::Inputs;
-use super::super::name::slug;
+use super::super::name::{self, slug};
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
 use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint};
@@ -164,7 +164,18 @@ impl Study {
     }
 
     fn check_sweeps(&self, faults: &mut Faults) {
+        let mut keys = BTreeSet::new();
         for (index, sweep) in self.sweeps.iter().enumerate() {
+            let wrong = if sweep.key_values().is_none() {
+                Some("has a value that is neither a number nor a word nor a truth value")
+            } else {
+                (!keys.insert(&sweep.key)).then_some("is the second over this setting; one is accepted")
+            };
+            if let Some(wrong) = wrong {
+                let message = format!("sweep `{}` {wrong}", sweep.key);
+                faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
+                continue;
+            }
             let used: BTreeSet<&str> = self.stage_names();
             if !used.contains(sweep.of.as_str()) {
                 let hint = did_you_mean(&sweep.of, used.iter().copied());
@@ -206,7 +217,8 @@ fn check_extent(
     for (group, family) in families {
         let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));
         let Some(lack) = lack else { continue };
-        let swept = if sweep.name.is_empty() { String::new() } else { format!(" at {}", sweep.name) };
+        let at = name::sweep(&sweep.key);
+        let swept = if at.is_empty() { at } else { format!(" at {at}") };
         let message = format!("contender `{}`{swept} on problems `{}`: {lack}", contender.label, group.label);
         return Err(contender.stages[0].settings.error(message));
     }

@@ -6,6 +6,7 @@
 //! exact one on pairs of segments of the same samples.
 
 use super::{Entry, Task};
+use crate::study::key::TrialKey;
 use crate::study::record::{Batch, Status, Values};
 use crate::study::unit::Unit;
 use base::seed::{self, Stream};
@@ -106,8 +107,8 @@ impl Counted {
             ("segment_pairs", self.pairs),
             ("segment_pairs_wrong", self.pairs_wrong),
         ];
-        let counts = counts.into_iter().map(|(name, count)| (name.to_owned(), Value::Count(count)));
-        counts.chain([("largest_excess_cm".to_owned(), Value::Real(self.largest_excess))]).collect()
+        let counts = counts.into_iter().map(|(name, count)| (name, Value::Count(count)));
+        counts.chain([("largest_excess_cm", Value::Real(self.largest_excess))]).collect()
     }
 }
 
@@ -121,12 +122,12 @@ impl FormulaError {
 }
 
 impl Task for FormulaError {
-    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
-        vec![super::variant_name(unit, LABEL)]
+    fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
+        vec![super::variant_key(unit, LABEL, 0)]
     }
 
     fn run(&self, unit: &Unit<'_>) -> Batch {
-        let mut row = super::variant_row(unit, LABEL, "");
+        let mut row = super::variant_row(unit, LABEL);
         let prepared = unit.family.prepare(unit.seed);
         // Stored units are known by what was prepared for them: without this row every run would measure anew.
         let prepared_row = super::prepared_row(unit, prepared.as_ref());

@@ -2,6 +2,7 @@
 
 use super::{Entry, Task};
 use crate::study::endpoint_variants::{self as open, Case, Question, Variant};
+use crate::study::key::{Owner, TrialKey};
 use crate::study::record::{Batch, Kept, Row, Status, Values};
 use crate::study::unit::Unit;
 use base::grid::Moves;
@@ -110,8 +111,8 @@ impl Question for Identify {
 }
 
 impl Task for Identify {
-    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
-        self.variants.iter().map(|variant| super::variant_name(unit, &variant.label)).collect()
+    fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
+        self.variants.iter().map(|variant| super::variant_key(unit, &variant.label, 0)).collect()
     }
 
     fn run(&self, unit: &Unit<'_>) -> Batch {
@@ -136,7 +137,7 @@ impl Task for Identify {
                     let points = points(&base.lattice, &found.pairs);
                     batch.rows.extend(rows(unit, variant, &points, found.candidates));
                     if keeps {
-                        let of = super::variant_name(unit, &variant.label);
+                        let of = Owner::Trial(super::variant_key(unit, &variant.label, 0));
                         let exhibit = Exhibit { name: "pairs".to_owned(), width: 4, values: points.concat() };
                         batch.kept.push(Kept { of, exhibit });
                     }
@@ -167,14 +168,14 @@ fn points(lattice: &TipLattice, pairs: &[Pair]) -> Vec<[f64; 4]> {
 /// One row for the variant with its counts, then one a pair; without pairs the first says so.
 fn rows(unit: &Unit<'_>, variant: &Variant, points: &[[f64; 4]], candidates: Option<usize>) -> Vec<Row> {
     let on_fives = points.iter().filter(|pair| pair.iter().all(|value| value % 5.0 == 0.0)).count();
-    let mut head = super::variant_row(unit, &variant.label, "");
+    let mut head = super::variant_row(unit, &variant.label);
     head.status = Status::Solved;
-    head.values = Values::from([
-        ("pairs".to_owned(), Value::Count(points.len() as u64)),
-        ("pairs_on_fives".to_owned(), Value::Count(on_fives as u64)),
+    head.values = Values::from_iter([
+        ("pairs", Value::Count(points.len() as u64)),
+        ("pairs_on_fives", Value::Count(on_fives as u64)),
     ]);
     if let Some(candidates) = candidates {
-        head.values.insert("candidates".to_owned(), Value::Count(candidates as u64));
+        head.values.extend([("candidates", Value::Count(candidates as u64))]);
     }
     if points.is_empty() {
         let reason = "no pair of free points has the printed lengths in all cases".to_owned();
@@ -182,14 +183,10 @@ fn rows(unit: &Unit<'_>, variant: &Variant, points: &[[f64; 4]], candidates: Opt
     }
     let columns = ["start_x_cm", "start_y_cm", "goal_x_cm", "goal_y_cm"];
     let pair_row = |(index, pair): (usize, &[f64; 4])| {
-        let mut row = super::variant_row(unit, &variant.label, &format!("pair-{index}"));
+        let mut row = super::variant_row(unit, &variant.label);
         row.status = Status::Solved;
-        row.repeat = index as u32 + 1;
-        row.values = columns
-            .into_iter()
-            .zip(pair)
-            .map(|(name, value)| (name.to_owned(), Value::Real(*value)))
-            .collect();
+        row.key.repeat = index as u32 + 1;
+        row.values = columns.into_iter().zip(pair).map(|(name, value)| (name, Value::Real(*value))).collect();
         row
     };
     std::iter::once(head).chain(points.iter().enumerate().map(pair_row)).collect()

@@ -2,6 +2,7 @@
 
 use super::{Entry, Task};
 use crate::study::endpoint_variants::{self as endpoints, Case, Question, Variant};
+use crate::study::key::TrialKey;
 use crate::study::name::slug;
 use crate::study::record::{Batch, Row, Status, Values};
 use crate::study::unit::Unit;
@@ -138,9 +139,9 @@ impl Question for Asked<'_> {
 }
 
 impl Task for NullRate {
-    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+    fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
         let labels = self.variants.iter().map(|variant| variant.label.as_str()).chain([ANY]);
-        labels.map(|label| super::variant_name(unit, label)).collect()
+        labels.map(|label| super::variant_key(unit, label, 0)).collect()
     }
 
     fn run(&self, unit: &Unit<'_>) -> Batch {
@@ -202,13 +203,13 @@ impl NullRate {
 }
 
 fn row(unit: &Unit<'_>, label: &str, targets: &Targets, hits: &[bool]) -> Row {
-    let mut row = super::variant_row(unit, label, "");
+    let mut row = super::variant_row(unit, label);
     let (count, hit) = (targets.count(), hits.iter().filter(|hit| **hit).count());
     row.status = Status::Solved;
-    row.values = Values::from([
-        ("targets".to_owned(), Value::Count(count as u64)),
-        ("targets_hit".to_owned(), Value::Count(hit as u64)),
-        ("hit_share_percent".to_owned(), Value::Real(100.0 * hit as f64 / count as f64)),
+    row.values = Values::from_iter([
+        ("targets", Value::Count(count as u64)),
+        ("targets_hit", Value::Count(hit as u64)),
+        ("hit_share_percent", Value::Real(100.0 * hit as f64 / count as f64)),
     ]);
     row
 }

@@ -2,6 +2,7 @@
 
 use super::{Entry, Task};
 use crate::study::family::Query;
+use crate::study::key::Owner;
 use crate::study::prepared::Prepared;
 use crate::study::record::{Batch, Kept, Row, Status};
 use crate::study::unit::{Entrant, Unit};
@@ -34,12 +35,12 @@ impl Task for PlanTask {
         if let Ok(prepared) = &prepared
             && unit.is_kept(None, 0)
         {
-            batch.keep(&unit.name, prepared.exhibits.clone());
+            batch.keep((&unit.key).into(), prepared.exhibits.clone());
         }
         for (index, query) in unit.queries().iter().enumerate() {
             let known = unit.family.known(index);
             let truth = prepared.as_ref().ok().map(|p| verification::truth(&p.world, query));
-            for entrant in unit.entrants {
+            for &entrant in &unit.entrants {
                 for repeat in 0..entrant.contender.repeats {
                     let trial = Trial { unit, query, entrant, repeat, known: &known };
                     match (&prepared, &truth) {
@@ -55,8 +56,8 @@ impl Task for PlanTask {
 }
 
 impl Batch {
-    fn keep(&mut self, of: &str, exhibits: Vec<Exhibit>) {
-        self.kept.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.to_owned(), exhibit }));
+    fn keep(&mut self, of: Owner, exhibits: Vec<Exhibit>) {
+        self.kept.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.clone(), exhibit }));
     }
 }
 
@@ -87,11 +88,12 @@ impl Trial<'_> {
             Ok(Ok(mut plan)) => {
                 let judged = verification::judge(&request, &plan, &self.entrant.pipeline, truth);
                 (row.status, row.reason) = judged.outcome;
-                row.values.extend(super::named(plan.counts.iter().chain(&judged.values)));
+                row.values
+                    .extend(plan.counts.iter().chain(&judged.values).map(|(name, value)| (*name, *value)));
                 if trace {
-                    batch.keep(&row.trial, std::mem::take(&mut plan.exhibits));
-                    batch.keep(&row.trial, judged.exhibits);
-                    batch.keep(&row.trial, path_exhibit(&plan));
+                    batch.keep((&row.key).into(), std::mem::take(&mut plan.exhibits));
+                    batch.keep((&row.key).into(), judged.exhibits);
+                    batch.keep((&row.key).into(), path_exhibit(&plan));
                 }
             }
         }
@@ -110,16 +112,8 @@ impl Trial<'_> {
     }
 
     fn row(&self, seed: u64) -> Row {
-        let unit = self.unit;
         Row {
-            trial: unit.trial(self.query, self.entrant, self.repeat),
-            problem: self.problem(),
-            group: unit.group.label.clone(),
-            replicate: unit.replicate,
-            contender: self.entrant.contender.label.clone(),
-            sweep: self.entrant.sweep.name.clone(),
-            reading: unit.point.name().to_owned(),
-            repeat: self.repeat,
+            key: self.unit.trial(self.query, self.entrant, self.repeat),
             seed,
             status: Status::Crashed,
             reason: None,
