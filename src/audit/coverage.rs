@@ -296,10 +296,10 @@ mod tests {
         assert_eq!(
             found,
             [
-                "3:24: 69 is backed by no macro",
-                "3:39: 13.40 is typed by hand; macros of this value: \\cost",
-                "4:75: 10 is backed by no macro",
-                "4:84: 50 is backed by no macro"
+                "3:26: 69 is backed by no macro",
+                "3:41: 13.40 is typed by hand; macros of this value: \\cost",
+                "4:68: 10 is backed by no macro",
+                "4:77: 50 is backed by no macro"
             ]
         );
     }

@@ -14,6 +14,7 @@ pub mod fvalues;
 pub mod input;
 pub mod lattice;
 pub mod meaning;
+pub mod output;
 pub mod percent;
 pub mod printed;
 pub mod reader;

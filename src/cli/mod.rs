@@ -1,7 +1,7 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 done, but what was checked is not as stored, or an independent judge disagrees; 4 `crosscheck`
+//! wrong input files; 3 done, but what was checked is not as stored, is impossible, or an independent judge disagrees; 4 `crosscheck`
 //! lacks Python or the network; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
@@ -12,6 +12,7 @@ macro_rules! say {
     }};
 }
 
+mod audit;
 mod check;
 mod crosscheck;
 mod judge;
@@ -60,6 +61,8 @@ enum Command {
     Render(render::Render),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
+    /// Ask of a printed table, by arithmetic alone, whether any data could have given it
+    Audit(audit::Audit),
     /// List papers, studies, planners, tasks, checks, metrics, figure kinds, readings and more
     List(list::List),
 }
@@ -161,6 +164,7 @@ pub fn run() -> ExitCode {
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
+        Command::Audit(command) => command.run(),
         Command::List(command) => command.run(),
     };
     match done {

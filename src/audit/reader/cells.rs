@@ -77,6 +77,9 @@ fn complaint(text: &str) -> &'static str {
     let is_number =
         |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
     let without = |marks: &[char]| text.trim_start_matches(['-', '−']).replace(marks, "");
+    if text.bytes().filter(u8::is_ascii_digit).count() > 15 && is_number(&without(&[])) {
+        return "has more than 15 digits";
+    }
     let commas = text.matches(',').count();
     if commas > 0 && is_number(&without(&[','])) {
         let (_, rest) = text.rsplit_once(',').unwrap_or_default();
@@ -91,9 +94,6 @@ fn complaint(text: &str) -> &'static str {
     }
     if text.parse::<f64>().is_ok_and(f64::is_finite) && text.contains(['e', 'E']) {
         return "has an exponent, which hides digits; write the number out";
-    }
-    if text.bytes().filter(u8::is_ascii_digit).count() > 15 && is_number(&without(&[])) {
-        return "has more than 15 digits";
     }
     "is no number"
 }
