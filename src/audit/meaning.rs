@@ -36,6 +36,7 @@ pub const ITEMS: &[(&str, &str)] = &[
     ("samples", "the number of samples, by which success is to rise"),
     ("rises, anytime", "expected to rise with samples; anytime: the larger sample contains the smaller"),
     ("lower is better, higher is better", "what bold is to mean"),
+    ("unit=U", "the unit, for people"),
     ("label, skip", "text, or a column that is not looked at"),
 ];
 
@@ -353,6 +354,7 @@ impl Meaning {
             "from" => self.ends[0] = Some(point(value).ok_or_else(|| wrong(&item, "from=X:Y"))?),
             "to" => self.ends[1] = Some(point(value).ok_or_else(|| wrong(&item, "to=X:Y"))?),
             "turns" => self.turns = Some(value.to_owned()),
+            "unit" => {}
             "free" => self.free = Some(natural()?),
             _ => {
                 let known: Vec<&str> = ITEMS.iter().map(|(item, _)| *item).collect();

@@ -116,6 +116,8 @@ pub struct Tally {
 pub struct Options {
     /// Whether findings that are possible are kept.
     pub keeps_possible: bool,
+    /// Whether power is left out, which takes most of the time.
+    pub skips_power: bool,
     /// The search for data behind what is possible; none if it is not asked for.
     pub witness: Option<Budget>,
 }
@@ -194,9 +196,10 @@ impl Run<'_> {
         let applied = self.report.tally.get(entry.name).map_or(0, |tally| tally.applied);
         let is_shown =
             class != Class::Possible || self.options.keeps_possible || self.options.witness.is_some();
-        let power = (answer.is_some() && (class < Class::Unchecked || applied < POWERS))
-            .then(|| self.power(entry, test, &prints))
-            .flatten();
+        let power =
+            (!self.options.skips_power && answer.is_some() && (class < Class::Unchecked || applied < POWERS))
+                .then(|| self.power(entry, test, &prints))
+                .flatten();
         self.count(entry.name, class, power);
         if !is_shown {
             return;
@@ -320,7 +323,10 @@ pub fn window(test: &dyn Test, first: Printed) -> Option<(i64, i64)> {
             let units = |end: Exact| super::exact::mul(end, scale);
             (i64::try_from(ceil(units(low)?)).ok()?, i64::try_from(floor(units(high)?)).ok()?)
         }
-        None => (first.units() - 500, first.units() + 500),
+        None => {
+            let around = first.units().abs().max(100);
+            (first.units() - around, first.units() + around)
+        }
     };
     let ends = (ends.0.max(-limit), ends.1.min(limit));
     (ends.0 <= ends.1).then_some(ends)
@@ -334,3 +340,8 @@ fn moved(printed: Printed, by: i64) -> Option<Printed> {
 fn listed(names: &[&str]) -> String {
     if names.is_empty() { "a mixture of ways".to_owned() } else { names.join(", ") }
 }
+
+#[cfg(test)]
+mod simulation;
+#[cfg(test)]
+mod tests;

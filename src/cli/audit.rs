@@ -89,7 +89,7 @@ impl Audit {
             write(stub, &headers.concat())?;
         }
         let witness = self.witness.map(|most| Budget { most, steps: self.budget, seed: self.seed });
-        let options = Options { keeps_possible: self.json, witness };
+        let options = Options { keeps_possible: self.json, witness, ..Options::default() };
         let report = audit::report::audit(&input, &options).map_err(told)?;
         if let Some(folder) = &self.certificates {
             write_certificates(folder, &report)?;

@@ -2,6 +2,7 @@
 
 use crate::exact::{Exact, Print, Span, decimal, mul, spelled, whole};
 use crate::input::{Input, quoted};
+use crate::meaning::Kind;
 use crate::printed::Digits;
 use crate::table::{Column, Quoted, Table};
 use serde_json::{Value, json};
@@ -21,7 +22,10 @@ pub fn each_number(
     is_meant: impl Fn(&Column) -> bool,
     give: &mut dyn FnMut(&Table, &Column, usize, Quoted),
 ) {
-    for (index, table) in input.tables.iter().enumerate() {
+    // Where rows are statistics, a cell is none of the values.
+    let has_values =
+        |table: &Table| table.columns.iter().all(|column| column.meaning.kind != Kind::Statistics);
+    for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| has_values(table)) {
         for (at, column) in table.columns.iter().enumerate().filter(|(_, column)| is_meant(column)) {
             for row in 0..table.rows.len() {
                 if let Some(number) = quoted(index, table, row, at) {
@@ -63,4 +67,10 @@ pub fn spans(prints: &[Print]) -> Vec<Span> {
 /// `k` times a step, for people.
 pub fn multiple(step: Exact, k: i128, decimals: usize) -> String {
     mul(step, whole(k)).map_or_else(|| "too long a number".to_owned(), |value| shown(value, decimals))
+}
+
+/// From 0 to twice what is printed, and 100 units of the last place at least.
+pub fn up_to_twice(print: Print) -> Option<[Exact; 2]> {
+    let least = Exact::new(100, i128::from(print.printed.scale()));
+    Some([whole(0), mul(whole(2), print.value())?.max(least)])
 }

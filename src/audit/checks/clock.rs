@@ -29,11 +29,6 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     let is_meant = |column: &crate::table::Column| {
         column.meaning.kind == Kind::Value && column.meaning.grain.is_some() && column.meaning.n.is_none()
     };
-    for table in &input.tables {
-        if table.columns.iter().any(|column| column.meaning.kind == Kind::Statistics) {
-            return;
-        }
-    }
     each_number(input, is_meant, &mut |_, column, _, number| {
         if let Some(tick) = column.meaning.grain {
             give(Box::new(Clock { numbers: [number], tick }));

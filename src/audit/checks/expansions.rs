@@ -1,8 +1,8 @@
 //! Whether a planner expands no more cells than are free.
 
-use super::arguments::{count, digits, each_number};
+use super::arguments::{count, digits, each_number, up_to_twice};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact::{Exact, Print, add, whole};
+use crate::exact::{Exact, Print, whole};
 use crate::input::Input;
 use crate::meaning::{Kind, Statistic};
 use crate::relation::Relation;
@@ -64,8 +64,7 @@ impl Test for Expansions {
     }
 
     fn window(&self) -> Option<[Exact; 2]> {
-        let value = self.numbers[0].print.value();
-        Some([whole(0), add(value, value)?.max(whole(0))])
+        up_to_twice(self.numbers[0].print)
     }
 
     fn proof(&self, _prints: &[Print]) -> Option<Proof> {

@@ -1,9 +1,9 @@
 //! Whether n values of a grain can have the printed mean and the printed deviation at once.
 
-use super::arguments::{count, digits, shown};
+use super::arguments::{count, digits, shown, up_to_twice};
 use super::{Entry, FromRelation, Proof, Test};
 use crate::certificate;
-use crate::exact::{Exact, Print, Span, add, ceil, div, floor, mul, spelled, whole};
+use crate::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
 use crate::input::Input;
 use crate::meaning::{Divisor, Statistic};
 use crate::relation::Relation;
@@ -210,8 +210,7 @@ impl Test for Moment {
     }
 
     fn window(&self) -> Option<[Exact; 2]> {
-        let twice = add(self.numbers[0].print.value(), self.numbers[0].print.value())?;
-        Some([whole(0), twice.max(whole(0))])
+        up_to_twice(self.numbers[0].print)
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {

@@ -60,7 +60,8 @@ pub trait Test {
     /// The premises that the answer rests on.
     fn premises(&self) -> Vec<String>;
 
-    /// The range in which the first number can be printed at all; 500 units of the last place to either side, if none.
+    /// The range in which the first number can be printed at all; if none, as far to either side as it is from 0, and 100
+    /// units of the last place at least.
     fn window(&self) -> Option<[Exact; 2]> {
         None
     }

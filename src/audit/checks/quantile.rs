@@ -71,9 +71,13 @@ impl Quantile {
             offsets.push(mul(add(share, whole(1))?, third)?);
             offsets.push(add(mul(share, Exact::new(1, 4))?, Exact::new(3, 8))?);
         }
-        let mut denominators = if self.is_linear { Vec::new() } else { vec![1, 2] };
+        // Rules 1 and 3 take a value; rule 2 takes the middle of two where n p is whole.
+        let place = mul(n, share)?;
+        let is_middle = !self.is_linear && *place.denom() == 1;
+        let mut denominators =
+            if self.is_linear { Vec::new() } else { vec![1, if is_middle { 2 } else { 1 }] };
         for offset in offsets {
-            denominators.push(*add(mul(n, share)?, offset)?.denom());
+            denominators.push(*add(place, offset)?.denom());
         }
         denominators.sort_unstable();
         denominators.dedup();

@@ -1,6 +1,6 @@
 //! Whether a deviation is possible between the least and the greatest value.
 
-use super::arguments::{count, digits, shown};
+use super::arguments::{count, digits, shown, up_to_twice};
 use super::{Entry, Proof, Test};
 use crate::exact::{Exact, Print, Span, add, div, mul, spelled, sub, whole};
 use crate::input::Input;
@@ -118,8 +118,7 @@ impl Test for SdRange {
     }
 
     fn window(&self) -> Option<[Exact; 2]> {
-        let value = self.numbers[0].print.value();
-        Some([whole(0), add(value, value)?.max(whole(0))])
+        up_to_twice(self.numbers[0].print)
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
