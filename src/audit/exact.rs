@@ -132,6 +132,7 @@ impl Span {
     }
 
     /// What both hold; it may be empty.
+    #[must_use]
     pub fn meet(&self, other: &Self) -> Self {
         let (low, low_closed) = match self.low.cmp(&other.low) {
             std::cmp::Ordering::Less => (other.low, other.low_closed),
@@ -147,6 +148,7 @@ impl Span {
     }
 
     /// The members that are not outside of the ends given.
+    #[must_use]
     pub fn cut(&self, [least, most]: [Option<Exact>; 2]) -> Self {
         let mut cut = *self;
         if let Some(least) = least.filter(|least| *least > cut.low) {
@@ -199,6 +201,7 @@ impl Span {
     }
 
     /// The members that are not negative.
+    #[must_use]
     pub fn not_negative(&self) -> Self {
         if self.low < whole(0) { Self { low: whole(0), low_closed: true, ..*self } } else { *self }
     }

@@ -1,10 +1,11 @@
 //! What an audit is made of: tables, samples, named cells, and relations between them.
 
 use super::exact::Print;
-use super::meaning::{Meaning, Statistic};
+use super::meaning::Meaning;
 use super::printed::{Digits, Printed};
 use super::relation::Relation;
 use super::sample::{self, Sample};
+use super::statistic::Statistic;
 use super::table::{Place, Quoted, Table};
 use std::collections::BTreeMap;
 

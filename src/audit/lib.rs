@@ -22,6 +22,7 @@ pub mod relation;
 pub mod report;
 pub mod sample;
 pub mod sight;
+pub mod statistic;
 pub mod table;
 pub mod turns;
 pub mod witness;

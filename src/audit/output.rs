@@ -24,7 +24,7 @@ pub fn line(source: &str, finding: &Finding) -> String {
             }));
         }
         None if finding.class == Class::Impossible => {
-            notes.push("no small change of one number mends it".to_owned())
+            notes.push("no small change of one number mends it".to_owned());
         }
         None => {}
     }

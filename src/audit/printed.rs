@@ -133,12 +133,11 @@ impl Printed {
             Digits::HalfEven => from(-1, is_even, 1, is_even),
             Digits::Truncated if sign > 0 => from(0, true, 2, false),
             Digits::Truncated if sign < 0 => from(-2, false, 0, true),
-            Digits::Truncated | Digits::Any => from(-2, false, 2, false),
             Digits::Floor => from(0, true, 2, false),
             Digits::Ceiling => from(-2, false, 0, true),
             Digits::Unknown if sign > 0 => from(-1, true, 2, false),
             Digits::Unknown if sign < 0 => from(-2, false, 1, true),
-            Digits::Unknown => from(-2, false, 2, false),
+            Digits::Truncated | Digits::Unknown | Digits::Any => from(-2, false, 2, false),
         }
     }
 }

@@ -317,16 +317,12 @@ pub fn power(test: &dyn Test, prints: &[Print], most: i128) -> Option<Power> {
 /// The least and the greatest print of the first number, in units of its last place.
 pub fn window(test: &dyn Test, first: Printed) -> Option<(i64, i64)> {
     let limit = 10_i64.pow(15) - 1;
-    let ends = match test.window() {
-        Some([low, high]) => {
-            let scale = whole(first.scale());
-            let units = |end: Exact| super::exact::mul(end, scale);
-            (i64::try_from(ceil(units(low)?)).ok()?, i64::try_from(floor(units(high)?)).ok()?)
-        }
-        None => {
-            let around = first.units().abs().max(100);
-            (first.units() - around, first.units() + around)
-        }
+    let ends = if let Some([low, high]) = test.window() {
+        let units = |end: Exact| super::exact::mul(end, whole(first.scale()));
+        (i64::try_from(ceil(units(low)?)).ok()?, i64::try_from(floor(units(high)?)).ok()?)
+    } else {
+        let around = first.units().abs().max(100);
+        (first.units() - around, first.units() + around)
     };
     let ends = (ends.0.max(-limit), ends.1.min(limit));
     (ends.0 <= ends.1).then_some(ends)

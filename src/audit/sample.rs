@@ -5,7 +5,8 @@
 
 use super::exact::{Exact, Print, div, whole};
 use super::input::quoted;
-use super::meaning::{Count, Divisor, Kind, Meaning, Statistic};
+use super::meaning::{Count, Divisor, Kind, Meaning};
+use super::statistic::Statistic;
 use super::table::{Quoted, Table};
 
 /// Values behind printed statistics.

@@ -4,8 +4,9 @@ use super::arguments::{count, digits, shown};
 use super::{Entry, Proof, Test};
 use crate::exact::{Exact, Print, add, div, mul, spelled, whole};
 use crate::input::Input;
-use crate::meaning::{Divisor, Statistic};
+use crate::meaning::Divisor;
 use crate::sample::Sample;
+use crate::statistic::Statistic;
 use crate::table::Quoted;
 use serde_json::json;
 
@@ -33,8 +34,12 @@ const COUNTS: i128 = 20_000;
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     input.each_sample(&mut |sample| {
-        if sample.is_binary() && !sample.is_count && sample.trials.is_none() {
-            of_sample(sample).into_iter().for_each(|test| give(Box::new(test)));
+        if sample.is_binary()
+            && !sample.is_count
+            && sample.trials.is_none()
+            && let Some(test) = of_sample(sample)
+        {
+            give(Box::new(test));
         }
     });
 }

@@ -4,8 +4,9 @@ use super::arguments::{count, digits, each_number, up_to_twice};
 use super::{Entry, FromRelation, Proof, Test};
 use crate::exact::{Exact, Print, whole};
 use crate::input::Input;
-use crate::meaning::{Kind, Statistic};
+use crate::meaning::Kind;
 use crate::relation::Relation;
+use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use serde_json::json;
 

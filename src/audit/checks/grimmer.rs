@@ -5,9 +5,10 @@ use super::{Entry, FromRelation, Proof, Test};
 use crate::certificate;
 use crate::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
 use crate::input::Input;
-use crate::meaning::{Divisor, Statistic};
+use crate::meaning::Divisor;
 use crate::relation::Relation;
 use crate::sample::Sample;
+use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use crate::witness::{Budget, Moments, Witness, counted, extremes};
 use serde_json::{Value, json};
@@ -44,8 +45,11 @@ const SUMS: i128 = 2000;
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     input.each_sample(&mut |sample| {
-        if sample.trials.is_none() && !sample.is_binary() {
-            of_sample(sample).into_iter().for_each(|test| give(Box::new(test)));
+        if sample.trials.is_none()
+            && !sample.is_binary()
+            && let Some(test) = of_sample(sample)
+        {
+            give(Box::new(test));
         }
     });
 }
@@ -160,7 +164,7 @@ impl Moment {
         [prints[0], prints[1]]
     }
 
-    fn step(&self, squares: &Squares) -> Value {
+    fn step(squares: &Squares) -> Value {
         json!({
             "sum": squares.sum.to_string(),
             "windows": squares.windows.iter().map(certificate::span).collect::<Vec<_>>(),
@@ -224,7 +228,7 @@ impl Test for Moment {
             "divisors": self.divisors().iter().map(ToString::to_string).collect::<Vec<_>>(),
             "is_error": self.is_error,
         });
-        Some(Proof { given, steps: all.iter().map(|squares| self.step(squares)).collect() })
+        Some(Proof { given, steps: all.iter().map(Self::step).collect() })
     }
 
     fn witness(&self, prints: &[Print], budget: &mut Budget) -> Option<Witness> {
@@ -239,7 +243,7 @@ impl Test for Moment {
         for squares in &all {
             for (first, last) in squares.fitting() {
                 for sum in (first..=last).step_by(2) {
-                    let moments = self.moments(squares.sum, sum)?;
+                    let moments = self.moments(squares.sum, sum);
                     is_all &= moments.search(budget, &mut |vector| {
                         let said = counted(vector, |value| {
                             mul(self.grain, whole(value)).map_or_else(String::new, spelled)
@@ -260,12 +264,12 @@ impl Test for Moment {
 }
 
 impl Moment {
-    fn moments(&self, sum: i128, squares: i128) -> Option<Moments> {
+    fn moments(&self, sum: i128, squares: i128) -> Moments {
         let reach = squares.isqrt();
         let grains = |end: Option<Exact>| end.and_then(|end| div(end, self.grain));
         let least = grains(self.ends[0]).map_or(-reach, ceil).max(-reach);
         let most = grains(self.ends[1]).map_or(reach, floor).min(reach);
-        Some(Moments { n: self.n, least, most, sum, squares })
+        Moments { n: self.n, least, most, sum, squares }
     }
 
     /// The least deviation that values with this mean have, by the greatest divisor, rounded down in the sixth digit.

@@ -4,8 +4,8 @@ use super::arguments::digits;
 use super::{Entry, Proof, Test};
 use crate::exact::Print;
 use crate::input::Input;
-use crate::meaning::Statistic;
 use crate::sample::Sample;
+use crate::statistic::Statistic;
 use crate::table::Quoted;
 use serde_json::json;
 

@@ -55,7 +55,7 @@ impl PValue {
             |difference: f64, variance: f64| if variance > 0.0 { difference / variance.sqrt() } else { 0.0 };
         let together = pooled * (1.0 - pooled) * (1.0 / n1 + 1.0 / n2);
         let apart = k1 / n1 * (1.0 - k1 / n1) / n1 + k2 / n2 * (1.0 - k2 / n2) / n2;
-        let corrected = (difference - (1.0 / n1 + 1.0 / n2) / 2.0).max(0.0);
+        let corrected = (difference - f64::midpoint(1.0 / n1, 1.0 / n2)).max(0.0);
         let [fisher_two, fisher_one] = self.fisher();
         vec![
             ("Fisher, two-sided", fisher_two),

@@ -4,8 +4,8 @@ use super::arguments::{count, digits, gap, shown};
 use super::{Entry, Proof, Test};
 use crate::exact::{Exact, Print, add, mul, spelled, whole};
 use crate::input::Input;
-use crate::meaning::Statistic;
 use crate::sample::Sample;
+use crate::statistic::Statistic;
 use crate::table::Quoted;
 use serde_json::{Value, json};
 

@@ -4,9 +4,9 @@ use super::arguments::{count, digits, shown};
 use super::{Entry, FromRelation, Proof, Test};
 use crate::exact::{Exact, Print, add, div, mul, spelled, sub, whole};
 use crate::input::Input;
-use crate::meaning::Statistic;
 use crate::relation::Relation;
 use crate::sample::Sample;
+use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use serde_json::{Value, json};
 
@@ -35,8 +35,10 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
         for column in &table.columns {
             let Some([a, b]) = &column.meaning.ratio else { continue };
             let sample = |name: &str| input.sample(&format!("{}/{name}", table.name));
-            if let (Some(r), Some(a), Some(b)) = (sample(&column.name), sample(a), sample(b)) {
-                of_samples([r, a, b]).into_iter().for_each(|test| give(Box::new(test)));
+            if let (Some(r), Some(a), Some(b)) = (sample(&column.name), sample(a), sample(b))
+                && let Some(test) = of_samples([r, a, b])
+            {
+                give(Box::new(test));
             }
         }
     }
@@ -86,10 +88,16 @@ struct Contradiction {
     at_most: Exact,
 }
 
+/// What the search for a contradiction gave.
+enum Search {
+    Found(Contradiction),
+    Nothing,
+}
+
 impl RatioLabel {
     /// Looks for R, A, B with more problems at b ≤ A / R than there are below B > A / R. `order` says which of the three
     /// samples plays r, a and b.
-    fn contradiction(&self, prints: &[Print], order: [usize; 3]) -> Option<Option<Contradiction>> {
+    fn contradiction(&self, prints: &[Print], order: [usize; 3]) -> Option<Search> {
         let of = |which: usize| {
             let which = order[which];
             (0..prints.len()).filter(move |at| self.kinds[*at].0 == which)
@@ -107,12 +115,17 @@ impl RatioLabel {
                     }
                     let [at_least, at_most] = self.counts([r, a, b])?;
                     if at_least > at_most {
-                        return Some(Some(Contradiction { at: [r, a, b], bound, at_least, at_most }));
+                        return Some(Search::Found(Contradiction {
+                            at: [r, a, b],
+                            bound,
+                            at_least,
+                            at_most,
+                        }));
                     }
                 }
             }
         }
-        Some(None)
+        Some(Search::Nothing)
     }
 
     /// The least number of problems with r ≥ R and a ≤ A, and the greatest with b < B. Any usual rule puts a quantile within
@@ -136,7 +149,7 @@ impl Test for RatioLabel {
     }
 
     fn is_possible(&self, prints: &[Print]) -> Option<bool> {
-        Some(self.contradiction(prints, [0, 1, 2])?.is_none())
+        Some(matches!(self.contradiction(prints, [0, 1, 2])?, Search::Nothing))
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
@@ -144,11 +157,11 @@ impl Test for RatioLabel {
         if is_possible {
             return format!("{r} may be {a} over {b}");
         }
-        let Some(Some(found)) = self.contradiction(prints, [0, 1, 2]) else { return String::new() };
+        let Some(Search::Found(found)) = self.contradiction(prints, [0, 1, 2]) else { return String::new() };
         let [of_r, of_a, of_b] =
             found.at.map(|at| format!("{} {}", self.numbers[at].name, prints[at].printed));
         let inverse = match self.contradiction(prints, [0, 2, 1]) {
-            Some(None) => format!("; {b} over {a} is not excluded"),
+            Some(Search::Nothing) => format!("; {b} over {a} is not excluded"),
             _ => String::new(),
         };
         format!(
@@ -170,7 +183,7 @@ impl Test for RatioLabel {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let found = self.contradiction(prints, [0, 1, 2])??;
+        let Search::Found(found) = self.contradiction(prints, [0, 1, 2])? else { return None };
         let letters = ["r", "a", "b"];
         let kinds = self.kinds.iter().map(|(which, share)| json!([letters[*which], spelled(*share)]));
         let kinds: Vec<Value> = kinds.collect();

@@ -4,8 +4,9 @@ use super::arguments::{count, digits, shown, up_to_twice};
 use super::{Entry, Proof, Test};
 use crate::exact::{Exact, Print, Span, add, div, mul, spelled, sub, whole};
 use crate::input::Input;
-use crate::meaning::{Divisor, Statistic};
+use crate::meaning::Divisor;
 use crate::sample::Sample;
+use crate::statistic::Statistic;
 use crate::table::Quoted;
 use serde_json::json;
 

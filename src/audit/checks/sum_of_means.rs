@@ -5,8 +5,9 @@ use super::{Entry, FromRelation, Proof, Test};
 use crate::certificate;
 use crate::exact::{Exact, Print, Span, mul, spelled, whole};
 use crate::input::{Input, quoted};
-use crate::meaning::{Kind, Statistic};
+use crate::meaning::Kind;
 use crate::relation::Relation;
+use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted, Table};
 use serde_json::json;
 

@@ -5,8 +5,8 @@ use super::{Entry, FromRelation, Proof, Test};
 use crate::certificate;
 use crate::exact::{Exact, Print, Span, spelled, whole};
 use crate::input::Input;
-use crate::meaning::Statistic;
 use crate::relation::Relation;
+use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use serde_json::json;
 

@@ -1,7 +1,7 @@
 //! What a column without annotation probably is.
 
 use super::cells::{Number, number, plain};
-use crate::meaning::Statistic;
+use crate::statistic::Statistic;
 
 /// An annotation for the column `name` with these texts; `label` if they are no numbers.
 pub fn annotation(name: &str, texts: &[&str]) -> String {

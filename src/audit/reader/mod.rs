@@ -12,7 +12,8 @@ mod toml;
 pub use cells::{Number, number};
 
 use super::input::Input;
-use super::meaning::{Kind, Meaning, Statistic};
+use super::meaning::{Kind, Meaning};
+use super::statistic::Statistic;
 use super::table::{Cell, Column, Fault, Place, Table};
 
 /// How a text is written.
@@ -77,7 +78,7 @@ pub fn read(text: &str, format: Format) -> Result<Input, Vec<Fault>> {
         Format::Markdown => Some(Input::of_tables(tables(markdown::raw(text, 1, &mut faults), &mut faults))),
         Format::Toml => toml::read(text, &mut faults),
     };
-    let is_empty = input.as_ref().is_none_or(|input| input.is_empty());
+    let is_empty = input.as_ref().is_none_or(Input::is_empty);
     if faults.is_empty() && is_empty {
         let message = "there is no table here; a CSV with a header line, a Markdown table with a line |---|---| below its \
                        header, or TOML with [[table]], [[sample]] or [[relation]] is accepted";

@@ -2,9 +2,10 @@
 
 use super::Raw;
 use crate::input::Input;
-use crate::meaning::{self, Meaning, Statistic};
+use crate::meaning::{self, Meaning};
 use crate::printed::Digits;
 use crate::relation::Relation;
+use crate::statistic::Statistic;
 use crate::table::{Fault, Place};
 use serde::Deserialize;
 use std::collections::BTreeMap;

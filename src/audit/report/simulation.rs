@@ -6,14 +6,14 @@ use rand::{RngExt, SeedableRng, rngs::SmallRng};
 pub(super) const ROUNDINGS: [&str; 5] = ["half up", "half even", "floor", "ceiling", "truncation"];
 
 /// A source of data and the rounding that prints them.
-pub(super) struct Printer {
-    pub(super) rng: SmallRng,
+struct Printer {
+    rng: SmallRng,
     rounding: &'static str,
     decimals: u32,
 }
 
 impl Printer {
-    pub(super) fn new(seed: u64) -> Self {
+    fn new(seed: u64) -> Self {
         let mut rng = SmallRng::seed_from_u64(seed);
         let rounding = ROUNDINGS[rng.random_range(0..5)];
         let decimals = rng.random_range(0..4);
