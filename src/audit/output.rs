@@ -162,3 +162,36 @@ pub fn list() -> String {
     }
     text
 }
+
+/// What is impossible or a signal, and what each check did, as a section of Markdown under `title`.
+pub fn section(title: &str, about: &str, report: &Report) -> String {
+    let mut text = format!("## {title}\n\n{}\n\n", about.trim());
+    let found = report.findings.iter().filter(|finding| finding.class < Class::Possible);
+    for finding in found {
+        text += &format!(
+            "- **{}** ({}): {}: {}",
+            finding.class.name(),
+            finding.check,
+            finding.name,
+            finding.said
+        );
+        if let Some(power) = finding.power {
+            text += &format!(". The check refuses {:.0} % of prints here", 100.0 * power.share());
+        }
+        if let Some(mend) = &finding.mend {
+            text += &format!("; the least change is {} from {} to {}", mend.name, mend.from, mend.to);
+        }
+        text += &format!(". Premises: {}.\n", finding.premises.join("; "));
+    }
+    let possible = report.findings.iter().filter(|finding| finding.class == Class::Possible);
+    for finding in possible
+        .filter(|finding| ["grim", "total_over_mean", "reduction", "ratio_label"].contains(&finding.check))
+    {
+        text += &format!("- possible ({}): {}: {}.\n", finding.check, finding.name, finding.said);
+    }
+    text += "\nIn all:\n\n";
+    for line in summary(report) {
+        text += &format!("- {line}\n");
+    }
+    text + "\n"
+}

@@ -338,6 +338,8 @@ fn listed(names: &[&str]) -> String {
 }
 
 #[cfg(test)]
+mod pages;
+#[cfg(test)]
 mod simulation;
 #[cfg(test)]
 mod tests;
