@@ -106,7 +106,10 @@ def grimmer(spans: list[Span], given: dict, steps: list) -> None:
     need(n > 0 and isinstance(given["is_error"], bool), "n or is_error is wrong")
     ends = [fraction(given["least"]), fraction(given["most"])]
     divisors = [integer(divisor) for divisor in given["divisors"]]
-    need(bool(divisors) and set(divisors) <= {n - 1, n} and min(divisors) > 0, "the divisors are not n - 1 or n")
+    need(
+        bool(divisors) and set(divisors) <= {n - 1, n} and min(divisors) > 0,
+        "the divisors are not n - 1 or n",
+    )
     first, last = spans[1].times(n / grain).integers()
     first = first if ends[0] is None else max(first, -((-ends[0] / grain * n) // 1))
     last = last if ends[1] is None else min(last, (ends[1] / grain * n) // 1)
@@ -124,7 +127,10 @@ def grimmer(spans: list[Span], given: dict, steps: list) -> None:
         windows = [variance.times(Fraction(d)).plus(point(Fraction(total**2, n))) for d in divisors]
         need(said["windows"] == [window.written() for window in windows], "the sums of squares are others")
         least, most = squares(n, total, *inner)
-        need((integer(said["least"]), integer(said["most"])) == (least, most), "the least or the most is another")
+        need(
+            (integer(said["least"]), integer(said["most"])) == (least, most),
+            "the least or the most is another",
+        )
         for window in windows:
             low, high = window.integers()
             low = max(low, least)
@@ -149,11 +155,22 @@ def debit(spans: list[Span], given: dict, steps: list) -> None:
 
 
 def interval(spans: list[Span], given: dict, steps: list) -> None:
-    """An end of Clopper and Pearson's interval is not printed so: tails are sums of binomials, in fractions."""
-    k, n, tail, whole = integer(given["k"]), integer(given["n"]), positive(given["tail"]), positive(given["whole"])
-    need(0 <= k <= n and n > 0 and tail < Fraction(1, 2) and len(spans) == 2 and len(steps) == 1, "k, n or tail is wrong")
+    """An end of Clopper and Pearson's interval is not printed so: its tail is a sum of binomials, in fractions."""
+    k, n, tail, whole = (
+        integer(given["k"]),
+        integer(given["n"]),
+        positive(given["tail"]),
+        positive(given["whole"]),
+    )
+    need(
+        0 <= k <= n and n > 0 and tail < Fraction(1, 2) and len(spans) == 2 and len(steps) == 1,
+        "k, n or tail is wrong",
+    )
     end, lies = steps[0]["end"], steps[0]["lies"]
-    need(set(steps[0]) == {"end", "lies"} and end in ("low", "high") and lies in ("above", "below"), "a step is wrong")
+    need(
+        set(steps[0]) == {"end", "lies"} and end in ("low", "high") and lies in ("above", "below"),
+        "a step is wrong",
+    )
     span = spans[0] if end == "low" else spans[1]
     at = (span.high if lies == "above" else span.low) / whole
     true_end = {("low", 0): Fraction(0), ("high", n): Fraction(1)}.get((end, k))

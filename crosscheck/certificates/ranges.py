@@ -22,7 +22,10 @@ def sd_range(spans: list[Span], given: dict, steps: list) -> None:
     n, factor = integer(given["n"]), positive(given["factor"])
     need(given["divisor"] in ("sample", "any") and len(steps) == 1, "the divisor or the steps are wrong")
     allowed = {Fraction(1), Fraction(2) if n is None else Fraction(n, n - 1)}
-    need(factor in allowed and (given["divisor"] != "sample" or factor != 1), "the factor is not n / (n - 1) or 1")
+    need(
+        factor in allowed and (given["divisor"] != "sample" or factor != 1),
+        "the factor is not n / (n - 1) or 1",
+    )
     ends = given["ends"]
     least, most = spans[2:] if ends is None else [point(fraction(end)) for end in ends]
     said = steps[0]
@@ -57,7 +60,10 @@ def sum_of_means(spans: list[Span], given: dict, steps: list) -> None:
 def total_over_mean(spans: list[Span], given: dict, steps: list) -> None:
     """The total over the mean is no whole number, or not the one given."""
     quotient = spans[0].times(positive(given["unit"])).over(spans[1])
-    need(len(spans) == 2 and steps == [{"quotient": quotient.written()}], f"the quotient is {quotient.written()}")
+    need(
+        len(spans) == 2 and steps == [{"quotient": quotient.written()}],
+        f"the quotient is {quotient.written()}",
+    )
     n = integer(given["n"])
     first, last = quotient.integers()
     need(first > last if n is None else not quotient.contains(Fraction(n)), "the quotient may be n")
@@ -154,7 +160,9 @@ def lengths(span: Span, diagonal: Fraction | None, displacement: list[int] | Non
             root = isqrt(2 * count * count)
             candidates = range(max(0, floor(span.low) - root - 1), max(0, floor(high) - root + 1) + 1)
         else:
-            candidates = range(max(0, floor(span.low - count * diagonal)), max(0, floor(high - count * diagonal)) + 1)
+            candidates = range(
+                max(0, floor(span.low - count * diagonal)), max(0, floor(high - count * diagonal)) + 1
+            )
         for straight in candidates:
             if diagonal is None:
                 below = root_sign(straight - span.low, Fraction(count))
@@ -162,7 +170,9 @@ def lengths(span: Span, diagonal: Fraction | None, displacement: list[int] | Non
             else:
                 length = straight + count * diagonal
                 below, above = (length > span.low) - (length < span.low), (length > high) - (length < high)
-            fits = (below > 0 or (below == 0 and span.low_closed)) and (above < 0 or (above == 0 and span.high_closed))
+            fits = (below > 0 or (below == 0 and span.low_closed)) and (
+                above < 0 or (above == 0 and span.high_closed)
+            )
             if fits and (displacement is None or joins(straight, count, displacement)):
                 found.append((straight, count))
     return found
@@ -185,7 +195,11 @@ def path_bound(spans: list[Span], given: dict, steps: list) -> None:
     dx, dy = (fraction(apart) for apart in given["apart"])
     need(dx >= 0 and dy >= 0 and len(spans) == 1, "the ends are wrong")
     short, long = sorted((dx, dy))
-    bounds = {"any": (Fraction(0), dx**2 + dy**2), "four": (dx + dy, Fraction(0)), "eight": (long - short, 2 * short**2)}
+    bounds = {
+        "any": (Fraction(0), dx**2 + dy**2),
+        "four": (dx + dy, Fraction(0)),
+        "eight": (long - short, 2 * short**2),
+    }
     a, b = bounds[given["moves"]]
     need(steps == [{"plus": str(a), "root_of": str(b)}], f"the bound is {a} + √{b}")
     rest = spans[0].high - a
@@ -240,7 +254,10 @@ def ratio_label(spans: list[Span], given: dict, steps: list) -> None:
     said = steps[0]
     need(set(said) == {"quantiles", "bound", "at_least", "at_most"}, "a step has other fields")
     r, a, b = said["quantiles"]
-    need(min(r, a, b) >= 0 and [kinds[at][0] for at in (r, a, b)] == ["r", "a", "b"], "the quantiles are of others")
+    need(
+        min(r, a, b) >= 0 and [kinds[at][0] for at in (r, a, b)] == ["r", "a", "b"],
+        "the quantiles are of others",
+    )
     p, q, s = (fraction(kinds[at][1]) for at in (r, a, b))
     need(all(0 <= share <= 1 for share in (p, q, s)), "a share is not from 0 to 1")
 

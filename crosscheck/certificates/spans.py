@@ -86,7 +86,12 @@ class Span:
 
     def written(self) -> list[str]:
         """As certificates write it."""
-        return ["[" if self.low_closed else "(", str(self.low), str(self.high), "]" if self.high_closed else ")"]
+        return [
+            "[" if self.low_closed else "(",
+            str(self.low),
+            str(self.high),
+            "]" if self.high_closed else ")",
+        ]
 
 
 def point(at: Fraction) -> Span:

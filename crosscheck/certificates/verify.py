@@ -15,11 +15,17 @@ RULES = {**counting.RULES, **ranges.RULES}
 def verify(certificate: object) -> None:
     """Refuses the certificate, with the reason, unless every step of it holds and together they prove it."""
     try:
-        need(isinstance(certificate, dict) and set(certificate) == FIELDS, f"the fields are not {sorted(FIELDS)}")
+        need(
+            isinstance(certificate, dict) and set(certificate) == FIELDS,
+            f"the fields are not {sorted(FIELDS)}",
+        )
         need(certificate["format"] == FORMAT, f"the format is not {FORMAT!r}")
         need(certificate["check"] in RULES, f"there is no rule for {certificate['check']!r}")
         premises = certificate["premises"]
-        need(isinstance(premises, list) and premises and all(isinstance(p, str) for p in premises), "no premises")
+        need(
+            isinstance(premises, list) and premises and all(isinstance(p, str) for p in premises),
+            "no premises",
+        )
         spans = []
         for number in certificate["numbers"]:
             need(set(number) == {"name", "printed", "digits", "span"}, "a number has other fields")

@@ -1,10 +1,9 @@
 //! Judges every claim of a paper, and which claims hold together.
 
-use super::check::{self, Check, Context};
+use super::check::checks;
 use super::evidence::{Evidence, default_point};
 use super::together::together;
 use super::verdict::{Finding, Judged, Verdict, Verdicts};
-use crate::study::ReadingChoice;
 use crate::study::paper::{Claim, Paper};
 use base::hash::sha256;
 use base::settings::SettingsError;
@@ -57,39 +56,6 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         claims: claims.into_iter().collect::<Result<_, _>>()?,
         together: sets?,
     })
-}
-
-/// The checks of a claim, built.
-pub(super) fn checks<'a>(
-    paper: &'a Paper,
-    point: &'a ReadingChoice,
-    claim: &'a Claim,
-) -> Result<Vec<(&'static str, Box<dyn Check + 'a>)>, SettingsError> {
-    let mut built = Vec::new();
-    for (name, settings) in &claim.checks {
-        let entry = check::find(name).ok_or_else(|| {
-            let known: Vec<&str> = check::REGISTRY.iter().map(|entry| entry.name).collect();
-            let message = format!(
-                "claim `{}` asks for the check `{name}`, which does not exist; the checks are {}",
-                claim.id,
-                known.join(", ")
-            );
-            settings.error(message)
-        })?;
-        built.push((entry.name, (entry.build)(&Context { claim, settings, paper, point })?));
-    }
-    Ok(built)
-}
-
-/// The verdict on one claim under the evidence's reading, without the reasons.
-///
-/// # Errors
-/// Those of [`validate`].
-pub(super) fn verdict_on(evidence: &Evidence<'_>, claim: &Claim) -> Result<Verdict, SettingsError> {
-    let checks = checks(evidence.paper, &evidence.point, claim)?;
-    let untestable = claim.untestable.as_ref().map(|_| Verdict::Untestable);
-    let found = checks.iter().filter_map(|(_, check)| check.verdict(evidence)).chain(untestable);
-    Ok(found.max().unwrap_or(Verdict::Undecided))
 }
 
 fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {

@@ -2,17 +2,18 @@
 
 use super::evidence::Run;
 use super::metric::Metric;
+use crate::study::key::SweepKey;
 use crate::study::record::{Row, Status};
 use std::collections::BTreeMap;
 
 /// The share of a draw's posed queries that `contender` solves at `sweep`, in percent, in the order of draws.
 ///
 /// A query that could not be posed is left out; a draw without any other has no share and is left out.
-pub fn solved_percents(run: &Run<'_>, group: &str, contender: &str, sweep: &str) -> Vec<f64> {
+pub fn solved_percents(run: &Run<'_>, group: &str, contender: &str, sweep: &SweepKey) -> Vec<f64> {
     let mut counts: BTreeMap<u32, [u32; 2]> = BTreeMap::new();
-    for row in run.rows(group, contender) {
-        if row.sweep == sweep && row.status != Status::InvalidProblem {
-            let [solved, posed] = counts.entry(row.replicate).or_default();
+    for row in run.rows_at(group, contender, sweep) {
+        if row.status != Status::InvalidProblem {
+            let [solved, posed] = counts.entry(row.draw()).or_default();
             *posed += 1;
             *solved += u32::from(row.status == Status::Solved);
         }
@@ -24,8 +25,8 @@ pub fn solved_percents(run: &Run<'_>, group: &str, contender: &str, sweep: &str)
 pub fn posed(run: &Run<'_>, group: &str) -> [usize; 2] {
     let mut queries: BTreeMap<&str, bool> = BTreeMap::new();
     for contender in &run.study.contenders {
-        for row in run.rows(group, &contender.label).iter().filter(|row| row.replicate == 0) {
-            *queries.entry(query(row)).or_default() |= row.status != Status::InvalidProblem;
+        for row in run.rows(group, &contender.label).iter().filter(|row| row.draw() == 0) {
+            *queries.entry(row.query()).or_default() |= row.status != Status::InvalidProblem;
         }
     }
     [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
@@ -37,11 +38,11 @@ pub fn differences_percent(
     run: &Run<'_>,
     [base, other]: [&str; 2],
     contender: &str,
-    sweep: &str,
+    sweep: &SweepKey,
 ) -> Vec<f64> {
     let status = |group: &str| -> BTreeMap<(u32, String), Status> {
-        let rows = run.rows(group, contender).into_iter().filter(|row| row.sweep == sweep);
-        rows.map(|row| ((row.replicate, query(row).to_owned()), row.status)).collect()
+        let rows = run.rows_at(group, contender, sweep).into_iter();
+        rows.map(|row| ((row.draw(), row.query().to_owned()), row.status)).collect()
     };
     let (bases, others) = (status(base), status(other));
     let mut draws: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
@@ -59,20 +60,14 @@ pub fn differences_percent(
 
 /// Trials of two contenders on the same problem at the same point of the sweeps, solved or not, by draw.
 pub fn both<'r>(run: &'r Run<'_>, group: &str, base: &str, other: &str) -> BTreeMap<u32, Vec<[&'r Row; 2]>> {
-    let key = |row: &Row| (row.problem.clone(), row.sweep.clone(), row.repeat);
-    let bases: BTreeMap<_, &Row> = run.rows(group, base).into_iter().map(|row| (key(row), row)).collect();
+    let bases: BTreeMap<_, &Row> = run.rows(group, base).into_iter().map(|row| (row.case(), row)).collect();
     let mut pairs: BTreeMap<u32, Vec<[&Row; 2]>> = BTreeMap::new();
     for row in run.rows(group, other) {
-        if let Some(base) = bases.get(&key(row)) {
-            pairs.entry(row.replicate).or_default().push([base, row]);
+        if let Some(base) = bases.get(&row.case()) {
+            pairs.entry(row.draw()).or_default().push([base, row]);
         }
     }
     pairs
-}
-
-/// The name of the query that a trial answers: the last part of its problem's name.
-pub fn query(row: &Row) -> &str {
-    row.problem.rsplit('/').next().unwrap_or_default()
 }
 
 /// Which trials of two contenders are compared.
@@ -95,7 +90,7 @@ impl Compared<'_> {
         let solved = |row: &Row| row.status == Status::Solved;
         let of_draw = |pairs: &Vec<[&Row; 2]>| {
             let asked: Vec<_> =
-                pairs.iter().filter(|[a, _]| self.query.is_none_or(|name| query(a) == name)).collect();
+                pairs.iter().filter(|[a, _]| self.query.is_none_or(|name| a.query() == name)).collect();
             let measured = asked.iter().filter(|[a, b]| solved(a) && solved(b));
             let values: Vec<(f64, f64)> =
                 measured.filter_map(|[a, b]| Some((run.value(a, metric)?, run.value(b, metric)?))).collect();

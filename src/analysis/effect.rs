@@ -15,7 +15,6 @@ pub fn solved_by_all<'r>(
     groups: &[String],
     contenders: &[String],
 ) -> BTreeMap<String, Vec<&'r Row>> {
-    let key = |row: &Row| (row.group.clone(), row.problem.clone(), row.sweep.clone(), row.repeat);
     let solved = |contender: &String| {
         let rows = groups.iter().flat_map(|group| run.rows(group, contender));
         rows.filter(|row| row.status == Status::Solved).collect::<Vec<_>>()
@@ -24,10 +23,10 @@ pub fn solved_by_all<'r>(
         contenders.iter().map(|contender| (contender.clone(), solved(contender))).collect();
     let mut counts: BTreeMap<_, usize> = BTreeMap::new();
     for row in all.iter().flat_map(|(_, rows)| rows) {
-        *counts.entry(key(row)).or_default() += 1;
+        *counts.entry(row.case()).or_default() += 1;
     }
     let common = |rows: Vec<&'r Row>| {
-        rows.into_iter().filter(|row| counts[&key(row)] == contenders.len()).collect::<Vec<_>>()
+        rows.into_iter().filter(|row| counts[&row.case()] == contenders.len()).collect::<Vec<_>>()
     };
     all.into_iter().map(|(contender, rows)| (contender, common(rows))).collect()
 }

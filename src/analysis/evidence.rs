@@ -1,7 +1,9 @@
 //! The records that claims are judged by, ready to be asked.
 
 use super::metric::{self, Metric};
+use crate::study::key::{DrawKey, Owner, ReadingKey, SweepKey, Text, TrialKey};
 use crate::study::manifest::Manifest;
+use crate::study::name::Names;
 use crate::study::paper::Paper;
 use crate::study::record::{PreparedRow, Row, Status};
 use crate::study::store::{Records, read_records};
@@ -30,17 +32,23 @@ pub struct Run<'a> {
     pub manifest: Arc<Manifest>,
     /// The records.
     pub records: Arc<Records>,
-    reading: String,
+    reading: ReadingKey,
     index: Arc<Index>,
 }
 
 /// Where things are in the records.
 #[derive(Default)]
 struct Index {
-    /// Rows by group, contender and reading, in the order of records.
-    rows: BTreeMap<[String; 3], Vec<usize>>,
-    /// The clock readings of each timed trial.
-    readings_ns: BTreeMap<String, Vec<f64>>,
+    /// How records are named.
+    names: Names,
+    /// Rows by reading, group and contender, in the order of records.
+    rows: BTreeMap<ReadingKey, BTreeMap<Text, BTreeMap<Text, Vec<usize>>>>,
+    /// Prepared objects by what names them.
+    prepared: BTreeMap<Arc<DrawKey>, usize>,
+    /// Exhibits by their owners.
+    kept: BTreeMap<Owner, Vec<usize>>,
+    /// The clock readings of each timed trial in the first session; those of others are not pooled with them.
+    readings_ns: BTreeMap<TrialKey, Vec<f64>>,
 }
 
 /// Trials of two contenders on one problem.
@@ -75,7 +83,7 @@ impl<'a> Evidence<'a> {
         pairs
             .filter_map(|pair| {
                 let values = (run.value(pair.base, metric)?, run.value(pair.other, metric)?);
-                Some(Measured { values, trial: format!("{study}/{}", pair.other.trial) })
+                Some(Measured { values, trial: run.trial(pair.other) })
             })
             .collect()
     }
@@ -131,8 +139,8 @@ impl<'a> Run<'a> {
             return Err(StudyError::stored(path, reason));
         }
         let records = read_records(folder, &study.name, &manifest.files)?;
-        let index = Arc::new(Index::of(&records));
-        let reading = point.for_trials(&study.readings).name().to_owned();
+        let index = Arc::new(Index::of(study.names(), &records));
+        let reading = point.for_trials(&study.readings).key(&study.readings);
         Ok(Self { study, manifest: Arc::new(manifest), records: Arc::new(records), reading, index })
     }
 
@@ -141,20 +149,20 @@ impl<'a> Run<'a> {
             study: self.study,
             manifest: self.manifest.clone(),
             records: self.records.clone(),
-            reading: point.for_trials(&self.study.readings).name().to_owned(),
+            reading: point.for_trials(&self.study.readings).key(&self.study.readings),
             index: self.index.clone(),
         }
     }
 
     /// Whether its trials ran under the reading.
     pub fn is_covered(&self) -> bool {
-        self.manifest.readings.contains(&self.reading)
+        self.manifest.covers(&self.reading)
     }
 
     /// What `metric` is for `row`; `None` if it was not measured.
     pub fn value(&self, row: &Row, metric: &Metric) -> Option<f64> {
         let raw = if metric.is_clock() {
-            self.index.readings_ns.get(&row.trial).and_then(|times| summary::median(times))
+            self.index.readings_ns.get(&row.key).and_then(|times| summary::median(times))
         } else {
             row.value(metric.column)
         };
@@ -163,29 +171,48 @@ impl<'a> Run<'a> {
 
     /// Every clock reading of `row` in the unit of `metric`; none if it was not timed or `metric` is not of the clock.
     pub fn repeats(&self, row: &Row, metric: &Metric) -> Vec<f64> {
-        let times = self.index.readings_ns.get(&row.trial).filter(|_| metric.is_clock());
+        let times = self.index.readings_ns.get(&row.key).filter(|_| metric.is_clock());
         times.into_iter().flatten().map(|time| time * metric.scale).collect()
     }
 
     /// The trials of `contender` in the problem group `group` under the reading, in the order of draws.
     pub fn rows(&self, group: &str, contender: &str) -> Vec<&Row> {
-        let key = [group, contender, self.reading.as_str()].map(str::to_owned);
-        let found = self.index.rows.get(&key).into_iter().flatten();
-        found.map(|row| &self.records.batch.rows[*row]).collect()
+        let of_reading = self.index.rows.get(&self.reading);
+        let found = of_reading.and_then(|groups| groups.get(group)?.get(contender));
+        found.into_iter().flatten().map(|row| &self.records.batch.rows[*row]).collect()
+    }
+
+    /// As [`rows`](Self::rows), at one point of the sweeps.
+    pub fn rows_at(&self, group: &str, contender: &str, sweep: &SweepKey) -> Vec<&Row> {
+        let mut rows = self.rows(group, contender);
+        rows.retain(|row| row.key.sweep == *sweep);
+        rows
+    }
+
+    /// The name of a trial, with its study, as `--trial` takes it.
+    pub fn trial(&self, row: &Row) -> String {
+        format!("{}/{}", self.study.name, self.index.names.trial(&row.key))
+    }
+
+    /// The name of the problem that a trial is about: group, draw and query.
+    pub fn problem(&self, row: &Row) -> String {
+        self.index.names.problem(&row.key.on, row.key.query.as_deref())
+    }
+
+    /// The name of a prepared object or a trial.
+    pub fn owner(&self, of: &Owner) -> String {
+        self.index.names.owner(of)
     }
 
     /// The trials of two contenders on the same problems, solved by both.
     pub fn pairs(&self, group: &str, base: &str, other: &str) -> Vec<Pair<'_>> {
-        fn key(row: &Row) -> (&str, &str, u32) {
-            (&row.problem, &row.sweep, row.repeat)
-        }
         let solved = |row: &&Row| row.status == Status::Solved;
         let bases: BTreeMap<_, &Row> =
-            self.rows(group, base).into_iter().filter(solved).map(|row| (key(row), row)).collect();
+            self.rows(group, base).into_iter().filter(solved).map(|row| (row.case(), row)).collect();
         self.rows(group, other)
             .into_iter()
             .filter(solved)
-            .filter_map(|other| Some(Pair { base: bases.get(&key(other))?, other }))
+            .filter_map(|other| Some(Pair { base: bases.get(&other.case())?, other }))
             .collect()
     }
 
@@ -206,38 +233,49 @@ impl<'a> Run<'a> {
 
     /// The prepared object that the trial `row` was run on.
     pub fn prepared_of(&self, row: &Row) -> Option<&PreparedRow> {
-        self.records.batch.prepared.iter().find(|prepared| {
-            prepared.group == row.group
-                && prepared.replicate == row.replicate
-                && prepared.reading == row.reading
-        })
+        self.index.prepared.get(&row.key.on).map(|place| &self.records.batch.prepared[*place])
     }
 
-    /// The name of the prepared object that `row` was run on.
-    pub fn draw_of(&self, row: &Row) -> String {
-        let is_own = |prepared: &&PreparedRow| {
-            prepared.group == row.group
-                && prepared.replicate == row.replicate
-                && prepared.reading == row.reading
-        };
-        self.records.batch.prepared.iter().find(is_own).map(|own| own.prepared.clone()).unwrap_or_default()
+    /// The prepared objects of the problem group `group` under the reading, in the order of draws.
+    pub fn prepared(&self, group: &str) -> impl Iterator<Item = &PreparedRow> {
+        let is_own = move |row: &&PreparedRow| *row.key.group == *group && row.key.reading == self.reading;
+        self.records.batch.prepared.iter().filter(is_own)
+    }
+
+    /// The exhibits of a trial or prepared object.
+    pub fn exhibits(&self, of: impl Into<Owner>) -> impl Iterator<Item = &Exhibit> {
+        let places = self.index.kept.get(&of.into()).into_iter().flatten();
+        places.map(|place| &self.records.batch.kept[*place].exhibit)
     }
 
     /// The exhibit called `name` of a trial or prepared object.
-    pub fn exhibit(&self, of: &str, name: &str) -> Option<&Exhibit> {
-        let kept = &self.records.batch.kept;
-        kept.iter().find(|kept| kept.of == of && kept.exhibit.name == name).map(|kept| &kept.exhibit)
+    pub fn exhibit(&self, of: impl Into<Owner>, name: &str) -> Option<&Exhibit> {
+        self.exhibits(of).find(|exhibit| exhibit.name == name)
     }
 }
 
 impl Index {
-    fn of(records: &Records) -> Self {
-        let mut index = Self::default();
-        for (place, row) in records.batch.rows.iter().enumerate() {
-            let key = [&row.group, &row.contender, &row.reading].map(String::clone);
-            index.rows.entry(key).or_default().push(place);
+    fn of(names: Names, records: &Records) -> Self {
+        let mut index = Self { names, ..Self::default() };
+        let mut rows = records.batch.rows.iter().enumerate().peekable();
+        while let Some((_, first)) = rows.peek() {
+            let on = first.key.on.clone();
+            let of_reading = index.rows.entry(on.reading.clone()).or_default();
+            let of_group = of_reading.entry(on.group.clone()).or_default();
+            while let Some((place, row)) = rows.next_if(|(_, row)| Arc::ptr_eq(&row.key.on, &on)) {
+                match of_group.get_mut(&row.key.contender) {
+                    Some(places) => places.push(place),
+                    None => {
+                        of_group.insert(row.key.contender.clone(), vec![place]);
+                    }
+                }
+            }
         }
-        for time in &records.times {
+        index.prepared = records.batch.prepared.iter().map(|row| row.key.clone()).zip(0..).collect();
+        for (place, kept) in records.batch.kept.iter().enumerate() {
+            index.kept.entry(kept.of.clone()).or_default().push(place);
+        }
+        for time in records.times.iter().filter(|time| time.session == 1) {
             index.readings_ns.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
         }
         index

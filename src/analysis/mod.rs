@@ -5,6 +5,7 @@
 
 pub mod check;
 pub mod claims;
+pub mod difference;
 pub mod draws;
 pub mod effect;
 pub mod evidence;

@@ -4,8 +4,7 @@
 //! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes one
 //! of its problems. Every choice of problems is looked at.
 
-use super::check::{Attained, Context};
-use super::claims::checks;
+use super::check::{Attained, Context, checks};
 use super::evidence::Evidence;
 use super::verdict::Together;
 use crate::study::paper::Claim;

@@ -254,7 +254,7 @@ impl Verdicts {
         if !path.exists() {
             return Err(StudyError::stored(&path, "no verdicts; run `replan judge` first"));
         }
-        Ok(Document::open(&path)?.read()?)
+        Ok(Document::open(&path)?.read_stored()?)
     }
 
     /// Writes the verdicts into `folder`.

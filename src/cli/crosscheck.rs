@@ -54,7 +54,7 @@ struct Source {
 /// What the paper in `folder` says of inputs that stand in for its own.
 fn stand_ins(folder: &Path) -> Result<Option<String>, Failure> {
     let read: Sourced = Document::open(&folder.join("paper.toml"))
-        .and_then(|document| document.read())
+        .and_then(|document| document.read_stored())
         .map_err(CrosscheckError::from)?;
     Ok(read.source.and_then(|source| source.stand_ins))
 }

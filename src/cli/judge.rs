@@ -3,12 +3,14 @@
 use super::places::Places;
 use super::{Failure, How, Which, verdicts};
 use crate::analysis::claims;
+use crate::analysis::difference::differences;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
+use std::fs;
 
 /// Judges a paper's claims again.
 #[derive(Args)]
@@ -18,6 +20,9 @@ pub struct Judge {
     /// Judge under these readings, which must have been run: `corner_cutting=forbid_any,ties=lifo`
     #[arg(long, value_name = "READINGS")]
     readings: Option<String>,
+    /// Write nothing; say whether the stored verdicts are those that the stored run gives
+    #[arg(long)]
+    check: bool,
 }
 
 impl Judge {
@@ -27,10 +32,30 @@ impl Judge {
         let places = Places::find(&self.which, &how.variant())?;
         let paper = super::run::load(&places, &how)?;
         let point = how.point(&paper.readings())?;
+        if self.check {
+            return check(&paper, point, &places);
+        }
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         verdicts::print(&judge(&paper, point, &places)?);
         Ok(())
     }
+}
+
+/// Judges again and refuses stored verdicts that are not what comes out, to the byte.
+fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Failure> {
+    let (stored, path) = (Verdicts::read(&places.runs)?, Verdicts::path(&places.runs));
+    let evidence = Evidence::read(paper, point, &places.runs)?;
+    let now = claims::judge(&evidence)?;
+    let mut found = differences(&stored, &now);
+    if found.is_empty() && fs::read(&path)? != now.text().as_bytes() {
+        found.push("the same verdicts in other words than `replan judge` writes".to_owned());
+    }
+    if found.is_empty() {
+        say!("{}: {} verdicts are what the stored run gives", paper.id, now.claims.len());
+        return Ok(());
+    }
+    let message = format!("{}: not what the stored run gives:\n  {}", path.display(), found.join("\n  "));
+    Err(Failure::stale(message))
 }
 
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.

@@ -1,13 +1,14 @@
 //! `replan list`: what there is.
 
+use super::catalogue::{self, Item};
+use super::explain::{explained, wrapped};
 use super::places::{EXPERIMENTS, papers};
 use super::{Failure, all};
-use crate::analysis::{check, metric};
-use crate::render::figure;
+use crate::analysis::metric;
+use crate::study::Inputs;
 use crate::study::paper::Paper;
-use crate::study::{Inputs, family, prepared, task};
+use base::settings::none_called;
 use clap::{Args, ValueEnum};
-use engine::planner::{self, Build};
 use std::path::{Path, PathBuf};
 
 /// Lists what there is.
@@ -15,6 +16,8 @@ use std::path::{Path, PathBuf};
 pub struct List {
     /// What to list; everything if absent
     what: Option<What>,
+    /// One of them: what it is, what it can be told, and an example
+    name: Option<String>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -30,20 +33,23 @@ enum What {
     Checks,
     Metrics,
     Figures,
+    Files,
 }
 
 impl List {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
+        if let (Some(what), Some(name)) = (self.what, &self.name) {
+            return one(what, name);
+        }
         let wanted = [What::Papers, What::Studies, What::Readings];
         let is_about_papers = self.what.is_none_or(|what| wanted.contains(&what));
         let (papers, results) = if is_about_papers { loaded() } else { (Vec::new(), Vec::new()) };
         for what in What::value_variants() {
             if self.what.is_none_or(|wanted| wanted == *what) {
-                let name = what.to_possible_value().expect("no variant is hidden");
-                say!("{}", name.get_name());
+                say!("{}", title(*what));
                 for (name, about) in rows(*what, &papers) {
-                    say!("  {name:<26} {about}");
+                    say!("{}", wrapped(&format!("  {name:<26} "), &about, 29));
                 }
             }
         }
@@ -51,38 +57,63 @@ impl List {
     }
 }
 
+fn title(what: What) -> String {
+    what.to_possible_value().expect("no variant is hidden").get_name().to_owned()
+}
+
+/// What the one thing of the kind `what` that is called `name` is.
+fn one(what: What, name: &str) -> Result<(), Failure> {
+    let Some(items) = items(what) else {
+        let (papers, results) = loaded();
+        let rows = rows(what, &papers);
+        let known = rows.iter().map(|(known, _)| known.as_str());
+        let found = rows.iter().find(|(known, _)| known == name);
+        let (_, about) = found.ok_or_else(|| Failure::input(none_called(&title(what), name, known)))?;
+        say!("{name}\n{}", wrapped("  ", about, 2));
+        return all(results, "papers cannot be listed");
+    };
+    let known = items.iter().map(|item| item.name);
+    let item = items.iter().find(|item| item.name == name);
+    let item = item.ok_or_else(|| Failure::input(none_called(&title(what), name, known)))?;
+    say!("{}", explained(item));
+    Ok(())
+}
+
+fn items(what: What) -> Option<Vec<Item>> {
+    Some(match what {
+        What::Planners => catalogue::planners(),
+        What::Stages => catalogue::stages(),
+        What::Families => catalogue::families(),
+        What::Prepared => catalogue::prepared(),
+        What::Tasks => catalogue::tasks(),
+        What::Checks => catalogue::checks(),
+        What::Figures => catalogue::figures(),
+        What::Files => catalogue::files(),
+        What::Papers | What::Studies | What::Readings | What::Metrics => return None,
+    })
+}
+
 fn rows(what: What, papers: &[Paper]) -> Vec<(String, String)> {
     let row = |name: &str, about: &str| (name.to_owned(), about.to_owned());
-    let planners = |first: bool| {
-        let fits = move |entry: &&planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
-        planner::REGISTRY.iter().copied().filter(fits).map(|e| row(e.name, e.about)).collect()
-    };
+    if let Some(items) = items(what) {
+        return items.iter().map(|item| row(item.name, item.about)).collect();
+    }
     match what {
         What::Papers => papers.iter().map(|paper| row(&paper.id, &paper.source.title)).collect(),
         What::Studies => {
             let studies = papers.iter().flat_map(|paper| &paper.studies);
             studies.map(|s| (format!("{}/{}", s.paper, s.name), s.question.clone())).collect()
         }
-        What::Readings => {
-            let readings =
-                papers.iter().flat_map(|paper| paper.readings().into_iter().map(|r| (&paper.id, r)));
-            readings
-                .map(|(paper, reading)| {
-                    let options: Vec<&str> = reading.options.keys().map(String::as_str).collect();
-                    let about =
-                        format!("{} (default {}): {}", options.join(" | "), reading.default, reading.why);
-                    (format!("{paper}/{}", reading.id), about)
-                })
-                .collect()
-        }
-        What::Planners => planners(true),
-        What::Stages => planners(false),
-        What::Families => family::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
-        What::Prepared => prepared::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
-        What::Tasks => task::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
-        What::Checks => check::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
-        What::Metrics => metric::METRICS.iter().map(|m| row(m.name, &m.title())).collect(),
-        What::Figures => figure::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
+        What::Readings => papers
+            .iter()
+            .flat_map(|paper| paper.readings().into_iter().map(move |reading| (paper, reading)))
+            .map(|(paper, reading)| {
+                let options: Vec<&str> = reading.options.keys().map(String::as_str).collect();
+                let about = format!("{} (default {}): {}", options.join(" | "), reading.default, reading.why);
+                (format!("{}/{}", paper.id, reading.id), about)
+            })
+            .collect(),
+        _ => metric::METRICS.iter().map(|m| row(m.name, &m.title())).collect(),
     }
 }
 

@@ -27,7 +27,7 @@ mod tests;
 pub use case::{Case, Outcome};
 pub use chapter::{Depicted, chapter, list, table as verdict_table};
 pub use compare::{Disagreement, FRAME_TOLERANCE, Line, TIE_M};
-pub use spec::{Picture, SPEC, Sources, Spec};
+pub use spec::{FILE, Picture, SPEC, Sources, Spec};
 pub use table::ANSWERED;
 
 use crate::study::StudyError;

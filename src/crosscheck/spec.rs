@@ -2,28 +2,30 @@
 
 use super::CrosscheckError;
 use super::case::{Case, Given};
-use super::model::Still;
+use super::model::{Freedom, Still};
 use super::planar::PlanarArm;
 use super::sample::Sizes;
-use super::stored::{Freedom, StoredPaths};
+use super::stored::StoredPaths;
 use super::subject::{Check, SerialArm, Subject};
 use crate::study::{Inputs, slug};
 use base::seed;
-use base::settings::{Document, SettingsError};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
 use engine::geometry::{Convex, Solid};
 use engine::kinematics::{AXES, Robot};
 use engine::space::cell::{Cell, Obstacle, Scene};
 use engine::space::polyhedra::{CarriedArm, read_scene};
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::Arc;
-use toml::Spanned;
 
 /// The file's name.
 pub const SPEC: &str = "crosscheck.toml";
+/// What `crosscheck.toml` may hold.
+pub const FILE: Accepted = Accepted::of::<SpecFile>();
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SpecFile {
     seed: u64,
@@ -40,7 +42,7 @@ struct SpecFile {
 }
 
 /// What the picture shows.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PictureEntry {
     case: Spanned<String>,
@@ -50,7 +52,7 @@ struct PictureEntry {
     zoom: f64,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RobotEntry {
     label: String,
@@ -60,14 +62,14 @@ struct RobotEntry {
     straight: Straight,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Straight {
     Tool,
     Joints,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneEntry {
     label: String,
@@ -75,7 +77,7 @@ struct SceneEntry {
     format: SceneFormat,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum SceneFormat {
     /// A robot's cell, in millimetres.
@@ -85,7 +87,7 @@ enum SceneFormat {
 }
 
 /// Paths of one robot in one scene.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct StoredEntry {
     robot: String,
@@ -94,7 +96,7 @@ struct StoredEntry {
 }
 
 /// A planar arm and its obstacles as a study poses them, and that study's paths.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct WorkspaceEntry {
     label: String,
@@ -215,7 +217,7 @@ impl Spec {
         if let Some(twice) = known.iter().enumerate().find(|(at, name)| known[..*at].contains(name)) {
             let message =
                 format!("two cases are called `{}`; accepted: labels that tell them apart", twice.1);
-            return Err(self.document.error(0..0, message));
+            return Err(self.document.error_at("case", message));
         }
         Ok(())
     }
@@ -253,7 +255,7 @@ impl Spec {
         let subject = subject.checked_by(check);
         let fits = |entry: &&StoredEntry| entry.robot == r.label && entry.scene == s.label;
         let stored = self.file.stored.iter().map(Spanned::get_ref).filter(fits).map(|entry| &entry.paths);
-        let given = given(stored, sources.runs, AXES)?;
+        let given = given(stored, &sources, AXES)?;
         self.case(name, Box::new(subject), given).map_err(|message| at_scene(message).into())
     }
 
@@ -274,7 +276,7 @@ impl Spec {
         let name = slug(label);
         let subject = PlanarArm::new(name.clone(), arm).map_err(|error| at(error.to_string()))?;
         let joints = subject.model().rows.len();
-        let given = given([paths].into_iter(), sources.runs, joints)?;
+        let given = given([paths].into_iter(), &sources, joints)?;
         self.case(name, Box::new(subject), given).map_err(|message| at(message).into())
     }
 
@@ -287,12 +289,12 @@ impl Spec {
 /// The stored paths of a robot with this many joints.
 fn given<'a>(
     stored: impl Iterator<Item = &'a StoredPaths>,
-    runs: &Path,
+    sources: &Sources<'_>,
     joints: usize,
 ) -> Result<Given, CrosscheckError> {
     let mut given = Given { paths: Vec::new(), free_of: Freedom::Contact };
     for paths in stored {
-        given.paths.extend(paths.read(runs, joints)?);
+        given.paths.extend(paths.read(sources.folder, sources.inputs, sources.runs, joints)?);
         given.free_of = given.free_of.min(paths.free_of);
     }
     Ok(given)

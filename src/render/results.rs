@@ -7,15 +7,16 @@ use crate::analysis::metric::{self, Metric};
 use crate::study::paper::Paper;
 use crate::study::paper::results::{CellSpec, ResultsSpec, Show};
 use crate::study::record::{Row, Status};
-use base::settings::SettingsError;
+use base::settings::{Faults, SettingsError};
 use stats::summary;
 use std::fmt::Write as _;
 
 /// Every metric of every table of results exists, and its study produces it.
 ///
 /// # Errors
-/// The first that does not, with those that do.
+/// Each that does not, with those that do.
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
+    let mut faults = Faults::default();
     for table in &paper.results {
         let columns =
             paper.study(table.study.get_ref()).map(crate::study::Study::columns).unwrap_or_default();
@@ -29,11 +30,11 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
                     table.study.get_ref(),
                     known.join(", ")
                 );
-                return Err(paper.document.error(cell.metric.span(), message));
+                faults.add(paper.document.error(cell.metric.span(), message));
             }
         }
     }
-    Ok(())
+    faults.done()
 }
 
 /// The head of a table and, block by block, its rows.

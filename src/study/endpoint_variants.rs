@@ -2,13 +2,14 @@
 //!
 //! A [`Variant`] is one way to fill it in; [`answers`] asks a question of [`engine::length_inversion`] under each.
 
-use crate::study::checked::slug;
+use crate::study::name::slug;
 use crate::study::prepared::lattice::CornerSetting;
 use crate::study::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use base::grid::{Grid2, Moves};
 use engine::length_inversion::Match;
 use engine::search::{Octile, ScaledOctile, Ties};
 use engine::space::{ArmRules, ArmWorld, HopRule, Obstacle, Zone};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// How many ways there may be to give each obstacle of a case a shape.
@@ -18,7 +19,7 @@ const MOST_CHOICES: usize = 4096;
 const MOST_HOPS: u32 = 100_000;
 
 /// One case: where the obstacles are and how long the printed path is.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// Centres of the obstacles.
@@ -40,7 +41,7 @@ impl Case {
 }
 
 /// One way to fill in what the paper leaves open; what is absent is as the problem group has it.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
     /// Its name in records.
@@ -62,7 +63,7 @@ pub struct Variant {
 }
 
 /// The shapes that obstacles may have.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "one of circle, square, square_inscribed, hexagon, hexagon_turned, triangle, triangle_turned is accepted \
@@ -76,7 +77,7 @@ pub enum ShapeChoice {
 }
 
 /// What the paper's A* does with an open node to which a better way is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OpenNode {
     /// It takes it, so that lengths are shortest.
@@ -86,7 +87,7 @@ pub enum OpenNode {
 }
 
 /// The order among equal f.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TieOrder {
     /// The one opened first.

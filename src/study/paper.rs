@@ -11,20 +11,27 @@ pub use findings::filled;
 
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
-use super::{Inputs, Reading, Study, StudyError};
-use base::settings::{Document, Settings, SettingsError};
-use serde::Deserialize;
+pub use super::spec::Digits;
+use super::{Inputs, Reading, Study, StudyError, files};
+use base::settings::{Accepted, AnyTable, Document, Faults, Settings, SettingsError, Spanned};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use toml::{Spanned, Table};
+use toml::Table;
+
+/// What `paper.toml` may hold.
+pub const FILE: Accepted = Accepted::of::<PaperSpec>();
 
 /// `paper.toml` as written.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PaperSpec {
     source: Source,
+    /// How many numbered things the paper has, each of which then needs a row in the ledger; none if absent.
+    #[serde(default)]
     prints: Prints,
     #[serde(default)]
     ledger: Vec<LedgerRow>,
@@ -39,7 +46,7 @@ struct PaperSpec {
 }
 
 /// Where the paper was published, as far as its text says.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
     /// Title.
@@ -59,19 +66,22 @@ pub struct Source {
 }
 
 /// How many numbered things the paper has.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Prints {
     /// Figures.
+    #[schemars(range(max = 1000))]
     pub figures: u32,
     /// Tables.
+    #[schemars(range(max = 1000))]
     pub tables: u32,
     /// Equations.
+    #[schemars(range(max = 1000))]
     pub equations: u32,
 }
 
 /// One thing that the paper prints and what answers it.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LedgerRow {
     /// `Fig. 4`, `Table 1`, `Eq. 2`, or the place of a sentence.
@@ -91,7 +101,7 @@ pub struct LedgerRow {
     pub none: Option<String>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ClaimSpec {
     id: Spanned<String>,
@@ -104,19 +114,8 @@ struct ClaimSpec {
     untestable: Option<String>,
     theorem: Option<String>,
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
     check: BTreeMap<String, Spanned<Table>>,
-}
-
-/// How a printed number's digits end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Digits {
-    /// To the nearest.
-    Rounded,
-    /// Cut off.
-    Truncated,
-    /// Either.
-    Unknown,
 }
 
 /// What the paper says.
@@ -167,6 +166,8 @@ pub struct Paper {
     pub series: BTreeMap<String, usize>,
     /// Its studies, in the order of their names.
     pub studies: Vec<Study>,
+    /// TOML files of its folder that are no studies, with the kind that each is.
+    pub others: Vec<(PathBuf, &'static str)>,
     /// The file it was read from.
     pub document: Arc<Document>,
 }
@@ -185,15 +186,34 @@ impl Paper {
             return Err(StudyError::Missing { path, what });
         }
         let document = Document::open(&path)?;
-        let spec: PaperSpec = document.read()?;
-        let mut studies = Vec::new();
-        for path in study_files(folder)? {
-            studies.push(Study::load(&path, inputs)?);
-        }
-        if studies.is_empty() {
+        let mut faults = Faults::default();
+        let spec = faults.keep(document.read::<PaperSpec>());
+        let files = study_files(folder)?;
+        let (studies, others) = read_files(&files, inputs, &mut faults)?;
+        if files.len() == others.len() && faults.is_empty() {
             let what = "no study; a study is a TOML file beside paper.toml".to_owned();
             return Err(StudyError::Missing { path: folder.to_owned(), what });
         }
+        let Some(spec) = spec else { return Err(faults.error().into()) };
+        Self::assemble(folder, &document, spec, (studies, others), faults)
+    }
+
+    /// The paper in `folder` whose paper.toml is `document`, with studies that were loaded.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load), but for those of the studies.
+    pub fn of(folder: &Path, document: &Arc<Document>, studies: Vec<Study>) -> Result<Self, StudyError> {
+        Self::assemble(folder, document, document.read()?, (studies, Vec::new()), Faults::default())
+    }
+
+    fn assemble(
+        folder: &Path,
+        document: &Arc<Document>,
+        spec: PaperSpec,
+        (studies, others): Files,
+        mut faults: Faults,
+    ) -> Result<Self, StudyError> {
+        let claims = spec.claims.iter().filter_map(|c| faults.keep(claim(document, c))).collect();
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -201,14 +221,19 @@ impl Paper {
             source: spec.source,
             prints: spec.prints,
             ledger: spec.ledger,
-            claims: spec.claims.iter().map(|c| claim(&document, c)).collect::<Result<_, _>>()?,
+            claims,
             tables: spec.tables,
             results: spec.results,
             series: spec.series,
             studies,
-            document,
+            others,
+            document: document.clone(),
         };
-        paper.check(&spec.claims)?;
+        // Names that are missing because their file is wrong are no faults of those that use them.
+        if faults.is_empty() {
+            paper.check(&spec.claims, &mut faults);
+        }
+        faults.done()?;
         Ok(paper)
     }
 
@@ -251,6 +276,28 @@ impl Paper {
     pub fn claim(&self, id: &str) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.id == id)
     }
+}
+
+/// The studies of a paper's folder, and its other TOML files with the kind that each is.
+type Files = (Vec<Study>, Vec<(PathBuf, &'static str)>);
+
+fn read_files(files: &[PathBuf], inputs: &Inputs, faults: &mut Faults) -> Result<Files, StudyError> {
+    let (mut studies, mut others) = (Vec::new(), Vec::new());
+    for path in files {
+        if let Ok(document) = Document::open(path)
+            && let Some(kind) = files::other_than_study(&document)
+        {
+            faults.keep(files::validate(&document, kind));
+            others.push((path.clone(), kind.name));
+            continue;
+        }
+        match Study::load(path, inputs) {
+            Ok(study) => studies.push(study),
+            Err(StudyError::Settings(fault)) => faults.add(fault),
+            Err(other) => return Err(other),
+        }
+    }
+    Ok((studies, others))
 }
 
 /// Files of a paper's folder that are no studies: the paper itself, and what an independent judge is asked.

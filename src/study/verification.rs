@@ -10,7 +10,7 @@ pub mod roadmap;
 pub use arm::ARM_COLUMNS;
 pub use polyhedra::{CARRIED_COLUMNS, POLYHEDRA_COLUMNS};
 
-use super::checked::Pipeline;
+use super::contender::Pipeline;
 use super::family::Query;
 use super::record::Status;
 use engine::planner::{Counts, Ending, Exhibit, Plan, Request, Value};

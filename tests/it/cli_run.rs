@@ -114,7 +114,7 @@ fn what_is_stored_and_unchanged_is_reused_and_why_says_what_changed() {
 
     bench.edit("mini/draws.toml", "ties = \"fifo\" }\n\n", "ties = \"lifo\" }\n\n");
     let changed = why(&[]);
-    says(&changed, "draws: 48 trials");
+    says(&changed, "draws: 48 trials (24 of 48 trials reused)");
     says(&changed, "  why: contender `A*` has changed");
     says(&changed, "room: 1 trials (1 of 1 units reused)");
     bench.edit("mini/draws.toml", "blocked_share = 0.3", "blocked_share = 0.2");

@@ -47,10 +47,8 @@ fn every_stored_trial_has_the_row_of_what_was_prepared_by_which_it_is_found_agai
         for name in names.filter_map(|name| name.strip_suffix(".manifest.toml").map(str::to_owned)) {
             let manifest = Manifest::read(&folder, &name).unwrap();
             let batch = read_records(&folder, &name, &manifest.files).unwrap().batch;
-            let prepared: BTreeSet<_> =
-                batch.prepared.iter().map(|row| (&row.reading, &row.group, row.replicate)).collect();
-            let lost =
-                batch.rows.iter().find(|row| !prepared.contains(&(&row.reading, &row.group, row.replicate)));
+            let prepared: BTreeSet<_> = batch.prepared.iter().map(|row| &row.key).collect();
+            let lost = batch.rows.iter().find(|row| !prepared.contains(&row.key.on));
             assert!(lost.is_none(), "{}: {name}: {lost:?}", folder.display());
             assert!(!batch.rows.is_empty(), "{}: {name}: no trial", folder.display());
             studies += 1;

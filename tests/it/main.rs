@@ -3,6 +3,7 @@
 mod arm;
 mod audit;
 mod cell_threads;
+mod circles;
 mod cli_input;
 mod cli_places;
 mod cli_run;
@@ -11,8 +12,10 @@ mod committed;
 mod conformance;
 mod crosscheck;
 mod floors;
+mod guards;
 mod latex;
 mod laws;
+mod mutation;
 mod paper;
 mod polyhedra;
 mod registries;

@@ -169,9 +169,14 @@ pub struct Said {
 }
 
 impl Bench {
+    /// A fresh folder with nothing in it.
+    pub fn empty() -> Self {
+        Self { folder: tempfile::tempdir().unwrap() }
+    }
+
     /// A fresh folder with the paper.
     pub fn new() -> Self {
-        let bench = Self { folder: tempfile::tempdir().unwrap() };
+        let bench = Self::empty();
         for (name, text) in [("paper", PAPER), ("draws", DRAWS), ("room", ROOM)] {
             bench.write(&format!("mini/{name}.toml"), text.as_bytes());
         }

@@ -10,7 +10,8 @@ use crate::analysis::verdict::Finding;
 use crate::study::record::Status;
 use crate::study::{ReadingChoice, Study};
 use audit::printed::Printed;
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
 use stats::proportion::predictive;
@@ -20,10 +21,19 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "across_readings",
     about: "under which readings does the printed number lie among our draws, or is it met exactly?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "readings"
+problems = ["simple"]
+searched = ["W1"]
+metric = "nodes"
+contender = "Improved A*"
+against = "A*"
+"#,
     build: |context| Ok(Box::new(Across::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// A study that explores readings.

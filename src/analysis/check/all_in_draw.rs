@@ -5,6 +5,8 @@ use crate::analysis::draws::Compared;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::{trials_for_margin, wilson};
 
@@ -12,6 +14,16 @@ use stats::proportion::{trials_for_margin, wilson};
 pub static ENTRY: Entry = Entry {
     name: "all_in_draw",
     about: "is one contender lower than another on every query of a draw, in at least a given share of draws?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "length"
+problems = "cell"
+metric = "path_length_mm"
+lower = "Improved A*"
+higher = "Original A*"
+in_share = 0.5
+whole_draws = true
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.lower.as_str(), settings.higher.as_str()];
@@ -25,7 +37,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

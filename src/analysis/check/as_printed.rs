@@ -6,7 +6,8 @@ use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use audit::printed::{Digits, Printed};
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::median;
 
@@ -14,6 +15,13 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "as_printed",
     about: "does a contender's metric on one problem, the median over its trials, print as the paper prints it?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "methods"
+problems = "case 1 safe"
+contender = "A* 8"
+metric = "path_length_cm"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let study = context.study(
@@ -40,7 +48,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -80,7 +88,7 @@ impl Check for AsPrinted<'_> {
             (true, false, true) => Verdict::Attainable,
             (true, false, false) => Verdict::Reproduced,
         });
-        finding.trial = rows.and_then(|(_, rows)| Some(format!("{study}/{}", rows.first()?.trial)));
+        finding.trial = rows.and_then(|(run, rows)| rows.first().map(|row| run.trial(row)));
         let what = format!("{} of {contender}", self.metric.label.to_lowercase());
         finding.ours = Some(Estimate { value, interval: None, what, n: values.len() });
         let verb = if agrees { "prints as" } else { "does not print as" };

@@ -6,7 +6,8 @@ use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::{Reading, ReadingChoice, Study};
 use audit::printed::{Digits, Printed};
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -14,10 +15,16 @@ use std::collections::BTreeMap;
 pub static ENTRY: Entry = Entry {
     name: "attained",
     about: "does any stored trial meet the printed number exactly, where other named claims are met too?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+metric = "expansions"
+contenders = ["Original A*"]
+in = [{ study = "particle", problems = ["plane"] }]
+"#,
     build: |context| Ok(Box::new(Attained::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The metric, or the metric whose reduction is claimed.
@@ -33,7 +40,7 @@ struct Settings {
     given: Vec<String>,
 }
 
-#[derive(Clone, Deserialize)]
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Place {
     study: String,
@@ -188,10 +195,10 @@ impl<'a> Attained<'a> {
         let pairs = run.pairs(group, base, contender);
         let seen = pairs.iter().filter_map(|pair| {
             Some(Seen {
-                problem: (run.study.name.clone(), pair.other.problem.clone()),
+                problem: (run.study.name.clone(), run.problem(pair.other)),
                 contender: contender.to_owned(),
                 value: value(pair)?,
-                trial: format!("{}/{}", run.study.name, pair.other.trial),
+                trial: run.trial(pair.other),
                 reading: reading.clone(),
                 selected: false,
             })

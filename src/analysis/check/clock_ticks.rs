@@ -6,12 +6,21 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use audit::clock::Tick;
 use audit::printed::{Digits, Printed};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "clock_ticks",
     about: "is a printed time a whole number of ticks of a clock, and how likely is that by chance?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+tick_s = [1, 64]
+with = ["case2.time"]
+chosen = "read off these two times (it is also the period of a PC's clock interrupt), so that the probability is that of a tick named in advance and no evidence"
+left_out = "the paper names MATLAB, but no machine, version, program or repetition"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let [numerator, denominator] = settings.tick_s;
@@ -37,7 +46,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The tick, as numerator and denominator of a fraction of a second.

@@ -7,6 +7,8 @@ use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use audit::printed::Printed;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::interval::Interval;
@@ -17,6 +19,15 @@ use stats::proportion::units_for_margin;
 pub static ENTRY: Entry = Entry {
     name: "compare",
     about: "does the mean reduction of a metric, over paired problems, agree with the printed one within a margin?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "ensemble"
+problems = ["simple cells 10 %", "simple cells 20 %", "simple cells 30 %", "simple rectangles 10 %", "simple rectangles 20 %", "simple rectangles 30 %", "simple bars 10 %", "simple bars 20 %", "simple bars 30 %"]
+metric = "plan_time_us"
+contender = "Improved A*"
+against = "A*"
+within_points = 5
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.against.as_str()];
@@ -32,7 +43,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

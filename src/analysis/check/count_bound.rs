@@ -6,17 +6,28 @@ use crate::analysis::verdict::{Finding, Verdict};
 use audit::fvalues::{CountBound, astar_count_bound};
 use audit::lattice::Octile;
 use audit::printed::{Digits, Printed};
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "count_bound",
     about: "is a printed count at most what A* with the Euclidean heuristic can open or close on any map?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+size = [30, 30]
+start = [22, 15]
+goal = [26, 28]
+optimum = [9, 4]
+metric = "nodes"
+opened = "opened"
+closed = "closed"
+"#,
     build: |context| Ok(Box::new(Bound::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     size: [i32; 2],

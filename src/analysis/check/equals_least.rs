@@ -6,6 +6,8 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{Resampling, percentile};
 
@@ -13,6 +15,14 @@ use stats::bootstrap::{Resampling, percentile};
 pub static ENTRY: Entry = Entry {
     name: "equals_least",
     about: "does a contender attain the least value, which another contender finds, on every problem that both solve?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "length"
+problems = "cell"
+metric = "local_paths"
+contender = "Original A*"
+least = "Roadmap fewest hops"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.least.as_str()];
@@ -23,7 +33,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

@@ -5,12 +5,21 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Finding, Verdict};
 use crate::study::record::Status;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "fails_where",
     about: "does a contender fail on every problem on which a metric is 0, and on no other?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+contender = "Original A*"
+metric = "connected"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let problems = std::slice::from_ref(&settings.problems);
@@ -20,7 +29,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -56,7 +65,7 @@ impl Check for FailsWhere {
                 (true, true) => {}
             }
             if is_found == (value == 0.0) || is_refused {
-                against = against.or(Some(format!("{}/{}", run.study.name, row.trial)));
+                against = against.or(Some(run.trial(row)));
             }
         }
         let wrongly_found = measured - explained - unexplained - found;

@@ -7,6 +7,8 @@ use crate::analysis::metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::record::{Row, Status};
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{Resampling, percentile};
 
@@ -14,6 +16,14 @@ use stats::bootstrap::{Resampling, percentile};
 pub static ENTRY: Entry = Entry {
     name: "failure_causes",
     about: "do most failing searches have neighbours at both ends, so that parts of the roadmap are separate and not an end alone?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+contender = "Original A*"
+relief = "Improved A*"
+at_least = 0.5
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.relief.as_str()];
@@ -26,7 +36,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

@@ -5,12 +5,21 @@ use crate::analysis::draws::both;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use crate::study::record::Status;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "finds_whenever",
     about: "does one contender find a path on every problem on which another finds one?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+contender = "Improved A*"
+whenever = "Original A*"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.whenever.as_str()];
@@ -19,7 +28,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -29,7 +38,7 @@ struct Settings {
 }
 
 /// One problem group, or several.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "the label of a problem group, or a list of them, is accepted")]
 enum Problems {
     One(String),
@@ -55,7 +64,7 @@ impl Check for Settings {
                 refused += usize::from(base.status == Status::Rejected);
                 match (base.status == Status::Solved, own.status == Status::Solved) {
                     (true, true) => both_find += 1,
-                    (true, false) => only_other.push(own.trial.clone()),
+                    (true, false) => only_other.push(run.trial(own)),
                     (false, true) => more += 1,
                     (false, false) => {}
                 }
@@ -66,7 +75,7 @@ impl Check for Settings {
             (true, _) => Verdict::Reproduced,
             (false, _) => Verdict::NotReproduced,
         });
-        finding.trial = only_other.first().map(|trial| format!("{}/{trial}", run.study.name));
+        finding.trial = only_other.first().cloned();
         finding.because.push(format!(
             "{} finds a path on {both_find} of the {} problems on which {} does, and on {more} others",
             self.contender,

@@ -4,6 +4,8 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::Finding;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::paired::EQUAL;
 use stats::proportion::wilson;
@@ -12,6 +14,22 @@ use stats::proportion::wilson;
 pub static ENTRY: Entry = Entry {
     name: "how_often",
     about: "on what share of problems is one contender below, at or above another, set by set?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+metric = "nodes"
+contender = "Improved A*"
+against = "A*"
+sets = [
+    { label = "simple, all maps", study = "ensemble", problems = ["simple cells 10 %", "simple cells 20 %", "simple cells 30 %", "simple rectangles 10 %", "simple rectangles 20 %", "simple rectangles 30 %", "simple bars 10 %", "simple bars 20 %", "simple bars 30 %"] },
+    { label = "simple, given A*'s cost", study = "conditioned", problems = ["simple given cost"] },
+    { label = "simple, given also its turn sum", study = "conditioned", problems = ["simple given cost, turn"] },
+    { label = "simple, given also its nodes within 10 %", study = "conditioned", problems = ["simple given cost, turn, opened"] },
+    { label = "complex, all maps", study = "ensemble", problems = ["complex cells 10 %", "complex cells 20 %", "complex cells 30 %", "complex rectangles 10 %", "complex rectangles 20 %", "complex rectangles 30 %", "complex bars 10 %", "complex bars 20 %", "complex bars 30 %"] },
+    { label = "complex, given A*'s cost (17.65 for 17.56)", study = "conditioned", problems = ["complex given cost"] },
+    { label = "complex, given also its turn sum", study = "conditioned", problems = ["complex given cost, turn"] },
+    { label = "complex, given also its nodes within 10 %", study = "conditioned", problems = ["complex given cost, turn, opened"] },
+]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let mut metric = None;
@@ -25,7 +43,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     metric: String,
@@ -34,7 +52,7 @@ struct Settings {
     sets: Vec<SetSpec>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SetSpec {
     /// What these problems are.

@@ -6,7 +6,8 @@ use crate::analysis::verdict::{Finding, Verdict};
 use audit::neighbourhood;
 use audit::printed::Printed;
 use audit::turns::{Convention, Polyline, TurnQuery, shortest_polyline};
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
 
@@ -14,10 +15,22 @@ use stats::interval::Interval;
 pub static ENTRY: Entry = Entry {
     name: "joint_length_turn",
     about: "has any polyline through cell centres both a printed length and a printed turn sum?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+size = [30, 30]
+start = [22, 15]
+goal = [26, 28]
+length = "t1.improved.cost"
+turn = "t1.improved.turn"
+metric = "turn_sum"
+exterior = "turn_exterior_deg"
+interior = "turn_interior_deg"
+longest = 20.0
+"#,
     build: |context| Ok(Box::new(Joint::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     size: [i32; 2],

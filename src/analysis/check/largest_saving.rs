@@ -7,6 +7,8 @@ use audit::bounds::{largest_saving_percent, straight_line};
 use audit::lattice::{Octile, Step, lengths_printing};
 use audit::printed::{Digits, Printed};
 use audit::{at_most, with_an_end_moved};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
 
@@ -14,6 +16,13 @@ use stats::interval::Interval;
 pub static ENTRY: Entry = Entry {
     name: "largest_saving",
     about: "is a printed saving on a printed length possible for any path between start and goal?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+baseline = "t1.astar.cost"
+start = [22, 15]
+goal = [26, 28]
+size = [30, 30]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let baseline = context.printed_of(&settings.baseline)?;
@@ -22,7 +31,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     baseline: String,

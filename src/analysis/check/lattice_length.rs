@@ -6,12 +6,16 @@ use crate::analysis::verdict::{Finding, Verdict};
 use audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
 use audit::printed::{Digits, Printed};
 use audit::with_an_end_moved;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "lattice_length",
     about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
+    settings: Accepted::of::<Settings>(),
+    example: "",
     build: |context| {
         let settings: Settings = context.settings.read()?;
         if settings.start.is_some() != settings.goal.is_some() {
@@ -21,7 +25,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The ends, where the paper prints them; without, any 8-connected path counts.

@@ -4,7 +4,8 @@ use super::{Check, Context, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use crate::study::paper::TableRow;
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Value;
@@ -13,10 +14,18 @@ use toml::Value;
 pub static ENTRY: Entry = Entry {
     name: "listed_points",
     about: "does each row of a printed table list as many points as stated? a study must use the same points",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+points = 4
+table = "table1"
+study = "methods"
+key = "obstacles_cm"
+rows = { "Case 1" = "case 1", "Case 2" = "case 2" }
+"#,
     build: |context| Ok(Box::new(ListedPoints::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// How many points the text says that each row lists.

@@ -6,6 +6,8 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::paired::change_of_sums_percent;
@@ -15,6 +17,14 @@ use stats::proportion::units_for_margin;
 pub static ENTRY: Entry = Entry {
     name: "lower_by_draw",
     about: "is one contender lower than another on average over queries, with whole draws as the units of the interval?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "length"
+problems = "cell"
+metric = "local_paths"
+lower = "Improved A*"
+higher = "Original A*"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.lower.as_str(), settings.higher.as_str()];
@@ -25,7 +35,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

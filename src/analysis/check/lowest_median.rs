@@ -11,7 +11,8 @@ use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use crate::study::record::{Row, Status};
 use base::seed;
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 use stats::proportion::units_for_margin;
@@ -22,10 +23,19 @@ use std::collections::BTreeMap;
 pub static ENTRY: Entry = Entry {
     name: "lowest_median",
     about: "is a contender's median over seeds, failures infinite, below that of each other one on every problem?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "methods"
+problems = ["case 1", "case 2"]
+metric = "plan_time_us"
+lower = ["Chaos 5/8"]
+higher = ["A* 8"]
+by_percent = 50
+"#,
     build: |context| Ok(Box::new(LowestMedian::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

@@ -5,7 +5,10 @@ use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
+use crate::study::name::sweep;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bands::sup_t;
 use stats::bootstrap::Resampling;
@@ -15,6 +18,13 @@ use stats::interval::Interval;
 pub static ENTRY: Entry = Entry {
     name: "mean_curve_above",
     about: "is one contender's mean share of solved queries above another's at every point of the sweep, draws paired?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+contender = "Improved A*"
+against = "Original A*"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.against.as_str()];
@@ -24,7 +34,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -58,7 +68,7 @@ impl Check for MeanCurveAbove<'_> {
         let Some(run) = evidence.run(study) else { return finding };
         let points = self.study.sweep_points();
         let shares = |who: &str| -> Vec<Vec<f64>> {
-            points.iter().map(|point| solved_percents(run, problems, who, &point.name)).collect()
+            points.iter().map(|point| solved_percents(run, problems, who, &point.key)).collect()
         };
         let (own, other) = (shares(contender), shares(against));
         let draws = own.iter().chain(&other).map(Vec::len).min().unwrap_or(0);
@@ -71,8 +81,10 @@ impl Check for MeanCurveAbove<'_> {
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by(|a, b| found.mean[*a].total_cmp(&found.mean[*b]));
         let [least, most] = [order[0], order[order.len() - 1]];
-        let what =
-            format!("least mean difference in points, at {}, simultaneous 95 % band", points[least].name);
+        let what = format!(
+            "least mean difference in points, at {}, simultaneous 95 % band",
+            sweep(&points[least].key)
+        );
         finding.ours = Some(Estimate::new(found.mean[least], found.band[least], what, draws));
         finding.because.push(format!(
             "{contender} less {against} on {problems}: the mean share of solved queries differs by {:.1} points (band {:.1} to {:.1}) \
@@ -80,9 +92,9 @@ impl Check for MeanCurveAbove<'_> {
             found.mean[least],
             found.band[least].low,
             found.band[least].high,
-            points[least].name,
+            sweep(&points[least].key),
             found.mean[most],
-            points[most].name,
+            sweep(&points[most].key),
             found.band.iter().filter(|b| b.low > 0.0).count(),
             points.len()
         ));

@@ -55,7 +55,7 @@ use super::verdict::{Finding, Verdict};
 use crate::study::paper::{self, Claim, Paper};
 use crate::study::{ReadingChoice, Study};
 use audit::printed::{Digits, Printed};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError, did_you_mean, none_called};
 
 /// A check with its settings.
 pub trait Check {
@@ -113,6 +113,10 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it.
     pub build: for<'a> fn(&Context<'a>) -> Result<Box<dyn Check + 'a>, SettingsError>,
 }
@@ -171,6 +175,39 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     REGISTRY.iter().copied().find(|entry| entry.name == name)
 }
 
+/// The checks of a claim, built.
+pub fn checks<'a>(
+    paper: &'a Paper,
+    point: &'a ReadingChoice,
+    claim: &'a Claim,
+) -> Result<Vec<(&'static str, Box<dyn Check + 'a>)>, SettingsError> {
+    let mut built = Vec::new();
+    for (name, settings) in &claim.checks {
+        let entry = find(name).ok_or_else(|| {
+            let known: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
+            let message = format!(
+                "claim `{}` asks for the check `{name}`, which does not exist; the checks are {}",
+                claim.id,
+                known.join(", ")
+            );
+            settings.error(message)
+        })?;
+        built.push((entry.name, (entry.build)(&Context { claim, settings, paper, point })?));
+    }
+    Ok(built)
+}
+
+/// The verdict on one claim under the evidence's reading, without the reasons.
+///
+/// # Errors
+/// Those of [`validate`].
+fn verdict_on(evidence: &Evidence<'_>, claim: &Claim) -> Result<Verdict, SettingsError> {
+    let checks = checks(evidence.paper, &evidence.point, claim)?;
+    let untestable = claim.untestable.as_ref().map(|_| Verdict::Untestable);
+    let found = checks.iter().filter_map(|(_, check)| check.verdict(evidence)).chain(untestable);
+    Ok(found.max().unwrap_or(Verdict::Undecided))
+}
+
 #[cfg(test)]
 mod tests;
 
@@ -202,9 +239,11 @@ fn context<'a>(
     check: &str,
 ) -> Result<Context<'a>, SettingsError> {
     let (paper, point) = (evidence.paper, &evidence.point);
-    let claim = paper.claim(id).ok_or_else(|| asker.error(format!("there is no claim `{id}`")))?;
+    let claim = paper.claim(id).ok_or_else(|| {
+        asker.error_about(id, none_called("claim", id, paper.claims.iter().map(|c| c.id.as_str())))
+    })?;
     let settings = claim.checks.get(check).ok_or_else(|| {
-        asker.error(format!("claim `{id}` has no check `{check}`, which says what is to be shown"))
+        asker.error_about(id, format!("claim `{id}` has no check `{check}`, which says what is to be shown"))
     })?;
     Ok(Context { claim, settings, paper, point })
 }
@@ -241,8 +280,8 @@ impl<'a> Context<'a> {
 
     fn claim_called(&self, id: &str) -> Result<&'a Claim, SettingsError> {
         self.paper.claim(id).ok_or_else(|| {
-            let known: Vec<&str> = self.paper.claims.iter().map(|claim| claim.id.as_str()).collect();
-            self.settings.error(format!("there is no claim `{id}`; there are {}", known.join(", ")))
+            let known = self.paper.claims.iter().map(|claim| claim.id.as_str());
+            self.settings.error_about(id, none_called("claim", id, known))
         })
     }
 
@@ -259,23 +298,27 @@ impl<'a> Context<'a> {
         contenders: &[&str],
     ) -> Result<&'a Study, SettingsError> {
         let study = self.paper.study(name).ok_or_else(|| {
-            let known: Vec<&str> = self.paper.studies.iter().map(|study| study.name.as_str()).collect();
-            self.settings.error(format!("there is no study `{name}`; there are {}", known.join(", ")))
+            let known = self.paper.studies.iter().map(|study| study.name.as_str());
+            self.settings.error_about(name, none_called("study", name, known))
         })?;
         for problem in problems {
             if !study.groups.iter().any(|group| group.label == *problem) {
                 let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-                let message =
-                    format!("study `{name}` has no problem group `{problem}`; it has {}", known.join(", "));
-                return Err(self.settings.error(message));
+                let hint = did_you_mean(problem, known.iter().copied());
+                let message = format!(
+                    "study `{name}` has no problem group `{problem}`{hint}; it has {}",
+                    known.join(", ")
+                );
+                return Err(self.settings.error_about(problem, message));
             }
         }
         for wanted in contenders {
             if !study.contenders.iter().any(|contender| contender.label == **wanted) {
                 let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
+                let hint = did_you_mean(wanted, known.iter().copied());
                 let message =
-                    format!("study `{name}` has no contender `{wanted}`; it has {}", known.join(", "));
-                return Err(self.settings.error(message));
+                    format!("study `{name}` has no contender `{wanted}`{hint}; it has {}", known.join(", "));
+                return Err(self.settings.error_about(wanted, message));
             }
         }
         Ok(study)
@@ -285,11 +328,12 @@ impl<'a> Context<'a> {
     fn known_metric(&self, name: &str) -> Result<&'static Metric, SettingsError> {
         super::metric::find(self.point.metric(name)).ok_or_else(|| {
             let known: Vec<&str> = super::metric::METRICS.iter().map(|metric| metric.name).collect();
+            let hint = did_you_mean(name, known.iter().copied());
             let message = format!(
-                "there is no metric `{name}`, nor a reading that gives the name a meaning; the metrics are {}",
+                "there is no metric `{name}`, nor a reading that gives the name a meaning{hint}; the metrics are {}",
                 known.join(", ")
             );
-            self.settings.error(message)
+            self.settings.error_about(name, message)
         })
     }
 
@@ -309,7 +353,7 @@ impl<'a> Context<'a> {
                 metric.name,
                 produced.join(", ")
             );
-            return Err(self.settings.error(message));
+            return Err(self.settings.error_about(name, message));
         }
         Ok(metric)
     }

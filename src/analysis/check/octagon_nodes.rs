@@ -3,6 +3,8 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_8;
 
@@ -10,6 +12,10 @@ use std::f64::consts::FRAC_PI_8;
 pub static ENTRY: Entry = Entry {
     name: "octagon_nodes",
     about: "is there a regular octagon about a lattice point that holds as many other lattice points as stated?",
+    settings: Accepted::of::<OctagonNodes>(),
+    example: r#"
+nodes = 48
+"#,
     build: |context| {
         let settings: OctagonNodes = context.settings.read()?;
         if settings.nodes == 0 || settings.nodes > 10_000 {
@@ -20,7 +26,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct OctagonNodes {
     /// How many lattice points beside the middle.

@@ -4,12 +4,23 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "oracle",
     about: "is a metric within a tolerance of a known one on every trial, neither above nor below?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "scenarios"
+problems = ["sample"]
+contenders = ["A*"]
+metric = "path_cost_cells"
+truth = "printed_optimal_cells"
+within = 0.0001
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders: Vec<&str> = settings.contenders.iter().map(String::as_str).collect();
@@ -24,7 +35,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -57,7 +68,7 @@ impl Check for Oracle {
                 worst = worst.max(apart);
                 if apart > self.settings.within {
                     off += 1;
-                    finding.trial.get_or_insert_with(|| format!("{}/{}", run.study.name, row.trial));
+                    finding.trial.get_or_insert_with(|| run.trial(row));
                 }
             }
         }

@@ -6,6 +6,8 @@ use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::paired::{EQUAL, mean_difference, signs};
@@ -15,6 +17,15 @@ use stats::proportion::{units_for_margin, wilson};
 pub static ENTRY: Entry = Entry {
     name: "ordering",
     about: "is one contender lower than another in a metric, on average or on every problem?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "environments"
+problems = ["EA", "EB"]
+metric = "nodes"
+lower = "Improved A*"
+higher = "A*"
+on = "every"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.lower.as_str(), settings.higher.as_str()];
@@ -25,7 +36,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -39,7 +50,7 @@ struct Settings {
 }
 
 /// On which problems the claim is to hold.
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum On {
     /// On average over the problems.

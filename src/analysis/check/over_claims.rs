@@ -1,16 +1,21 @@
 //! A sentence that is asked in several ways, each a claim of its own: whether all of them, some or none hold.
 
-use super::{Check, Entry};
-use crate::analysis::claims::verdict_on;
+use super::{Check, Entry, verdict_on};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use crate::study::paper::Claim;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "over_claims",
     about: "a sentence that several claims ask in their own ways: do all, some or none of them hold?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+claims = ["edges.chs", "edges.chs.turn", "edges.chs.r2"]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let claims = settings.claims.iter().map(|id| context.claim_called(id));
@@ -23,7 +28,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     claims: Vec<String>,

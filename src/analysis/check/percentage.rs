@@ -5,12 +5,19 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use audit::percent::Reduction;
 use audit::printed::{Digits, Printed};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "percentage",
     about: "is a printed reduction what the printed cells give?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+before = "t1.astar.time"
+after = "t1.improved.time"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let (before, digits) = context.printed_of(&settings.before)?;
@@ -22,7 +29,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     before: String,

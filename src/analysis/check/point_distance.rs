@@ -5,19 +5,26 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use audit::bounds::straight_line;
 use audit::printed::{Digits, Printed};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "point_distance",
     about: "is a printed distance that between two printed points?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+from = [22.5, 15.5]
+to = [26.5, 28.5]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         Ok(Box::new(PointDistance { settings, printed: context.printed()?, digits: context.digits() }))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     from: [f64; 2],

@@ -5,7 +5,8 @@ use super::{Check, Context, Entry};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::median;
 
@@ -13,10 +14,19 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "printed_ratio",
     about: "is the ratio of two printed numbers that of a contender's medians on two problems, by each of some metrics?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = ["case1.time", "case2.time"]
+study = "methods"
+problems = ["case 1", "case 2"]
+contender = "A* 8"
+metrics = ["plan_time_us", "expansions", "generated", "list_operations"]
+within_percent = 10
+"#,
     build: |context| Ok(Box::new(PrintedRatio::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// Two claims: one whose number is divided, and one whose number it is divided by.

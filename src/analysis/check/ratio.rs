@@ -6,6 +6,8 @@ use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::interval::Interval;
@@ -15,6 +17,15 @@ use stats::paired::ratio_of_means;
 pub static ENTRY: Entry = Entry {
     name: "ratio",
     about: "does the ratio of two contenders' means of a metric, over paired problems, lie within bounds?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "environments"
+problems = ["E1", "E2", "E3", "E4"]
+metric = "nodes"
+contender = "Improved A*"
+against = "A*"
+accepted = [0.0, 0.5]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.against.as_str()];
@@ -30,7 +41,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

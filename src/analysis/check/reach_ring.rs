@@ -3,13 +3,20 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use base::settings::Accepted;
 use engine::kinematics::planar_2r::Planar2r;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "reach_ring",
     about: "do reach and singularity of a planar two-link arm forbid an inner disc of the radius stated?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+links_cm = [30.0, 20.0]
+radius_cm = 20.0
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let [l1, l2] = settings.links_cm;
@@ -18,7 +25,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     links_cm: [f64; 2],

@@ -5,7 +5,8 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Finding;
 use crate::study::Study;
 use crate::study::record::Status;
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::wilson;
 
@@ -13,10 +14,17 @@ use stats::proportion::wilson;
 pub static ENTRY: Entry = Entry {
     name: "refused_by_option",
     about: "how many of a contender's paths does the verifier refuse under each option of one reading?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "readings"
+problems = ["simple", "complex"]
+contender = "Improved A*"
+reading = "line_of_sight"
+"#,
     build: |context| Ok(Box::new(RefusedByOption::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// A study that explores readings.

@@ -6,12 +6,19 @@
 use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "repulsion",
     about: "does a printed repulsive potential fall along its printed force, and has it a value at contact?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+range_cm = 5.0
+question = "falls_along_force"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         if !(settings.range_cm.is_finite() && settings.range_cm > 0.0) {
@@ -25,7 +32,7 @@ pub static ENTRY: Entry = Entry {
 /// Distances at which the sign is tried, as shares of the range.
 const TRIED: usize = 99;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The potential's range d0.
@@ -33,7 +40,7 @@ struct Settings {
     question: Question,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum Question {
     /// Does U fall along f?

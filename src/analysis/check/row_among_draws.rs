@@ -8,7 +8,8 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding};
 use audit::printed::{Digits, Printed};
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::{Rank, predictive};
 use stats::summary::median;
@@ -17,10 +18,22 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "row_among_draws",
     about: "where does the printed number, or reduction, rank among our draws, with an exact interval?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+metric = "nodes"
+contender = "Improved A*"
+against = "A*"
+sets = [
+    { label = "all maps", study = "ensemble", problems = ["simple cells 10 %", "simple cells 20 %", "simple cells 30 %", "simple rectangles 10 %", "simple rectangles 20 %", "simple rectangles 30 %", "simple bars 10 %", "simple bars 20 %", "simple bars 30 %"] },
+    { label = "given A*'s cost (14.65; 17.65 for 17.56)", study = "conditioned", problems = ["simple given cost"] },
+    { label = "given also its turn sum", study = "conditioned", problems = ["simple given cost, turn"] },
+    { label = "given also its nodes within 10 %", study = "conditioned", problems = ["simple given cost, turn, opened"] },
+]
+"#,
     build: |context| Ok(Box::new(RowAmongDraws::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     metric: String,
@@ -33,7 +46,7 @@ struct Settings {
     premises: Vec<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SetSpec {
     /// What these draws are.
@@ -105,7 +118,7 @@ impl RowAmongDraws {
                 *value = self.printed.value();
             }
         }
-        let prepared = run.records.batch.prepared.iter().filter(|row| set.problems.contains(&row.group));
+        let prepared = set.problems.iter().flat_map(|group| run.prepared(group));
         let tried: Vec<u64> =
             prepared.filter_map(|row| row.values.get("tries").map(|tries| tries.as_f64() as u64)).collect();
         if !tried.is_empty() {

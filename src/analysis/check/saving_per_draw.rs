@@ -7,6 +7,8 @@ use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use audit::printed::Printed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::predictive;
 use stats::summary::mean;
@@ -15,6 +17,16 @@ use stats::summary::mean;
 pub static ENTRY: Entry = Entry {
     name: "saving_per_draw",
     about: "does the printed least, greatest or mean saving over a draw's queries lie where one more draw of ours would?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "length"
+problems = "cell"
+metric = "path_length_mm"
+contender = "Improved A*"
+against = "Original A*"
+of_queries = "least"
+whole_draws = true
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.against.as_str()];
@@ -25,7 +37,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -39,7 +51,7 @@ struct Settings {
 }
 
 /// What is taken of the savings on one draw's queries.
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum Statistic {
     Least,

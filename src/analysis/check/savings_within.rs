@@ -7,6 +7,8 @@ use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use audit::printed::Digits;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
 use stats::proportion::clopper_pearson;
@@ -16,18 +18,37 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "savings_within",
     about: "do the savings on all queries of a draw lie between two printed ones often enough for the range to be one draw's?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "length"
+problems = "cell"
+metric = "path_length_mm"
+contender = "Improved A*"
+against = "Original A*"
+least = "length.least"
+greatest = "length.greatest"
+refused_below = 0.05
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.against.as_str()];
         let study = context.study(&settings.study, std::slice::from_ref(&settings.problems), &contenders)?;
         let metric = context.metric(&settings.metric, study)?;
         let end = |id: &String| context.printed_of(id).map(|(printed, _)| printed.interval(Digits::Rounded));
-        let range = Interval::new(end(&settings.least)?.low, end(&settings.greatest)?.high);
+        let (least, greatest) = (end(&settings.least)?.low, end(&settings.greatest)?.high);
+        if least > greatest {
+            let message = format!(
+                "the claim `{}`, named as `least`, prints more than `{}`, named as `greatest`; the other way round is accepted",
+                settings.least, settings.greatest
+            );
+            return Err(context.settings.error(message));
+        }
+        let range = Interval::new(least, greatest);
         Ok(Box::new(SavingsWithin { settings, study, metric, range }))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

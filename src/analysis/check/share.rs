@@ -6,6 +6,8 @@ use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::record::{Row, Status};
 use crate::study::{Study, column};
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 use stats::interval::Interval;
@@ -15,6 +17,14 @@ use stats::proportion::wilson;
 pub static ENTRY: Entry = Entry {
     name: "share",
     about: "does a share lie within bounds: of trials solved, of trials with a mark, of events counted in draws?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "postures"
+problems = ["C1", "C2"]
+contender = "A*"
+hits = "solved"
+accepted = [0.995, 1.0]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let mut study = context.study(&settings.study, &settings.problems, &[])?;
@@ -42,7 +52,7 @@ pub static ENTRY: Entry = Entry {
 /// The name of the share of trials that are solved.
 const SOLVED: &str = "solved";
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

@@ -5,12 +5,38 @@ use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use crate::study::Study;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "share_above",
     about: "is one contender's share of solved queries above another's in every draw at every point of the sweep?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+contender = "Improved A*"
+against = "Original A*"
+printed = [
+    ["t2.improved.100", "t2.original.100"],
+    ["t2.improved.200", "t2.original.200"],
+    ["t2.improved.300", "t2.original.300"],
+    ["t2.improved.400", "t2.original.400"],
+    ["t2.improved.500", "t2.original.500"],
+    ["t2.improved.600", "t2.original.600"],
+    ["t2.improved.700", "t2.original.700"],
+    ["t2.improved.800", "t2.original.800"],
+    ["t2.improved.900", "t2.original.900"],
+    ["t2.improved.1000", "t2.original.1000"],
+    ["t2.improved.1100", "t2.original.1100"],
+    ["t2.improved.1200", "t2.original.1200"],
+    ["t2.improved.1300", "t2.original.1300"],
+    ["t2.improved.1400", "t2.original.1400"],
+    ["t2.improved.1500", "t2.original.1500"],
+]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str(), settings.against.as_str()];
@@ -24,7 +50,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -48,7 +74,7 @@ impl Check for ShareAbove<'_> {
         let Some(run) = evidence.run(study) else { return finding };
         let (mut above, mut equal, mut below) = (0, 0, 0);
         for point in self.study.sweep_points() {
-            let shares = |who: &str| solved_percents(run, problems, who, &point.name);
+            let shares = |who: &str| solved_percents(run, problems, who, &point.key);
             for (own, other) in shares(contender).iter().zip(shares(against)) {
                 above += u32::from(*own > other);
                 equal += u32::from(*own == other);

@@ -4,6 +4,8 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Finding, Verdict};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::wilson;
 
@@ -11,6 +13,15 @@ use stats::proportion::wilson;
 pub static ENTRY: Entry = Entry {
     name: "share_beyond",
     about: "on what share of draws is a contender's metric above a number; optionally, is it on every one?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+metric = "bends"
+contender = "A*"
+sets = [
+    { study = "ensemble", problems = ["simple cells 10 %", "simple cells 20 %", "simple cells 30 %", "simple rectangles 10 %", "simple rectangles 20 %", "simple rectangles 30 %", "simple bars 10 %", "simple bars 20 %", "simple bars 30 %"], above = 2.0 },
+    { study = "ensemble", problems = ["complex cells 10 %", "complex cells 20 %", "complex cells 30 %", "complex rectangles 10 %", "complex rectangles 20 %", "complex rectangles 30 %", "complex bars 10 %", "complex bars 20 %", "complex bars 30 %"], above = 2.0 },
+]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let mut metric = None;
@@ -23,7 +34,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     metric: String,
@@ -34,7 +45,7 @@ struct Settings {
     sets: Vec<SetSpec>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SetSpec {
     study: String,
@@ -65,7 +76,7 @@ impl Check for ShareBeyond {
                     known.partition(|(_, value)| *value > set.above + EQUAL);
                 let n = beyond.len() + not.len();
                 all += n;
-                below = below.or(not.first().map(|(pair, _)| format!("{}/{}", set.study, pair.other.trial)));
+                below = below.or(not.first().map(|(pair, _)| run.trial(pair.other)));
                 let Some(interval) = wilson(beyond.len(), n, 0.95) else { continue };
                 finding.because.push(format!(
                     "{group}: {} above {} on {:.1} % of {n} maps ({:.1} to {:.1} %)",

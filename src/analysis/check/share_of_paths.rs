@@ -6,7 +6,8 @@ use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use crate::study::record::Status;
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::wilson;
 
@@ -14,10 +15,19 @@ use stats::proportion::wilson;
 pub static ENTRY: Entry = Entry {
     name: "share_of_paths",
     about: "is the share of returned paths whose metric is above 0 at most as stated?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "methods"
+problems = ["case 1", "case 2"]
+contenders = ["A* 8"]
+metric = "is_unsafe"
+at_most_percent = 0
+explored = "readings"
+"#,
     build: |context| Ok(Box::new(ShareOfPaths::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

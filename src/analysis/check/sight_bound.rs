@@ -7,7 +7,8 @@ use audit::lattice::{Octile, octile_distance};
 use audit::printed::{Digits, Printed};
 use audit::sight::shortest_seen;
 use audit::{at_most, with_an_end_moved};
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -15,10 +16,20 @@ use std::collections::BTreeMap;
 pub static ENTRY: Entry = Entry {
     name: "sight_bound",
     about: "can a path with free lines of sight be so short, or save so much, where the 8-connected optimum is known?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+size = [30, 30]
+start = [28, 19]
+goal = [13, 16]
+optimum = [12, 4]
+because = "A*'s path costs 12 + 4√2: no path has the printed 17.56, and 17.65, with two digits swapped, is this cost cut off"
+of = "length"
+under = { corner_cutting = ["allow"] }
+"#,
     build: |context| Ok(Box::new(SightBound::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     size: [i32; 2],
@@ -34,7 +45,7 @@ struct Settings {
 }
 
 /// What is printed.
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Of {
     /// A length in cells.

@@ -6,19 +6,26 @@ use crate::analysis::verdict::{Finding, Verdict};
 use audit::bounds::{shortfall, straight_line, straight_line_between};
 use audit::neighbourhood;
 use audit::printed::{Digits, Printed};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "straight_line",
     about: "is a printed length at least the straight line between start and goal?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+start = [22.0, 15.0]
+goal = [26.0, 28.0]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         Ok(Box::new(StraightLine { settings, printed: context.printed()?, digits: context.digits() }))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     start: [f64; 2],

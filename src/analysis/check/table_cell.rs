@@ -5,7 +5,11 @@ use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
+use crate::study::key::SweepKey;
+use crate::study::name;
 use audit::printed::Printed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::predictive;
 use stats::summary::mean;
@@ -14,26 +18,30 @@ use stats::summary::mean;
 pub static ENTRY: Entry = Entry {
     name: "table_cell",
     about: "does the printed share of solved queries lie where one more draw of ours would, with 95 % probability?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+contender = "Original A*"
+sweep = "samples=100"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let problems = std::slice::from_ref(&settings.problems);
         let study = context.study(&settings.study, problems, &[&settings.contender])?;
-        if !study.sweep_points().iter().any(|point| point.name == settings.sweep) {
-            let known: Vec<String> = study.sweep_points().into_iter().map(|point| point.name).collect();
-            let message = format!(
-                "study `{}` has no sweep `{}`; it has {}",
-                study.name,
-                settings.sweep,
-                known.join(", ")
-            );
-            return Err(context.settings.error(message));
-        }
+        let point = study.sweep_point(&settings.sweep).ok_or_else(|| {
+            let known: Vec<String> =
+                study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
+            let known = known.join(", ");
+            let message = format!("study `{}` has no sweep `{}`; it has {known}", study.name, settings.sweep);
+            context.settings.error(message)
+        })?;
         let is_fitted = study.fitted_to.contains(&context.claim.id);
-        Ok(Box::new(TableCell { settings, study, printed: context.printed()?, is_fitted }))
+        Ok(Box::new(TableCell { settings, study, sweep: point.key, printed: context.printed()?, is_fitted }))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -48,6 +56,7 @@ const NO_POWER_POINTS: f64 = 80.0;
 struct TableCell<'a> {
     settings: Settings,
     study: &'a Study,
+    sweep: SweepKey,
     printed: Printed,
     is_fitted: bool,
 }
@@ -56,7 +65,7 @@ impl Check for TableCell<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let Settings { study, problems, contender, sweep } = &self.settings;
         let run = evidence.run(study);
-        let draws = run.map(|run| solved_percents(run, problems, contender, sweep)).unwrap_or_default();
+        let draws = run.map(|run| solved_percents(run, problems, contender, &self.sweep)).unwrap_or_default();
         let mut finding = Finding::of(ENTRY.name);
         let (Some(interval), Some(mean)) = (predictive(&draws, 0.95), mean(&draws)) else {
             return finding

@@ -6,6 +6,8 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::Study;
 use audit::printed::Printed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::Rank;
 use stats::rows::{distance_to_mean, monotone_probability};
@@ -15,6 +17,15 @@ use stats::summary::{mean, standard_deviation};
 pub static ENTRY: Entry = Entry {
     name: "table_row",
     about: "is a printed row of solved shares as near to our mean curve as our own draws are?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "success"
+problems = "cell"
+refused_below = 0.05
+rows = [
+    { contender = "Original A*", claims = ["t2.original.100", "t2.original.200", "t2.original.300", "t2.original.400", "t2.original.500", "t2.original.600", "t2.original.700", "t2.original.800", "t2.original.900", "t2.original.1000", "t2.original.1100", "t2.original.1200", "t2.original.1300", "t2.original.1400", "t2.original.1500"] },
+]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let problems = std::slice::from_ref(&settings.problems);
@@ -37,7 +48,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -49,7 +60,7 @@ struct Settings {
     refused_below: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RowOf {
     contender: String,
@@ -146,7 +157,7 @@ impl Check for TableRow<'_> {
         let points = self.study.sweep_points();
         let wanted = rows.iter().flat_map(|row| points.iter().map(move |point| (&row.contender, point)));
         let cells: Vec<Vec<f64>> = evidence.run(study).map_or_else(Vec::new, |run| {
-            wanted.map(|(contender, point)| solved_percents(run, problems, contender, &point.name)).collect()
+            wanted.map(|(contender, point)| solved_percents(run, problems, contender, &point.key)).collect()
         });
         let row: Vec<f64> = self.printed.iter().map(|printed| printed.value()).collect();
         let (Some(place), Some(level)) = (place(&row, &cells), Level::of(&row, &cells)) else {

@@ -7,6 +7,8 @@ use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::record::Status;
 use crate::study::{Study, column};
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 
@@ -14,6 +16,15 @@ use stats::bootstrap::{self, Resampling};
 pub static ENTRY: Entry = Entry {
     name: "trend",
     about: "does a contender's metric, or its saving over another, grow or fall with a column of the problem?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "random"
+problems = ["disjoint", "overlapping"]
+metric = "nodes"
+contender = "A*"
+over = "obstacles"
+rising = true
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders: Vec<&str> = [Some(&settings.contender), settings.against.as_ref()]
@@ -32,7 +43,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

@@ -6,7 +6,8 @@ use crate::analysis::verdict::{Finding, Verdict};
 use audit::neighbourhood;
 use audit::printed::Printed;
 use audit::turns::{Convention, TurnQuery, shortest_polyline};
-use base::settings::SettingsError;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
 
@@ -14,10 +15,21 @@ use stats::interval::Interval;
 pub static ENTRY: Entry = Entry {
     name: "turn_needs_length",
     about: "how long is a polyline through cell centres with a printed turn sum at least, and is that below a printed length?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+size = [30, 30]
+start = [22, 15]
+goal = [26, 28]
+turn = "t1.improved.turn"
+against = "t1.astar.cost"
+metric = "turn_sum"
+exterior = "turn_exterior_deg"
+longest = 20.0
+"#,
     build: |context| Ok(Box::new(TurnNeedsLength::new(context)?)),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     size: [i32; 2],

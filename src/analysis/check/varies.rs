@@ -4,6 +4,8 @@ use super::{Check, Entry};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Finding, Verdict};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::median;
 
@@ -11,6 +13,16 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "varies",
     about: "does a contender's median differ between problems that differ in one thing?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "variation"
+contender = "A* 8"
+metric = "path_length_cm"
+problems = [
+    ["case 1, circles", "case 1, squares", "case 1, hexagons", "case 1, triangles"],
+    ["case 2, circles", "case 2, squares", "case 2, hexagons", "case 2, triangles"],
+]
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str()];
@@ -24,7 +36,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,

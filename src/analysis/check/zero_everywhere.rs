@@ -6,6 +6,8 @@ use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
 use crate::study::record::{Row, Status};
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{Resampling, percentile};
 use std::collections::BTreeMap;
@@ -14,6 +16,13 @@ use std::collections::BTreeMap;
 pub static ENTRY: Entry = Entry {
     name: "zero_everywhere",
     about: "is a count 0 on every path that contenders return, those that the verifier refuses included?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+study = "variants"
+problems = "cell"
+contenders = ["Improved A*, CLOSED in sequence", "Original A*, CLOSED in sequence"]
+metric = "unjoined_legs"
+"#,
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let problems = std::slice::from_ref(&settings.problems);
@@ -25,7 +34,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     study: String,
@@ -69,11 +78,11 @@ impl Check for ZeroEverywhere {
         for contender in contenders {
             let mut own: Tally = [0; 3];
             for (row, seen) in self.returned(run, contender) {
-                for tally in [&mut own, draws.entry(row.replicate).or_default()] {
+                for tally in [&mut own, draws.entry(row.draw()).or_default()] {
                     tally.iter_mut().zip(seen).for_each(|(sum, one)| *sum += one);
                 }
                 if seen[1] > 0 && finding.trial.is_none() {
-                    finding.trial = Some(format!("{}/{}", run.study.name, row.trial));
+                    finding.trial = Some(run.trial(row));
                 }
             }
             finding.because.push(format!(

@@ -7,6 +7,7 @@
 //! The order of neighbours is written once, as [`DIRECTIONS`], and every mask, search and tie rule follows it.
 //! Costs belong to the search floor.
 
+mod built;
 mod components;
 mod cubic;
 mod error;
@@ -17,8 +18,9 @@ mod random;
 mod sight;
 mod text;
 
+pub use built::{maze, rooms, streets};
 pub use components::{Components, components};
-pub use cubic::{Grid3, MAX_SIDE_NODES, STEPS_26};
+pub use cubic::{Grid3, STEPS_26};
 pub use error::GridError;
 pub use moves::{CornerRule, DIRECTIONS, Moves};
 pub use movingai::{Scenario, parse_movingai_map, parse_scenarios, read_movingai_map, read_scenarios};
@@ -27,8 +29,14 @@ pub use random::{bars, independent_cells, rectangles};
 pub use sight::Sight;
 pub use text::{parse_text_map, read_text_map};
 
-/// The longest side that is accepted, in cells; 65 535² cells still have `u32` indices.
+/// The longest side that is accepted, in cells.
 pub const MAX_SIDE_CELLS: u32 = 65_535;
+
+/// The most nodes along one side of a lattice in space.
+pub const MAX_SIDE_NODES: u32 = 1023;
+
+/// The most cells of one grid, and the most nodes of one lattice in space: beyond them a search fills the memory.
+pub const MAX_CELLS: u32 = 1 << 26;
 
 /// A dense occupancy grid.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,10 +50,11 @@ impl Grid2 {
     /// A grid whose cells are all free.
     ///
     /// # Errors
-    /// [`GridError::Size`] unless both sides lie in 1..=[`MAX_SIDE_CELLS`].
+    /// [`GridError::Size`] unless both sides lie in 1..=[`MAX_SIDE_CELLS`] and their product is at most [`MAX_CELLS`].
     pub fn new(width: u32, height: u32) -> Result<Self, GridError> {
         let accepted = 1..=MAX_SIDE_CELLS;
-        if !accepted.contains(&width) || !accepted.contains(&height) {
+        let cells = u64::from(width) * u64::from(height);
+        if !accepted.contains(&width) || !accepted.contains(&height) || cells > u64::from(MAX_CELLS) {
             return Err(GridError::Size { width, height });
         }
         Ok(Self { width, height, blocked: vec![false; width as usize * height as usize] })

@@ -90,4 +90,14 @@ impl KinematicsError {
         let found = (found * 1e9).round() / 1e9;
         Self::Joint { joint: index + 1, key, found, accepted: accepted.to_owned() }
     }
+
+    /// The same, with more to be said of what is accepted.
+    pub(super) fn with_accepted(self, more: &str) -> Self {
+        match self {
+            Self::Joint { joint, key, found, accepted } => {
+                Self::Joint { joint, key, found, accepted: accepted + more }
+            }
+            other => other,
+        }
+    }
 }

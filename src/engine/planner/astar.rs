@@ -8,6 +8,8 @@ use crate::search::{
     falling, weighted,
 };
 use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -17,6 +19,11 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     needs: WorldKind::Lattice,
     columns: COLUMNS,
+    settings: Accepted::of::<Astar>(),
+    example: r#"
+weight = 1
+ties = "fifo"
+"#,
     build: Build::Planner(|settings| {
         let read: Astar = settings.read()?;
         if let Weight::Constant(weight) = read.weight
@@ -31,18 +38,19 @@ pub static ENTRY: Entry = Entry {
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Astar {
     /// What h is multiplied by.
     weight: Weight,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
     #[serde(skip)]
     pool: Pool<Search<Octile, Heap>>,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq)]
 #[serde(untagged, expecting = "a number, or `falling`, is accepted as a weight")]
 enum Weight {
     /// The same everywhere.
@@ -51,7 +59,7 @@ enum Weight {
     Ruled(Rule),
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Rule {
     /// (R + r) / R, as Zhang's eq. 2.

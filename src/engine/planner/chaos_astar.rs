@@ -8,7 +8,9 @@ use crate::search::Graph;
 use crate::space::{ArmWorld, WorldKind};
 use base::grid::Offsets;
 use base::seed::{self, Stream};
+use base::settings::Accepted;
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -18,6 +20,17 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Arm,
     columns: COLUMNS,
+    settings: Accepted::of::<ChaosAstar>(),
+    example: r#"
+region_shape = "square"
+region_radius_cells = 1
+neighbours = 5
+drawn = "each_expansion"
+source = "uniform"
+goal_in_region = "included"
+open_node = "lowered"
+ties = "fifo"
+"#,
     build: Build::Planner(|settings| {
         let read: ChaosAstar = settings.read()?;
         let region = RegionSetting { shape: read.region_shape, radius_cells: read.region_radius_cells };
@@ -34,7 +47,7 @@ pub static ENTRY: Entry = Entry {
     }),
 };
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(deny_unknown_fields)]
 struct ChaosAstar {
     /// The shape of the region that is drawn from.
@@ -52,24 +65,25 @@ struct ChaosAstar {
     /// Whether a better way to an open node is taken.
     open_node: OpenSetting,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Drawn {
     EachExpansion,
     OncePerRun,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Source {
     Uniform,
     Logistic,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum GoalInRegion {
     Included,

@@ -20,6 +20,8 @@ use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value
 use crate::geometry::Vec3;
 use crate::search::{Heap, Search, Ties};
 use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -29,6 +31,12 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: &["opened", "expansions", "generated", "fell_back"],
+    settings: Accepted::of::<Keynode>(),
+    example: r#"
+search = "greedy"
+cluster = false
+last_resort = false
+"#,
     build: Build::Planner(|settings| {
         let read: Keynode = settings.read()?;
         if read.search != Mode::OpenList && (read.cluster || read.last_resort) {
@@ -40,7 +48,7 @@ pub static ENTRY: Entry = Entry {
 };
 
 /// How key nodes are followed.
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Mode {
     Literal,
@@ -48,7 +56,7 @@ enum Mode {
     OpenList,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Keynode {
     /// How key nodes are followed.

@@ -7,7 +7,8 @@ use crate::search::{
 };
 use crate::space::WorldKind;
 use crate::space::roadmap::{Extent, Roadmap};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -28,6 +29,15 @@ pub static ENTRY: Entry = Entry {
         "goal_links",
         "unjoined_legs",
     ],
+    settings: Accepted::of::<RoadmapAstar>(),
+    example: r#"
+samples = 1500
+neighbour_mm = 500
+cost = "hops"
+blind = true
+goal_shot = "never"
+path = "parents"
+"#,
     build: Build::Planner(|settings| {
         let read: RoadmapAstar = settings.read()?;
         read.check(settings)?;
@@ -35,7 +45,7 @@ pub static ENTRY: Entry = Entry {
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RoadmapAstar {
     /// How many samples: N.
@@ -55,14 +65,14 @@ struct RoadmapAstar {
     path: PathSetting,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum CostSetting {
     Hops,
     Length,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum ShotSetting {
     Never,
@@ -70,7 +80,7 @@ enum ShotSetting {
     BeforeExpansion,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum PathSetting {
     /// From each node to the one it was reached from.

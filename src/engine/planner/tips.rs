@@ -8,6 +8,7 @@ use crate::search::{
 use crate::space::ArmWorld;
 use base::grid::Offsets;
 use base::settings::{Settings, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The columns that every search over tip positions fills.
@@ -25,7 +26,7 @@ pub(super) const COLUMNS: &[&str] = &[
 const WIDEST_CELLS: u8 = 20;
 
 /// A neighbourhood as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RegionSetting {
     pub(super) shape: RegionShape,
@@ -33,7 +34,7 @@ pub(super) struct RegionSetting {
 }
 
 /// The shape of a neighbourhood.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum RegionShape {
     Square,
@@ -61,7 +62,7 @@ impl RegionSetting {
 }
 
 /// What happens to an open node to which a better way is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum OpenSetting {
     Lowered,

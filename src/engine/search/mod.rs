@@ -34,10 +34,12 @@ mod estimate;
 mod first_way;
 mod frontier;
 mod graph;
+mod jump;
 mod many;
 mod observe;
 mod octile;
 mod one_way;
+mod radix;
 mod side;
 #[cfg(test)]
 mod tests;
@@ -49,6 +51,7 @@ pub use estimate::{Combined, Estimate, ScaledOctile, euclidean_to, falling, octi
 pub use first_way::FirstWayAstar;
 pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
+pub use jump::JumpSearch;
 pub use many::{GridSet, ManyGrids};
 pub use observe::{ListScans, Lists, Observer, Place, Trace};
 pub use octile::{OctileAstar, SearchError};

@@ -10,13 +10,24 @@ use crate::render::style::{
     series_stroke,
 };
 use crate::study::record::Row;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "arm_plane",
     about: "a planar arm among obstacles: zones, paths of the tip, the arm at stations along them",
+    settings: Accepted::of::<ArmPlane>(),
+    example: r#"
+zones = false
+stations = 7
+panels = [
+    { problem = "case 1", contenders = ["A* 8"] },
+    { problem = "case 2", contenders = ["A* 8"] },
+]
+"#,
     build: |settings, study, _paper| {
         let read: ArmPlane = settings.read()?;
         for panel in &read.panels {
@@ -29,7 +40,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 150.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmPlane {
     /// Whether points are coloured by what they are.
@@ -40,11 +51,12 @@ struct ArmPlane {
     #[serde(default = "yes")]
     paths: bool,
     /// At how many points of the first path the arm is drawn.
+    #[schemars(range(max = 1000))]
     stations: usize,
     panels: Vec<PanelSetting>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
     /// The problem group; its first draw is shown.
@@ -71,7 +83,7 @@ impl ArmPlane {
     fn panel(&self, scene: &Scene<'_>, setting: &PanelSetting) -> Result<Panel, RenderError> {
         let rows = setting.contenders.iter().map(|label| ask::trial(scene, &setting.problem, 0, None, label));
         let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
-        let map = rows.first().and_then(|row| scene.run.prepared_of(row)).map_or("", |map| &map.prepared);
+        let map = ask::draw(scene, &setting.problem, 0)?;
         let lattice = &ask::exhibit(scene, map, "lattice")?.values;
         let (low, step, size) = ([lattice[0], lattice[1]], lattice[2], [lattice[3], lattice[4]]);
         let ends = |axis: usize| match self.window_cm {
@@ -98,7 +110,7 @@ impl ArmPlane {
     }
 
     fn add_path(&self, scene: &Scene<'_>, row: &Row, index: usize, panel: &mut Panel) {
-        let Some(stations) = scene.run.exhibit(&row.trial, "stations") else { return };
+        let Some(stations) = scene.run.exhibit(&row.key, "stations") else { return };
         let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
         if index == 0 {
             for station in spread(&stations, self.stations) {
@@ -117,8 +129,8 @@ impl ArmPlane {
             let points = at.into_iter().copied().collect();
             panel.add(Points { points, marker, radius_pt: 3.0, color: GREEN, label: label.to_owned() });
         }
-        let stroke = series_stroke(ask::place(scene, &row.contender));
-        panel.add(Line::through(path, stroke).labelled(row.contender.clone()));
+        let stroke = series_stroke(ask::place(scene, &row.key.contender));
+        panel.add(Line::through(path, stroke).labelled(row.key.contender.to_string()));
     }
 }
 
@@ -140,7 +152,7 @@ fn title(problem: &str, rows: &[&Row]) -> String {
                 Some(hops) if hops > 0.0 => format!(", {hops:.0} of its hops hit"),
                 _ => String::new(),
             };
-            format!("{problem}, {}: {length}{hits}", row.contender)
+            format!("{problem}, {}: {length}{hits}", row.key.contender)
         }
         _ => problem.to_owned(),
     }

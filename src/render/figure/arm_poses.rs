@@ -7,13 +7,23 @@ use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Key, Sheet, Swatch};
 use crate::render::scene3::{Paint, Scene as Solids};
 use crate::render::style::{GREEN, ORANGE, PURPLE, Rgb, Stroke, VERMILLION, WHITE, Width};
+use crate::study::name;
 use crate::study::record::{Row, Status};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "arm_poses",
     about: "the whole arm along its path among polyhedra, one row a contender, one panel a view",
+    settings: Accepted::of::<ArmPoses>(),
+    example: r#"
+problem = "C1"
+contenders = ["Jia's A*, 12 neighbours", "This method"]
+views = ["corner"]
+sweep = "delta_deg=10.0"
+"#,
     build: |settings, study, _paper| {
         let read: ArmPoses = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
@@ -24,7 +34,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 220.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmPoses {
     /// The problem group; its first draw is shown, or the first that only the first contender solves.
@@ -58,7 +68,7 @@ impl Kind for ArmPoses {
             let row = self.row(scene, contender)?;
             for view in &self.views {
                 let mut solids = Solids::default();
-                add_obstacles(&mut solids, scene.run, &scene.run.draw_of(row), false)?;
+                add_obstacles(&mut solids, scene.run, &row.key.on, false)?;
                 let keys = arm(&mut solids, scene, row)?;
                 let end = match row.status {
                     Status::Solved => "goal reached".to_owned(),
@@ -68,7 +78,7 @@ impl Kind for ArmPoses {
                     ),
                 };
                 let seen = if self.views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
-                let title = format!("{}: {end}{seen}", row.contender);
+                let title = format!("{}: {end}{seen}", row.key.contender);
                 sheet.add(panel(title, solids, *view, keys)?);
             }
         }
@@ -82,22 +92,22 @@ impl ArmPoses {
         let rows = |contender: &String| scene.run.rows(&self.problem, contender).into_iter();
         let (first, others) = self.contenders.split_first()?;
         let fails = |replicate: u32, other: &String| {
-            rows(other).any(|row| row.replicate == replicate && row.status != Status::Solved)
+            rows(other).any(|row| row.draw() == replicate && row.status != Status::Solved)
         };
         let is_chosen = |row: &&Row| {
             row.status == Status::Solved
-                && scene.run.exhibit(&row.trial, "rods").is_some()
-                && others.iter().all(|other| fails(row.replicate, other))
+                && scene.run.exhibit(&row.key, "rods").is_some()
+                && others.iter().all(|other| fails(row.draw(), other))
         };
-        rows(first).find(is_chosen).map(|row| row.replicate)
+        rows(first).find(is_chosen).map(|row| row.draw())
     }
 
     fn row<'a>(&self, scene: &'a Scene<'_>, contender: &str) -> Result<&'a Row, RenderError> {
         let rows = scene.run.rows(&self.problem, contender);
         let chosen = if self.first_alone { self.chosen(scene) } else { None };
         let is_asked = |row: &&Row| {
-            self.sweep.as_ref().is_none_or(|sweep| row.sweep == *sweep)
-                && chosen.is_none_or(|replicate| row.replicate == replicate)
+            self.sweep.as_ref().is_none_or(|sweep| name::sweep(&row.key.sweep) == *sweep)
+                && chosen.is_none_or(|replicate| row.draw() == replicate)
         };
         rows.into_iter().find(is_asked).ok_or_else(|| RenderError::NotStored {
             what: format!("a trial of `{contender}` on `{}`", self.problem),
@@ -106,7 +116,7 @@ impl ArmPoses {
 }
 
 fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, RenderError> {
-    let rods = stored(scene.run, &row.trial, "rods")?;
+    let rods = stored(scene.run, &row.key, "rods")?;
     let last = rods.values.chunks(rods.width).map(|rod| rod[0]).fold(1.0, f64::max);
     for rod in rods.values.chunks(rods.width) {
         let (from, to) = ([rod[1], rod[2], rod[3]], [rod[4], rod[5], rod[6]]);
@@ -123,13 +133,13 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
     for (name, label, color) in
         [("tip_path", "path to be followed", PURPLE), ("tip_trail", "way of the tip", VERMILLION)]
     {
-        if let Some(found) = scene.run.exhibit(&row.trial, name) {
+        if let Some(found) = scene.run.exhibit(&row.key, name) {
             let stroke = Stroke::solid(color, 1.3);
             solids.polyline(points(found), stroke);
             keys.push(Key { swatch: Swatch::Line(stroke, None), label: label.to_owned() });
         }
     }
-    let trail = points(stored(scene.run, &row.trial, "tip_trail")?);
+    let trail = points(stored(scene.run, &row.key, "tip_trail")?);
     if let Some(start) = trail.first() {
         solids.capsule(*start, *start, 1.6, Paint::solid(GREEN));
         keys.push(cell_key("start", GREEN));

@@ -6,12 +6,18 @@ use crate::render::canvas::{Align, Stand, Type};
 use crate::render::chart::marks::{Line, Note, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{BLUE, GREEN, INK, Marker, Stroke, TextSize, VERMILLION, Width};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "arm_postures",
     about: "both postures of a planar two-link arm at the goal of a problem",
+    settings: Accepted::of::<ArmPostures>(),
+    example: r#"
+problem = "case 1"
+"#,
     build: |settings, study, _paper| {
         let read: ArmPostures = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problem), &[])?;
@@ -22,7 +28,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 150.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmPostures {
     /// The problem group.
@@ -31,8 +37,7 @@ struct ArmPostures {
 
 impl Kind for ArmPostures {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let map = scene.run.records.batch.prepared.iter().find(|map| map.group == self.problem);
-        let both = ask::exhibit(scene, map.map_or("", |map| &map.prepared), "branches")?;
+        let both = ask::exhibit(scene, ask::draw(scene, &self.problem, 0)?, "branches")?;
         let stations: Vec<&[f64]> = both.values.chunks(both.width).collect();
         let mut sheet = Sheet::new(Width::Double, 2, PLOT_PT);
         for (name, station) in [("elbow down", stations[1]), ("elbow up", stations[0])] {

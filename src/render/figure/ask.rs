@@ -3,10 +3,13 @@
 use super::Scene;
 use crate::render::RenderError;
 use crate::study::Study;
+use crate::study::key::{DrawKey, Owner, SweepKey};
+use crate::study::name;
 use crate::study::paper::Paper;
 use crate::study::record::Row;
 use base::settings::{Settings, SettingsError};
 use engine::planner::Exhibit;
+use std::sync::Arc;
 
 /// Refuses problem groups and contenders that `study` does not have.
 pub(super) fn known(
@@ -27,13 +30,19 @@ pub(super) fn known(
     Ok(())
 }
 
+/// The point of the sweeps that people write as `text`.
+pub(super) fn sweep(settings: &Settings, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
+    study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
+        let known: Vec<String> = study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
+        settings.error(format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", ")))
+    })
+}
+
 /// The printed number of the claim `id`.
 pub(super) fn printed(settings: &Settings, paper: &Paper, id: &str) -> Result<f64, SettingsError> {
     let number = paper.claim(id).and_then(|claim| claim.printed.as_ref()?.parse().ok());
     number.ok_or_else(|| settings.error(format!("there is no claim `{id}` with a printed number")))
 }
-
-pub(super) use crate::analysis::draws::query;
 
 /// Which series `contender` is drawn as: the paper's own for its label, or the one at its place.
 pub(super) fn series(scene: &Scene<'_>, contender: &str, place: usize) -> usize {
@@ -50,11 +59,29 @@ pub(super) fn place(scene: &Scene<'_>, label: &str) -> usize {
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if it was not kept.
-pub(super) fn exhibit<'s>(scene: &Scene<'s>, of: &str, name: &str) -> Result<&'s Exhibit, RenderError> {
-    scene
-        .run
-        .exhibit(of, name)
-        .ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
+pub(super) fn exhibit<'s>(
+    scene: &Scene<'s>,
+    of: impl Into<Owner>,
+    name: &str,
+) -> Result<&'s Exhibit, RenderError> {
+    let of = of.into();
+    scene.run.exhibit(of.clone(), name).ok_or_else(|| RenderError::NotStored {
+        what: format!("the exhibit `{name}` of `{}`", scene.run.owner(&of)),
+    })
+}
+
+/// What names the draw of this number of the problem group `problems`.
+///
+/// # Errors
+/// [`RenderError::NotStored`] if there is none.
+pub(super) fn draw<'s>(
+    scene: &Scene<'s>,
+    problems: &str,
+    number: u32,
+) -> Result<&'s Arc<DrawKey>, RenderError> {
+    let found = scene.run.prepared(problems).find(|row| row.key.draw == number);
+    let missing = || RenderError::NotStored { what: format!("draw {number} of `{problems}`") };
+    found.map(|row| &row.key).ok_or_else(missing)
 }
 
 /// The first trial of `contender` on the draw `replicate` of `problems`, for the query called `of_query`.
@@ -70,7 +97,7 @@ pub(super) fn trial<'s>(
 ) -> Result<&'s Row, RenderError> {
     let rows = scene.run.rows(problems, contender).into_iter();
     let mut wanted =
-        rows.filter(|row| row.replicate == replicate && of_query.is_none_or(|name| query(row) == name));
+        rows.filter(|row| row.draw() == replicate && of_query.is_none_or(|name| row.query() == name));
     wanted.next().ok_or_else(|| RenderError::NotStored {
         what: format!("a trial of `{contender}` on draw {replicate} of `{problems}`"),
     })
@@ -89,7 +116,7 @@ pub(super) fn shared_draw(
 ) -> Result<u32, RenderError> {
     let has_it = |replicate: u32, contender: &String| {
         trial(scene, problems, replicate, Some(of_query), contender)
-            .is_ok_and(|row| scene.run.exhibit(&row.trial, name).is_some())
+            .is_ok_and(|row| scene.run.exhibit(&row.key, name).is_some())
     };
     let group = scene.run.study.groups.iter().find(|group| group.label == problems);
     let mut draws = 0..group.map_or(0, |group| group.replicates);

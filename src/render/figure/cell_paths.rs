@@ -8,7 +8,8 @@ use crate::render::RenderError;
 use crate::render::chart::{Panel, Sheet};
 use crate::render::scene3::Paint;
 use crate::render::style::{Dash, GREY, Stroke, WHITE, Width, series_color};
-use crate::study::slug;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::median;
 
@@ -16,6 +17,12 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "cell_paths",
     about: "ways of the tool in a work cell: paths of contenders on one query, from two sides",
+    settings: Accepted::of::<CellPaths>(),
+    example: r#"
+problems = "cell"
+query = "1"
+contenders = ["Original A*", "Improved A*"]
+"#,
     build: |settings, study, _paper| {
         let read: CellPaths = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
@@ -23,7 +30,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CellPaths {
     problems: String,
@@ -57,14 +64,14 @@ impl CellPaths {
         index: usize,
         view: usize,
     ) -> Result<Panel, RenderError> {
-        let draw = format!("{}/{replicate}", slug(&self.problems));
+        let draw = ask::draw(scene, &self.problems, replicate)?;
         let (contender, (seen, camera)) = (&self.contenders[index], VIEWS[view]);
-        let mut solids = furnished(scene, &draw)?;
-        let body = ask::exhibit(scene, &draw, &format!("body {}/start", self.query))?;
+        let mut solids = furnished(scene, draw)?;
+        let body = ask::exhibit(scene, draw, &format!("body {}/start", self.query))?;
         let pale = Paint { outlined: false, ..Paint::solid(GREY.mixed(WHITE, 0.45)) };
         add_capsules(&mut solids, body, pale);
         let row = ask::trial(scene, &self.problems, replicate, Some(&self.query), contender)?;
-        let stops = ask::exhibit(scene, &row.trial, "trajectory")?;
+        let stops = ask::exhibit(scene, &row.key, "trajectory")?;
         let points: Vec<[f64; 3]> =
             stops.values.chunks(stops.width).map(|stop| [stop[7], stop[8], stop[9]]).collect();
         let color = series_color(ask::series(scene, contender, index));

@@ -7,14 +7,24 @@ use crate::render::chart::{Axis, Key, Panel, Sheet, Trim};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{GREY, Rgb, WHITE, Width, YELLOW, series_color};
-use crate::study::slug;
+use crate::study::key::DrawKey;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
+use std::sync::Arc;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "cell_poses",
     about: "a work cell with its robot at several poses, from two sides",
+    settings: Accepted::of::<CellPoses>(),
+    example: r#"
+problems = "cell"
+poses = ["4/start", "1/start", "3/start", "2/goal", "7/start", "9/start"]
+names = ["H", "P1", "P2", "P3", "P5", "P6"]
+at_once = 3
+"#,
     build: |settings, study, _paper| {
         let read: CellPoses = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &[])?;
@@ -28,7 +38,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CellPoses {
     problems: String,
@@ -37,6 +47,7 @@ struct CellPoses {
     /// What they are called.
     names: Vec<String>,
     /// How many of them are shown in one picture.
+    #[schemars(range(max = 1000))]
     at_once: usize,
 }
 
@@ -55,7 +66,7 @@ fn obstacle() -> Rgb {
 }
 
 /// The cell of a draw: floor and obstacles.
-pub(super) fn furnished(scene: &Scene<'_>, draw: &str) -> Result<Solids, RenderError> {
+pub(super) fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderError> {
     let mut solids = Solids::default();
     let boxes = ask::exhibit(scene, draw, "boxes")?;
     let floor =
@@ -96,28 +107,21 @@ pub(super) fn panel(
     Ok(panel)
 }
 
-impl CellPoses {
-    /// The name of the group's first draw.
-    fn draw_name(&self, scene: &Scene<'_>) -> String {
-        let group = scene.run.study.groups.iter().find(|group| group.label == self.problems);
-        let numbered = group.is_some_and(|group| group.is_numbered);
-        if numbered { format!("{}/0", slug(&self.problems)) } else { slug(&self.problems) }
-    }
-}
+impl CellPoses {}
 
 impl Kind for CellPoses {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let draw = self.draw_name(scene);
+        let draw = ask::draw(scene, &self.problems, 0)?;
         let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);
         let named: Vec<(usize, (&String, &String))> =
             self.poses.iter().zip(&self.names).enumerate().collect();
         for shown in named.chunks(self.at_once.max(1)) {
             for (title, camera) in VIEWS {
-                let mut solids = furnished(scene, &draw)?;
+                let mut solids = furnished(scene, draw)?;
                 let mut keys = vec![cell_key("obstacles", obstacle())];
                 for (place, (index, (pose, name))) in shown.iter().enumerate() {
                     let color = series_color(*index).mixed(WHITE, 0.35);
-                    let body = ask::exhibit(scene, &draw, &format!("body {pose}"))?;
+                    let body = ask::exhibit(scene, draw, &format!("body {pose}"))?;
                     // Base and turret stand where they stand at every pose: one of each is drawn.
                     let fixed = if place == 0 { 0 } else { FIXED_PARTS * body.width };
                     let parts = Exhibit { values: body.values[fixed..].to_vec(), ..body.clone() };
@@ -134,13 +138,12 @@ impl Kind for CellPoses {
     }
 
     fn table(&self, scene: &Scene<'_>, label: &str, caption: &str) -> Result<Option<Table>, RenderError> {
-        let draw = self.draw_name(scene);
+        let draw = ask::draw(scene, &self.problems, 0)?;
         let kinds = [Column::Left, Column::Left, Column::Right, Column::Right, Column::Right, Column::Right];
         let mut table = Table::new(label, caption, &kinds);
         let heads = ["group", "", "joint angles (°)", "flange (mm)", "tip (mm)", "direction"];
         table.head(heads.map(Cell::from).to_vec());
-        let kept = scene.run.records.batch.kept.iter().filter(|kept| kept.of == draw);
-        for exhibit in kept.map(|kept| &kept.exhibit) {
+        for exhibit in scene.run.exhibits(draw) {
             let Some((group, end)) = exhibit.name.strip_prefix("pose ").and_then(|name| name.split_once('/'))
             else {
                 continue;

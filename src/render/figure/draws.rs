@@ -9,7 +9,8 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{INK, Stroke, Width, series_stroke};
-use base::settings::Settings;
+use base::settings::{Accepted, Settings};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::quantile_type7;
 
@@ -17,6 +18,20 @@ use stats::summary::quantile_type7;
 pub static ENTRY: Entry = Entry {
     name: "draws",
     about: "cumulative distributions of our draws with the printed number marked, one panel a claim",
+    settings: Accepted::of::<Draws>(),
+    example: r#"
+columns = 4
+panels = [
+    { claim = "t1.reduction.time", title = "simple: planning time", axis = "reduction (%)" },
+    { claim = "t1.reduction.cost", title = "simple: path cost", axis = "reduction (%)" },
+    { claim = "t1.reduction.turn", title = "simple: turn sum", axis = "reduction (%)" },
+    { claim = "t1.reduction.nodes", title = "simple: nodes", axis = "reduction (%)" },
+    { claim = "t2.reduction.time", title = "complex: planning time", axis = "reduction (%)" },
+    { claim = "t2.reduction.cost", title = "complex: path cost", axis = "reduction (%)" },
+    { claim = "t2.reduction.turn", title = "complex: turn sum", axis = "reduction (%)" },
+    { claim = "t2.reduction.nodes", title = "complex: nodes", axis = "reduction (%)" },
+]
+"#,
     build: |settings, _study, paper| {
         let read: Draws = settings.read()?;
         for panel in &read.panels {
@@ -29,14 +44,15 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 118.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Draws {
     panels: Vec<PanelSpec>,
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSpec {
     claim: String,

@@ -9,13 +9,20 @@ use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, Marker, ORANGE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "grid_search",
     about: "searches on one grid map: opened cells of each side, raw and tidied path, one panel a contender",
+    settings: Accepted::of::<GridSearch>(),
+    example: r#"
+problem = "W1"
+contenders = ["A*", "Improved A*"]
+"#,
     build: |settings, study, _paper| {
         let read: GridSearch = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
@@ -26,7 +33,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 215.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GridSearch {
     /// The problem group; its first draw is shown.
@@ -65,11 +72,11 @@ fn panel(scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
     let map = map(scene, row)?;
     let mut panel = map.panel(title(row))?;
     panel.add(cells(scene, row, &map));
-    if let Some(raw) = scene.run.exhibit(&row.trial, "raw_path") {
+    if let Some(raw) = scene.run.exhibit(&row.key, "raw_path") {
         let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
         panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
     }
-    if let Some(path) = scene.run.exhibit(&row.trial, "path") {
+    if let Some(path) = scene.run.exhibit(&row.key, "path") {
         panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
         add_ends(&mut panel, &centres(path));
     }
@@ -84,11 +91,7 @@ pub(super) struct Map<'a> {
 
 /// The map that the trial `row` was run on.
 pub(super) fn map<'a>(scene: &Scene<'a>, row: &Row) -> Result<Map<'a>, RenderError> {
-    let of = scene.run.prepared_of(row).map_or("", |prepared| &prepared.prepared);
-    let stored = |name: &str| {
-        let found = scene.run.exhibit(of, name);
-        found.ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
-    };
+    let stored = |name: &str| super::ask::exhibit(scene, &row.key.on, name);
     let (size, walls) = (stored("size_cells")?, stored("blocked")?);
     Ok(Map { size: [size.values[0] as usize, size.values[1] as usize], walls })
 }
@@ -161,7 +164,7 @@ fn title(row: &Row) -> String {
     };
     format!(
         "{}: cost {}, turns {}°, opened {}",
-        row.contender,
+        row.key.contender,
         number("path_cost_cells", 2),
         number("turn_exterior_deg", 2),
         number("opened", 0)
@@ -174,7 +177,7 @@ pub(super) fn centres(path: &Exhibit) -> Vec<[f64; 2]> {
 }
 
 fn cells(scene: &Scene<'_>, row: &Row, map: &Map<'_>) -> Cells {
-    let side = |name: &str| listed(scene.run.exhibit(&row.trial, name));
+    let side = |name: &str| listed(scene.run.exhibit(&row.key, name));
     let layers = [(side("opened_goal_side"), goal_side()), (side("opened_start_side"), start_side())];
     let keys = vec![
         cell_key("blocked", blocked()),

@@ -7,7 +7,12 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, Fill, GREY, Stroke, Width, series_color, series_marker, series_stroke};
+use crate::study::contender::SweepPoint;
+use crate::study::key::{SweepValue, Text};
+use crate::study::name;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 
@@ -15,6 +20,16 @@ use stats::bootstrap::{self, Resampling};
 pub static ENTRY: Entry = Entry {
     name: "identification",
     about: "shares of solved queries against a swept value, one curve a study, printed shares as lines",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+contender = "Original A*"
+sweep = "neighbour_mm"
+axis = "neighbour threshold ρ (mm)"
+others = ["samples=800", "samples=1500"]
+printed = ["t2.original.800", "t2.original.1500"]
+row = { sweep = "samples", printed = "t2.original." }
+studies = ["identify_full", "identify_front", "identify_branch", "identify_poses"]
+"#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         ask::known(settings, study, &[], std::slice::from_ref(&read.contender))?;
@@ -37,16 +52,16 @@ pub static ENTRY: Entry = Entry {
             let sweep = sweep.ok_or_else(|| {
                 settings.error(format!("study `{}` does not sweep `{}`", study.name, wanted.sweep))
             })?;
-            for value in &sweep.values {
+            for value in sweep.key_values().into_iter().flatten() {
                 let claim = ask::printed(settings, paper, &format!("{}{value}", wanted.printed))?;
-                row.push((format!("{}={value}", wanted.sweep), claim));
+                row.push((value, claim));
             }
         }
         Ok(Box::new(Identification { read, printed, row }))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
     contender: String,
@@ -62,7 +77,7 @@ struct Read {
     studies: Vec<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RowOf {
     /// The sweep along the row.
@@ -74,8 +89,8 @@ struct RowOf {
 struct Identification {
     read: Read,
     printed: Vec<f64>,
-    /// The row's cells: the sweep's point and the printed share.
-    row: Vec<(String, f64)>,
+    /// The row's cells: the value of its sweep and the printed share.
+    row: Vec<(SweepValue, f64)>,
 }
 
 /// The root of the mean square of the differences of a mean curve from the printed cells.
@@ -90,15 +105,15 @@ type Point = [f64; 4];
 
 impl Identification {
     fn curve(&self, run: &Run<'_>, other: &str) -> Vec<Point> {
-        let prefix = format!("{}=", self.read.sweep);
         let Some(group) = run.study.groups.first() else { return Vec::new() };
         let mut points = Vec::new();
         for point in run.study.sweep_points() {
-            let parts: Vec<&str> = point.name.split(',').collect();
-            let value = parts.iter().find_map(|part| part.strip_prefix(&prefix)?.parse::<f64>().ok());
-            let Some(value) = value.filter(|_| parts.contains(&other)) else { continue };
-            let draws = solved_percents(run, &group.label, &self.read.contender, &point.name);
-            let seed = seed::derive(0, &["identification", &run.study.name, &point.name]);
+            let is_other = |(key, value): &(Text, SweepValue)| format!("{key}={value}") == other;
+            let value = point.key.value(&self.read.sweep).and_then(SweepValue::as_f64);
+            let value = value.filter(|_| point.key.values().iter().any(is_other));
+            let Some(value) = value else { continue };
+            let draws = solved_percents(run, &group.label, &self.read.contender, &point.key);
+            let seed = seed::derive(0, &["identification", &run.study.name, &name::sweep(&point.key)]);
             if let Some(found) = bootstrap::mean(&draws, Resampling { resamples: 1000, level: 0.95, seed }) {
                 points.push([value, found.value, found.interval.low, found.interval.high]);
             }
@@ -116,29 +131,26 @@ impl Identification {
         };
         let printed: Vec<f64> = self.row.iter().map(|(_, printed)| *printed).collect();
         let mut points = Vec::new();
-        for value in &sweep.values {
-            let at = format!("{}={value}", self.read.sweep);
-            let cells: Vec<Vec<f64>> = self
-                .row
-                .iter()
-                .map(|(cell, _)| {
-                    let point = run.study.sweep_points().into_iter().find(|point| {
-                        let parts: Vec<&str> = point.name.split(',').collect();
-                        parts.contains(&at.as_str()) && parts.contains(&cell.as_str())
-                    });
-                    point.map_or_else(Vec::new, |point| {
-                        solved_percents(run, &group.label, &self.read.contender, &point.name)
-                    })
+        let along = self.read.row.as_ref().map_or("", |row| &row.sweep);
+        let sweep_points = run.study.sweep_points();
+        for value in sweep.key_values().into_iter().flatten() {
+            let cell = |(cell, _): &(SweepValue, f64)| {
+                let is_own = |point: &&SweepPoint| {
+                    point.key.value(&self.read.sweep) == Some(&value) && point.key.value(along) == Some(cell)
+                };
+                sweep_points.iter().find(is_own).map_or_else(Vec::new, |point| {
+                    solved_percents(run, &group.label, &self.read.contender, &point.key)
                 })
-                .collect();
+            };
+            let cells: Vec<Vec<f64>> = self.row.iter().map(cell).collect();
+            let at = format!("{}={value}", self.read.sweep);
             let count = cells.iter().map(Vec::len).min().unwrap_or(0);
             let draws: Vec<Vec<f64>> =
                 (0..count).map(|d| cells.iter().map(|cell| cell[d]).collect()).collect();
             let seed = seed::derive(0, &["identification", "row", &run.study.name, &at]);
             let plan = Resampling { resamples: 1000, level: 0.95, seed };
             let found = bootstrap::percentile(&draws, |draws| row_distance(draws, &printed), plan);
-            let at = value.as_float().or_else(|| value.as_integer().map(|value| value as f64));
-            if let (Some(at), Some(found)) = (at, found) {
+            if let (Some(at), Some(found)) = (value.as_f64(), found) {
                 points.push([at, found.value, found.interval.low, found.interval.high]);
             }
         }

@@ -5,12 +5,20 @@ use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "joint_curves",
     about: "joint angles along the paths of contenders on one query, over time; one panel a contender",
+    settings: Accepted::of::<JointCurves>(),
+    example: r#"
+problems = "cell"
+query = "1"
+contenders = ["Original A*", "Improved A*"]
+"#,
     build: |settings, study, _paper| {
         let read: JointCurves = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
@@ -18,7 +26,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct JointCurves {
     problems: String,
@@ -32,7 +40,7 @@ impl Kind for JointCurves {
         let mut found = Vec::new();
         for contender in &self.contenders {
             let row = ask::trial(scene, &self.problems, draw, Some(&self.query), contender)?;
-            found.push((row, ask::exhibit(scene, &row.trial, "trajectory")?));
+            found.push((row, ask::exhibit(scene, &row.key, "trajectory")?));
         }
         let angles =
             || found.iter().flat_map(|(_, e)| e.values.chunks(e.width).flat_map(|stop| &stop[1..7]).copied());
@@ -44,7 +52,7 @@ impl Kind for JointCurves {
             let number = |column: &str| row.value(column).unwrap_or(f64::NAN);
             let title = format!(
                 "{}: {} local paths, travel {:.0}°, peak {:.0} °/s²",
-                row.contender,
+                row.key.contender,
                 number("local_paths"),
                 number("joint_travel_deg"),
                 number("joint_peak_deg_s2")

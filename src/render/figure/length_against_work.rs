@@ -7,6 +7,8 @@ use crate::render::chart::marks::Points;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{BLACK, SERIES, WHITE, Width, series_color, series_marker};
 use crate::study::record::{Row, Status};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::median;
 
@@ -14,6 +16,13 @@ use stats::summary::median;
 pub static ENTRY: Entry = Entry {
     name: "length_against_work",
     about: "path length against work: every seed as a point, medians (failures infinite) as markers",
+    settings: Accepted::of::<LengthAgainstWork>(),
+    example: r#"
+metric = "expansions"
+length = "path_length_cm"
+problems = ["case 1", "case 2"]
+contenders = ["A* 8", "Modified 24", "Modified 48", "Modified 80", "CHS r=2", "CHS r=3", "CHS r=4", "CHS r=5", "CHS r=6", "Chaos 5/8", "Chaos 12/24", "Chaos 23/48", "Chaos 34/80", "Chaos 23/48 octagon"]
+"#,
     build: |settings, study, _paper| {
         let read: LengthAgainstWork = settings.read()?;
         ask::known(settings, study, &read.problems, &read.contenders)?;
@@ -28,7 +37,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 190.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct LengthAgainstWork {
     /// The metric of work.

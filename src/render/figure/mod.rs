@@ -41,7 +41,7 @@ use crate::analysis::verdict::Verdicts;
 use crate::study::Study;
 use crate::study::paper::Paper;
 use crate::study::spec::FigureSpec;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean, none_called};
 use toml::Table as Toml;
 
 /// What a figure is drawn from.
@@ -77,6 +77,10 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it from its settings.
     pub build: fn(&Settings, &Study, &Paper) -> Result<Box<dyn Kind>, SettingsError>,
 }
@@ -122,13 +126,15 @@ fn check_labels<'a>(
 ) -> Result<(), SettingsError> {
     let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
     if let Some(label) = contenders.into_iter().find(|label| !known.contains(&label.as_str())) {
-        let message = format!("no contender is called `{label}`; they are {}", known.join(", "));
-        return Err(settings.error(message));
+        let hint = did_you_mean(label, known.iter().copied());
+        let message = format!("no contender is called `{label}`{hint}; they are {}", known.join(", "));
+        return Err(settings.error_about(label, message));
     }
     let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
     if let Some(label) = problems.into_iter().find(|label| !groups.contains(&label.as_str())) {
-        let message = format!("no problem group is called `{label}`; they are {}", groups.join(", "));
-        return Err(settings.error(message));
+        let hint = did_you_mean(label, groups.iter().copied());
+        let message = format!("no problem group is called `{label}`{hint}; they are {}", groups.join(", "));
+        return Err(settings.error_about(label, message));
     }
     Ok(())
 }
@@ -136,13 +142,14 @@ fn check_labels<'a>(
 /// The claim called `id`, whose checks say what is to be shown.
 fn check_claim(settings: &Settings, paper: &Paper, id: &str, check: &str) -> Result<(), SettingsError> {
     let Some(claim) = paper.claim(id) else {
-        return Err(settings.error(format!("there is no claim `{id}`")));
+        let known = paper.claims.iter().map(|claim| claim.id.as_str());
+        return Err(settings.error_about(id, none_called("claim", id, known)));
     };
     if claim.checks.contains_key(check) {
         return Ok(());
     }
     let message = format!("claim `{id}` has no check `{check}`, which says what is to be shown");
-    Err(settings.error(message))
+    Err(settings.error_about(id, message))
 }
 
 /// The number that the claim called `id` prints.
@@ -160,12 +167,13 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 /// # Errors
 /// An unknown kind, settings that the kind does not understand, problems or contenders that the study lacks.
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
+    let mut faults = Faults::default();
     for study in &paper.studies {
         for figure in &study.figures {
-            build(figure, study, paper)?;
+            faults.keep(build(figure, study, paper));
         }
     }
-    Ok(())
+    faults.done()
 }
 
 /// The kind of `figure` with its settings.
@@ -176,9 +184,10 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
     let entry = find(figure.kind.get_ref()).ok_or_else(|| {
         let known: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
         let message = format!(
-            "figure `{}` is of kind `{}`, which does not exist; the kinds are {}",
+            "figure `{}` is of kind `{}`, which does not exist{}; the kinds are {}",
             figure.id.get_ref(),
             figure.kind.get_ref(),
+            did_you_mean(figure.kind.get_ref(), known.iter().copied()),
             known.join(", ")
         );
         study.document.error(figure.kind.span(), message)

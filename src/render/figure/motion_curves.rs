@@ -6,13 +6,23 @@ use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
+use crate::study::name;
 use crate::study::record::Row;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "motion_curves",
     about: "how tip, posture or joints change over the time of a motion, one panel a contender",
+    settings: Accepted::of::<MotionCurves>(),
+    example: r#"
+problem = "C1"
+contenders = ["This method"]
+quantity = "joints"
+sweep = "delta_deg=10.0"
+"#,
     build: |settings, study, _paper| {
         let read: MotionCurves = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
@@ -23,7 +33,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 150.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MotionCurves {
     /// The problem group; its first draw is shown.
@@ -36,7 +46,7 @@ struct MotionCurves {
     sweep: Option<String>,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum Quantity {
     Tip,
@@ -76,7 +86,8 @@ impl Kind for MotionCurves {
         let mut sheet = Sheet::new(Width::Double, self.contenders.len(), PLOT_PT).noted(note);
         for contender in &self.contenders {
             let rows = scene.run.rows(&self.problem, contender);
-            let is_asked = |row: &&Row| self.sweep.as_ref().is_none_or(|sweep| row.sweep == *sweep);
+            let is_asked =
+                |row: &&Row| self.sweep.as_ref().is_none_or(|sweep| name::sweep(&row.key.sweep) == *sweep);
             let row = rows.into_iter().find(is_asked).ok_or_else(|| RenderError::NotStored {
                 what: format!("a trial of `{contender}` on `{}`", self.problem),
             })?;
@@ -88,11 +99,11 @@ impl Kind for MotionCurves {
 
 impl MotionCurves {
     fn panel(&self, scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
-        let found = stored(scene.run, &row.trial, self.quantity.exhibit())?;
+        let found = stored(scene.run, &row.key, self.quantity.exhibit())?;
         let count = found.values.len() / found.width;
         let x = Axis::linear("share of the motion's time", 0.0, 1.0)?;
         let y = Axis::over(self.quantity.axis(), found.values.iter().copied());
-        let mut panel = Panel::new(row.contender.clone(), x, y);
+        let mut panel = Panel::new(row.key.contender.to_string(), x, y);
         for index in 0..found.width {
             let values = found.values.chunks(found.width).map(|point| point[index]).enumerate();
             let points = values.map(|(k, value)| [k as f64 / (count - 1).max(1) as f64, value]).collect();

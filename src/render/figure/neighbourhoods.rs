@@ -6,13 +6,20 @@ use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{BLUE, GREY, Marker, Stroke, VERMILLION, WHITE, Width};
 use crate::study::record::Row;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "neighbourhoods",
     about: "the neighbours of a lattice point, one panel a contender; those that were drawn, where some are",
+    settings: Accepted::of::<Neighbourhoods>(),
+    example: r#"
+problem = "case 1"
+contenders = ["A* 8"]
+"#,
     build: |settings, study, _paper| {
         let read: Neighbourhoods = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problem), &read.contenders)?;
@@ -23,7 +30,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 120.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Neighbourhoods {
     /// The problem group whose first trials hold the neighbourhoods.
@@ -39,8 +46,8 @@ impl Kind for Neighbourhoods {
         let width = if rows.len() == 1 { Width::Single } else { Width::Double };
         let mut sheet = Sheet::new(width, rows.len().min(4), PLOT_PT);
         for row in rows {
-            let region = ask::exhibit(scene, &row.trial, "region")?;
-            sheet.add(panel(row, region, scene.run.exhibit(&row.trial, "drawn"))?);
+            let region = ask::exhibit(scene, &row.key, "region")?;
+            sheet.add(panel(row, region, scene.run.exhibit(&row.key, "drawn"))?);
         }
         Ok(sheet)
     }
@@ -51,7 +58,7 @@ fn panel(row: &Row, region: &Exhibit, drawn: Option<&Exhibit>) -> Result<Panel, 
     let reach = region.values.iter().copied().fold(1.0, f64::max) + 0.6;
     let axis = |label: &str| Axis::linear(label, -reach, reach).map(Axis::whole);
     let (tried, all) = (steps(drawn.unwrap_or(region)), steps(region));
-    let title = format!("{}: {} of {}", row.contender, tried.len(), all.len());
+    let title = format!("{}: {} of {}", row.key.contender, tried.len(), all.len());
     let mut panel =
         Panel::new(title, axis("x (steps)")?, axis("y (steps)")?).trimmed(Trim::Grid).with_equal_scales();
     for &step in &tried {

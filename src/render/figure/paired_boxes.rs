@@ -9,7 +9,10 @@ use crate::render::chart::rows::BoxStrip;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color};
+use crate::study::key::SweepKey;
 use crate::study::record::Status;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::{mean, median, quantile_type7};
 use std::collections::BTreeMap;
@@ -18,6 +21,14 @@ use std::collections::BTreeMap;
 pub static ENTRY: Entry = Entry {
     name: "paired_boxes",
     about: "a metric by query and contender, boxes over the draws on which all compared contenders solve the query, and savings",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = "cell"
+metric = "path_length_mm"
+contenders = ["Original A*", "Improved A*"]
+axis = "group of Table 1"
+savings = ["length.least", "length.greatest"]
+"#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
@@ -25,11 +36,12 @@ pub static ENTRY: Entry = Entry {
             .ok_or_else(|| settings.error(format!("there is no metric `{}`", read.metric)))?;
         let printed = read.savings.iter().flatten().map(|id| ask::printed(settings, paper, id));
         let printed = printed.collect::<Result<_, _>>()?;
-        Ok(Box::new(PairedBoxes { read, metric, printed }))
+        let sweep = ask::sweep(settings, study, &read.sweep)?;
+        Ok(Box::new(PairedBoxes { read, metric, sweep, printed }))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
     problems: String,
@@ -47,6 +59,7 @@ struct Read {
 struct PairedBoxes {
     read: Read,
     metric: &'static Metric,
+    sweep: SweepKey,
     /// Printed savings.
     printed: Vec<f64>,
 }
@@ -62,14 +75,13 @@ impl PairedBoxes {
         let mut order: Vec<String> = Vec::new();
         let mut found: BTreeMap<(String, u32), Vec<f64>> = BTreeMap::new();
         for contender in &self.read.contenders {
-            let rows = scene.run.rows(&self.read.problems, contender).into_iter();
-            for row in rows.filter(|row| row.sweep == self.read.sweep) {
-                let name = ask::query(row).to_owned();
+            for row in scene.run.rows_at(&self.read.problems, contender, &self.sweep) {
+                let name = row.query().to_owned();
                 if !order.contains(&name) {
                     order.push(name.clone());
                 }
                 if let (Status::Solved, Some(value)) = (row.status, scene.run.value(row, self.metric)) {
-                    found.entry((name, row.replicate)).or_default().push(value);
+                    found.entry((name, row.draw())).or_default().push(value);
                 }
             }
         }

@@ -8,14 +8,22 @@ use crate::render::style::{
     BLACK, BLUE, Dash, Fill, GREEN, GREY, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
-use crate::study::slug;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "plane_search",
     about: "a particle's searches on one roadmap in the plane: nodes closed so far, shots at the goal, paths",
+    settings: Accepted::of::<PlaneSearch>(),
+    example: r#"
+problems = "plane"
+draw = 13
+radius_mm = 220
+panels = [{ contender = "Original A*", title = "", bare = true }]
+"#,
     build: |settings, study, _paper| {
         let read: PlaneSearch = settings.read()?;
         let contenders: Vec<String> = read.panels.iter().map(|panel| panel.contender.clone()).collect();
@@ -24,7 +32,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneSearch {
     problems: String,
@@ -35,7 +43,7 @@ struct PlaneSearch {
     panels: Vec<PanelOf>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelOf {
     contender: String,
@@ -63,7 +71,7 @@ impl Kind for PlaneSearch {
         for of in &self.panels {
             let mut panel = self.map(scene, &of.title)?;
             let row = ask::trial(scene, &self.problems, self.draw, None, &of.contender)?;
-            let path = points(ask::exhibit(scene, &row.trial, "path")?);
+            let path = points(ask::exhibit(scene, &row.key, "path")?);
             if !of.bare {
                 match of.straightened {
                     Some(kept) => straightened(&mut panel, scene, row, &path, kept)?,
@@ -79,13 +87,13 @@ impl Kind for PlaneSearch {
 
 impl PlaneSearch {
     fn map(&self, scene: &Scene<'_>, title: &str) -> Result<Panel, RenderError> {
-        let draw = format!("{}/{}", slug(&self.problems), self.draw);
-        let size = ask::exhibit(scene, &draw, "size_mm")?;
+        let draw = ask::draw(scene, &self.problems, self.draw)?;
+        let size = ask::exhibit(scene, draw, "size_mm")?;
         let x = Axis::linear("x (mm)", 0.0, size.values[0])?;
         let mut panel = Panel::new(title, x, Axis::linear("y (mm)", 0.0, size.values[1])?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
-        let corners = ask::exhibit(scene, &draw, "obstacles")?;
+        let corners = ask::exhibit(scene, draw, "obstacles")?;
         let numbered: Vec<[f64; 3]> = corners.values.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
         for obstacle in numbered.chunk_by(|a, b| a[0] == b[0]) {
             let fill = Some(Fill::solid(BLUE.mixed(BLACK, 0.45)));
@@ -93,7 +101,7 @@ impl PlaneSearch {
             panel.add(Shape { corners, fill, stroke: None, label: "obstacle".to_owned() });
         }
         panel.add(Points {
-            points: points(ask::exhibit(scene, &draw, "samples")?),
+            points: points(ask::exhibit(scene, draw, "samples")?),
             marker: Marker::Circle,
             radius_pt: 1.2,
             color: GREY.mixed(WHITE, 0.35),
@@ -110,7 +118,7 @@ impl PlaneSearch {
         path: &[[f64; 2]],
         of: &PanelOf,
     ) -> Result<(), RenderError> {
-        let closed = points(ask::exhibit(scene, &row.trial, "closed")?);
+        let closed = points(ask::exhibit(scene, &row.key, "closed")?);
         let all = of.searches.is_none();
         let shown = of.searches.unwrap_or(closed.len()).min(closed.len());
         let Some(goal) = path.last() else { return Ok(()) };
@@ -161,7 +169,7 @@ fn straightened(
     path: &[[f64; 2]],
     kept: usize,
 ) -> Result<(), RenderError> {
-    let raw = points(ask::exhibit(scene, &row.trial, "raw_path")?);
+    let raw = points(ask::exhibit(scene, &row.key, "raw_path")?);
     let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
     panel.add(Line::through(raw.clone(), stroke).labelled("path as searched"));
     let inner = raw[1..raw.len() - 1].to_vec();

@@ -7,12 +7,20 @@ use crate::render::chart::{Key, Sheet, Swatch};
 use crate::render::scene3::{Paint, Scene as Solids};
 use crate::render::style::{BLUE, Dash, GREEN, PURPLE, Stroke, VERMILLION, Width};
 use crate::study::record::Row;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "polyhedra_paths",
     about: "tip paths among solid, depth-sorted polyhedra, one row a contender, one panel a view",
+    settings: Accepted::of::<PolyhedraPaths>(),
+    example: r#"
+problem = "E1"
+contenders = ["A*", "Improved A*"]
+views = ["corner"]
+"#,
     build: |settings, study, _paper| {
         let read: PolyhedraPaths = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
@@ -26,7 +34,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 205.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PolyhedraPaths {
     /// The problem group; its first draw is shown.
@@ -49,8 +57,7 @@ impl Kind for PolyhedraPaths {
             let row = self.row(scene, contender)?;
             for view in &self.views {
                 let mut solids = Solids::default();
-                let owner = scene.run.draw_of(row);
-                add_obstacles(&mut solids, scene.run, &owner, true)?;
+                add_obstacles(&mut solids, scene.run, &row.key.on, true)?;
                 let keys = paths(&mut solids, scene, row)?;
                 sheet.add(panel(self.title(row, *view), solids, *view, keys)?);
             }
@@ -62,8 +69,7 @@ impl Kind for PolyhedraPaths {
 impl PolyhedraPaths {
     fn row<'a>(&self, scene: &'a Scene<'_>, contender: &str) -> Result<&'a Row, RenderError> {
         let rows = scene.run.rows(&self.problem, contender);
-        let is_asked =
-            |row: &&Row| self.query.is_empty() || row.problem.ends_with(&format!("/{}", self.query));
+        let is_asked = |row: &&Row| self.query.is_empty() || row.query() == self.query;
         rows.into_iter().find(is_asked).ok_or_else(|| RenderError::NotStored {
             what: format!("a trial of `{contender}` on `{}` {}", self.problem, self.query),
         })
@@ -73,7 +79,7 @@ impl PolyhedraPaths {
         let length = row.value("path_length_cm").map_or_else(|| "–".to_owned(), |cm| format!("{cm:.1} cm"));
         let nodes = row.value("opened").map_or_else(|| "–".to_owned(), |nodes| format!("{nodes:.0}"));
         let seen = if self.views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
-        format!("{}: {length}, {nodes} nodes{seen}", row.contender)
+        format!("{}: {length}, {nodes} nodes{seen}", row.key.contender)
     }
 }
 
@@ -81,14 +87,14 @@ impl PolyhedraPaths {
 fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, RenderError> {
     let mut keys = Vec::new();
     let mut line = |solids: &mut Solids, name: &str, label: &str, stroke: Stroke| {
-        if let Some(found) = scene.run.exhibit(&row.trial, name) {
+        if let Some(found) = scene.run.exhibit(&row.key, name) {
             solids.polyline(points(found), stroke);
             keys.push(Key { swatch: Swatch::Line(stroke, None), label: label.to_owned() });
         }
     };
     line(solids, "raw_path", "path as searched", Stroke::solid(BLUE, 0.8).dashed(Dash::Dashed));
     line(solids, "path", "returned path", Stroke::solid(VERMILLION, 1.5));
-    let path = points(stored(scene.run, &row.trial, "path")?);
+    let path = points(stored(scene.run, &row.key, "path")?);
     for (at, color, label) in [(path.first(), GREEN, "start"), (path.last(), PURPLE, "goal")] {
         if let Some(at) = at {
             solids.capsule(*at, *at, 1.6, Paint::solid(color));

@@ -6,12 +6,15 @@ use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Axis, Key, Panel, Trim};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene, SceneMark, Vec3};
 use crate::render::style::{BLACK, SKY, Stroke, WHITE};
+use crate::study::key::{DrawKey, Owner};
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// From where a scene is seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum View {
     /// From the front, a little from above: x to the right.
@@ -42,9 +45,15 @@ impl View {
 }
 
 /// The exhibit called `name` of `of`.
-pub(super) fn stored<'a>(run: &'a Run<'_>, of: &str, name: &str) -> Result<&'a Exhibit, RenderError> {
-    run.exhibit(of, name)
-        .ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
+pub(super) fn stored<'a>(
+    run: &'a Run<'_>,
+    of: impl Into<Owner>,
+    name: &str,
+) -> Result<&'a Exhibit, RenderError> {
+    let of = of.into();
+    run.exhibit(of.clone(), name).ok_or_else(|| RenderError::NotStored {
+        what: format!("the exhibit `{name}` of `{}`", run.owner(&of)),
+    })
 }
 
 /// The points of an exhibit three numbers wide.
@@ -56,7 +65,7 @@ pub(super) fn points(exhibit: &Exhibit) -> Vec<Vec3> {
 pub(super) fn add_obstacles(
     scene: &mut Scene,
     run: &Run<'_>,
-    of: &str,
+    of: &Arc<DrawKey>,
     frame: bool,
 ) -> Result<(), RenderError> {
     let vertices = points(stored(run, of, "bodies_vertices")?);

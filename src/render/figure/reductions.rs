@@ -10,6 +10,8 @@ use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{BLUE, INK, Marker, Stroke, VERMILLION, Width};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Estimate;
 
@@ -17,6 +19,22 @@ use stats::bootstrap::Estimate;
 pub static ENTRY: Entry = Entry {
     name: "reductions",
     about: "what each contender saves of each printed reduction: means with bootstrap intervals, and as a table",
+    settings: Accepted::of::<Reductions>(),
+    example: r#"
+columns = 2
+against = "A*"
+contenders = ["Bidirectional only", "Weight only", "Deletion only", "Without bidirectional", "Without weight", "Without deletion", "Improved A*"]
+panels = [
+    { claim = "t1.reduction.cost", title = "simple: path cost", metric = "path_cost_cells", problems = ["simple cells", "simple rectangles", "simple bars"] },
+    { claim = "t2.reduction.cost", title = "complex: path cost", metric = "path_cost_cells", problems = ["complex cells", "complex rectangles", "complex bars"] },
+    { claim = "t1.reduction.turn", title = "simple: turn sum", metric = "turn_exterior_deg", problems = ["simple cells", "simple rectangles", "simple bars"] },
+    { claim = "t2.reduction.turn", title = "complex: turn sum", metric = "turn_exterior_deg", problems = ["complex cells", "complex rectangles", "complex bars"] },
+    { claim = "t1.reduction.nodes", title = "simple: nodes opened", metric = "opened", problems = ["simple cells", "simple rectangles", "simple bars"] },
+    { claim = "t2.reduction.nodes", title = "complex: nodes opened", metric = "opened", problems = ["complex cells", "complex rectangles", "complex bars"] },
+    { claim = "t1.reduction.time", title = "simple: time", metric = "plan_time_us", problems = ["simple cells", "simple rectangles", "simple bars"] },
+    { claim = "t2.reduction.time", title = "complex: time", metric = "plan_time_us", problems = ["complex cells", "complex rectangles", "complex bars"] },
+]
+"#,
     build: |settings, study, paper| {
         let read: Reductions = settings.read()?;
         let contenders = read.contenders.iter().chain([&read.against]);
@@ -39,10 +57,11 @@ pub static ENTRY: Entry = Entry {
 /// Height of a row, in points.
 const ROW_PT: f64 = 11.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Reductions {
     panels: Vec<PanelSpec>,
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
     /// From the top.
     contenders: Vec<String>,
@@ -50,7 +69,7 @@ struct Reductions {
     against: String,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSpec {
     /// The claim that prints the reduction.

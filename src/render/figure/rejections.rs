@@ -8,12 +8,18 @@ use crate::render::chart::rows::Bars;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Fill, TextSize, Width, series_color};
 use crate::study::record::PreparedRow;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "rejections",
     about: "what became of the pairs of samples that roadmaps tried, by the first reason: mean share over draws",
+    settings: Accepted::of::<Rejections>(),
+    example: r#"
+problems = ["cell"]
+"#,
     build: |settings, study, _paper| {
         let read: Rejections = settings.read()?;
         ask::known(settings, study, &read.problems, &[])?;
@@ -21,7 +27,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Rejections {
     problems: Vec<String>,
@@ -50,7 +56,7 @@ fn count(row: &PreparedRow, column: &str) -> Option<f64> {
 
 impl Rejections {
     fn rows<'s>(scene: &'s Scene<'_>, problems: &str) -> Vec<&'s PreparedRow> {
-        scene.run.records.batch.prepared.iter().filter(|row| row.group == problems).collect()
+        scene.run.prepared(problems).collect()
     }
 
     /// The bars that any roadmap of the figure has pairs for, without those left out.

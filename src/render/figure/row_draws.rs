@@ -1,17 +1,28 @@
 //! Every draw's own row of solved shares along a sweep, their mean, and the printed row.
 
-use super::success_bands::Shown;
+use super::success_bands::{Read, Shown};
 use super::{Entry, Kind, Scene};
 use crate::render::RenderError;
 use crate::render::chart::Sheet;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::style::{GREY, Stroke, VERMILLION, WHITE, Width, series_color, series_marker};
+use base::settings::Accepted;
 use stats::summary::mean;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "row_draws",
     about: "every draw's own row of solved shares along a sweep, their mean, and the printed row; one panel a contender",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = "cell"
+sweep = "samples"
+axis = "samples N"
+rows = [
+    { contender = "Original A*", printed = "t2.original." },
+    { contender = "Improved A*", printed = "t2.improved." },
+]
+"#,
     build: |settings, study, paper| Ok(Box::new(Draws(Shown::new(settings, study, paper)?))),
 };
 

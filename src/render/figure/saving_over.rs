@@ -7,6 +7,8 @@ use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{GREY, Marker, Stroke, VERMILLION, WHITE, Width};
 use crate::study::column;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -14,6 +16,14 @@ use std::collections::BTreeMap;
 pub static ENTRY: Entry = Entry {
     name: "saving_over",
     about: "one contender's saving over another along a column of the problem, one panel a problem group",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+problems = ["disjoint", "overlapping"]
+metric = "opened"
+contender = "Improved A*"
+against = "A*"
+over = "obstacles"
+"#,
     build: |settings, study, _paper| {
         let read: Settings = settings.read()?;
         super::check_labels(settings, study, [&read.contender, &read.against], &read.problems)?;
@@ -28,7 +38,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 170.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// One panel each.

@@ -8,12 +8,20 @@ use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Panel, Sheet};
 use crate::render::style::{BLUE, Marker, PURPLE, Stroke, Width};
 use crate::study::record::Row;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "search_flow",
     about: "how a search on a grid map went on: the cells opened so far, one panel a moment",
+    settings: Accepted::of::<SearchFlow>(),
+    example: r#"
+problem = "W1"
+contender = "A*"
+shares = [0.15, 0.5, 1.0]
+"#,
     build: |settings, study, _paper| {
         let read: SearchFlow = settings.read()?;
         check_labels(settings, study, [&read.contender], [&read.problem])?;
@@ -27,7 +35,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 150.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SearchFlow {
     /// The problem group; its first draw is shown.
@@ -52,7 +60,7 @@ impl Kind for SearchFlow {
 }
 
 fn panel(scene: &Scene<'_>, row: &Row, share: f64) -> Result<Panel, RenderError> {
-    let exhibit = |name: &str| scene.run.exhibit(&row.trial, name);
+    let exhibit = |name: &str| scene.run.exhibit(&row.key, name);
     let sides = ["opened_start_side", "opened_goal_side"].map(|name| listed(exhibit(name)));
     let shown = sides.each_ref().map(|side| (side.len() as f64 * share).ceil() as usize);
     let all: usize = sides.iter().map(Vec::len).sum();

@@ -9,7 +9,10 @@ use crate::render::chart::rows::Interval;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color, series_marker};
 use crate::study::Study;
+use crate::study::key::SweepKey;
 use base::seed;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 
@@ -17,17 +20,24 @@ use stats::bootstrap::{self, Resampling};
 pub static ENTRY: Entry = Entry {
     name: "share_bars",
     about: "shares of solved queries by problem group and contender at one point of the sweeps, and paired differences from one group",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = ["cell"]
+sweep = "samples=800"
+printed = ["t2.original.800"]
+"#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         let named: Vec<String> = read.problems.iter().chain(&read.against).cloned().collect();
         ask::known(settings, study, &named, &[])?;
         let printed = read.printed.iter().map(|id| ask::printed(settings, paper, id));
         let printed = printed.collect::<Result<_, _>>()?;
-        Ok(Box::new(ShareBars { contenders: labels(study), printed, read }))
+        let sweep = ask::sweep(settings, study, &read.sweep)?;
+        Ok(Box::new(ShareBars { contenders: labels(study), printed, read, sweep }))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
     problems: Vec<String>,
@@ -41,6 +51,7 @@ struct Read {
 
 struct ShareBars {
     read: Read,
+    sweep: SweepKey,
     contenders: Vec<String>,
     printed: Vec<f64>,
 }
@@ -108,7 +119,7 @@ impl ShareBars {
         let mut panel = Panel::new("", axis, Axis::names("", vec![String::new(); rows]));
         Self::rule(&mut panel, 0.0, rows, "");
         self.fill(scene, &mut panel, false, &|problems, contender| {
-            differences_percent(scene.run, [against, problems], contender, &self.read.sweep)
+            differences_percent(scene.run, [against, problems], contender, &self.sweep)
         });
         Ok(panel)
     }
@@ -124,7 +135,7 @@ impl Kind for ShareBars {
             Self::rule(&mut panel, *value, rows, "printed");
         }
         self.fill(scene, &mut panel, true, &|problems, contender| {
-            solved_percents(scene.run, problems, contender, &self.read.sweep)
+            solved_percents(scene.run, problems, contender, &self.sweep)
         });
         let per_row = if self.is_single() { 15.0 } else { 6.0 + 5.0 * self.contenders.len() as f64 };
         let columns = 1 + usize::from(self.read.against.is_some());

@@ -12,13 +12,22 @@ use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{
     BLUE, Dash, Fill, GREEN, GREY, INK, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
 };
-use base::settings::Settings;
+use base::settings::{Accepted, Settings};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "specification_curve",
     about: "outcomes of claims under every reading explored, with the options taken, and a table of both",
+    settings: Accepted::of::<SpecificationCurve>(),
+    example: r#"
+columns = [
+    { claim = "t1.reduction.cost", title = "simple: path cost", axis = "reduction (%)" },
+    { claim = "t1.reduction.turn", title = "simple: turn sum", axis = "reduction (%)" },
+    { claim = "t1.reduction.nodes", title = "simple: nodes", axis = "reduction (%)", low = -100.0 },
+]
+"#,
     build: |settings, study, paper| {
         let read: SpecificationCurve = settings.read()?;
         for column in &read.columns {
@@ -38,13 +47,13 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 178.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SpecificationCurve {
     columns: Vec<ColumnSpec>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ColumnSpec {
     claim: String,

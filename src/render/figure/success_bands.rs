@@ -7,9 +7,11 @@ use crate::render::chart::marks::{Band, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Fill, Stroke, Width, series_color, series_marker, series_stroke};
 use crate::study::Study;
+use crate::study::key::SweepKey;
 use crate::study::paper::Paper;
 use base::seed;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bands::{Band as Curve, sup_t};
 use stats::bootstrap::Resampling;
@@ -18,14 +20,24 @@ use stats::bootstrap::Resampling;
 pub static ENTRY: Entry = Entry {
     name: "success_bands",
     about: "shares of solved queries along a sweep: mean over draws with a simultaneous band, printed rows on top",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = "cell"
+sweep = "samples"
+axis = "samples N"
+rows = [
+    { contender = "Original A*", printed = "t2.original." },
+    { contender = "Improved A*", printed = "t2.improved." },
+]
+"#,
     build: |settings, study, paper| Ok(Box::new(Shown::new(settings, study, paper)?)),
 };
 
 /// What the settings of a figure of rows say, with the printed rows looked up.
 pub(super) struct Shown {
     pub(super) problems: String,
-    /// The sweep's values and their names in records.
-    pub(super) points: Vec<(f64, String)>,
+    /// The sweep's values as numbers and as records have them.
+    pub(super) points: Vec<(f64, SweepKey)>,
     pub(super) axis: String,
     pub(super) rows: Vec<RowOf>,
 }
@@ -36,16 +48,16 @@ pub(super) struct RowOf {
     pub(super) printed: Vec<[f64; 2]>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Read {
+pub(super) struct Read {
     problems: String,
     sweep: String,
     axis: String,
     rows: Vec<ReadRow>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ReadRow {
     contender: String,
@@ -58,12 +70,17 @@ impl Shown {
         let read: Read = settings.read()?;
         let contenders: Vec<String> = read.rows.iter().map(|row| row.contender.clone()).collect();
         ask::known(settings, study, std::slice::from_ref(&read.problems), &contenders)?;
-        let prefix = format!("{}=", read.sweep);
-        let value = |name: &String| name.strip_prefix(&prefix).and_then(|text| text.parse::<f64>().ok());
-        let points = study.sweep_points().into_iter().map(|point| point.name);
-        let points: Vec<(f64, String)> = points.filter_map(|name| Some((value(&name)?, name))).collect();
+        if study.sweeps.len() > 1 {
+            let message =
+                format!("study `{}` sweeps more than `{}`, and one sweep is drawn", study.name, read.sweep);
+            return Err(settings.error(message));
+        }
+        let value = |key: &SweepKey| key.value(&read.sweep)?.as_f64();
+        let points = study.sweep_points().into_iter().map(|point| point.key);
+        let points: Vec<(f64, SweepKey)> = points.filter_map(|key| Some((value(&key)?, key))).collect();
         if points.is_empty() {
-            return Err(settings.error(format!("study `{}` does not sweep `{}`", study.name, read.sweep)));
+            let message = format!("study `{}` does not sweep numbers of `{}`", study.name, read.sweep);
+            return Err(settings.error(message));
         }
         let mut rows = Vec::new();
         for row in read.rows {
@@ -82,7 +99,7 @@ impl Shown {
         let cells: Vec<Vec<f64>> = self
             .points
             .iter()
-            .map(|(_, name)| solved_percents(scene.run, &self.problems, contender, name))
+            .map(|(_, sweep)| solved_percents(scene.run, &self.problems, contender, sweep))
             .collect();
         let draws = cells.iter().map(Vec::len).min().unwrap_or(0);
         (0..draws).map(|draw| cells.iter().map(|cell| cell[draw]).collect()).collect()

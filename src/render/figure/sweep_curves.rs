@@ -6,12 +6,22 @@ use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_marker, series_stroke};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "sweep_curves",
     about: "metrics along a sweep, one panel a metric, one line a contender, on a logarithmic scale",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+problem = "C1"
+contenders = ["Jia's A*, 728 neighbours"]
+metrics = ["opened", "expansions"]
+along = "delta_deg"
+label = "Jia's step δ (°)"
+"#,
     build: |settings, study, _paper| {
         let read: Settings = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
@@ -29,7 +39,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 165.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
     /// The problem group.
@@ -78,11 +88,10 @@ impl Kind for SweepCurves {
 impl SweepCurves {
     /// (value of the sweep, metric), in the sweep's order.
     fn curve(&self, scene: &Scene<'_>, contender: &str, metric: &Metric) -> Vec<[f64; 2]> {
-        let prefix = format!("{}=", self.settings.along);
         let rows = scene.run.rows(&self.settings.problem, contender);
         let points = rows.iter().filter_map(|row| {
-            let part = row.sweep.split(',').find_map(|part| part.strip_prefix(&prefix))?;
-            Some([part.parse().ok()?, scene.run.value(row, metric)?])
+            let along = row.key.sweep.value(&self.settings.along)?.as_f64()?;
+            Some([along, scene.run.value(row, metric)?])
         });
         points.collect()
     }

@@ -7,13 +7,20 @@ use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Panel, Sheet};
 use crate::render::style::{BLUE, Dash, GREY, Marker, Stroke, VERMILLION, Width};
+use base::settings::Accepted;
 use engine::shorten::bends;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "tidying",
     about: "how a path on a grid map was tidied: bends before and after, refused lines of sight; one panel a problem",
+    settings: Accepted::of::<Tidying>(),
+    example: r#"
+problems = ["W1", "W2"]
+contender = "Improved A*"
+"#,
     build: |settings, study, _paper| {
         let read: Tidying = settings.read()?;
         check_labels(settings, study, [&read.contender], &read.problems)?;
@@ -24,7 +31,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 215.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Tidying {
     /// Problem groups; the first draw of each is shown.
@@ -49,9 +56,10 @@ impl Tidying {
             what: format!("a trial of `{}` on `{problem}`", self.contender),
         })?;
         let stored = |name: &str| {
-            let missing =
-                || RenderError::NotStored { what: format!("the exhibit `{name}` of `{}`", row.trial) };
-            scene.run.exhibit(&row.trial, name).ok_or_else(missing)
+            let missing = || RenderError::NotStored {
+                what: format!("the exhibit `{name}` of `{}`", scene.run.trial(row)),
+            };
+            scene.run.exhibit(&row.key, name).ok_or_else(missing)
         };
         let (raw, path, refused) = (stored("raw_path")?, stored("path")?, stored("refused_sight")?);
         let raw_points: Vec<&[f64]> = raw.values.chunks(raw.width).collect();

@@ -6,12 +6,21 @@ use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
 use crate::study::record::Row;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "tip_path_joints",
     about: "joint angles of a planar arm along the paths of its tip: θ1 beside θ2, one row a problem",
+    settings: Accepted::of::<TipPathJoints>(),
+    example: r#"
+panels = [
+    { problem = "case 1", contenders = ["A* 8"] },
+    { problem = "case 2", contenders = ["A* 8"] },
+]
+"#,
     build: |settings, study, _paper| {
         let read: TipPathJoints = settings.read()?;
         for panel in &read.panels {
@@ -24,7 +33,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 105.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct TipPathJoints {
     /// Draws, at each share of the way, how far each curve is from that of the panel's first contender, which is not
@@ -33,6 +42,7 @@ struct TipPathJoints {
     differences: bool,
     /// How many panels stand side by side: θ1 and θ2 of a problem follow each other.
     #[serde(default = "two")]
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
     panels: Vec<PanelSetting>,
 }
@@ -41,7 +51,7 @@ fn two() -> usize {
     2
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
     /// The problem group; its first draw is shown.
@@ -134,7 +144,7 @@ fn at(curve: &[[f64; 2]], way: f64) -> f64 {
 
 /// The way along the path and the joint's angle at every station.
 fn curve(scene: &Scene<'_>, row: &Row, joint: usize) -> Option<Vec<[f64; 2]>> {
-    let stations = scene.run.exhibit(&row.trial, "stations")?;
+    let stations = scene.run.exhibit(&row.key, "stations")?;
     let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
     let mut way = 0.0;
     let mut before = [stations[0][4], stations[0][5]];

@@ -7,12 +7,24 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{GREY, INK, SERIES, Stroke, Width, series_color, series_marker};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "tradeoff",
     about: "one metric against another, a point a contender, with intervals both ways; one panel a list of problems",
+    settings: Accepted::of::<Tradeoff>(),
+    example: r#"
+x = "opened"
+y = "path_cost_cells"
+contenders = ["A*", "Improved A*", "Bidirectional only", "Weight only", "Without bidirectional", "Without weight", "Without deletion", "Deletion only"]
+panels = [
+    { title = "simple", problems = ["simple cells", "simple rectangles", "simple bars"] },
+    { title = "complex", problems = ["complex cells", "complex rectangles", "complex bars"] },
+]
+"#,
     build: |settings, study, _paper| {
         let read: Tradeoff = settings.read()?;
         check_labels(
@@ -34,7 +46,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 150.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Tradeoff {
     x: String,
@@ -43,7 +55,7 @@ struct Tradeoff {
     panels: Vec<PanelSpec>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSpec {
     title: String,

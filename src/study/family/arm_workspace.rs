@@ -5,10 +5,11 @@ use crate::study::StudyError;
 use crate::study::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::ARM_COLUMNS;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::kinematics::planar_2r::Planar2r;
 use engine::planner::Invalid;
 use engine::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -18,6 +19,23 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: workspace_map::ENTRY.name,
     columns: ARM_COLUMNS,
+    settings: Accepted::of::<ArmWorkspace>(),
+    example: r#"
+links_cm = [30, 20]
+x_cm = [-50, 50]
+y_cm = [0, 50]
+step_cm = 1
+inner_radius_cm = 20
+elbow = "negative_theta2"
+touching = "collides"
+hop_check = "end_points"
+corner_rule = "allow"
+obstacle_diameter_cm = 10
+obstacle_shapes = ["circle"]
+obstacles_cm = []
+start_cm = [49, 3]
+goal_cm = [0, 45]
+"#,
     build: |settings, _inputs| {
         let read: ArmWorkspace = settings.read()?;
         let posed = read.posed(settings)?;
@@ -25,7 +43,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmWorkspace {
     links_cm: [f64; 2],

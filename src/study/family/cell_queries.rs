@@ -7,7 +7,7 @@ use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::ARM_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::seed;
-use base::settings::{Document, Settings, SettingsError};
+use base::settings::{Accepted, Document, Settings, SettingsError, Spanned};
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, Joints, Robot};
 use engine::planner::Invalid;
@@ -15,10 +15,10 @@ use engine::space::WorldKind;
 use engine::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Scene, SpeedRule};
 use engine::space::roadmap::{Counted, Extent, Local, Sample};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use toml::Spanned;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -27,6 +27,25 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     prepared: nested_roadmap::ENTRY.name,
     columns: ARM_COLUMNS,
+    settings: Accepted::of::<CellQueries>(),
+    example: r#"
+robot = "data/robots/motoman_up6.toml"
+scene = "data/scenes/fu2018_cell.toml"
+queries = "data/scenes/fu2018_groups.toml"
+obstacles = true
+self_collision = true
+samples = 1500
+counted = "accepted"
+region = "full"
+radius_mm = 500
+path = "tool"
+step_mm = 20
+step_deg = 4
+jump_deg = 20
+turn_deg = 180
+end = "own"
+tool_mm = 100
+"#,
     build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(Box::new(Posed::new(settings, inputs)?)),
 };
 
@@ -35,7 +54,7 @@ const DRAWS_PER_SAMPLE: u32 = 1000;
 /// How far the region around the queries' poses reaches beyond them.
 const AROUND_DEG: f64 = 20.0;
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CellQueries {
     robot: String,
@@ -46,6 +65,7 @@ struct CellQueries {
     /// Instead of the robot file's tool.
     tool_mm: Option<f64>,
     queries: String,
+    #[schemars(range(max = 100_000))]
     samples: u32,
     counted: CountedSetting,
     region: Region,
@@ -59,7 +79,7 @@ struct CellQueries {
     speed: Option<SpeedSetting>,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum CountedSetting {
     Accepted,
@@ -67,7 +87,7 @@ enum CountedSetting {
 }
 
 /// Where samples are drawn from, evenly.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Region {
     /// All joint ranges, at most half a turn either way.
@@ -80,14 +100,14 @@ enum Region {
     AroundPoses,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum PathSetting {
     Tool,
     Joints,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum EndSetting {
     Own,
@@ -95,7 +115,7 @@ enum EndSetting {
     PoseOnly,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SpeedSetting {
     tool_mm_s: f64,
@@ -145,7 +165,10 @@ impl CellQueries {
 }
 
 /// The file of poses and of groups that join two of them.
-#[derive(Deserialize)]
+/// What a file of groups may hold.
+pub const GROUPS_FILE: Accepted = Accepted::of::<GroupsFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GroupsFile {
     pose_deg: BTreeMap<String, Joints>,
@@ -153,7 +176,7 @@ struct GroupsFile {
     groups: Vec<GroupEntry>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GroupEntry {
     name: String,
@@ -181,7 +204,7 @@ fn read_queries(document: &Document) -> Result<Vec<Query>, SettingsError> {
     };
     let queries: Vec<Query> = file.groups.iter().map(query).collect::<Result<_, _>>()?;
     if queries.is_empty() {
-        return Err(document.error(0..0, "there is no group; at least one is accepted"));
+        return Err(document.error_at("group", "there is no group; at least one is accepted"));
     }
     Ok(queries)
 }

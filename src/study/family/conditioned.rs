@@ -13,10 +13,11 @@ use crate::study::verification::{LATTICE_COLUMNS, measured};
 use crate::study::{Inputs, StudyError, column};
 use base::hash::sha256;
 use base::seed;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, AnyTable, Settings, SettingsError};
 use engine::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
 use engine::space::{World, WorldKind};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -29,6 +30,28 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
+    settings: Accepted::of::<Conditioned>(),
+    example: r#"
+corner_rule = "allow"
+planner = "astar"
+planner_settings = { weight = 1, ties = "fifo" }
+expansions = 56
+tries = 100000
+found = "data/draws/zhang_conditioned.txt"
+given = { path_cost_cells = [14.65, 14.66] }
+shared = { size_cells = [30, 30], start = [22, 15], goal = [26, 28] }
+of = [
+    { family = "random_cells", settings = { blocked_share = 0.1 } },
+    { family = "random_cells", settings = { blocked_share = 0.2 } },
+    { family = "random_cells", settings = { blocked_share = 0.3 } },
+    { family = "random_rectangles", settings = { count = 8, side_cells = [2, 5] } },
+    { family = "random_rectangles", settings = { count = 17, side_cells = [2, 5] } },
+    { family = "random_rectangles", settings = { count = 27, side_cells = [2, 5] } },
+    { family = "random_bars", settings = { count = 18, length_cells = [3, 8] } },
+    { family = "random_bars", settings = { count = 38, length_cells = [3, 8] } },
+    { family = "random_bars", settings = { count = 62, length_cells = [3, 8] } },
+]
+"#,
     build: |settings, inputs| {
         let read: Conditioned = settings.read()?;
         read.check(settings)?;
@@ -60,33 +83,37 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Conditioned {
     /// The families that are drawn from.
     of: Vec<Of>,
     /// Settings that all of them share.
+    #[schemars(with = "AnyTable")]
     shared: Table,
     /// The corner rule of all of them.
     corner_rule: String,
     /// The planner whose record is asked for.
     planner: String,
     /// Its settings.
+    #[schemars(with = "AnyTable")]
     planner_settings: Table,
     /// Columns of the record with the least and the greatest value that are accepted.
     given: BTreeMap<String, [f64; 2]>,
     /// At most this many expansions a try.
     expansions: u64,
     /// At most this many tries a draw; a draw that is not accepted is an invalid problem.
+    #[schemars(range(max = 1_000_000_000))]
     tries: u64,
     /// A file that lists how many tries draws took, so that they need not be tried again.
     found: Option<String>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Of {
     family: String,
+    #[schemars(with = "AnyTable")]
     settings: Table,
 }
 
@@ -145,7 +172,9 @@ impl Conditioned {
             let mut table = self.shared.clone();
             table.extend(of.settings.clone());
             table.insert("corner_rule".to_owned(), Toml::String(self.corner_rule.clone()));
-            let family = (entry.build)(&Settings::composed(format!("`of` {}", of.family), table), inputs)?;
+            let origin = format!("`of` {}", of.family);
+            let family = (entry.build)(&Settings::composed(&*origin, table), inputs);
+            let family = family.map_err(|error| placed(settings, &origin, error))?;
             if family.world() == WorldKind::Lattice {
                 Ok(family)
             } else {
@@ -162,9 +191,20 @@ impl Conditioned {
         );
         let entry = planner::find(&self.planner).filter(|entry| entry.needs == WorldKind::Lattice);
         match entry.map(|entry| entry.build) {
-            Some(Build::Planner(build)) => build(&table),
+            Some(Build::Planner(build)) => build(&table)
+                .map_err(|error| settings.error(format!("planner_settings: {}", error.message()))),
             _ => Err(settings.error(format!("there is no planner `{}` for a lattice", self.planner))),
         }
+    }
+}
+
+/// `error` of settings that were put together from `settings`, with their place in the file.
+fn placed(settings: &Settings, origin: &str, error: StudyError) -> StudyError {
+    match error {
+        StudyError::Settings(SettingsError::Composed { message, .. }) => {
+            settings.error(format!("{origin}: {message}")).into()
+        }
+        other => other,
     }
 }
 

@@ -5,8 +5,10 @@ use crate::study::StudyError;
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::{Grid2, read_text_map};
+use base::settings::Accepted;
 use engine::planner::Invalid;
 use engine::space::WorldKind;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -17,6 +19,13 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
+    settings: Accepted::of::<GridMap>(),
+    example: r#"
+map = "data/maps/zhang_w1.map.txt"
+start = [22, 15]
+goal = [26, 28]
+corner_rule = "allow"
+"#,
     build: |settings, inputs| {
         let read: GridMap = settings.read()?;
         let file = inputs.locate(&read.map).map_err(|message| settings.error(message))?;
@@ -29,7 +38,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GridMap {
     map: String,

@@ -5,16 +5,16 @@ use crate::study::StudyError;
 use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::PLANE_COLUMNS;
 use base::seed;
-use base::settings::{Document, SettingsError};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
 use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
 use engine::planner::{Exhibit, Invalid};
 use engine::space::WorldKind;
 use engine::space::roadmap::{Counted, Extent, Local, PlaneMap, Sample};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
-use toml::Spanned;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -23,6 +23,12 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: nested_roadmap::ENTRY.name,
     columns: PLANE_COLUMNS,
+    settings: Accepted::of::<PlaneQueries>(),
+    example: r#"
+map = "data/scenes/fu2018_particle.toml"
+samples = 40
+radius_mm = 220
+"#,
     build: |settings, inputs| {
         let read: PlaneQueries = settings.read()?;
         if read.samples == 0 || !read.radius_mm.is_finite() || read.radius_mm <= 0.0 {
@@ -45,15 +51,19 @@ pub static ENTRY: Entry = Entry {
 /// Samples lie on this raster, on which the verifier is exact.
 const RASTER_MM: f64 = 1.0 / 16.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneQueries {
     map: String,
+    #[schemars(range(max = 100_000))]
     samples: u32,
     radius_mm: f64,
 }
 
-#[derive(Deserialize)]
+/// What a file of polygons may hold.
+pub const MAP_FILE: Accepted = Accepted::of::<MapFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MapFile {
     #[expect(dead_code, reason = "a map says its name to readers")]
@@ -65,7 +75,7 @@ struct MapFile {
     obstacles: Vec<Spanned<ObstacleEntry>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ObstacleEntry {
     corners_mm: Vec<[f64; 2]>,
@@ -85,7 +95,7 @@ impl MapFile {
         };
         if !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
             let message = format!("size_mm is {:?}; two lengths above 0 are accepted", self.size_mm);
-            return Err(document.error(0..0, message));
+            return Err(document.error_at("size_mm", message));
         }
         Ok(PlaneMap::new(self.size_mm, self.obstacles.iter().map(polygon).collect::<Result<_, _>>()?))
     }

@@ -6,13 +6,14 @@ use crate::study::prepared::{Prepared, polyhedra};
 use crate::study::verification::CARRIED_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::seed;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::geometry::Vec3;
 use engine::kinematics::Robot;
 use engine::planner::Invalid;
 use engine::space::polyhedra::{CarriedArm, DOWN, read_scene};
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -23,10 +24,20 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     prepared: polyhedra::ENTRY.name,
     columns: CARRIED_COLUMNS,
+    settings: Accepted::of::<SceneSettings>(),
+    example: r#"
+scene = "data/scenes/tang_c1.toml"
+step_cm = 1
+growth_cm = 7
+robot = "data/robots/aubo_i10.toml"
+body = "paper"
+scatter_cm = 5
+queries = [{ start = [70, -46, 36], goal = [70, 41, 51] }]
+"#,
     build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(Box::new(posed(settings, inputs)?)),
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneSettings {
     scene: String,
@@ -42,7 +53,7 @@ struct SceneSettings {
 }
 
 /// A query as it is written.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct QuerySettings {
     /// Its name; empty if it is the only one.

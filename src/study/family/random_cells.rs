@@ -6,9 +6,10 @@ use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::{Grid2, GridError, independent_cells};
 use base::seed::{self, Stream};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::Invalid;
 use engine::space::{LatticeWorld, World, WorldKind};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -18,6 +19,14 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
+    settings: Accepted::of::<RandomCells>(),
+    example: r#"
+size_cells = [30, 30]
+start = [22, 15]
+goal = [26, 28]
+blocked_share = 0.2
+corner_rule = "allow"
+"#,
     build: |settings, _inputs| {
         let read: RandomCells = settings.read()?;
         let share = read.blocked_share;
@@ -32,7 +41,7 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RandomCells {
     size_cells: [u32; 2],

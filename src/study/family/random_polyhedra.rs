@@ -6,11 +6,12 @@ use crate::study::StudyError;
 use crate::study::prepared::{Prepared, polyhedra};
 use crate::study::verification::POLYHEDRA_COLUMNS;
 use base::seed::{self, Stream};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::geometry::{Aabb, Axis, Convex, Segment, Vec3, distance_segment_convex};
 use engine::planner::Invalid;
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -20,6 +21,17 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     prepared: polyhedra::ENTRY.name,
     columns: POLYHEDRA_COLUMNS,
+    settings: Accepted::of::<RandomPolyhedra>(),
+    example: r#"
+side_cm = 60
+step_cm = 1
+count = [1, 20]
+size_cm = [7, 16]
+shapes = ["box", "prism", "octahedron", "wedge", "pyramid"]
+gap_cm = 1
+clear_cm = 2
+queries = [{ start = [4, 5, 6], goal = [56, 54, 50] }]
+"#,
     build: |settings, _inputs| {
         let read: RandomPolyhedra = settings.read()?;
         read.check(settings)?;
@@ -31,12 +43,13 @@ pub static ENTRY: Entry = Entry {
 /// How often an obstacle is drawn again before a draw is given up.
 const TRIES: u32 = 10_000;
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RandomPolyhedra {
     side_cm: f64,
     step_cm: f64,
     /// The fewest and the most obstacles; each number in between is as likely.
+    #[schemars(inner(range(max = 10_000)))]
     count: [u32; 2],
     /// The least and the greatest extent along each axis.
     size_cm: [f64; 2],
@@ -48,7 +61,7 @@ struct RandomPolyhedra {
     queries: Vec<QuerySettings>,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum ShapeName {
     Box,

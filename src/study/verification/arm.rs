@@ -1,7 +1,7 @@
 //! An arm's path before the verifier.
 
 use super::{Judged, outcome};
-use crate::study::checked::Pipeline;
+use crate::study::contender::Pipeline;
 use engine::geometry::planar::Touch;
 use engine::kinematics::planar_2r::ElbowRule;
 use engine::planner::{Counts, Ending, Plan, Request, Value};

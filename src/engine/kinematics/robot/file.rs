@@ -8,11 +8,15 @@ use crate::{
         serial::{AXES, Chain, Joint},
     },
 };
+use base::settings::{Accepted, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::{ops::Range, path::Path};
-use toml::Spanned;
 
-#[derive(Deserialize)]
+/// What a robot file may hold.
+pub const ROBOT_FILE: Accepted = Accepted::of::<RobotFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RobotFile {
     name: String,
@@ -23,20 +27,20 @@ struct RobotFile {
     body: Spanned<Vec<BodyEntry>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BaseEntry {
     position_mm: Spanned<[f64; 3]>,
     yaw_deg: Spanned<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ToolEntry {
     length_mm: Spanned<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct JointEntry {
     alpha_deg: f64,
@@ -49,7 +53,7 @@ struct JointEntry {
     speed_rad_s: Option<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BodyEntry {
     name: Spanned<String>,
@@ -57,7 +61,7 @@ struct BodyEntry {
     self_pairs: Vec<Spanned<[String; 2]>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CapsuleEntry {
     name: String,
@@ -114,7 +118,7 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
         return Err(source.fault(&file.tool.length_mm.span(), message));
     }
     let chain = chain(&source, &file.joint, base, tool_frame(tool_length_m))?;
-    let arm = Arm::new(chain, file.solver.get_ref()).map_err(|error| {
+    let arm = Arm::new(chain, Some(file.solver.get_ref())).map_err(|error| {
         let span = match &error {
             KinematicsError::Joint { joint, .. } => file.joint.get_ref()[joint - 1].span(),
             _ => file.solver.span(),

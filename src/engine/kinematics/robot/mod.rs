@@ -8,6 +8,8 @@ mod file;
 #[cfg(test)]
 mod tests;
 
+pub use file::ROBOT_FILE;
+
 use super::{Arm, KinematicsError, serial::AXES};
 use crate::geometry::{Capsule, Frame, Segment, Vec3};
 use std::{fs, path::Path};

@@ -2,6 +2,7 @@
 
 mod bidirectional;
 mod first_way;
+mod jump;
 mod many;
 mod octile;
 mod one_way;

@@ -7,6 +7,9 @@ use std::fmt;
 /// How far a coordinate may be from a lattice point, in steps, and still be meant as it.
 const SLACK: f64 = 1e-9;
 
+/// The most points of a lattice: every one of them is analysed before anything is planned.
+const MAX_POINTS: u64 = 1_000_000;
+
 /// Points `low + step · (column, row)` that fill a rectangle, both rims included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipLattice {
@@ -19,8 +22,8 @@ impl TipLattice {
     /// The lattice of step `step_cm` that fills the ranges `x_cm` and `y_cm`.
     ///
     /// # Errors
-    /// A sentence if the step is not positive, a range is empty, the step does not divide it, or a side has more
-    /// than 65 535 points.
+    /// A sentence if the step is not positive, a range is empty, the step does not divide it, or there are too
+    /// many points.
     pub fn new(x_cm: [f64; 2], y_cm: [f64; 2], step_cm: f64) -> Result<Self, String> {
         if !(step_cm.is_finite() && step_cm > 0.0) {
             return Err(format!("step_cm is {step_cm}; a step above 0 is accepted"));
@@ -38,9 +41,16 @@ impl TipLattice {
                     high - low
                 ));
             }
-            Ok(steps.round() as u32 + 1)
+            Ok((steps.round() as u32).saturating_add(1))
         };
         let size = [side("x_cm", x_cm)?, side("y_cm", y_cm)?];
+        let points = u64::from(size[0]) * u64::from(size[1]);
+        if points > MAX_POINTS {
+            return Err(format!(
+                "step_cm is {step_cm}, which makes {} × {} points; {MAX_POINTS} in all are accepted",
+                size[0], size[1]
+            ));
+        }
         Grid2::new(size[0], size[1]).map_err(|e| e.to_string())?;
         Ok(Self { low_cm: [x_cm[0], y_cm[0]], step_cm, size })
     }

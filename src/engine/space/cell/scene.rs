@@ -1,10 +1,10 @@
 //! Scenes from files: still obstacles by name, in millimetres as drawings give them.
 
 use crate::geometry::{Capsule, Convex, Frame, GeometryError, HalfSpace, OrientedBox, Solid, Sphere, Vec3};
-use base::settings::{Document, SettingsError};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
-use toml::Spanned;
 
 /// What stands still around a robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +22,10 @@ pub struct Obstacle {
     pub solid: Solid,
 }
 
-#[derive(Deserialize)]
+/// What a scene file may hold.
+pub const SCENE_FILE: Accepted = Accepted::of::<SceneFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
     name: String,
@@ -37,13 +40,13 @@ struct SceneFile {
     convexes: Vec<Spanned<ConvexEntry>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct FloorEntry {
     height_mm: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BoxEntry {
     name: String,
@@ -54,7 +57,7 @@ struct BoxEntry {
     yaw_deg: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SphereEntry {
     name: String,
@@ -62,7 +65,7 @@ struct SphereEntry {
     radius_mm: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CapsuleEntry {
     name: String,
@@ -71,7 +74,7 @@ struct CapsuleEntry {
     radius_mm: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ConvexEntry {
     name: String,

@@ -1,11 +1,11 @@
 //! Scene files: obstacles by name of their shape, or by vertices or planes.
 
 use crate::geometry::{Aabb, Axis, Convex, GeometryError, Vec3};
-use base::settings::{Document, SettingsError};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::Arc;
-use toml::Spanned;
 
 /// Obstacles and the domain they stand in, as read.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,7 +18,10 @@ pub struct Scene {
     pub domain: Aabb,
 }
 
-#[derive(Deserialize)]
+/// What a scene file may hold.
+pub const SCENE_FILE: Accepted = Accepted::of::<SceneFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
     name: String,
@@ -29,14 +32,14 @@ struct SceneFile {
     obstacle: Vec<Spanned<Shape>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct DomainEntry {
     min: [f64; 3],
     max: [f64; 3],
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
 enum Shape {
     Box { center: [f64; 3], size: [f64; 3] },
@@ -48,14 +51,14 @@ enum Shape {
     Planes { planes: Vec<PlaneEntry> },
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneEntry {
     normal: [f64; 3],
     offset: f64,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum AxisName {
     X,
