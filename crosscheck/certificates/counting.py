@@ -155,7 +155,7 @@ def debit(spans: list[Span], given: dict, steps: list) -> None:
 
 
 def interval(spans: list[Span], given: dict, steps: list) -> None:
-    """An end of Clopper and Pearson's interval is not printed so: its tail is a sum of binomials, in fractions."""
+    """An end of Clopper and Pearson's interval is not printed so: tails are summed exactly."""
     k, n, tail, whole = (
         integer(given["k"]),
         integer(given["n"]),

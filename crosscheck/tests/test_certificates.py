@@ -92,7 +92,7 @@ def test_certificates_with_a_wrong_step_or_span_are_refused() -> None:
 
 
 def test_most_changes_of_what_is_given_are_refused() -> None:
-    """What is given is a premise: some other value is as true of the same steps (a grain's ends, unused n)."""
+    """What is given is a premise; another may be as true of the same steps (an end that does not bind)."""
     rng = random.Random(SEED)
     refused = believed = 0
     for certificate in certificates():

@@ -93,6 +93,7 @@ impl Input {
 /// The number in a cell with its name.
 pub fn quoted(index: usize, table: &Table, row: usize, column: usize) -> Option<Quoted> {
     let print = table.print(row, column)?;
-    let name = format!("{} of {}", table.columns[column].name, table.row_name(row));
+    let of = if table.name.is_empty() { String::new() } else { format!("{}: ", table.name) };
+    let name = format!("{of}{} of {}", table.columns[column].name, table.row_name(row));
     Some(Quoted { name, place: table.rows[row][column].place, print, cell: Some([index, row, column]) })
 }
