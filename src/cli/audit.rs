@@ -97,9 +97,13 @@ impl Audit {
         if self.json {
             say!("{:#}", output::json(&source, &report));
         } else {
-            output::guesses(&source, &input).iter().for_each(|guess| say!("{guess}"));
+            for guess in output::guesses(&source, &input) {
+                say!("{guess}");
+            }
             report.findings.iter().for_each(|finding| say!("{}", output::line(&source, finding)));
-            output::summary(&report).iter().for_each(|line| say!("{line}"));
+            for line in output::summary(&report) {
+                say!("{line}");
+            }
         }
         let impossible = report.tally.values().map(|tally| tally.impossible).sum::<usize>();
         match impossible {

@@ -50,7 +50,9 @@ impl Names {
         if group.is_some_and(|group| group.is_numbered) {
             name += &format!("/{}", key.draw);
         }
-        query.iter().for_each(|query| name += &format!("/{query}"));
+        if let Some(query) = query {
+            name += &format!("/{query}");
+        }
         name
     }
 

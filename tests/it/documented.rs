@@ -180,6 +180,8 @@ fn every_committed_file_keeps_to_its_schema_and_a_misspelled_key_does_not() {
     let mut files = vec![
         ("robot", "data/robots/aubo_i10.toml".to_owned()),
         ("robot", "data/robots/motoman_up6.toml".to_owned()),
+        ("robot", "data/robots/puma560.toml".to_owned()),
+        ("robot", "data/robots/ur5.toml".to_owned()),
         ("cell_scene", "data/scenes/fu2018_cell.toml".to_owned()),
         ("cell_groups", "data/scenes/fu2018_groups.toml".to_owned()),
         ("plane_map", "data/scenes/fu2018_particle.toml".to_owned()),
@@ -193,8 +195,10 @@ fn every_committed_file_keeps_to_its_schema_and_a_misspelled_key_does_not() {
             let kind = match name.as_str() {
                 "paper.toml" => "paper",
                 "crosscheck.toml" => "crosscheck",
-                _ if name.ends_with(".toml") => "study",
-                _ => continue,
+                name => match name.strip_suffix(".toml") {
+                    Some(_) => "study",
+                    None => continue,
+                },
             };
             files.push((kind, format!("experiments/{paper}/{name}")));
         }

@@ -97,7 +97,7 @@ impl Lines {
             let [jumps, walls] = words[word];
             let stops = (jumps | walls) & kept;
             if stops != 0 {
-                let stop = 63 - stops.leading_zeros();
+                let stop = stops.ilog2();
                 let is_jump = jumps >> stop & 1 == 1;
                 return (bit - word as u32 * 64 - stop - u32::from(!is_jump), is_jump);
             }
