@@ -8,12 +8,13 @@ use crate::study::paper::Paper;
 use crate::study::record::{PreparedRow, Row, Status};
 use crate::study::store::{Records, read_records};
 use crate::study::{ReadingChoice, Study, StudyError};
+use audit::turns::{Polyline, TurnQuery, shortest_polyline};
 use base::hash::sha256;
 use engine::planner::Exhibit;
 use stats::summary;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// A paper with the stored runs of its studies.
 pub struct Evidence<'a> {
@@ -22,7 +23,11 @@ pub struct Evidence<'a> {
     /// The reading that claims are judged under.
     pub point: ReadingChoice,
     runs: BTreeMap<&'a str, Run<'a>>,
+    polylines: Arc<Polylines>,
 }
+
+/// What was found for each query of [`Evidence::shortest_polyline`], by the query in words.
+type Polylines = Mutex<BTreeMap<String, Arc<OnceLock<Option<Polyline>>>>>;
 
 /// The stored run of one study, as seen under one reading.
 pub struct Run<'a> {
@@ -97,14 +102,26 @@ impl<'a> Evidence<'a> {
         for study in &paper.studies {
             runs.insert(study.name.as_str(), Run::read(study, &point, folder)?);
         }
-        Ok(Self { paper, point, runs })
+        Ok(Self { paper, point, runs, polylines: Arc::default() })
+    }
+
+    /// [`shortest_polyline`], searched once however many checks ask under however many readings.
+    ///
+    /// # Panics
+    /// As that function.
+    pub fn shortest_polyline(&self, query: &TurnQuery) -> Option<Polyline> {
+        let of = |known: &mut BTreeMap<_, Arc<OnceLock<_>>>| {
+            known.entry(format!("{query:?}")).or_default().clone()
+        };
+        let found = of(&mut self.polylines.lock().expect("no thread panics while it holds the lock"));
+        found.get_or_init(|| shortest_polyline(query)).clone()
     }
 
     /// The same records, to be judged under another reading.
     #[must_use]
     pub fn under(&self, point: ReadingChoice) -> Self {
         let runs = self.runs.iter().map(|(name, run)| (*name, run.under(&point))).collect();
-        Self { paper: self.paper, point, runs }
+        Self { paper: self.paper, point, runs, polylines: self.polylines.clone() }
     }
 
     /// The run of the study called `name`.
@@ -206,6 +223,10 @@ impl<'a> Run<'a> {
 
     /// The trials of two contenders on the same problems, solved by both.
     pub fn pairs(&self, group: &str, base: &str, other: &str) -> Vec<Pair<'_>> {
+        if base == other {
+            let solved = self.rows(group, base).into_iter().filter(|row| row.status == Status::Solved);
+            return solved.map(|row| Pair { base: row, other: row }).collect();
+        }
         let solved = |row: &&Row| row.status == Status::Solved;
         let bases: BTreeMap<_, &Row> =
             self.rows(group, base).into_iter().filter(solved).map(|row| (row.case(), row)).collect();

@@ -239,6 +239,15 @@ pub struct Verdicts {
     pub together: Vec<Together>,
 }
 
+/// Counts of verdicts in words, the same on the terminal and in the report.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Counts {
+    /// The claims and how many there are of each verdict; what must hold by a theorem is not among them.
+    pub classes: String,
+    /// How many must hold by a theorem, if any.
+    pub asserted: Option<String>,
+}
+
 impl Verdicts {
     /// Where they lie in the folder of a paper's runs.
     pub fn path(folder: &Path) -> PathBuf {
@@ -268,6 +277,21 @@ impl Verdicts {
     /// The verdicts as TOML.
     pub fn text(&self) -> String {
         toml::to_string(self).expect("verdicts are strings, numbers and tables of them")
+    }
+
+    /// How many claims there are of each verdict.
+    pub fn counts(&self) -> Counts {
+        let (asserted, counted): (Vec<&Judged>, Vec<&Judged>) =
+            self.claims.iter().partition(|judged| judged.theorem.is_some());
+        let of = |verdict: &Verdict| counted.iter().filter(|judged| judged.verdict == *verdict).count();
+        let found = Verdict::ALL.iter().map(|verdict| (of(verdict), verdict.name()));
+        let found = found.filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}"));
+        let classes = format!("{} claims: {}", counted.len(), found.collect::<Vec<_>>().join(", "));
+        let asserted = (!asserted.is_empty()).then(|| {
+            let many = asserted.len();
+            format!("{many} more must hold whatever was drawn; they are asserted and count for nothing")
+        });
+        Counts { classes, asserted }
     }
 
     /// The claim called `id`.

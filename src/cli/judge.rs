@@ -1,6 +1,7 @@
 //! `replan judge`: verdicts from stored runs.
 
 use super::places::Places;
+use super::progress::doing;
 use super::{Failure, How, Which, verdicts};
 use crate::analysis::claims;
 use crate::analysis::difference::differences;
@@ -44,8 +45,7 @@ impl Judge {
 /// Judges again and refuses stored verdicts that are not what comes out, to the byte.
 fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Failure> {
     let (stored, path) = (Verdicts::read(&places.runs)?, Verdicts::path(&places.runs));
-    let evidence = Evidence::read(paper, point, &places.runs)?;
-    let now = claims::judge(&evidence)?;
+    let now = judged(paper, point, places)?;
     let mut found = differences(&stored, &now);
     if found.is_empty() && fs::read(&path)? != now.text().as_bytes() {
         found.push("the same verdicts in other words than `replan judge` writes".to_owned());
@@ -60,8 +60,13 @@ fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Fai
 
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
 pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
-    let evidence = Evidence::read(paper, point, &places.runs)?;
-    let verdicts = claims::judge(&evidence)?;
+    let verdicts = judged(paper, point, places)?;
     verdicts.write(&places.runs)?;
     Ok(verdicts)
+}
+
+/// The verdicts on `paper` under `point` by its stored run.
+fn judged(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
+    doing(&format!("{}: judging {} claims", paper.id, paper.claims.len()));
+    Ok(claims::judge(&Evidence::read(paper, point, &places.runs)?)?)
 }

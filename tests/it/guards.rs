@@ -145,14 +145,14 @@ fn every_stale_file_of_a_figure_is_caught() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
     for name in ["fig1.svg", "fig1.png", "table1.tex", "numbers.tex"] {
-        let place = format!("mini/out/plots/mini/{name}");
+        let place = format!("target/replan/mini/plots/mini/{name}");
         let whole = fs::read(bench.at(&place)).unwrap();
         for at in [whole.len() / 3, whole.len() / 2, whole.len() - 20] {
             let mut stale = whole.clone();
             stale[at] ^= 1;
             bench.write(&place, &stale);
             let said = refused(&bench, &["render", "./mini", "--check"]);
-            assert_eq!(said, format!("replan: not current: ./{place}\n"), "byte {at}");
+            assert_eq!(said, format!("replan: not current: {place}\n"), "byte {at}");
         }
         bench.done(&["render", "./mini"]);
         assert!(fs::read(bench.at(&place)).unwrap() == whole, "{name} was not mended");

@@ -1,6 +1,7 @@
 //! Tests of the crate from outside: its source, its registries, its planners, its command line.
 
 mod arm;
+mod audit;
 mod cell_threads;
 mod circles;
 mod cli_explains;
@@ -14,6 +15,7 @@ mod crosscheck;
 mod documented;
 mod floors;
 mod guards;
+mod jump_points;
 mod latex;
 mod laws;
 mod mutation;

@@ -80,7 +80,7 @@ fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
             "zhang/ensemble.toml",
             "replicates = 200",
             "replicates = 4000000000",
-            "a whole number from 0 to 1000000 is",
+            "`replicates` is 4000000000; a whole number from 1 to 1000000 is",
         ),
         (
             "zhang/ensemble.toml",
@@ -104,7 +104,7 @@ fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
             "fu2018/paper.toml",
             "decimals = 0",
             "decimals = 70000",
-            "found 70000; a whole number from 0 to 15 is",
+            "`decimals` is 70000; a whole number from 0 to 15 is",
         ),
         (
             "fu2018/paper.toml",

@@ -156,6 +156,18 @@ pub const WRONG: &[Wrong] = &[
     ),
     wrong(
         "room",
+        "shows = [{ problems = \"room\", replicates = 1 }]\n",
+        "",
+        "mini/room.toml:23:6: figure `fig1` draws what is kept of trials on `room`, and none is kept; accepted is shows = [",
+    ),
+    wrong(
+        "draws",
+        "replicates = 24",
+        "replicates = 4000000000",
+        "mini/draws.toml:18:14: `replicates` is 4000000000; a whole number from 1 to 1000000 is accepted",
+    ),
+    wrong(
+        "room",
         "id = \"fig1\"",
         "id = \"../fig1\"",
         "mini/room.toml:23:6: the id `../fig1` names files; a to z, 0 to 9 and _",

@@ -5,7 +5,7 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use audit::neighbourhood;
 use audit::printed::Printed;
-use audit::turns::{Convention, Polyline, TurnQuery, shortest_polyline};
+use audit::turns::{Convention, Polyline, TurnQuery};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -63,6 +63,7 @@ struct Joint {
 impl Joint {
     fn new(context: &Context<'_>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
+        super::check_search(context, settings.size, settings.longest)?;
         let window =
             |id: &str| context.printed_of(id).map(|(printed, digits)| (printed, printed.interval(digits)));
         let (length, turn) = (window(&settings.length)?, window(&settings.turn)?);
@@ -81,21 +82,34 @@ impl Joint {
         Ok(Self { settings, length, turn, convention })
     }
 
-    fn shortest(&self, convention: Convention, length: Interval, near: [bool; 2]) -> Option<Polyline> {
+    fn shortest(
+        &self,
+        evidence: &Evidence<'_>,
+        convention: Convention,
+        length: Interval,
+        near: [bool; 2],
+    ) -> Option<Polyline> {
         let Settings { size, start, goal, .. } = self.settings;
         let ends = |cell, near| if near { neighbourhood(cell, size) } else { vec![cell] };
         let (starts, goals) = (ends(start, near[0]), ends(goal, near[1]));
-        shortest_polyline(&TurnQuery { size, starts, goals, convention, turn_deg: self.turn.1, length })
+        evidence.shortest_polyline(&TurnQuery {
+            size,
+            starts,
+            goals,
+            convention,
+            turn_deg: self.turn.1,
+            length,
+        })
     }
 
     /// Whether the pair is impossible under `convention`, and how that was found.
-    fn under(&self, convention: Convention, because: &mut Vec<String>) -> bool {
+    fn under(&self, evidence: &Evidence<'_>, convention: Convention, because: &mut Vec<String>) -> bool {
         let name = match convention {
             Convention::Exterior => "exterior",
             Convention::Interior => "interior",
         };
         let alone = Interval::new(0.0, self.settings.longest);
-        because.push(match self.shortest(convention, alone, [false, false]) {
+        because.push(match self.shortest(evidence, convention, alone, [false, false]) {
             Some(found) => format!(
                 "{name} angles: a turn sum of {} needs a length of {:.4} at least, on any map",
                 self.turn.0, found.length
@@ -105,7 +119,7 @@ impl Joint {
                 self.settings.longest, self.turn.0
             ),
         });
-        let pair = |near| self.shortest(convention, self.length.1, near);
+        let pair = |near| self.shortest(evidence, convention, self.length.1, near);
         let both = format!("{} and {}", self.length.0, self.turn.0);
         if let Some(found) = pair([false, false]) {
             because.push(format!("{name} angles: {both} are met together by {:?}", found.cells));
@@ -127,10 +141,10 @@ impl Joint {
 }
 
 impl Check for Joint {
-    fn judge(&self, _evidence: &Evidence<'_>) -> Finding {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let mut because = Vec::new();
-        let exterior = self.under(Convention::Exterior, &mut because);
-        let interior = self.under(Convention::Interior, &mut because);
+        let exterior = self.under(evidence, Convention::Exterior, &mut because);
+        let interior = self.under(evidence, Convention::Interior, &mut because);
         let is_impossible = if self.convention == Convention::Exterior { exterior } else { interior };
         let Settings { start, goal, .. } = self.settings;
         Finding {

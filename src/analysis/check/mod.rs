@@ -263,6 +263,18 @@ fn listed(problems: &[String]) -> String {
     if problems.len() > 3 { format!("{} problem groups", problems.len()) } else { problems.join(", ") }
 }
 
+/// Refuses a grid or a length that a search for polylines would not come to the end of.
+fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(), SettingsError> {
+    let message = if !size.iter().all(|side| (1..=200).contains(side)) {
+        format!("size is {size:?}; 1 to 200 columns and rows are accepted")
+    } else if !(0.0..=200.0).contains(&longest) {
+        format!("longest is {longest}; 0 to 200 cells are accepted")
+    } else {
+        return Ok(());
+    };
+    Err(context.settings.error(message))
+}
+
 impl<'a> Context<'a> {
     /// The claim's printed number.
     fn printed(&self) -> Result<Printed, SettingsError> {

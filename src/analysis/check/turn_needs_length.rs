@@ -5,7 +5,7 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Finding, Verdict};
 use audit::neighbourhood;
 use audit::printed::Printed;
-use audit::turns::{Convention, TurnQuery, shortest_polyline};
+use audit::turns::{Convention, TurnQuery};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -63,6 +63,7 @@ struct TurnNeedsLength {
 impl TurnNeedsLength {
     fn new(context: &Context<'_>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
+        super::check_search(context, settings.size, settings.longest)?;
         let window =
             |id: &str| context.printed_of(id).map(|(printed, digits)| (printed, printed.interval(digits)));
         let (turn, against) = (window(&settings.turn)?, window(&settings.against)?);
@@ -71,18 +72,25 @@ impl TurnNeedsLength {
     }
 
     /// The least length with a turn sum in `turn_deg`.
-    fn least(&self, convention: Convention, turn_deg: Interval, near: [bool; 2]) -> Option<f64> {
+    fn least(
+        &self,
+        evidence: &Evidence<'_>,
+        convention: Convention,
+        turn_deg: Interval,
+        near: [bool; 2],
+    ) -> Option<f64> {
         let Settings { size, start, goal, longest, .. } = self.settings;
         let ends = |cell, near| if near { neighbourhood(cell, size) } else { vec![cell] };
         let (starts, goals) = (ends(start, near[0]), ends(goal, near[1]));
         let length = Interval::new(0.0, longest);
         let query = TurnQuery { size, starts, goals, convention, turn_deg, length };
-        shortest_polyline(&query).map(|found| found.length)
+        evidence.shortest_polyline(&query).map(|found| found.length)
     }
 
     /// What is left of the proof where one end is moved to a neighbour.
-    fn moved(&self, convention: Convention) -> String {
-        let found = [[true, false], [false, true]].map(|near| self.least(convention, self.turn.1, near));
+    fn moved(&self, evidence: &Evidence<'_>, convention: Convention) -> String {
+        let found =
+            [[true, false], [false, true]].map(|near| self.least(evidence, convention, self.turn.1, near));
         let least = found.into_iter().flatten().fold(f64::INFINITY, f64::min);
         let rests = if least > self.against.1.high { "does not rest" } else { "rests" };
         format!(
@@ -92,11 +100,11 @@ impl TurnNeedsLength {
     }
 
     /// Whether the path is longer than the printed length can stand for, and how that was found.
-    fn under(&self, convention: Convention, because: &mut Vec<String>) -> bool {
+    fn under(&self, evidence: &Evidence<'_>, convention: Convention, because: &mut Vec<String>) -> bool {
         let Self { turn: (turn, window), against: (beside, length), .. } = self;
         let name = if convention == Convention::Exterior { "exterior" } else { "interior" };
         let more = Interval { high: f64::INFINITY, ..*window };
-        let least = [*window, more].map(|window| self.least(convention, window, [false, false]));
+        let least = [*window, more].map(|window| self.least(evidence, convention, window, [false, false]));
         let said = |least: Option<f64>| match least {
             Some(least) => {
                 let change = 100.0 * (least / beside.value() - 1.0);
@@ -113,17 +121,14 @@ impl TurnNeedsLength {
 }
 
 impl Check for TurnNeedsLength {
-    fn judge(&self, _evidence: &Evidence<'_>) -> Finding {
+    fn judge(&self, evidence: &Evidence<'_>) -> Finding {
         let mut because = Vec::new();
-        let exterior = self.under(Convention::Exterior, &mut because);
-        let interior = self.under(Convention::Interior, &mut because);
+        let exterior = self.under(evidence, Convention::Exterior, &mut because);
+        let interior = self.under(evidence, Convention::Interior, &mut because);
         let is_longer = if self.is_exterior { exterior } else { interior };
         if self.settings.shorter && is_longer {
-            because.push(self.moved(if self.is_exterior {
-                Convention::Exterior
-            } else {
-                Convention::Interior
-            }));
+            let meant = if self.is_exterior { Convention::Exterior } else { Convention::Interior };
+            because.push(self.moved(evidence, meant));
         }
         let Settings { start, goal, shorter, .. } = self.settings;
         Finding {

@@ -1,6 +1,6 @@
 //! A planar arm among obstacles: what each tip position is, paths of the tip, the arm at stations along them.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::{Cells, Line, Points, Shape};
@@ -71,6 +71,10 @@ fn yes() -> bool {
 }
 
 impl Kind for ArmPlane {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        self.panels.iter().flat_map(|panel| Shown::first(&panel.problem, &panel.contenders)).collect()
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, self.panels.len().min(2), PLOT_PT);
         for panel in &self.panels {

@@ -1,7 +1,7 @@
 //! The whole arm along its path: postures at even intervals, the last one solid, one row a contender, one panel a view.
 
 use super::polyhedra_scene::{View, add_obstacles, panel, points, stored};
-use super::{Entry, Kind, Scene};
+use super::{Entry, Kind, Scene, Shown};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Key, Sheet, Swatch};
@@ -61,6 +61,10 @@ fn axis(share: f64) -> Stroke {
 }
 
 impl Kind for ArmPoses {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.problem, &self.contenders)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let columns = if self.views.len() == 1 { self.contenders.len() } else { self.views.len() };
         let mut sheet = Sheet::new(Width::Double, columns, PLOT_PT).noted("Rod radii are assumed.");

@@ -1,6 +1,6 @@
 //! Both postures of a planar two-link arm at one point.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::canvas::{Align, Stand, Type};
 use crate::render::chart::marks::{Line, Note, Points};
@@ -36,6 +36,10 @@ struct ArmPostures {
 }
 
 impl Kind for ArmPostures {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::prepared(&self.problem)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let both = ask::exhibit(scene, ask::draw(scene, &self.problem, 0)?, "branches")?;
         let stations: Vec<&[f64]> = both.values.chunks(both.width).collect();

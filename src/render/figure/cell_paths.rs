@@ -1,7 +1,7 @@
 //! Ways of the tool in a work cell: one column a contender on one query, from two sides.
 
 use super::cell_poses::{VIEWS, add_capsules, furnished, panel};
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::analysis::draws::Compared;
 use crate::analysis::metric;
 use crate::render::RenderError;
@@ -97,6 +97,10 @@ impl CellPaths {
 }
 
 impl Kind for CellPaths {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.problems, &self.contenders)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let replicate = ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
         let mut sheet = Sheet::new(Width::Double, self.contenders.len(), 200.0);

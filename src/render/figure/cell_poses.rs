@@ -1,6 +1,6 @@
 //! A work cell with its robot at several poses, from two sides.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Axis, Key, Panel, Sheet, Trim};
@@ -111,6 +111,10 @@ pub(super) fn panel(
 impl CellPoses {}
 
 impl Kind for CellPoses {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::prepared(&self.problems)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let draw = ask::draw(scene, &self.problems, 0)?;
         let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);

@@ -1,6 +1,6 @@
 //! Where pairs of end points lie that have printed lengths.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
@@ -53,6 +53,10 @@ struct PanelSetting {
 }
 
 impl Kind for EndpointPairs {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::prepared(&self.problem)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, self.panels.len(), PLOT_PT);
         let mut first = 0;

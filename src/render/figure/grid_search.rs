@@ -1,6 +1,6 @@
 //! Searches on one grid map: opened cells of each side, raw and tidied path, one panel a contender.
 
-use super::{Entry, Kind, Scene};
+use super::{Entry, Kind, Scene, Shown};
 use crate::render::RenderError;
 use crate::render::chart::legend::{Key, cell_key};
 use crate::render::chart::marks::{Cells, Line, Points};
@@ -55,6 +55,10 @@ pub(super) fn blocked() -> Rgb {
 }
 
 impl Kind for GridSearch {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.problem, &self.contenders)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, self.contenders.len(), PLOT_PT);
         for contender in &self.contenders {

@@ -1,6 +1,6 @@
 //! Joint angles along the paths of contenders, over time; one panel a contender.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -38,6 +38,10 @@ struct JointCurves {
 }
 
 impl Kind for JointCurves {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.problems, &self.contenders)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let draw = ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
         let mut found = Vec::new();

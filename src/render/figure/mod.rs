@@ -62,12 +62,48 @@ pub trait Kind {
     /// [`RenderError::NotStored`] if the run lacks what it shows; axes that cannot be drawn.
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError>;
 
+    /// The trials whose exhibits it draws: a spec must keep them.
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Vec::new()
+    }
+
     /// The numbers behind the figure as a table under its own name, where they are worth one.
     ///
     /// # Errors
     /// As [`draw`](Self::draw).
     fn table(&self, _scene: &Scene<'_>, _label: &str, _caption: &str) -> Result<Option<Table>, RenderError> {
         Ok(None)
+    }
+}
+
+/// Trials of which a figure draws what was kept.
+pub struct Shown<'a> {
+    /// The problem group.
+    pub problems: &'a str,
+    /// The contender; any if what was prepared for the group is drawn.
+    pub contender: Option<&'a str>,
+    /// The draw.
+    pub draw: u32,
+}
+
+impl<'a> Shown<'a> {
+    /// The first draw of `problems`, by each of `contenders`.
+    fn first(problems: &'a str, contenders: &'a [String]) -> Vec<Self> {
+        let by = |label: &'a String| Self { problems, contender: Some(label), draw: 0 };
+        contenders.iter().map(by).collect()
+    }
+
+    /// What was prepared for the first draw of `problems`.
+    fn prepared(problems: &'a str) -> Vec<Self> {
+        vec![Self { problems, contender: None, draw: 0 }]
+    }
+
+    /// Whether `study` keeps it.
+    fn is_kept(&self, study: &Study) -> bool {
+        study.kept().filter(|trials| trials.problems == self.problems).any(|trials| {
+            let is_by = |label: &str| trials.contender.as_deref().is_none_or(|kept| kept == label);
+            trials.replicates > self.draw && self.contender.is_none_or(is_by)
+        })
     }
 }
 
@@ -196,11 +232,29 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
         Some(settings) => Settings::written(&study.document, settings),
         None => Settings::composed(String::new(), Toml::new()),
     };
-    (entry.build)(&settings, study, paper).map_err(|error| match figure.settings {
+    let kind = (entry.build)(&settings, study, paper).map_err(|error| match figure.settings {
         Some(_) => error,
         None => study.document.error(
             figure.id.span(),
             format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message()),
         ),
-    })
+    })?;
+    check_kept(figure, study, kind.as_ref())?;
+    Ok(kind)
+}
+
+/// Refuses a figure that draws what no trial of the study would keep.
+fn check_kept(figure: &FigureSpec, study: &Study, kind: &dyn Kind) -> Result<(), SettingsError> {
+    let Some(Shown { problems, contender, draw }) =
+        kind.shown().into_iter().find(|shown| !shown.is_kept(study))
+    else {
+        return Ok(());
+    };
+    let (id, replicates) = (figure.id.get_ref(), draw + 1);
+    let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));
+    let message = format!(
+        "figure `{id}` draws what is kept of trials on `{problems}`, and none is kept; accepted is \
+         shows = [{{ problems = \"{problems}\"{by}, replicates = {replicates} }}]"
+    );
+    Err(study.document.error(figure.id.span(), message))
 }

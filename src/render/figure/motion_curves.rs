@@ -1,7 +1,7 @@
 //! How tip, posture or joints change over the time of a motion, one panel a contender.
 
 use super::polyhedra_scene::stored;
-use super::{Entry, Kind, Scene};
+use super::{Entry, Kind, Scene, Shown};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -84,6 +84,10 @@ impl Quantity {
 }
 
 impl Kind for MotionCurves {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.problem, &self.contenders)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let note = "Stored configurations follow each other at equal times.";
         let mut sheet = Sheet::new(Width::Double, self.contenders.len(), PLOT_PT).noted(note);

@@ -1,6 +1,6 @@
 //! Neighbourhoods of planners that move over a lattice: the region, and what was drawn from it.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
@@ -40,6 +40,10 @@ struct Neighbourhoods {
 }
 
 impl Kind for Neighbourhoods {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.problem, &self.contenders)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let rows = self.contenders.iter().map(|label| ask::trial(scene, &self.problem, 0, None, label));
         let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;

@@ -1,6 +1,6 @@
 //! A particle's searches on one roadmap in the plane: the first searches of each contender, one panel each.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Note, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
@@ -70,6 +70,14 @@ fn points(exhibit: &Exhibit) -> Vec<[f64; 2]> {
 }
 
 impl Kind for PlaneSearch {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        let shown = self.panels.iter().map(|panel| {
+            let contender = (!panel.bare).then_some(panel.contender.as_str());
+            Shown { problems: &self.problems, contender, draw: self.draw }
+        });
+        shown.collect()
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, self.panels.len().min(2), 200.0);
         for of in &self.panels {

@@ -1,7 +1,7 @@
 //! Tip paths among polyhedra: one row a contender, one panel a view.
 
 use super::polyhedra_scene::{View, add_obstacles, panel, points, stored};
-use super::{Entry, Kind, Scene};
+use super::{Entry, Kind, Scene, Shown};
 use crate::render::RenderError;
 use crate::render::chart::{Key, Sheet, Swatch};
 use crate::render::scene3::{Paint, Scene as Solids};
@@ -49,6 +49,10 @@ struct PolyhedraPaths {
 }
 
 impl Kind for PolyhedraPaths {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.problem, &self.contenders)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         // One view each: contenders stand side by side.
         let columns = if self.views.len() == 1 { self.contenders.len() } else { self.views.len() };

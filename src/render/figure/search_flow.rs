@@ -1,7 +1,7 @@
 //! How a search on a grid map went on: the cells opened so far, one panel a moment.
 
 use super::grid_search::{add_ends, blocked, centres, goal_side, listed, map, painted, start_side};
-use super::{Entry, Kind, Scene, check_labels};
+use super::{Entry, Kind, Scene, Shown, check_labels};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::{Line, Points};
@@ -47,6 +47,10 @@ struct SearchFlow {
 }
 
 impl Kind for SearchFlow {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.problem, std::slice::from_ref(&self.contender))
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let rows = scene.run.rows(&self.problem, &self.contender);
         let row = rows.first().ok_or_else(|| RenderError::NotStored {

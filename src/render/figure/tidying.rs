@@ -1,7 +1,7 @@
 //! How a path on a grid map was tidied: bends before and after, and the lines of sight that were refused.
 
 use super::grid_search::{add_ends, blocked, centres, map, painted};
-use super::{Entry, Kind, Scene, check_labels};
+use super::{Entry, Kind, Scene, Shown, check_labels};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::{Line, Points};
@@ -41,6 +41,11 @@ struct Tidying {
 }
 
 impl Kind for Tidying {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        let one = std::slice::from_ref(&self.contender);
+        self.problems.iter().flat_map(|problem| Shown::first(problem, one)).collect()
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, self.problems.len(), PLOT_PT);
         for problem in &self.problems {

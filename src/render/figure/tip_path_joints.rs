@@ -1,6 +1,6 @@
 //! Joint angles of a planar arm along the paths of its tip.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -65,6 +65,10 @@ struct PanelSetting {
 type Curves<'a> = Vec<(&'a String, Vec<[f64; 2]>)>;
 
 impl Kind for TipPathJoints {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        self.panels.iter().flat_map(|panel| Shown::first(&panel.problem, &panel.contenders)).collect()
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, self.columns, PLOT_PT);
         let mut all = Vec::new();

@@ -12,7 +12,7 @@ use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, Sw
 use base::settings::{Document, Faults, SettingsError, Spanned, did_you_mean, none_called};
 use engine::planner::{self, Build};
 use engine::space::roadmap::Extent;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
@@ -52,7 +52,12 @@ impl Study {
             question: spec.question,
             seed: spec.seed,
             task: named.and_then(|named| faults.keep(named)).unwrap_or_else(task::default),
-            task_settings: optional(document, spec.task_settings.as_ref(), "task_settings"),
+            task_settings: optional(
+                document,
+                spec.task_settings.as_ref(),
+                spec.task.as_ref().map_or(0, |task| task.span().start),
+                "task_settings",
+            ),
             searched: spec.searched,
             fitted_to: spec.fitted_to.into_iter().map(Spanned::into_inner).collect(),
             groups: spec.problems.iter().filter_map(|p| faults.keep(group(document, p))).collect(),
@@ -88,10 +93,40 @@ impl Study {
             Ok(points) => {
                 let mut known = Families::default();
                 let mut check = |point| self.check_point(point, inputs, &mut known, faults);
-                points.iter().try_for_each(&mut check)
+                points.iter().try_for_each(&mut check)?;
+                if faults.is_empty() {
+                    self.check_ends(&points[0], inputs, &mut known, faults)
+                } else {
+                    Ok(())
+                }
             }
             Err(error) => keep(faults, Err(error)).map(|_: Option<()>| ()),
         }
+    }
+
+    /// Refuses problems whose start or goal is in collision under the default reading.
+    ///
+    /// Under other readings, and in groups that vary another group of their family, an end may be in collision: the
+    /// trials are then rows that say so.
+    fn check_ends(
+        &self,
+        default: &ReadingChoice,
+        inputs: &Inputs,
+        known: &mut Families,
+        faults: &mut Faults,
+    ) -> Result<(), StudyError> {
+        let mut posed = BTreeMap::new();
+        for group in &self.groups {
+            let ends = known.of(group, default, inputs)?.check_ends();
+            let of_family = posed.entry(group.family.name).or_insert(ends.clone());
+            if ends.is_ok() {
+                *of_family = ends;
+            }
+        }
+        for ends in posed.into_values() {
+            faults.keep(ends);
+        }
+        Ok(())
     }
 
     fn check_point(
@@ -246,11 +281,13 @@ fn look_up<T>(
     find(name.get_ref()).ok_or_else(|| document.error(name.span(), none_called(what, name.get_ref(), known)))
 }
 
-fn optional(document: &Arc<Document>, table: Option<&Spanned<Table>>, whose: &str) -> Settings {
-    match table {
-        Some(table) => Settings::written(document, table),
-        None => Settings::composed(format!("{}: {whose}", document.path().display()), Table::new()),
-    }
+/// The settings in `table`; without it, empty ones of what is named at byte `at`.
+fn optional(document: &Arc<Document>, table: Option<&Spanned<Table>>, at: usize, whose: &str) -> Settings {
+    let Some(table) = table else {
+        let line = document.text()[..at].matches('\n').count() + 1;
+        return Settings::composed(format!("{}:{line}: {whose}", document.path().display()), Table::new());
+    };
+    Settings::written(document, table)
 }
 
 fn sweep(spec: SweepSpec) -> Sweep {
@@ -320,7 +357,7 @@ fn stage(
         );
         document.error(name.span(), message)
     })?;
-    let settings = optional(document, settings, &format!("contender `{label}`, {what} `{}`", entry.name));
-    let settings = settings.completed(entry.settings);
+    let whose = format!("contender `{label}`, {what} `{}`", entry.name);
+    let settings = optional(document, settings, name.span().start, &whose).completed(entry.settings);
     Ok(StageUse { entry, settings })
 }

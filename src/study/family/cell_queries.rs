@@ -18,6 +18,7 @@ use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// The registry's entry.
@@ -213,7 +214,10 @@ struct GroupEntry {
     to: Spanned<String>,
 }
 
-fn read_queries(document: &Document) -> Result<Vec<Query>, SettingsError> {
+/// The queries of a file, and where the ends of each are named in it.
+type Placed = (Vec<Query>, Vec<[Range<usize>; 2]>);
+
+fn read_queries(document: &Document) -> Result<Placed, SettingsError> {
     let file: GroupsFile = document.read()?;
     let pose = |name: &Spanned<String>| {
         let found = file.pose_deg.get(name.get_ref()).ok_or_else(|| {
@@ -235,7 +239,21 @@ fn read_queries(document: &Document) -> Result<Vec<Query>, SettingsError> {
     if queries.is_empty() {
         return Err(document.error_at("group", "there is no group; at least one is accepted"));
     }
-    Ok(queries)
+    let places = file.groups.iter().map(|group| [group.from.span(), group.to.span()]).collect();
+    Ok((queries, places))
+}
+
+/// The first end of a query that the arm cannot stand at in `cell`.
+fn unposed(cell: &Cell, document: &Document, (queries, places): &Placed) -> Option<SettingsError> {
+    queries.iter().zip(places).find_map(|(query, places)| {
+        let ends = [("start", &query.start), ("goal", &query.goal)].into_iter().zip(places);
+        ends.into_iter().find_map(|((what, end), place)| {
+            let pose: Joints = end.as_slice().try_into().expect("a pose has six angles");
+            let refusal = cell.refusal(&pose)?;
+            let message = format!("the {what} of group `{}` cannot be posed: {refusal}", query.name);
+            Some(document.error(place.clone(), message))
+        })
+    })
 }
 
 struct Posed {
@@ -244,6 +262,7 @@ struct Posed {
     bounds_rad: [[f64; 2]; AXES],
     branch: Option<Branch>,
     queries: Vec<Query>,
+    unposed: Option<SettingsError>,
     inputs: [PathBuf; 3],
 }
 
@@ -263,13 +282,16 @@ impl Posed {
             None => robot,
         };
         let scene = Scene::load(&files[1])?;
-        let queries = read_queries(Document::open(&files[2])?.as_ref())?;
+        let document = Document::open(&files[2])?;
+        let placed = read_queries(&document)?;
         let scene = if read.obstacles { scene } else { Scene::empty() };
         let cell = Cell::new(robot, scene, read.self_collision);
+        let unposed = unposed(&cell, &document, &placed);
+        let (queries, _) = placed;
         let bounds_rad = bounds_rad(&cell, read.region, &queries);
         let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
         let branch = (read.region == Region::OneBranch).then(|| cell.robot().arm().branch_of(&home));
-        Ok(Self { read, cell, bounds_rad, branch, queries, inputs: files })
+        Ok(Self { read, cell, bounds_rad, branch, queries, unposed, inputs: files })
     }
 
     /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.
@@ -345,6 +367,10 @@ impl Family for Posed {
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        self.unposed.clone().map_or(Ok(()), Err)
     }
 
     fn extent(&self) -> Option<Extent> {

@@ -203,8 +203,8 @@ impl Conditioned {
 /// `error` of settings that were put together from `settings`, with their place in the file.
 fn placed(settings: &Settings, origin: &str, error: StudyError) -> StudyError {
     match error {
-        StudyError::Settings(SettingsError::Composed { message, .. }) => {
-            settings.error(format!("{origin}: {message}")).into()
+        StudyError::Settings(error @ (SettingsError::Composed { .. } | SettingsError::Several(_))) => {
+            settings.error(format!("{origin}: {}", error.message())).into()
         }
         other => other,
     }
@@ -270,6 +270,10 @@ impl Family for Rejection {
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        self.families.iter().try_for_each(|family| family.check_ends())
     }
 
     fn inputs(&self) -> &[PathBuf] {

@@ -3,7 +3,7 @@
 use crate::study::StudyError;
 use crate::study::inputs::Inputs;
 use crate::study::prepared::Prepared;
-use base::settings::{Accepted, Settings};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::{Counts, Invalid};
 use engine::space::roadmap::Extent;
 use engine::space::{World, WorldKind};
@@ -46,6 +46,14 @@ pub trait Family: Send + Sync {
     fn queries_for(&self, seed: u64) -> Vec<Query> {
         let _ = seed;
         self.queries().to_vec()
+    }
+
+    /// That every start and goal written in its settings or files can be stood at.
+    ///
+    /// # Errors
+    /// The first that cannot, at its place.
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        Ok(())
     }
 
     /// How large its roadmaps are, if it poses problems on roadmaps.

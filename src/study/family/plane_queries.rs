@@ -42,9 +42,10 @@ radius_mm = 220
         let document = Document::open(&file)?;
         let map: MapFile = document.read()?;
         let plane = map.plane(&document)?;
-        let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.to_vec());
+        let unposed = map.unposed(&plane, &document);
+        let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.into_inner().to_vec());
         let queries = [Query { name: String::new(), start, goal }];
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, inputs: [file] }))
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, unposed, inputs: [file] }))
     },
 };
 
@@ -75,9 +76,9 @@ struct MapFile {
     /// How wide and how high the plane is.
     size_mm: [f64; 2],
     /// x and y of the start.
-    start_mm: [f64; 2],
+    start_mm: Spanned<[f64; 2]>,
     /// x and y of the goal.
-    goal_mm: [f64; 2],
+    goal_mm: Spanned<[f64; 2]>,
     /// The obstacles: convex polygons.
     #[serde(rename = "obstacle")]
     obstacles: Vec<Spanned<ObstacleEntry>>,
@@ -91,6 +92,14 @@ struct ObstacleEntry {
 }
 
 impl MapFile {
+    /// The end at which the particle cannot stand, the start first.
+    fn unposed(&self, plane: &PlaneMap, document: &Document) -> Option<SettingsError> {
+        [("start", &self.start_mm), ("goal", &self.goal_mm)].into_iter().find_map(|(what, end)| {
+            let refusal = plane.refusal(*end.get_ref())?;
+            Some(document.error(end.span(), format!("the {what} cannot be posed: {refusal}")))
+        })
+    }
+
     fn plane(&self, document: &Document) -> Result<PlaneMap, SettingsError> {
         let polygon = |entry: &Spanned<ObstacleEntry>| {
             let corners = &entry.get_ref().corners_mm;
@@ -114,6 +123,7 @@ struct Drawn {
     read: PlaneQueries,
     plane: PlaneMap,
     queries: [Query; 1],
+    unposed: Option<SettingsError>,
     inputs: [PathBuf; 1],
 }
 
@@ -151,6 +161,10 @@ impl Family for Drawn {
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        self.unposed.clone().map_or(Ok(()), Err)
     }
 
     fn extent(&self) -> Option<Extent> {
