@@ -31,7 +31,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "expansions = 10_000",
         "expansions = 0",
-        "mini/draws.toml:6:14: `expansions` is 0; a whole number of 1 or more is accepted",
+        "mini/draws.toml:6:14: `expansions` is 0; a whole number from 1 to 1000000000000 is",
     ),
     wrong(
         "draws",
@@ -91,7 +91,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "replicates = 24",
         "replicates = 0",
-        "mini/draws.toml:18:14: `replicates` is 0; a whole number from 1 to 4294967295 is",
+        "mini/draws.toml:18:14: `replicates` is 0; a whole number from 1 to 1000000 is",
     ),
     wrong(
         "draws",

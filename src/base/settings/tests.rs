@@ -161,63 +161,56 @@ fn said(text: &str) -> Vec<(usize, usize, String)> {
     errors.into_iter().map(place).collect()
 }
 
+/// What is written; the line and the column of what is said of it; what is said.
+const FAULTS: &[(&str, usize, usize, &str)] = &[
+    (
+        "name = 'x'",
+        1,
+        1,
+        "missing key `count` (How many there are); a whole number from 0 to 255 is accepted",
+    ),
+    ("count = 256", 1, 9, "`count` is 256; a whole number from 0 to 255 is accepted"),
+    ("count = 0x100", 1, 9, "`count` is 0x100; a whole number from 0 to 255 is accepted"),
+    ("count = 1.0", 1, 9, "`count` is 1.0; a whole number from 0 to 255 is accepted"),
+    ("count = 1\nreach_cm = 4", 2, 12, "`reach_cm` is 4; a number from 1 to 3 is accepted"),
+    ("count = 1\nreach_cm = inf", 2, 12, "`reach_cm` is inf; a finite number from 1 to 3 is accepted"),
+    ("count = 1\nthere = 'yes'", 2, 9, "`there` is \"yes\"; true or false is accepted"),
+    ("count = 1\nweight = true", 2, 10, "`weight` is true; a number, \"falling\" or \"rising\" is accepted"),
+    (
+        "count = 1\nweight = 'risin'",
+        2,
+        10,
+        "`weight` is \"risin\" (did you mean `rising`?); a number, \"falling\" or \"rising\" is accepted",
+    ),
+    ("count = 1\n[[solid]]\nradius = 1", 2, 1, "missing key `shape`; accepted: \"ball\", \"box\""),
+    (
+        "count = 1\n[[solid]]\nshape = 'bal'",
+        3,
+        9,
+        "`shape` is \"bal\" (did you mean `ball`?); \"ball\", \"box\" is accepted",
+    ),
+    ("count = 1\n[[solid]]\nshape = 'ball'", 2, 1, "missing key `radius` (Its radius); a number is accepted"),
+    (
+        "count = 1\n[[solid]]\nshape = 'box'\nsides = [1, 2]",
+        4,
+        9,
+        "`sides` is an array of 2; an array of 3 (a number each) is accepted",
+    ),
+    (
+        "count = 1\n[[solid]]\nshape = 'box'\nsides = [1, 2, 'c']",
+        4,
+        16,
+        "`sides[2]` is \"c\"; a number is accepted",
+    ),
+    ("count = 1\nsolids = 3", 2, 1, "unknown key `solids` (did you mean `solid`?); accepted: `count`, "),
+];
+
 #[test]
 fn each_fault_stands_at_its_own_key_or_value_with_what_is_accepted() {
-    for (text, line, column, message) in [
-        (
-            "name = 'x'",
-            1,
-            1,
-            "missing key `count` (How many there are); a whole number from 0 to 255 is accepted",
-        ),
-        ("count = 256", 1, 9, "`count` is 256; a whole number from 0 to 255 is accepted"),
-        ("count = 0x100", 1, 9, "`count` is 0x100; a whole number from 0 to 255 is accepted"),
-        ("count = 1.0", 1, 9, "`count` is 1.0; a whole number from 0 to 255 is accepted"),
-        ("count = 1\nreach_cm = 4", 2, 12, "`reach_cm` is 4; a number from 1 to 3 is accepted"),
-        ("count = 1\nreach_cm = inf", 2, 12, "`reach_cm` is inf; a finite number from 1 to 3 is accepted"),
-        ("count = 1\nthere = 'yes'", 2, 9, "`there` is \"yes\"; true or false is accepted"),
-        (
-            "count = 1\nweight = true",
-            2,
-            10,
-            "`weight` is true; a number, \"falling\" or \"rising\" is accepted",
-        ),
-        (
-            "count = 1\nweight = 'risin'",
-            2,
-            10,
-            "`weight` is \"risin\" (did you mean `rising`?); a number, \"falling\" or \"rising\" is accepted",
-        ),
-        ("count = 1\n[[solid]]\nradius = 1", 2, 1, "missing key `shape`; accepted: \"ball\", \"box\""),
-        (
-            "count = 1\n[[solid]]\nshape = 'bal'",
-            3,
-            9,
-            "`shape` is \"bal\" (did you mean `ball`?); \"ball\", \"box\" is accepted",
-        ),
-        (
-            "count = 1\n[[solid]]\nshape = 'ball'",
-            2,
-            1,
-            "missing key `radius` (Its radius); a number is accepted",
-        ),
-        (
-            "count = 1\n[[solid]]\nshape = 'box'\nsides = [1, 2]",
-            4,
-            9,
-            "`sides` is an array of 2; an array of 3 (a number each) is accepted",
-        ),
-        (
-            "count = 1\n[[solid]]\nshape = 'box'\nsides = [1, 2, 'c']",
-            4,
-            16,
-            "`sides[2]` is \"c\"; a number is accepted",
-        ),
-        ("count = 1\nsolids = 3", 2, 1, "unknown key `solids` (did you mean `solid`?); accepted: `count`, "),
-    ] {
+    for (text, line, column, message) in FAULTS {
         let found = said(text);
         let [(l, c, m)] = found.as_slice() else { panic!("{text}: {found:?}") };
-        assert_eq!((*l, *c), (line, column), "{text}: {m}");
+        assert_eq!((*l, *c), (*line, *column), "{text}: {m}");
         assert!(m.starts_with(message), "{text}\nis said: {m}\nshould be: {message}");
     }
 }
