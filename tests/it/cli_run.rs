@@ -229,7 +229,7 @@ fn why_says_that_a_stored_run_cannot_be_read() {
     let out = bench.done(&["run", "./mini", "--why"]);
     assert!(
         out.contains(
-            "why: what is stored cannot be used: target/replan/mini/data/runs/mini/draws.manifest.toml:1:1: the file"
+            "why: what is stored cannot be used: target/replan/mini/data/runs/mini/draws.manifest.toml:1:1: missing field `study`"
         ),
         "{out}"
     );
