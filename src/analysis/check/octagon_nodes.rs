@@ -13,9 +13,9 @@ pub static ENTRY: Entry = Entry {
     name: "octagon_nodes",
     about: "is there a regular octagon about a lattice point that holds as many other lattice points as stated?",
     settings: Accepted::of::<OctagonNodes>(),
-    example: r#"
+    example: "
 nodes = 48
-"#,
+",
     build: |context| {
         let settings: OctagonNodes = context.settings.read()?;
         if settings.nodes == 0 || settings.nodes > 10_000 {

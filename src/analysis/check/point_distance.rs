@@ -14,10 +14,10 @@ pub static ENTRY: Entry = Entry {
     name: "point_distance",
     about: "is a printed distance that between two printed points?",
     settings: Accepted::of::<Settings>(),
-    example: r#"
+    example: "
 from = [22.5, 15.5]
 to = [26.5, 28.5]
-"#,
+",
     build: |context| {
         let settings: Settings = context.settings.read()?;
         Ok(Box::new(PointDistance { settings, printed: context.printed()?, digits: context.digits() }))

@@ -15,10 +15,10 @@ pub static ENTRY: Entry = Entry {
     name: "straight_line",
     about: "is a printed length at least the straight line between start and goal?",
     settings: Accepted::of::<Settings>(),
-    example: r#"
+    example: "
 start = [22.0, 15.0]
 goal = [26.0, 28.0]
-"#,
+",
     build: |context| {
         let settings: Settings = context.settings.read()?;
         Ok(Box::new(StraightLine { settings, printed: context.printed()?, digits: context.digits() }))

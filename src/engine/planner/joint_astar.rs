@@ -31,10 +31,10 @@ pub static ENTRY: Entry = Entry {
     needs: WorldKind::ArmAmongPolyhedra,
     columns: COLUMNS,
     settings: Accepted::of::<JointAstar>(),
-    example: r#"
+    example: "
 delta_deg = 10.0
 neighbours = 12
-"#,
+",
     build: Build::Planner(|settings| {
         let read: JointAstar = settings.read()?;
         if !(read.delta_deg > 0.0 && read.delta_deg <= 45.0) {

@@ -22,9 +22,9 @@ pub static ENTRY: Entry = Entry {
     needs: WorldKind::Polyhedra,
     columns: &["opened", "expansions", "generated"],
     settings: Accepted::of::<Visibility>(),
-    example: r#"
+    example: "
 spacing_cm = 3.0
-"#,
+",
     build: Build::Planner(|settings| {
         let read: Visibility = settings.read()?;
         if !(read.spacing_cm.is_finite() && read.spacing_cm > 0.0) {

@@ -35,10 +35,10 @@ pub static ENTRY: Entry = Entry {
         "largest_excess_cm",
     ],
     settings: Accepted::of::<FormulaError>(),
-    example: r#"
+    example: "
 samples = 500
 reach = 0.5
-"#,
+",
     build: |settings: &Settings| {
         let read: FormulaError = settings.read()?;
         if read.samples == 0 {
