@@ -5,13 +5,27 @@
 //! made in integers; angles come from `libm`. Cells are `[x, y]` and stand for their centres, one unit apart.
 
 pub mod bounds;
+pub mod certificate;
+pub mod checks;
 pub mod clock;
+pub mod coverage;
+pub mod exact;
 pub mod fvalues;
+pub mod input;
 pub mod lattice;
+pub mod meaning;
+pub mod output;
 pub mod percent;
 pub mod printed;
+pub mod reader;
+pub mod relation;
+pub mod report;
+pub mod sample;
 pub mod sight;
+pub mod statistic;
+pub mod table;
 pub mod turns;
+pub mod witness;
 
 /// A lattice cell `[x, y]`.
 pub type Cell = [i32; 2];

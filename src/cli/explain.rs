@@ -39,7 +39,7 @@ pub fn explained(item: &Item) -> String {
             parts.extend(keys.iter().map(key));
         }
         None => {
-            parts.push("\nIt has no settings of its own; the family of the problems has them.".to_owned())
+            parts.push("\nIt has no settings of its own; the family of the problems has them.".to_owned());
         }
     }
     if !item.example.is_empty() {

@@ -1,8 +1,8 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 a check said no: something is not as stored, is judged otherwise, or an independent judge disagrees;
-//! 4 `crosscheck` lacks Python or the network; 130 interrupted, and what was done is kept.
+//! wrong input files; 3 a check said no: something is not as stored, is judged otherwise, is impossible, or an independent judge
+//! disagrees; 4 `crosscheck` lacks Python or the network; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
 macro_rules! say {
@@ -12,6 +12,7 @@ macro_rules! say {
     }};
 }
 
+mod audit;
 pub mod catalogue;
 mod check;
 mod crosscheck;
@@ -65,6 +66,8 @@ enum Command {
     Render(render::Render),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
+    /// Ask of a printed table, by arithmetic alone, whether any data could have given it
+    Audit(audit::Audit),
     /// Write a JSON Schema of every kind of TOML file, for editors
     Schema(schema::Schema),
     /// List papers, studies, planners, tasks, checks, metrics, figure kinds, readings and more
@@ -168,6 +171,7 @@ pub fn run() -> ExitCode {
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
+        Command::Audit(command) => command.run(),
         Command::List(command) => command.run(),
         Command::Schema(command) => command.run(),
     };

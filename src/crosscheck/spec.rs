@@ -28,15 +28,22 @@ pub const FILE: Accepted = Accepted::of::<SpecFile>();
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SpecFile {
+    /// The root of every seed.
     seed: u64,
+    /// How much is drawn and compared.
     sizes: Sizes,
+    /// What the picture shows.
     picture: PictureEntry,
+    /// Robots whose kinematics are judged.
     #[serde(default, rename = "robot")]
     robots: Vec<Spanned<RobotEntry>>,
+    /// Scenes whose distances are judged.
     #[serde(default, rename = "scene")]
     scenes: Vec<Spanned<SceneEntry>>,
+    /// Stored paths of robots in scenes that are judged.
     #[serde(default, rename = "stored")]
     stored: Vec<Spanned<StoredEntry>>,
+    /// Planar arms whose stored paths are judged.
     #[serde(default, rename = "workspace")]
     workspaces: Vec<Spanned<WorkspaceEntry>>,
 }
@@ -45,18 +52,26 @@ struct SpecFile {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PictureEntry {
+    /// The case, by its label.
     case: Spanned<String>,
+    /// The keyframe, by its name.
     key: Spanned<String>,
+    /// How far the camera is turned about the vertical.
     azimuth_deg: f64,
+    /// How far the camera looks above the horizon; negative looks down.
     elevation_deg: f64,
+    /// How near the camera is; at 1 everything but endless planes is well in the picture.
     zoom: f64,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RobotEntry {
+    /// Its name in tables.
     label: String,
+    /// Its file, from the repository's root.
     file: String,
+    /// The body of the robot's file that is judged.
     body: String,
     /// What is straight between the stops of a stored path.
     straight: Straight,
@@ -65,15 +80,20 @@ struct RobotEntry {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Straight {
+    /// The tool moves straight.
     Tool,
+    /// The joint angles move straight.
     Joints,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneEntry {
+    /// Its name in tables.
     label: String,
+    /// Its file, from the repository's root.
     file: String,
+    /// How the scene file is written.
     format: SceneFormat,
 }
 
@@ -90,8 +110,11 @@ enum SceneFormat {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct StoredEntry {
+    /// The robot, by its label.
     robot: String,
+    /// The scene, by its label.
     scene: String,
+    /// The stored paths that are judged.
     paths: StoredPaths,
 }
 
@@ -99,7 +122,9 @@ struct StoredEntry {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct WorkspaceEntry {
+    /// Its name in tables.
     label: String,
+    /// The stored paths that are judged.
     paths: StoredPaths,
 }
 

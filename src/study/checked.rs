@@ -125,12 +125,11 @@ impl Study {
 
     /// How its records are named.
     pub fn names(&self) -> Names {
-        let numbered = self.groups.iter().filter(|group| group.is_numbered);
-        Names {
-            numbered_groups: numbered.map(|group| group.label.clone()).collect(),
-            contenders: self.contenders.iter().map(|c| (c.label.clone(), c.is_numbered)).collect(),
-            defaults: self.readings.iter().map(|r| (r.id.clone(), r.default.clone())).collect(),
-        }
+        Names::new(
+            self.groups.iter().map(|group| (group.label.as_str(), group.is_numbered)),
+            self.contenders.iter().map(|contender| (contender.label.as_str(), contender.is_numbered)),
+            self.readings.iter().map(|reading| (reading.id.as_str(), reading.default.as_str())),
+        )
     }
 
     /// The columns of its records' keys besides those that every study has.

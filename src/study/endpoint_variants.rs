@@ -50,10 +50,15 @@ pub struct Variant {
     pub shape: ShapeChoice,
     /// The diameter of every obstacle.
     pub diameter_cm: f64,
+    /// Whether touching an obstacle counts as a collision.
     touching: Option<TouchSetting>,
+    /// How far the tip must stay from the base.
     inner_radius_cm: Option<f64>,
+    /// On which side the elbow is.
     elbow: Option<ElbowSetting>,
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: Option<CornerSetting>,
+    /// How the move between neighbouring cells is checked.
     hop_check: Option<HopSetting>,
     /// Whether the paper's A* lowers the g of an open node; lowered if absent.
     open_node: Option<OpenNode>,

@@ -3,20 +3,43 @@
 pub use base::slug::slug;
 
 use super::key::{DrawKey, Owner, ReadingKey, SweepKey, Text, TrialKey};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// How a study's records are named: what is left out of a name because it goes without saying.
 #[derive(Debug, Clone, Default)]
 pub struct Names {
-    /// Problem groups of more than one draw: their draws carry a number.
-    pub numbered_groups: BTreeSet<String>,
-    /// Whether a contender has more than one seed: its trials then carry a number. What is none of these is a variant.
-    pub contenders: BTreeMap<String, bool>,
+    /// Problem groups: the draws of one that has more than one carry a number.
+    groups: BTreeMap<String, Labelled>,
+    /// Contenders: the trials of one that has more than one seed carry a number. What is none of these is a variant.
+    contenders: BTreeMap<String, Labelled>,
     /// The option of each reading that a name leaves out.
-    pub defaults: BTreeMap<String, String>,
+    defaults: BTreeMap<String, String>,
+}
+
+/// A label as names have it.
+#[derive(Debug, Clone)]
+struct Labelled {
+    slug: String,
+    is_numbered: bool,
 }
 
 impl Names {
+    /// From the labels of groups and contenders, each with whether it is numbered, and the default of each reading.
+    pub fn new<'a>(
+        groups: impl Iterator<Item = (&'a str, bool)>,
+        contenders: impl Iterator<Item = (&'a str, bool)>,
+        defaults: impl Iterator<Item = (&'a str, &'a str)>,
+    ) -> Self {
+        let labelled = |(label, is_numbered): (&str, bool)| {
+            (label.to_owned(), Labelled { slug: slug(label), is_numbered })
+        };
+        Self {
+            groups: groups.map(labelled).collect(),
+            contenders: contenders.map(labelled).collect(),
+            defaults: defaults.map(|(id, option)| (id.to_owned(), option.to_owned())).collect(),
+        }
+    }
+
     /// `group[/draw][/reading]`.
     pub fn prepared(&self, key: &DrawKey) -> String {
         self.problem(key, None) + &self.reading_part(&key.reading)
@@ -24,22 +47,27 @@ impl Names {
 
     /// `group[/draw][/query]`: what is to be solved, whatever the reading.
     pub fn problem(&self, key: &DrawKey, query: Option<&str>) -> String {
-        let mut name = slug(&key.group);
-        if self.numbered_groups.contains(&*key.group) {
+        let group = self.groups.get(&*key.group);
+        let mut name = group.map_or_else(|| slug(&key.group), |group| group.slug.clone());
+        if group.is_some_and(|group| group.is_numbered) {
             name += &format!("/{}", key.draw);
         }
-        query.iter().for_each(|query| name += &format!("/{query}"));
+        if let Some(query) = query {
+            name += &format!("/{query}");
+        }
         name
     }
 
     /// `group[/draw][/query]/contender[/sweep][/repeat][/reading]`.
     pub fn trial(&self, key: &TrialKey) -> String {
         let mut name = self.problem(&key.on, key.query.as_deref());
-        name += &format!("/{}", slug(&key.contender));
+        let contender = self.contenders.get(&*key.contender);
+        name.push('/');
+        name += &contender.map_or_else(|| slug(&key.contender), |contender| contender.slug.clone());
         if !key.sweep.values().is_empty() {
             name += &format!("/{}", sweep(&key.sweep));
         }
-        match (self.contenders.get(&*key.contender), key.repeat) {
+        match (contender.map(|contender| contender.is_numbered), key.repeat) {
             (Some(true), repeat) => name += &format!("/{repeat}"),
             (None, repeat @ 1..) => name += &format!("/pair-{}", repeat - 1),
             (Some(false), _) | (None, 0) => {}
@@ -90,13 +118,11 @@ mod tests {
 
     /// One numbered group and one that is not, two contenders, two readings.
     fn names() -> Names {
-        let text = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect();
-        let default = |id: &str, option: &str| (id.to_owned(), option.to_owned());
-        Names {
-            numbered_groups: text(&["Maps, drawn"]),
-            contenders: BTreeMap::from([("A*".to_owned(), false), ("Chaos".to_owned(), true)]),
-            defaults: BTreeMap::from([default("corners", "allow"), default("ties", "fifo")]),
-        }
+        Names::new(
+            [("Maps, drawn", true), ("W1", false)].into_iter(),
+            [("A*", false), ("Chaos", true)].into_iter(),
+            [("corners", "allow"), ("ties", "fifo")].into_iter(),
+        )
     }
 
     fn key(group: &str, draw: u32, corners: &str, contender: &str, repeat: u32) -> TrialKey {

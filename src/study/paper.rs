@@ -29,18 +29,24 @@ pub const FILE: Accepted = Accepted::of::<PaperSpec>();
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PaperSpec {
+    /// Where it was published.
     source: Source,
     /// How many numbered things the paper has, each of which then needs a row in the ledger; none if absent.
     #[serde(default)]
     prints: Prints,
+    /// Everything that it prints, and what answers it.
     #[serde(default)]
     ledger: Vec<LedgerRow>,
+    /// What it says.
     #[serde(default, rename = "claim")]
     claims: Vec<ClaimSpec>,
+    /// Its own tables, to be set beside ours.
     #[serde(default, rename = "table")]
     tables: Vec<TableSpec>,
+    /// Tables of our results.
     #[serde(default)]
     results: Vec<ResultsSpec>,
+    /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
     #[serde(default)]
     series: BTreeMap<String, usize>,
 }
@@ -104,15 +110,25 @@ pub struct LedgerRow {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ClaimSpec {
+    /// Its name.
     id: Spanned<String>,
+    /// Where it stands in the paper.
     at: String,
+    /// The sentence, where it is not a number alone.
     says: Option<String>,
+    /// The paper's own words, where they are given word for word.
     quote: Option<String>,
+    /// The number as printed, digits and all.
     printed: Option<Spanned<String>>,
+    /// The number's unit; absent if the paper gives none.
     unit: Option<String>,
+    /// How the number's digits end, where the claim says so; otherwise the reading decides.
     digits: Option<Digits>,
+    /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
     untestable: Option<String>,
+    /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
     theorem: Option<String>,
+    /// How it is judged: the settings of each check, by the check's name.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, AnyTable>")]
     check: BTreeMap<String, Spanned<Table>>,

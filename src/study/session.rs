@@ -85,8 +85,8 @@ struct Counts {
 }
 
 impl Report {
-    fn new(manifest: Manifest, counts: Counts, batch: &Batch, names: &Names, why: Vec<String>) -> Self {
-        let Counts { resumed, units, reused, kept } = counts;
+    fn new(manifest: Manifest, counts: &Counts, batch: &Batch, names: &Names, why: Vec<String>) -> Self {
+        let Counts { resumed, units, reused, kept } = *counts;
         let (trials, odd) = (batch.rows.len(), UnexpectedStatus::among(&batch.rows, names));
         Self { manifest, trials, resumed, reused, kept, units, why, moved: Vec::new(), odd }
     }
@@ -124,7 +124,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     {
         journal.remove()?;
         let counts = Counts { resumed, units, reused: units, kept: 0 };
-        return Ok(Report::new(before.clone(), counts, &records.batch, built.names(), why));
+        return Ok(Report::new(before.clone(), &counts, &records.batch, built.names(), why));
     }
     let found = match &stored {
         Some((before, records)) if !options.fresh => Reusable::new(&built, &manifest, before, records),
@@ -143,7 +143,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let records = Records { batch, times };
     write(study, folder, &mut manifest, &records)?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
-    let mut report = Report::new(manifest, counts, &records.batch, built.names(), why);
+    let mut report = Report::new(manifest, &counts, &records.batch, built.names(), why);
     if let Some((before, old)) = &stored {
         report.moved = moved(&report.manifest, before, &old.batch, &records.batch, built.names());
     }

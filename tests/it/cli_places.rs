@@ -40,6 +40,35 @@ fn a_paper_of_the_project_is_found_by_name_and_writes_the_committed_places() {
     }
 }
 
+#[test]
+fn robots_are_listed_with_the_solver_that_fits_and_a_broken_file_is_said_to_be_broken() {
+    let bench = Bench::new();
+    let ur5 = include_str!("../../data/robots/ur5.toml");
+    bench.write("data/robots/ur5.toml", ur5.as_bytes());
+    // Lines are broken at the terminal's width.
+    let list =
+        |bench: &Bench| bench.done(&["list", "robots"]).split_whitespace().collect::<Vec<_>>().join(" ");
+    let listed = list(&bench);
+    assert!(listed.contains("robots ur5 "), "{listed}");
+    assert!(listed.contains("inverse kinematics by `offset_wrist`; bodies: rods"), "{listed}");
+    let bent = ur5.replacen("alpha_deg = -90", "alpha_deg = -80", 1);
+    bench.write("data/robots/bent.toml", bent.replace("\"ur5\"", "\"bent\"").as_bytes());
+    let listed = list(&bench);
+    assert!(
+        listed.contains("by `numerical`, which may miss configurations; joint 5: alpha_deg is -80"),
+        "{listed}"
+    );
+    bench.write("data/robots/bent.toml", bent.replace("d_mm = 82.3", "").as_bytes());
+    let said = bench.run(&["list", "robots"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(
+        said.out.contains("  ur5 ") && said.err.contains("missing field `d_mm`"),
+        "{}\n{}",
+        said.out,
+        said.err
+    );
+}
+
 /// A bench that is a project: its paper lies in `experiments`.
 fn project() -> Bench {
     let bench = Bench::new();

@@ -239,7 +239,7 @@ fn a_spec_that_names_what_is_not_there_is_refused_at_its_line() {
             "key = \"one\"",
             ["crosscheck.toml:19:7", "no keyframe `one`; it has zero, path 1 start"],
         ),
-        ("singular = 5", "single = 5", ["crosscheck.toml:13:1", "unknown field `single`"]),
+        ("singular = 5", "single = 5", ["crosscheck.toml:13:1", "unknown key `single`"]),
     ] {
         let bench = bench();
         bench.edit("judged/crosscheck.toml", from, to);

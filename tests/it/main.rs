@@ -1,8 +1,10 @@
 //! Tests of the crate from outside: its source, its registries, its planners, its command line.
 
 mod arm;
+mod audit;
 mod cell_threads;
 mod circles;
+mod cli_explains;
 mod cli_input;
 mod cli_places;
 mod cli_run;
@@ -10,8 +12,10 @@ mod cli_stop;
 mod committed;
 mod conformance;
 mod crosscheck;
+mod documented;
 mod floors;
 mod guards;
+mod jump_points;
 mod latex;
 mod laws;
 mod mutation;

@@ -15,26 +15,41 @@ const fn wrong(file: &'static str, from: &'static str, to: &'static str, said: &
 /// One wrong word each, in every place that a spec has.
 pub const WRONG: &[Wrong] = &[
     wrong("draws", "[budget]", "[budget", "mini/draws.toml:5:8: "),
-    wrong("draws", "seed = 7\n", "", "mini/draws.toml:1:1: missing field `seed`"),
+    wrong(
+        "draws",
+        "seed = 7\n",
+        "",
+        "mini/draws.toml:1:1: missing key `seed` (The root of every seed); a whole number of 0 or more is",
+    ),
     wrong(
         "draws",
         "seed = 7",
         "seed = -1",
-        "mini/draws.toml:3:8: invalid value: integer `-1`, expected a whole number of",
+        "mini/draws.toml:3:8: `seed` is -1; a whole number of 0 or more is accepted",
     ),
     wrong(
         "draws",
         "expansions = 10_000",
         "expansions = 0",
-        "mini/draws.toml:6:1: expansions is 0; a budget of at least 1",
+        "mini/draws.toml:6:14: `expansions` is 0; a whole number from 1 to 1000000000000 is",
     ),
-    wrong("draws", "seed = 7", "seed = 'seven'", "mini/draws.toml:3:8: invalid type: string \"seven\""),
-    wrong("draws", "question", "questoin", "mini/draws.toml:2:1: unknown field `questoin`, expected one of"),
+    wrong(
+        "draws",
+        "seed = 7",
+        "seed = 'seven'",
+        "mini/draws.toml:3:8: `seed` is \"seven\"; a whole number of 0 or more is accepted",
+    ),
+    wrong(
+        "draws",
+        "question",
+        "questoin",
+        "mini/draws.toml:2:1: unknown key `questoin` (did you mean `question`?); accepted: `budget`, ",
+    ),
     wrong(
         "draws",
         "planner = \"astar\"",
         "planner = \"a-star\"",
-        "mini/draws.toml:23:11: contender `A*` asks for planner `a-star`, which does not exist; the planners are ",
+        "mini/draws.toml:23:11: contender `A*` asks for planner `a-star`, which does not exist (did you mean `astar`?); the planners are ",
     ),
     wrong(
         "draws",
@@ -46,7 +61,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "weight = 1,",
         "wait = 1,",
-        "mini/draws.toml:24:14: unknown field `wait`, expected `weight` or",
+        "mini/draws.toml:24:14: unknown key `wait`; accepted: `ties`, `weight`",
     ),
     wrong(
         "draws",
@@ -58,20 +73,25 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "\"fifo\" }\n\n",
         "\"filo\" }\n\n",
-        "mini/draws.toml:24:33: unknown variant `filo`, expected one of",
+        "mini/draws.toml:24:33: `ties` is \"filo\" (did you mean `fifo`?); \"fifo\", \"lifo\" or \"larger_g\" is accepted",
     ),
     wrong(
         "draws",
         "\"random_cells\"",
         "\"random_cell\"",
-        "mini/draws.toml:17:10: there is no problem family `random_cell`; the known ones are ",
+        "mini/draws.toml:17:10: there is no problem family `random_cell` (did you mean `random_cells`?); there are ",
     ),
-    wrong("draws", "seed = 7", "seed = 7\ntask = \"plna\"", "there is no task `plna`; the known ones are"),
+    wrong(
+        "draws",
+        "seed = 7",
+        "seed = 7\ntask = \"plna\"",
+        "mini/draws.toml:4:8: there is no task `plna` (did you mean `plan`?); there are ",
+    ),
     wrong(
         "draws",
         "replicates = 24",
         "replicates = 0",
-        "mini/draws.toml:18:14: replicates is 0; at least 1 is",
+        "mini/draws.toml:18:14: `replicates` is 0; a whole number from 1 to 1000000 is",
     ),
     wrong(
         "draws",
@@ -83,7 +103,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "problem = { corner_rule = \"forbid_any\" }",
         "problem = { corner_rule = \"never\" }",
-        "reading corners=forbid_any: unknown variant `never`, expected one of",
+        "reading corners=forbid_any: `corner_rule` is \"never\"; \"allow\", \"forbid_both\" or \"forbid_any\" is",
     ),
     wrong(
         "draws",
@@ -120,19 +140,19 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "\"grid_search\"",
         "\"grid_saerch\"",
-        "mini/room.toml:24:8: figure `fig1` is of kind `grid_saerch`, which does not exist; the kinds are ",
+        "mini/room.toml:24:8: figure `fig1` is of kind `grid_saerch`, which does not exist (did you mean `grid_search`?); the kinds are ",
     ),
     wrong(
         "room",
         "contenders = [\"A*\"]",
         "contenders = [\"B*\"]",
-        "no contender is called `B*`; they are A*",
+        "mini/room.toml:27:46: no contender is called `B*`; they are A*",
     ),
     wrong(
         "room",
         "shows = [{ problems = \"room\"",
         "shows = [{ problems = \"hall\"",
-        "no problem group is called `hall`",
+        "mini/room.toml:26:23: no problem group is called `hall`",
     ),
     wrong(
         "room",
@@ -163,7 +183,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "settings = { problem = \"room\", contenders = [\"A*\"] }",
         "",
-        "mini/room.toml:23:6: figure `fig1` has no settings: missing field `",
+        "mini/room.toml:23:6: figure `fig1` has no settings: missing key `problem` (",
     ),
     wrong(
         "room",
@@ -194,13 +214,13 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "study = \"draws\"",
         "study = \"drawn\"",
-        "there is no study `drawn`; there are draws, room",
+        "there is no study `drawn` (did you mean `draws`?); there are draws, room",
     ),
     wrong(
         "paper",
         "lower = \"Two-sided\"",
         "lower = \"Two\"",
-        "study `draws` has no contender `Two`; it has A*, Two-sided",
+        "study `draws` has no contender `Two` (did you mean `Two-sided`?); it has A*, Two-sided",
     ),
     wrong(
         "paper",
@@ -218,7 +238,7 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "figures = [\"fig1\"]",
         "figures = [\"fig2\"]",
-        "there is no figure or table `fig2`; there are fig1, tab",
+        "mini/paper.toml:13:12: there is no figure or table `fig2` (did you mean `fig1`?); there are fig1, tab",
     ),
     wrong("paper", "id = \"nodes\"", "id = \"cost\"", "claim `cost` stands twice"),
     wrong(

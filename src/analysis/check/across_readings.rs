@@ -43,7 +43,9 @@ struct Settings {
     /// Maps of it that were searched for.
     #[serde(default)]
     searched: Vec<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender, by its label.
     contender: String,
     /// The contender that the reduction is from; without it the printed number is the metric itself.
     against: Option<String>,

@@ -30,7 +30,7 @@ whole_draws = true
         let study = context.study(&settings.study, std::slice::from_ref(&settings.problems), &contenders)?;
         if !(0.0..=1.0).contains(&settings.in_share) {
             let message = format!("in_share is {}; 0 to 1 is accepted", settings.in_share);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("in_share", message));
         }
         let metric = context.metric(&settings.metric, study)?;
         Ok(Box::new(AllInDraw { settings, metric }))
@@ -40,10 +40,15 @@ whole_draws = true
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender that is claimed to be lower.
     lower: String,
+    /// The contender that is claimed to be higher.
     higher: String,
     /// The claim is kept if it holds in at least this share of draws.
     in_share: f64,

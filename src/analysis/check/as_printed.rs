@@ -51,9 +51,13 @@ metric = "path_length_cm"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
+    /// The contender, by its label.
     contender: String,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
     /// A study of the same problem and contender that explores readings.
     explored: Option<String>,

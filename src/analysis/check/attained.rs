@@ -45,7 +45,9 @@ struct Settings {
 #[derive(Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Place {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
     /// Its problems were drawn until the claim held: they serve where the claim is given, and say nothing of how often
     /// it holds.

@@ -26,7 +26,7 @@ left_out = "the paper names MATLAB, but no machine, version, program or repetiti
         let [numerator, denominator] = settings.tick_s;
         if numerator == 0 || denominator == 0 {
             let message = format!("tick_s is {numerator}/{denominator}; two numbers above 0 are accepted");
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("tick_s", message));
         }
         let printed = context.printed()?;
         if printed.decimals() > 6 {

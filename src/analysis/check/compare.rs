@@ -34,7 +34,7 @@ within_points = 5
         let study = context.study(&settings.study, &settings.problems, &contenders)?;
         if settings.within_points.is_nan() || settings.within_points <= 0.0 {
             let message = format!("within_points is {}; more than 0 is accepted", settings.within_points);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("within_points", message));
         }
         let metric = context.metric(&settings.metric, study)?;
         let is_fitted = study.fitted_to.contains(&context.claim.id);
@@ -46,10 +46,15 @@ within_points = 5
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender, by its label.
     contender: String,
+    /// The contender that it is held against, by its label.
     against: String,
     /// How far ours may be from the printed reduction, in percentage points.
     within_points: f64,

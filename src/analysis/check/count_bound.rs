@@ -30,8 +30,11 @@ closed = "closed"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The map's columns and rows.
     size: [i32; 2],
+    /// The column and row of the start cell.
     start: [i32; 2],
+    /// The column and row of the goal cell.
     goal: [i32; 2],
     /// Straight and diagonal moves of A*'s path.
     optimum: [u32; 2],

@@ -32,8 +32,11 @@ metric = "connected"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
+    /// The contender, by its label.
     contender: String,
     /// The metric that is 0 where it should fail.
     metric: String,

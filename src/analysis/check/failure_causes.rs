@@ -39,7 +39,9 @@ at_least = 0.5
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
     /// Whose failures are looked at.
     contender: String,

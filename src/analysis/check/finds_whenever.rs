@@ -31,9 +31,13 @@ whenever = "Original A*"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: Problems,
+    /// The contender, by its label.
     contender: String,
+    /// The contender on whose solved problems it must find a path too.
     whenever: String,
 }
 
@@ -41,7 +45,9 @@ struct Settings {
 #[derive(Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "the label of a problem group, or a list of them, is accepted")]
 enum Problems {
+    /// One problem group.
     One(String),
+    /// Several problem groups.
     Several(Vec<String>),
 }
 

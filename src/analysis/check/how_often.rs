@@ -46,9 +46,13 @@ sets = [
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender, by its label.
     contender: String,
+    /// The contender that it is held against, by its label.
     against: String,
+    /// The problems that are looked at, by study.
     sets: Vec<SetSpec>,
 }
 
@@ -57,7 +61,9 @@ struct Settings {
 struct SetSpec {
     /// What these problems are.
     label: String,
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
 }
 

@@ -34,8 +34,11 @@ size = [30, 30]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The claim that prints the length that is saved from.
     baseline: String,
+    /// The column and row of the printed start.
     start: [i32; 2],
+    /// The column and row of the printed goal.
     goal: [i32; 2],
     /// Columns and rows: the ends' neighbours are tried as well.
     size: [i32; 2],

@@ -30,6 +30,7 @@ pub static ENTRY: Entry = Entry {
 struct Settings {
     /// The ends, where the paper prints them; without, any 8-connected path counts.
     start: Option<[i32; 2]>,
+    /// The column and row of the goal; given with `start` or not at all.
     goal: Option<[i32; 2]>,
     /// Columns and rows, if the ends' neighbours are to be tried as well.
     size: Option<[i32; 2]>,
@@ -72,11 +73,7 @@ impl Check for LatticeLength {
             let said = if listed.is_empty() { "no such length".to_owned() } else { listed.join(", ") };
             because.push(format!("{} read as {how}: {said}", self.printed));
         }
-        let is_possible = match self.digits {
-            Digits::Rounded => !rounded.is_empty(),
-            Digits::Truncated => !truncated.is_empty(),
-            Digits::Unknown => !rounded.is_empty() || !truncated.is_empty(),
-        };
+        let is_possible = !lengths(self.digits).is_empty();
         if let (false, Some(displacement)) = (is_possible, displacement) {
             let (below, above) = nearest_lengths(self.printed, displacement);
             let near: Vec<String> = [below, above].into_iter().flatten().map(spelled).collect();

@@ -32,6 +32,7 @@ struct Settings {
     points: usize,
     /// The table; its cells are x and y in turn, dashes where nothing is printed.
     table: String,
+    /// The study whose records are looked at.
     study: String,
     /// The setting of the study's problem groups that holds the same points.
     key: String,

@@ -38,10 +38,15 @@ higher = "Original A*"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender that is claimed to be lower.
     lower: String,
+    /// The contender that is claimed to be higher.
     higher: String,
     /// The one query that the claim is about; all if absent.
     query: Option<String>,

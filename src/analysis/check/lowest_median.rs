@@ -38,8 +38,11 @@ by_percent = 50
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
     /// Contenders each of which is claimed to be below every one of `higher`.
     lower: Vec<String>,
@@ -97,7 +100,7 @@ impl<'a> LowestMedian<'a> {
         }
         if !(0.0..100.0).contains(&settings.by_percent) {
             let message = format!("by_percent is {}; 0 to below 100 is accepted", settings.by_percent);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("by_percent", message));
         }
         let metric = context.metric(&settings.metric, study)?;
         let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);

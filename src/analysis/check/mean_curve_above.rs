@@ -37,9 +37,13 @@ against = "Original A*"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
+    /// The contender, by its label.
     contender: String,
+    /// The contender that it is held against, by its label.
     against: String,
 }
 

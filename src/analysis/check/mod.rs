@@ -176,6 +176,9 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 /// The checks of a claim, built.
+///
+/// # Errors
+/// A check that does not exist, and what a check refuses of its settings.
 pub fn checks<'a>(
     paper: &'a Paper,
     point: &'a ReadingChoice,

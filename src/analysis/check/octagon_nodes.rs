@@ -13,14 +13,14 @@ pub static ENTRY: Entry = Entry {
     name: "octagon_nodes",
     about: "is there a regular octagon about a lattice point that holds as many other lattice points as stated?",
     settings: Accepted::of::<OctagonNodes>(),
-    example: r#"
+    example: r"
 nodes = 48
-"#,
+",
     build: |context| {
         let settings: OctagonNodes = context.settings.read()?;
         if settings.nodes == 0 || settings.nodes > 10_000 {
             let message = format!("nodes is {}; 1 to 10000 is accepted", settings.nodes);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("nodes", message));
         }
         Ok(Box::new(settings))
     },

@@ -29,7 +29,7 @@ within = 0.0001
             (context.metric(&settings.metric, study)?, context.metric(&settings.truth, study)?);
         if settings.within.is_nan() || settings.within < 0.0 {
             let message = format!("within is {}; 0 or more is accepted", settings.within);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("within", message));
         }
         Ok(Box::new(Oracle { settings, metric, truth }))
     },
@@ -38,11 +38,17 @@ within = 0.0001
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
+    /// The contenders, by their labels.
     contenders: Vec<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The metric that holds the truth on the same trial.
     truth: String,
+    /// How far the metric may be from the truth, in the metric's unit.
     within: f64,
 }
 

@@ -39,13 +39,17 @@ on = "every"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
     /// The contender that is claimed to be lower.
     lower: String,
     /// The contender that is claimed to be higher.
     higher: String,
+    /// On which problems it is to hold.
     on: On,
 }
 

@@ -31,6 +31,7 @@ claims = ["edges.chs", "edges.chs.turn", "edges.chs.r2"]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The claims that are met or not together, by id.
     claims: Vec<String>,
 }
 

@@ -32,7 +32,9 @@ after = "t1.improved.time"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The claim that prints the number before.
     before: String,
+    /// The claim that prints the number after.
     after: String,
 }
 

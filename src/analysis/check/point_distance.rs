@@ -14,10 +14,10 @@ pub static ENTRY: Entry = Entry {
     name: "point_distance",
     about: "is a printed distance that between two printed points?",
     settings: Accepted::of::<Settings>(),
-    example: r#"
+    example: r"
 from = [22.5, 15.5]
 to = [26.5, 28.5]
-"#,
+",
     build: |context| {
         let settings: Settings = context.settings.read()?;
         Ok(Box::new(PointDistance { settings, printed: context.printed()?, digits: context.digits() }))
@@ -27,7 +27,9 @@ to = [26.5, 28.5]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// x and y of the first point as printed.
     from: [f64; 2],
+    /// x and y of the second point as printed.
     to: [f64; 2],
 }
 

@@ -31,9 +31,11 @@ within_percent = 10
 struct Settings {
     /// Two claims: one whose number is divided, and one whose number it is divided by.
     of: [String; 2],
+    /// The study whose records are looked at.
     study: String,
     /// The problem of each.
     problems: [String; 2],
+    /// The contender, by its label.
     contender: String,
     /// What may stand for the printed numbers; the first is shown.
     metrics: Vec<String>,

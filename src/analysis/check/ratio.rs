@@ -44,10 +44,15 @@ accepted = [0.0, 0.5]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender, by its label.
     contender: String,
+    /// The contender that it is held against, by its label.
     against: String,
     /// The least and the greatest ratio under which the claim counts as reproduced.
     accepted: [f64; 2],

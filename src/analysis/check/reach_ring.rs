@@ -13,14 +13,15 @@ pub static ENTRY: Entry = Entry {
     name: "reach_ring",
     about: "do reach and singularity of a planar two-link arm forbid an inner disc of the radius stated?",
     settings: Accepted::of::<Settings>(),
-    example: r#"
+    example: r"
 links_cm = [30.0, 20.0]
 radius_cm = 20.0
-"#,
+",
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let [l1, l2] = settings.links_cm;
-        let arm = Planar2r::new(l1, l2).map_err(|e| context.settings.error(format!("links_cm: {e}")))?;
+        let arm = Planar2r::new(l1, l2)
+            .map_err(|e| context.settings.error_at("links_cm", format!("links_cm: {e}")))?;
         Ok(Box::new(ReachRing { settings, arm }))
     },
 };
@@ -28,6 +29,7 @@ radius_cm = 20.0
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The lengths of the two links.
     links_cm: [f64; 2],
     /// The radius that the inner forbidden disc is said to have.
     radius_cm: f64,

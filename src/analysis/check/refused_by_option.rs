@@ -29,7 +29,9 @@ reading = "line_of_sight"
 struct Settings {
     /// A study that explores readings.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
+    /// The contender, by its label.
     contender: String,
     /// The reading's name.
     reading: String,

@@ -23,7 +23,7 @@ question = "falls_along_force"
         let settings: Settings = context.settings.read()?;
         if !(settings.range_cm.is_finite() && settings.range_cm > 0.0) {
             let message = format!("range_cm is {}; more than 0 is accepted", settings.range_cm);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("range_cm", message));
         }
         Ok(Box::new(settings))
     },
@@ -37,6 +37,7 @@ const TRIED: usize = 99;
 struct Settings {
     /// The potential's range d0.
     range_cm: f64,
+    /// What is asked of the potential as printed.
     question: Question,
 }
 

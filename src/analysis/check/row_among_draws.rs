@@ -36,10 +36,13 @@ sets = [
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender, by its label.
     contender: String,
     /// The contender that the reduction is from; without it the printed number is the metric itself.
     against: Option<String>,
+    /// The problems that are looked at, by study.
     sets: Vec<SetSpec>,
     /// What the draws take for granted besides.
     #[serde(default)]
@@ -51,7 +54,9 @@ struct Settings {
 struct SetSpec {
     /// What these draws are.
     label: String,
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
 }
 

@@ -40,11 +40,17 @@ whole_draws = true
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender, by its label.
     contender: String,
+    /// The contender that it is held against, by its label.
     against: String,
+    /// What is taken of the savings on one draw's queries.
     of_queries: Statistic,
     /// Whether only draws count of which both solve every query: a least value falls with the number it is taken of.
     whole_draws: bool,
@@ -54,8 +60,11 @@ struct Settings {
 #[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum Statistic {
+    /// The smallest.
     Least,
+    /// The mean.
     Mean,
+    /// The largest.
     Greatest,
 }
 

@@ -51,13 +51,19 @@ refused_below = 0.05
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender, by its label.
     contender: String,
+    /// The contender that it is held against, by its label.
     against: String,
     /// The claims that print the ends of the range.
     least: String,
+    /// The claim that prints the greatest saving.
     greatest: String,
     /// The range is refused if fewer than this share of draws of which both solve every query stay within it.
     refused_below: f64,

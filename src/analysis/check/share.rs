@@ -55,7 +55,9 @@ const SOLVED: &str = "solved";
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
     /// The contender, or what stands in its place in a study that measures without contenders.
     contender: String,

@@ -37,18 +37,23 @@ sets = [
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender, by its label.
     contender: String,
     /// Whether the claim is that it is above on every draw; otherwise the shares are shown and nothing is judged.
     #[serde(default)]
     every: bool,
+    /// The problems that are looked at, by study.
     sets: Vec<SetSpec>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SetSpec {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
     /// In the metric's unit; a value this close above it is not above it.
     above: f64,

@@ -30,9 +30,13 @@ explored = "readings"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
+    /// The contenders, by their labels.
     contenders: Vec<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
     /// The largest share that the claim allows.
     at_most_percent: f64,
@@ -57,7 +61,7 @@ impl<'a> ShareOfPaths<'a> {
         let metric = context.metric(&settings.metric, study)?;
         if !(0.0..=100.0).contains(&settings.at_most_percent) {
             let message = format!("at_most_percent is {}; 0 to 100 is accepted", settings.at_most_percent);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("at_most_percent", message));
         }
         Ok(Self { settings, explored, metric })
     }

@@ -32,13 +32,17 @@ under = { corner_cutting = ["allow"] }
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The map's columns and rows.
     size: [i32; 2],
+    /// The column and row of the start cell.
     start: [i32; 2],
+    /// The column and row of the goal cell.
     goal: [i32; 2],
     /// Straight and diagonal moves of A*'s path.
     optimum: [u32; 2],
     /// Why A*'s path is taken to have these moves.
     because: String,
+    /// What the bound is on.
     of: Of,
     /// Readings with the options under which the bound holds.
     under: BTreeMap<String, Vec<String>>,

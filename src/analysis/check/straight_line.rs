@@ -15,10 +15,10 @@ pub static ENTRY: Entry = Entry {
     name: "straight_line",
     about: "is a printed length at least the straight line between start and goal?",
     settings: Accepted::of::<Settings>(),
-    example: r#"
+    example: r"
 start = [22.0, 15.0]
 goal = [26.0, 28.0]
-"#,
+",
     build: |context| {
         let settings: Settings = context.settings.read()?;
         Ok(Box::new(StraightLine { settings, printed: context.printed()?, digits: context.digits() }))
@@ -28,7 +28,9 @@ goal = [26.0, 28.0]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// x and y of the start as printed.
     start: [f64; 2],
+    /// x and y of the goal as printed.
     goal: [f64; 2],
     /// Columns and rows, if start and goal are cells: then their neighbours are tried as well.
     size: Option<[i32; 2]>,

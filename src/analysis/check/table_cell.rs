@@ -44,9 +44,13 @@ sweep = "samples=100"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
+    /// The contender, by its label.
     contender: String,
+    /// The point of the study's sweeps, as trials name it: `samples=100`.
     sweep: String,
 }
 

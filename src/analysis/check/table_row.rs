@@ -51,7 +51,9 @@ rows = [
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
+    /// The problem group, by its label.
     problems: String,
     /// One row, or several that come from one draw and are ranked as one.
     rows: Vec<RowOf>,
@@ -63,6 +65,7 @@ struct Settings {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RowOf {
+    /// The contender, by its label.
     contender: String,
     /// The claim of each cell, in the order of the study's sweep.
     claims: Vec<String>,

@@ -32,8 +32,11 @@ longest = 20.0
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The map's columns and rows.
     size: [i32; 2],
+    /// The column and row of the start cell.
     start: [i32; 2],
+    /// The column and row of the goal cell.
     goal: [i32; 2],
     /// The claim that prints the turn sum.
     turn: String,

@@ -39,10 +39,13 @@ problems = [
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Settings {
+    /// The study whose records are looked at.
     study: String,
     /// Sets of problems; within each the metric is claimed to vary.
     problems: Vec<Vec<String>>,
+    /// The contender, by its label.
     contender: String,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
 }
 

@@ -81,7 +81,7 @@ pub fn fields(schema: &Value) -> Vec<Field> {
     all
 }
 
-/// The words of documentation that the parts of `schema` lack: their paths.
+/// The keys in `schema` that say no meaning.
 pub fn undocumented(schema: &Value) -> Vec<String> {
     fields(schema).into_iter().filter(|field| field.meaning.is_empty()).map(|field| field.name).collect()
 }
@@ -98,15 +98,18 @@ fn gather(node: Node<'_>, before: &str, depth: usize, all: &mut Vec<Field>) {
     for (key, part) in first.into_iter().chain(second) {
         let Some(inner) = node.property(key) else { continue };
         let name = format!("{before}{key}");
-        all.push(field(&name, key, part, inner, must.contains(&key)));
+        all.push(field(&name, node, part, inner, must.contains(&key)));
         for table in tables(inner) {
             gather(table, &format!("{name}."), depth + 1, all);
         }
     }
 }
 
-fn field(name: &str, key: &str, part: Node<'_>, inner: Node<'_>, required: bool) -> Field {
-    let meaning = part.text("description").or_else(|| inner.text("description")).unwrap_or_default();
+fn field(name: &str, holder: Node<'_>, part: Node<'_>, inner: Node<'_>, required: bool) -> Field {
+    // A key that tells several tables apart says what its table is.
+    let table = || inner.get("const").and_then(|_| holder.text("description"));
+    let meaning =
+        part.text("description").or_else(|| inner.text("description")).or_else(table).unwrap_or_default();
     let default = match part.get("default").or_else(|| inner.get("default")) {
         _ if required => Default::Required,
         Some(value) if !value.is_null() => Default::Value(in_toml(value)),
@@ -119,7 +122,7 @@ fn field(name: &str, key: &str, part: Node<'_>, inner: Node<'_>, required: bool)
     Field {
         name: name.to_owned(),
         meaning: on_one_line(meaning),
-        unit: unit(key),
+        unit: unit(name),
         accepted: inner.accepted(),
         default,
         words: words.filter(|(_, about)| !about.is_empty()).collect(),

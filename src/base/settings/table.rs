@@ -167,7 +167,7 @@ fn text(value: &toml::Spanned<DeValue<'_>>, word: &str) -> Option<Range<usize>> 
     }
 }
 
-/// What the keys of a table are where they are left out, switches and empty values aside.
+/// What the keys of a table are where they are left out, switches aside.
 fn defaults(schema: &serde_json::Value) -> Vec<(String, toml::Value)> {
     let keys = schema.get("properties").and_then(serde_json::Value::as_object).into_iter().flatten();
     let said = keys.filter_map(|(key, part)| Some((key.clone(), part.get("default")?)));

@@ -87,3 +87,167 @@ fn an_empty_document_and_a_broken_one_say_so() {
     assert!(read(" \n").contains("a.toml:1:1: the file is empty"), "{}", read(" \n"));
     assert!(read("[[part]\n").starts_with("a.toml:1:"), "{}", read("[[part]\n"));
 }
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[expect(dead_code, reason = "read by the deserializer only")]
+struct Many {
+    /// How many there are.
+    count: u8,
+    /// How far it is.
+    #[schemars(range(min = 1, max = 3))]
+    reach_cm: Option<f64>,
+    /// What it weighs.
+    weight: Option<Weight>,
+    /// What stands there.
+    #[serde(default)]
+    solid: Vec<Solid>,
+    /// Its name.
+    #[serde(default = "plain")]
+    name: String,
+    /// Whether it is there.
+    #[serde(default)]
+    there: bool,
+}
+
+fn plain() -> String {
+    "plain".to_owned()
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "read by the deserializer only")]
+enum Weight {
+    /// The same everywhere.
+    Constant(f64),
+    /// By a rule.
+    Ruled(Rule),
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Rule {
+    /// Less and less.
+    Falling,
+    /// More and more.
+    Rising,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
+enum Solid {
+    /// A ball.
+    Ball {
+        /// Its radius.
+        #[expect(dead_code, reason = "read by the deserializer only")]
+        radius: f64,
+    },
+    /// A box.
+    Box {
+        /// Its sides.
+        #[expect(dead_code, reason = "read by the deserializer only")]
+        sides: [f64; 3],
+    },
+}
+
+/// Line, column and message of everything that is wrong with `text`.
+fn said(text: &str) -> Vec<(usize, usize, String)> {
+    let document = Document::new(Path::new("a.toml"), text.to_owned());
+    let errors = document.read::<Many>().unwrap_err().each();
+    let place = |error| match error {
+        SettingsError::At { line, column, message, .. } => (line, column, message),
+        other => panic!("{other}"),
+    };
+    errors.into_iter().map(place).collect()
+}
+
+/// What is written; the line and the column of what is said of it; what is said.
+const FAULTS: &[(&str, usize, usize, &str)] = &[
+    (
+        "name = 'x'",
+        1,
+        1,
+        "missing key `count` (How many there are); a whole number from 0 to 255 is accepted",
+    ),
+    ("count = 256", 1, 9, "`count` is 256; a whole number from 0 to 255 is accepted"),
+    ("count = 0x100", 1, 9, "`count` is 0x100; a whole number from 0 to 255 is accepted"),
+    ("count = 1.0", 1, 9, "`count` is 1.0; a whole number from 0 to 255 is accepted"),
+    ("count = 1\nreach_cm = 4", 2, 12, "`reach_cm` is 4; a number from 1 to 3 is accepted"),
+    ("count = 1\nreach_cm = inf", 2, 12, "`reach_cm` is inf; a finite number from 1 to 3 is accepted"),
+    ("count = 1\nthere = 'yes'", 2, 9, "`there` is \"yes\"; true or false is accepted"),
+    ("count = 1\nweight = true", 2, 10, "`weight` is true; a number, \"falling\" or \"rising\" is accepted"),
+    (
+        "count = 1\nweight = 'risin'",
+        2,
+        10,
+        "`weight` is \"risin\" (did you mean `rising`?); a number, \"falling\" or \"rising\" is accepted",
+    ),
+    ("count = 1\n[[solid]]\nradius = 1", 2, 1, "missing key `shape`; accepted: \"ball\", \"box\""),
+    (
+        "count = 1\n[[solid]]\nshape = 'bal'",
+        3,
+        9,
+        "`shape` is \"bal\" (did you mean `ball`?); \"ball\", \"box\" is accepted",
+    ),
+    ("count = 1\n[[solid]]\nshape = 'ball'", 2, 1, "missing key `radius` (Its radius); a number is accepted"),
+    (
+        "count = 1\n[[solid]]\nshape = 'box'\nsides = [1, 2]",
+        4,
+        9,
+        "`sides` is an array of 2; an array of 3 (a number each) is accepted",
+    ),
+    (
+        "count = 1\n[[solid]]\nshape = 'box'\nsides = [1, 2, 'c']",
+        4,
+        16,
+        "`sides[2]` is \"c\"; a number is accepted",
+    ),
+    ("count = 1\nsolids = 3", 2, 1, "unknown key `solids` (did you mean `solid`?); accepted: `count`, "),
+];
+
+#[test]
+fn each_fault_stands_at_its_own_key_or_value_with_what_is_accepted() {
+    for (text, line, column, message) in FAULTS {
+        let found = said(text);
+        let [(l, c, m)] = found.as_slice() else { panic!("{text}: {found:?}") };
+        assert_eq!((*l, *c), (*line, *column), "{text}: {m}");
+        assert!(m.starts_with(message), "{text}\nis said: {m}\nshould be: {message}");
+    }
+}
+
+#[test]
+fn all_faults_of_a_file_are_found_at_once_in_the_order_of_their_places() {
+    let text = "coumt = 3\nreach_cm = 0\nnmae = 'x'\n[[solid]]\nshape = 'ball'\nradius = 'r'\n[[solid]]\nshape = 'cone'\n";
+    let lines: Vec<usize> = said(text).into_iter().map(|(line, ..)| line).collect();
+    assert_eq!(lines, [1, 2, 3, 6, 8], "{:?}", said(text));
+}
+
+#[test]
+fn a_record_of_settings_has_the_values_that_hold_where_keys_are_left_out() {
+    let settings = Settings::composed("a test", toml::from_str("count = 1\nreach_cm = 2").unwrap());
+    let whole = settings.completed(Accepted::of::<Many>());
+    let expected: Table = toml::from_str("count = 1\nreach_cm = 2\nname = 'plain'").unwrap();
+    assert_eq!(*whole.table(), expected);
+}
+
+#[test]
+fn what_is_described_is_what_is_accepted() {
+    let fields = describe::fields(&schema_of::<Many>());
+    let line = |name: &str| {
+        let field = fields.iter().find(|field| field.name == name).unwrap();
+        (field.meaning.as_str(), field.unit, field.accepted.as_str(), field.default.clone())
+    };
+    assert_eq!(
+        line("count"),
+        ("How many there are.", None, "a whole number from 0 to 255", describe::Default::Required)
+    );
+    let reach = ("How far it is.", Some("centimetres"), "a number from 1 to 3", describe::Default::Absent);
+    assert_eq!(line("reach_cm"), reach);
+    assert_eq!(line("name").3, describe::Default::Value("\"plain\"".to_owned()));
+    assert_eq!(line("solid.radius").0, "Its radius.");
+    assert_eq!(line("solid.shape").0, "A ball.");
+    let weight = fields.iter().find(|field| field.name == "weight").unwrap();
+    assert_eq!(weight.words[0], ("falling".to_owned(), "Less and less.".to_owned()));
+    assert!(describe::undocumented(&schema_of::<Many>()).is_empty());
+    assert_eq!(describe::undocumented(&schema_of::<Inner>()), ["weight"]);
+}

@@ -23,7 +23,7 @@ pub struct Arm {
 /// Why a branch has no configuration for a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Missed {
-    /// The wrist's centre is out of reach.
+    /// The pose is out of reach on this branch, or a solver that is not complete did not find it.
     Unreachable,
     /// A joint would be outside its limits.
     Limits,

@@ -50,6 +50,9 @@ pub enum KinematicsError {
         /// All names.
         known: String,
     },
+    /// A robot file holds what is not accepted.
+    #[error(transparent)]
+    File(#[from] base::settings::SettingsError),
     /// A robot file cannot be read.
     #[error("{}: {source}", path.display())]
     Read {
@@ -57,18 +60,6 @@ pub enum KinematicsError {
         path: PathBuf,
         /// Why.
         source: io::Error,
-    },
-    /// A robot file says something that cannot be.
-    #[error("{}:{line}:{column}: {message}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: usize,
-        /// Column in characters, from 1.
-        column: usize,
-        /// What was found and what would be accepted.
-        message: String,
     },
     /// A tool or capsule cannot have this size.
     #[error(transparent)]

@@ -32,7 +32,7 @@ ties = "fifo"
             let message = format!(
                 "weight is {weight}; 0 (Dijkstra), 1 (A*), any larger number, or \"falling\" is accepted"
             );
-            return Err(settings.error(message));
+            return Err(settings.error_at("weight", message));
         }
         Ok(Box::new(read))
     }),

@@ -62,16 +62,22 @@ enum Weight {
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum MeetingSetting {
+    /// A side generates a node that the other has generated before, be it open or closed there.
     GeneratedAny,
+    /// A side generates a node that the other has closed.
     ClosedByOther,
+    /// A side closes a node that the other has closed; the node is not expanded again.
     BothClosed,
+    /// The best sum found is no more than the smallest f on either side.
     OptimalStop,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum SideSetting {
+    /// Strictly in turn, the start's side first.
     Alternate,
+    /// The side with the smaller least f; the start's side if they are equal.
     SmallerF,
 }
 

@@ -31,7 +31,7 @@ points_per_span = 4
         let read: Spline = settings.read()?;
         if !(1..=64).contains(&read.points_per_span) {
             let message = format!("points_per_span is {}; 1 to 64 is accepted", read.points_per_span);
-            return Err(settings.error(message));
+            return Err(settings.error_at("points_per_span", message));
         }
         Ok(Box::new(read))
     }),

@@ -41,7 +41,7 @@ ties = "fifo"
                 "neighbours is {}; 1 to {most}, all points of the region, is accepted",
                 read.neighbours
             );
-            return Err(settings.error(message));
+            return Err(settings.error_at("neighbours", message));
         }
         Ok(Box::new(Ready { read, offsets, pool: Pool::default() }))
     }),
@@ -72,21 +72,27 @@ struct ChaosAstar {
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Drawn {
+    /// Anew at every expansion.
     EachExpansion,
+    /// Once, and then kept for the whole run.
     OncePerRun,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Source {
+    /// Evenly distributed numbers.
     Uniform,
+    /// The logistic map.
     Logistic,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum GoalInRegion {
+    /// It takes that place.
     Included,
+    /// It does not; the points stay as they were drawn.
     AsDrawn,
 }
 

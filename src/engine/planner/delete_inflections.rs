@@ -36,8 +36,12 @@ struct DeleteInflections {
 #[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum SightSetting {
+    /// Cells whose interior the segment crosses; where it passes through the corner between two cells, neither is
+    /// entered.
     ExactInterior,
+    /// Cells that the segment touches at all: at a corner also the two that flank it.
     ClosedCells,
+    /// Cells of Bresenham's line drawn from the first end to the second.
     Bresenham,
 }
 

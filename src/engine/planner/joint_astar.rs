@@ -31,20 +31,20 @@ pub static ENTRY: Entry = Entry {
     needs: WorldKind::ArmAmongPolyhedra,
     columns: COLUMNS,
     settings: Accepted::of::<JointAstar>(),
-    example: r#"
+    example: r"
 delta_deg = 10.0
 neighbours = 12
-"#,
+",
     build: Build::Planner(|settings| {
         let read: JointAstar = settings.read()?;
         if !(read.delta_deg > 0.0 && read.delta_deg <= 45.0) {
             let message = format!("delta_deg is {}; more than 0 and at most 45 is accepted", read.delta_deg);
-            return Err(settings.error(message));
+            return Err(settings.error_at("delta_deg", message));
         }
         if ![12, 728].contains(&read.neighbours) {
             let message =
                 format!("neighbours is {}; 12 (one joint) or 728 (any joints) is accepted", read.neighbours);
-            return Err(settings.error(message));
+            return Err(settings.error_at("neighbours", message));
         }
         Ok(Box::new(read))
     }),

@@ -1,9 +1,9 @@
-//! Jump point search, online: JPS(B+P).
+//! Jump point search, online: runs are scanned in blocks, intermediate jump points are pruned (B + P).
 //!
-//! Runs are scanned 64 cells at a time and intermediate jump points are pruned ([`JumpSearch`](crate::search::JumpSearch),
-//! where counters and ties are defined). It plans under every corner rule. What it needs of a map are a byte a cell of
-//! bits ([`JumpLines`]); `prepared_bytes` says how many there are. They are made in one pass over the map, once, or in
-//! every query with `preparation = "each_query"`: a study that has both contenders finds the cost in their clock readings.
+//! Counters and ties are defined with [`JumpSearch`](crate::search::JumpSearch). Every corner rule is supported. The planner
+//! needs bits of rows and columns ([`JumpLines`]), about one byte for each cell; `prepared_bytes` counts them. They are
+//! made in one pass over the map and shared by all queries. With `preparation = "each_query"` every query makes them
+//! anew: in a study that has both contenders, the difference of their clock readings is the cost of preparation.
 //!
 //! # Source
 //! Harabor & Grastien, *Online graph pruning for pathfinding on grid maps*, AAAI 2011; *Improving jump point search*,

@@ -1,10 +1,11 @@
 //! Jump point search with preprocessing: JPS+, with intermediate pruning.
 //!
-//! It expands what [`jps`](super::jps) expands, in the same order, and looks distances up instead of scanning for them
-//! ([`JumpTable`], 16 bytes a cell; `prepared_bytes` says how many there are). The table is made once for each map and
-//! belongs to the world, so that all contenders share it; no clock reading counts it, because a study plans every query
-//! once before it times it. With `preparation = "each_query"` every query makes the table anew: a study that has both
-//! contenders finds the cost of preprocessing in their clock readings, query by query.
+//! It expands what [`jps`](super::jps) expands, in the same order, and looks distances up instead of scanning for them.
+//! Every corner rule is supported. The table ([`JumpTable`]) takes 16 bytes for each cell; `prepared_bytes` counts them.
+//! It belongs to the world and is made when it is first asked for, so that all contenders share it. No clock reading
+//! counts it: a study plans every query once before it times it. With `preparation = "each_query"` every query makes
+//! the table anew: in a study that has both contenders, the difference of their clock readings is the cost of
+//! preprocessing.
 //!
 //! # Source
 //! Harabor & Grastien, *Improving jump point search*, ICAPS 2014, sections 5 and 6.

@@ -15,10 +15,10 @@ pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generat
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Preparation {
-    /// Once for each map, before or in the first query on it; a study reads no clock in the first query.
+    /// Once for each map, in the first query on it, which no clock times.
     #[default]
     Kept,
-    /// In every query anew, so that the clock of a query counts it.
+    /// In every query anew, so that every clock reading counts it.
     EachQuery,
 }
 

@@ -51,8 +51,11 @@ last_resort = false
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Mode {
+    /// The walk as printed: over the key node of least cost on the faces in front of it.
     Literal,
+    /// The same walk with the guards without which it stops at its first key node.
     Greedy,
+    /// Key nodes wait on an open list, as in an A*.
     OpenList,
 }
 

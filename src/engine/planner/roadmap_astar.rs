@@ -68,15 +68,20 @@ struct RoadmapAstar {
 #[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum CostSetting {
+    /// Edges: each counts 1.
     Hops,
+    /// The length of the edges.
     Length,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum ShotSetting {
+    /// At no time.
     Never,
+    /// Once, from the start.
     FromStart,
+    /// From every node before it is expanded.
     BeforeExpansion,
 }
 
@@ -92,14 +97,14 @@ enum PathSetting {
 impl RoadmapAstar {
     fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
         if self.samples == 0 {
-            return Err(settings.error("samples is 0; at least 1 is accepted"));
+            return Err(settings.error_at("samples", "samples is 0; at least 1 is accepted"));
         }
         if !self.neighbour_mm.is_finite() || self.neighbour_mm <= 0.0 {
             let message = format!("neighbour_mm is {}; a length above 0 is accepted", self.neighbour_mm);
-            return Err(settings.error(message));
+            return Err(settings.error_at("neighbour_mm", message));
         }
         if self.nearest == Some(0) {
-            return Err(settings.error("nearest is 0; at least 1 is accepted, or leave it out"));
+            return Err(settings.error_at("nearest", "nearest is 0; at least 1 is accepted, or leave it out"));
         }
         Ok(())
     }

@@ -35,7 +35,9 @@ struct ShortenBest {
 #[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum Least {
+    /// The path's length.
     Length,
+    /// How many nodes the path has.
     Nodes,
 }
 

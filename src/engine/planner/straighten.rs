@@ -35,7 +35,9 @@ struct Straighten {
 #[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum LastSetting {
+    /// The goal is not tried, as the printed loop ends before it.
     AsPrinted,
+    /// Every later node is tried, the goal included.
     Goal,
 }
 

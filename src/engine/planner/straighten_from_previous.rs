@@ -36,7 +36,9 @@ struct Straighten {
 #[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum ResumeSetting {
+    /// At the last node that was joined, P(m − 1): what the procedure needs to stay on the path it drew.
     LastJoined,
+    /// At the node that could not be joined, P(m), as the text says.
     FirstRefused,
 }
 

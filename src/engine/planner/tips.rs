@@ -29,7 +29,9 @@ const WIDEST_CELLS: u8 = 20;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RegionSetting {
+    /// Its shape.
     pub(super) shape: RegionShape,
+    /// How far it reaches.
     pub(super) radius_cells: u8,
 }
 
@@ -37,7 +39,9 @@ pub(super) struct RegionSetting {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum RegionShape {
+    /// All cells of a square.
     Square,
+    /// The cells of it that lie within a circle.
     Disc,
     /// With sides square to the axes.
     Octagon,
@@ -50,7 +54,7 @@ impl RegionSetting {
         let radius = self.radius_cells;
         if !(1..=WIDEST_CELLS).contains(&radius) {
             let message = format!("radius_cells is {radius}; 1 to {WIDEST_CELLS} is accepted");
-            return Err(settings.error(message));
+            return Err(settings.error_at("radius_cells", message));
         }
         Ok(match self.shape {
             RegionShape::Square => Offsets::square(radius),
@@ -65,7 +69,9 @@ impl RegionSetting {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum OpenSetting {
+    /// It takes the better way.
     Lowered,
+    /// It keeps the way that it was first reached by.
     Never,
 }
 

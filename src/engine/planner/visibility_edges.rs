@@ -22,14 +22,14 @@ pub static ENTRY: Entry = Entry {
     needs: WorldKind::Polyhedra,
     columns: &["opened", "expansions", "generated"],
     settings: Accepted::of::<Visibility>(),
-    example: r#"
+    example: r"
 spacing_cm = 3.0
-"#,
+",
     build: Build::Planner(|settings| {
         let read: Visibility = settings.read()?;
         if !(read.spacing_cm.is_finite() && read.spacing_cm > 0.0) {
             let message = format!("spacing_cm is {}; more than 0 is accepted", read.spacing_cm);
-            return Err(settings.error(message));
+            return Err(settings.error_at("spacing_cm", message));
         }
         Ok(Box::new(read))
     }),

@@ -263,7 +263,7 @@ impl<J: Jumps> Query<'_, J> {
         from: From,
         start: Place,
     ) {
-        let (pruning, [dx, dy]) = (self.jumps.pruning(), DIRECTIONS[DIRECTION]);
+        let [dx, dy] = DIRECTIONS[DIRECTION];
         let step = dy * self.width as i32 + dx;
         let to_corner = self.to_corner([dx, dy], start);
         let (mut cell, mut length) = (from.node, 0);
@@ -276,9 +276,8 @@ impl<J: Jumps> Query<'_, J> {
             length += hop;
             cell = cell.wrapping_add_signed(step * hop as i32);
             let (at, g) = (moved::<DIRECTION>(start, length), from.g + length * ScaledOctile::DIAGONAL);
-            let is_turn =
-                pruning.turns_on_diagonals() && pruning.is_turn(DIRECTION, self.jumps.moves().mask(cell));
-            if is_turn || cell == self.goal {
+            let turns = self.jumps.pruning().turns(self.jumps.moves().mask(cell));
+            if turns >> DIRECTION & 1 == 1 || cell == self.goal {
                 self.offer::<DIRECTION>(from, at, g);
                 return;
             }

@@ -53,6 +53,7 @@ struct ArmPlane {
     /// At how many points of the first path the arm is drawn.
     #[schemars(range(max = 1000))]
     stations: usize,
+    /// The panels, in their order.
     panels: Vec<PanelSetting>,
 }
 

@@ -103,7 +103,7 @@ impl ArmPoses {
                 && scene.run.exhibit(&row.key, "rods").is_some()
                 && others.iter().all(|other| fails(row.draw(), other))
         };
-        rows(first).find(is_chosen).map(|row| row.draw())
+        rows(first).find(is_chosen).map(Row::draw)
     }
 
     fn row<'a>(&self, scene: &'a Scene<'_>, contender: &str) -> Result<&'a Row, RenderError> {

@@ -33,8 +33,11 @@ contenders = ["Original A*", "Improved A*"]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CellPaths {
+    /// The problem group, by its label.
     problems: String,
+    /// The query, by its name.
     query: String,
+    /// The contenders, by their labels.
     contenders: Vec<String>,
 }
 

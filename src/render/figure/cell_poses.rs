@@ -41,6 +41,7 @@ at_once = 3
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CellPoses {
+    /// The problem group, by its label.
     problems: String,
     /// Ends of queries, as `name/start` or `name/goal`.
     poses: Vec<String>,

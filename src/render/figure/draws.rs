@@ -47,7 +47,9 @@ const PLOT_PT: f64 = 118.0;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Draws {
+    /// The panels, in their order.
     panels: Vec<PanelSpec>,
+    /// How many panels stand beside each other.
     #[schemars(range(min = 1, max = 12))]
     columns: usize,
 }
@@ -55,8 +57,11 @@ struct Draws {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSpec {
+    /// The claim, by its id.
     claim: String,
+    /// What stands above it.
     title: String,
+    /// What stands along the axis.
     axis: String,
 }
 

@@ -39,12 +39,14 @@ const PLOT_PT: f64 = 190.0;
 struct EndpointPairs {
     /// The problem group.
     problem: String,
+    /// The panels, in their order.
     panels: Vec<PanelSetting>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
+    /// What stands above it.
     title: String,
     /// Labels of the variants shown.
     variants: Vec<String>,

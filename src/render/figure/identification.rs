@@ -64,9 +64,11 @@ studies = ["identify_full", "identify_front", "identify_branch", "identify_poses
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
+    /// The contender, by its label.
     contender: String,
     /// The sweep along the axis.
     sweep: String,
+    /// What stands along the axis.
     axis: String,
     /// What the other sweeps are at: one panel each.
     others: Vec<String>,
@@ -74,6 +76,7 @@ struct Read {
     printed: Vec<String>,
     /// A printed row whose distance from the mean curve is shown in a last panel.
     row: Option<RowOf>,
+    /// The studies that are compared, by name.
     studies: Vec<String>,
 }
 

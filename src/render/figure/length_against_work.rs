@@ -7,7 +7,7 @@ use crate::render::chart::marks::Points;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{BLACK, SERIES, WHITE, Width, series_color, series_marker};
 use crate::study::record::{Row, Status};
-use base::settings::Accepted;
+use base::settings::{Accepted, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::median;
@@ -27,7 +27,10 @@ contenders = ["A* 8", "Modified 24", "Modified 48", "Modified 80", "CHS r=2", "C
         let read: LengthAgainstWork = settings.read()?;
         ask::known(settings, study, &read.problems, &read.contenders)?;
         let find = |name: &str| {
-            metric::find(name).ok_or_else(|| settings.error(format!("there is no metric `{name}`")))
+            metric::find(name).ok_or_else(|| {
+                settings
+                    .error_about(name, none_called("metric", name, metric::METRICS.iter().map(|m| m.name)))
+            })
         };
         let (work, length) = (find(&read.metric)?, find(&read.length)?);
         Ok(Box::new(Ready { read, work, length }))

@@ -49,8 +49,11 @@ struct MotionCurves {
 #[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum Quantity {
+    /// The tip's coordinates.
     Tip,
+    /// The arm's posture.
     Posture,
+    /// The joint angles.
     Joints,
 }
 

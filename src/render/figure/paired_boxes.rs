@@ -11,7 +11,7 @@ use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color};
 use crate::study::key::SweepKey;
 use crate::study::record::Status;
-use base::settings::Accepted;
+use base::settings::{Accepted, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::{mean, median, quantile_type7};
@@ -32,8 +32,12 @@ savings = ["length.least", "length.greatest"]
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
-        let metric = crate::analysis::metric::find(&read.metric)
-            .ok_or_else(|| settings.error(format!("there is no metric `{}`", read.metric)))?;
+        let metric = crate::analysis::metric::find(&read.metric).ok_or_else(|| {
+            settings.error_about(
+                &read.metric,
+                none_called("metric", &read.metric, crate::analysis::metric::METRICS.iter().map(|m| m.name)),
+            )
+        })?;
         let printed = read.savings.iter().flatten().map(|id| ask::printed(settings, paper, id));
         let printed = printed.collect::<Result<_, _>>()?;
         let sweep = ask::sweep(settings, study, &read.sweep)?;
@@ -44,9 +48,13 @@ savings = ["length.least", "length.greatest"]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
+    /// The problem group, by its label.
     problems: String,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contenders, by their labels.
     contenders: Vec<String>,
+    /// What stands along the axis.
     axis: String,
     /// The point of the sweeps, in a study that has any.
     #[serde(default)]

@@ -35,18 +35,22 @@ panels = [{ contender = "Original A*", title = "", bare = true }]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneSearch {
+    /// The problem group, by its label.
     problems: String,
     /// Which draw of the group.
     draw: u32,
     /// The radius of a neighbourhood.
     radius_mm: f64,
+    /// The panels, in their order.
     panels: Vec<PanelOf>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelOf {
+    /// The contender, by its label.
     contender: String,
+    /// What stands above it.
     title: String,
     /// How many searches are shown; all and the path if absent.
     searches: Option<usize>,

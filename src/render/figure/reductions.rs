@@ -60,7 +60,9 @@ const ROW_PT: f64 = 11.0;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Reductions {
+    /// The panels, in their order.
     panels: Vec<PanelSpec>,
+    /// How many panels stand beside each other.
     #[schemars(range(min = 1, max = 12))]
     columns: usize,
     /// From the top.
@@ -74,8 +76,11 @@ struct Reductions {
 struct PanelSpec {
     /// The claim that prints the reduction.
     claim: String,
+    /// What stands above it.
     title: String,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
 }
 

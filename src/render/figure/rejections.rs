@@ -9,6 +9,7 @@ use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Fill, TextSize, Width, series_color};
 use crate::study::record::PreparedRow;
 use base::settings::Accepted;
+use engine::planner::Value;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -30,6 +31,7 @@ problems = ["cell"]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Rejections {
+    /// The problem groups, by their labels.
     problems: Vec<String>,
 }
 
@@ -51,7 +53,7 @@ const PANELS: [(&[&str], &str); 2] =
     [(&[], "of all pairs"), (&["rejected_branch"], "of pairs on one branch")];
 
 fn count(row: &PreparedRow, column: &str) -> Option<f64> {
-    row.values.get(column).map(|value| value.as_f64())
+    row.values.get(column).map(Value::as_f64)
 }
 
 impl Rejections {

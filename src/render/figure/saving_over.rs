@@ -7,7 +7,7 @@ use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{GREY, Marker, Stroke, VERMILLION, WHITE, Width};
 use crate::study::column;
-use base::settings::Accepted;
+use base::settings::{Accepted, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -27,8 +27,12 @@ over = "obstacles"
     build: |settings, study, _paper| {
         let read: Settings = settings.read()?;
         super::check_labels(settings, study, [&read.contender, &read.against], &read.problems)?;
-        let metric = metric::find(&read.metric)
-            .ok_or_else(|| settings.error(format!("there is no metric `{}`", read.metric)))?;
+        let metric = metric::find(&read.metric).ok_or_else(|| {
+            settings.error_about(
+                &read.metric,
+                none_called("metric", &read.metric, metric::METRICS.iter().map(|m| m.name)),
+            )
+        })?;
         let column = column::find(&read.over)
             .ok_or_else(|| settings.error(format!("there is no column `{}`", read.over)))?;
         Ok(Box::new(SavingOver { settings: read, metric, about: column.about }))
@@ -43,8 +47,11 @@ const PLOT_PT: f64 = 170.0;
 struct Settings {
     /// One panel each.
     problems: Vec<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contender, by its label.
     contender: String,
+    /// The contender that it is held against, by its label.
     against: String,
     /// The column along which it is drawn.
     over: String,

@@ -40,6 +40,7 @@ const PLOT_PT: f64 = 150.0;
 struct SearchFlow {
     /// The problem group; its first draw is shown.
     problem: String,
+    /// The contender, by its label.
     contender: String,
     /// Which share of all opened cells each panel shows.
     shares: Vec<f64>,

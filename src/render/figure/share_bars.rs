@@ -40,7 +40,9 @@ printed = ["t2.original.800"]
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
+    /// The problem groups, by their labels.
     problems: Vec<String>,
+    /// The setting that the study sweeps.
     sweep: String,
     /// Claims whose printed shares are drawn as lines.
     #[serde(default)]

@@ -50,14 +50,18 @@ const PLOT_PT: f64 = 178.0;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SpecificationCurve {
+    /// The columns, one a claim.
     columns: Vec<ColumnSpec>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ColumnSpec {
+    /// The claim, by its id.
     claim: String,
+    /// What stands above it.
     title: String,
+    /// What stands along the axis.
     axis: String,
     /// Where the axis begins, if what lies below is to be cut off.
     low: Option<f64>,

@@ -51,15 +51,20 @@ pub(super) struct RowOf {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Read {
+    /// The problem group, by its label.
     problems: String,
+    /// The setting that the study sweeps.
     sweep: String,
+    /// What stands along the axis.
     axis: String,
+    /// The contenders that are shown, one a panel.
     rows: Vec<ReadRow>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ReadRow {
+    /// The contender, by its label.
     contender: String,
     /// What the claims of the printed cells are called before the sweep's value, if a row is printed.
     printed: Option<String>,

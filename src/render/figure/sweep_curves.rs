@@ -6,7 +6,7 @@ use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_marker, series_stroke};
-use base::settings::Accepted;
+use base::settings::{Accepted, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -26,7 +26,10 @@ label = "Jia's step δ (°)"
         let read: Settings = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
         let found = |name: &String| {
-            metric::find(name).ok_or_else(|| settings.error(format!("there is no metric `{name}`")))
+            metric::find(name).ok_or_else(|| {
+                settings
+                    .error_about(name, none_called("metric", name, metric::METRICS.iter().map(|m| m.name)))
+            })
         };
         let metrics = read.metrics.iter().map(found).collect::<Result<_, _>>()?;
         if !study.sweeps.iter().any(|sweep| sweep.key == read.along) {

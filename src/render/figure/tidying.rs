@@ -36,6 +36,7 @@ const PLOT_PT: f64 = 215.0;
 struct Tidying {
     /// Problem groups; the first draw of each is shown.
     problems: Vec<String>,
+    /// The contender, by its label.
     contender: String,
 }
 

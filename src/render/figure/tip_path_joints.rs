@@ -44,6 +44,7 @@ struct TipPathJoints {
     #[serde(default = "two")]
     #[schemars(range(min = 1, max = 12))]
     columns: usize,
+    /// The panels, in their order.
     panels: Vec<PanelSetting>,
 }
 

@@ -49,16 +49,22 @@ const PLOT_PT: f64 = 150.0;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Tradeoff {
+    /// The metric along the horizontal axis.
     x: String,
+    /// The metric along the vertical axis.
     y: String,
+    /// The contenders, by their labels.
     contenders: Vec<String>,
+    /// The panels, in their order.
     panels: Vec<PanelSpec>,
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSpec {
+    /// What stands above it.
     title: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
 }
 

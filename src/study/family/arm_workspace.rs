@@ -46,21 +46,33 @@ goal_cm = [0, 45]
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmWorkspace {
+    /// The lengths of the two links.
     links_cm: [f64; 2],
+    /// The least and the greatest x of the lattice.
     x_cm: [f64; 2],
+    /// The least and the greatest y of the lattice.
     y_cm: [f64; 2],
+    /// The side of a lattice cell.
     step_cm: f64,
+    /// How far the tip must stay from the base.
     inner_radius_cm: f64,
+    /// On which side the elbow is.
     elbow: ElbowSetting,
+    /// Whether touching an obstacle counts as a collision.
     touching: TouchSetting,
+    /// How the move between neighbouring cells is checked.
     hop_check: HopSetting,
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
+    /// The diameter of every obstacle.
     obstacle_diameter_cm: f64,
     /// One shape for all obstacles, or one for each.
     obstacle_shapes: Vec<ShapeSetting>,
+    /// x and y of the middle of each obstacle.
     obstacles_cm: Vec<[f64; 2]>,
     /// Absent, as the goal, where the study looks for both.
     start_cm: Option<[f64; 2]>,
+    /// x and y of the goal; absent where the study looks for it.
     goal_cm: Option<[f64; 2]>,
 }
 

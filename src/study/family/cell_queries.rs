@@ -58,32 +58,49 @@ const AROUND_DEG: f64 = 20.0;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CellQueries {
+    /// The robot file.
     robot: String,
+    /// The scene file.
     scene: String,
     /// Whether the scene's obstacles stand there; its floor goes with them.
     obstacles: bool,
+    /// Whether the arm must not touch itself.
     self_collision: bool,
     /// Instead of the robot file's tool.
     tool_mm: Option<f64>,
+    /// The file with the groups of poses that are started from and planned to.
     queries: String,
+    /// How many samples the roadmap is built from.
     #[schemars(range(max = 100_000))]
     samples: u32,
+    /// Which samples the number counts.
     counted: CountedSetting,
+    /// Where samples are drawn from.
     region: Region,
+    /// How far the tools of two samples may be apart to be tried as neighbours.
     radius_mm: f64,
+    /// What moves straight between neighbours.
     path: PathSetting,
+    /// How far the tool may move between two configurations that are checked.
     step_mm: f64,
+    /// How far the tool may turn between two configurations that are checked.
     step_deg: f64,
+    /// How far a joint may move between two of them before the path counts as broken.
     jump_deg: f64,
+    /// How far the tool may turn along one local path.
     turn_deg: f64,
+    /// What the end of a local path must be.
     end: EndSetting,
+    /// The tool's speed; without it the path has no time.
     speed: Option<SpeedSetting>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum CountedSetting {
+    /// The first N that were accepted.
     Accepted,
+    /// Those accepted among the first N draws.
     Drawn,
 }
 
@@ -104,22 +121,29 @@ enum Region {
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum PathSetting {
+    /// The tool's way.
     Tool,
+    /// The way in the space of joint angles.
     Joints,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum EndSetting {
+    /// The configuration itself.
     Own,
+    /// The configuration, joints 4 and 6 up to whole turns.
     WholeTurns,
+    /// Any configuration with the tool in the same pose.
     PoseOnly,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SpeedSetting {
+    /// The greatest speed of the tool.
     tool_mm_s: f64,
+    /// The greatest acceleration of the tool, in millimetres a second squared.
     acceleration_mm_s2: f64,
 }
 
@@ -172,7 +196,9 @@ pub const GROUPS_FILE: Accepted = Accepted::of::<GroupsFile>();
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GroupsFile {
+    /// The poses by name: the angle of each joint, from the base on.
     pose_deg: BTreeMap<String, Joints>,
+    /// The queries.
     #[serde(rename = "group")]
     groups: Vec<GroupEntry>,
 }
@@ -180,8 +206,11 @@ struct GroupsFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GroupEntry {
+    /// Its name.
     name: String,
+    /// The pose that it starts from, by name.
     from: Spanned<String>,
+    /// The pose that it goes to, by name.
     to: Spanned<String>,
 }
 
@@ -243,13 +272,13 @@ impl Posed {
         if let Some(fault) = read.fault() {
             return Err(settings.error(fault));
         }
-        let locate = |name: &str| inputs.locate(name).map_err(|message| settings.error(message));
+        let locate = |name: &str| inputs.locate(name).map_err(|message| settings.error_about(name, message));
         let files = [locate(&read.robot)?, locate(&read.scene)?, locate(&read.queries)?];
         let robot = Robot::load(&files[0]).map_err(|e| settings.error(e.to_string()))?;
         let robot = match read.tool_mm {
-            Some(tool_mm) => {
-                robot.with_tool_length(tool_mm * 1e-3).map_err(|e| settings.error(format!("tool_mm: {e}")))?
-            }
+            Some(tool_mm) => robot
+                .with_tool_length(tool_mm * 1e-3)
+                .map_err(|e| settings.error_at("tool_mm", format!("tool_mm: {e}")))?,
             None => robot,
         };
         let scene = Scene::load(&files[1])?;

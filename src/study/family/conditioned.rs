@@ -65,7 +65,7 @@ of = [
         let found = match &read.found {
             None => BTreeMap::new(),
             Some(name) => {
-                let file = inputs.locate(name).map_err(|message| settings.error(message))?;
+                let file = inputs.locate(name).map_err(|message| settings.error_about(name, message))?;
                 let found =
                     found::read(&file, &read.fingerprint()).map_err(|message| settings.error(message))?;
                 files.push(file);
@@ -112,7 +112,9 @@ struct Conditioned {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Of {
+    /// The family, by name.
     family: String,
+    /// Its settings besides the shared ones.
     #[schemars(with = "AnyTable")]
     settings: Table,
 }

@@ -28,7 +28,7 @@ corner_rule = "allow"
 "#,
     build: |settings, inputs| {
         let read: GridMap = settings.read()?;
-        let file = inputs.locate(&read.map).map_err(|message| settings.error(message))?;
+        let file = inputs.locate(&read.map).map_err(|message| settings.error_about(&read.map, message))?;
         let grid = read_text_map(&file).map_err(|e| settings.error(e.to_string()))?;
         lattice::prepare(grid.clone(), read.corner_rule, read.start, read.goal)
             .map_err(|invalid| settings.error(invalid.0))?;
@@ -41,9 +41,13 @@ corner_rule = "allow"
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GridMap {
+    /// The map file.
     map: String,
+    /// The column and row of the start cell.
     start: [u32; 2],
+    /// The column and row of the goal cell.
     goal: [u32; 2],
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
 }
 

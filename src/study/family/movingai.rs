@@ -38,7 +38,7 @@ corner_rule = "forbid_any"
 "#,
     build: |settings, inputs| {
         let read: MovingAi = settings.read()?;
-        let file = |name: &str| inputs.locate(name).map_err(|message| settings.error(message));
+        let file = |name: &str| inputs.locate(name).map_err(|message| settings.error_about(name, message));
         let files = [file(&read.map)?, file(&read.scenarios)?];
         let refused = |e: base::grid::GridError| settings.error(e.to_string());
         let grid = read_movingai_map(&files[0]).map_err(refused)?;
@@ -60,7 +60,9 @@ corner_rule = "forbid_any"
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MovingAi {
+    /// The map, a `.map` file of the Moving AI benchmarks.
     map: String,
+    /// Its queries, a `.scen` file of the Moving AI benchmarks.
     scenarios: String,
     /// The benchmark's lengths hold for `forbid_any`.
     #[serde(default = "no_corner_is_cut")]

@@ -36,9 +36,9 @@ radius_mm = 220
                 "samples is {} and radius_mm {}; at least 1 and a length above 0 are accepted",
                 read.samples, read.radius_mm
             );
-            return Err(settings.error(message).into());
+            return Err(settings.error_at("samples", message).into());
         }
-        let file = inputs.locate(&read.map).map_err(|message| settings.error(message))?;
+        let file = inputs.locate(&read.map).map_err(|message| settings.error_about(&read.map, message))?;
         let document = Document::open(&file)?;
         let map: MapFile = document.read()?;
         let plane = map.plane(&document)?;
@@ -55,9 +55,12 @@ const RASTER_MM: f64 = 1.0 / 16.0;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneQueries {
+    /// The map file.
     map: String,
+    /// How many samples the roadmap is built from.
     #[schemars(range(max = 100_000))]
     samples: u32,
+    /// How far two samples may be apart to be tried as neighbours.
     radius_mm: f64,
 }
 
@@ -67,11 +70,16 @@ pub const MAP_FILE: Accepted = Accepted::of::<MapFile>();
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MapFile {
+    /// Its name.
     #[expect(dead_code, reason = "a map says its name to readers")]
     name: String,
+    /// How wide and how high the plane is.
     size_mm: [f64; 2],
+    /// x and y of the start.
     start_mm: Spanned<[f64; 2]>,
+    /// x and y of the goal.
     goal_mm: Spanned<[f64; 2]>,
+    /// The obstacles: convex polygons.
     #[serde(rename = "obstacle")]
     obstacles: Vec<Spanned<ObstacleEntry>>,
 }
@@ -79,6 +87,7 @@ struct MapFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ObstacleEntry {
+    /// x and y of each corner, counter-clockwise.
     corners_mm: Vec<[f64; 2]>,
 }
 

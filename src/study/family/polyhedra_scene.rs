@@ -40,13 +40,17 @@ queries = [{ start = [70, -46, 36], goal = [70, 41, 51] }]
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneSettings {
+    /// The scene file.
     scene: String,
+    /// The side of a lattice cell.
     step_cm: f64,
     /// By how much the tip keeps away from the obstacles.
     growth_cm: f64,
+    /// The queries: start and goal each.
     queries: Vec<QuerySettings>,
     /// Each draw's start and goal lie in balls of this radius about the written ones.
     scatter_cm: Option<f64>,
+    /// The robot file of the arm whose tip the point is; a point alone if absent.
     robot: Option<String>,
     /// The body that stands for the robot's links.
     body: Option<String>,
@@ -59,7 +63,9 @@ pub(super) struct QuerySettings {
     /// Its name; empty if it is the only one.
     #[serde(default)]
     name: String,
+    /// x, y and z of the start, in centimetres.
     start: [f64; 3],
+    /// x, y and z of the goal, in centimetres.
     goal: [f64; 3],
 }
 
@@ -98,7 +104,7 @@ fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
         && !(radius.is_finite() && radius > 0.0)
     {
         let message = format!("scatter_cm is {radius}; more than 0 is accepted");
-        return Err(settings.error(message).into());
+        return Err(settings.error_at("scatter_cm", message).into());
     }
     let queries: Vec<Query> = read.queries.iter().map(QuerySettings::query).collect();
     check(settings, &world, &queries)?;
@@ -216,7 +222,7 @@ mod tests {
                 query(start, "[90, 65, 105]"),
                 ["the arm cannot reach the goal [90.0, 65.0, 105.0]", "with its tool pointing down"],
             ),
-            (query("[70, -46]", goal), ["invalid length 2", "array of length 3"]),
+            (query("[70, -46]", goal), ["`start` is an array of 2", "an array of 3"]),
             ("queries = []".to_owned(), ["queries is empty", "at least one start and goal is needed"]),
             ("step_cm = 999".to_owned(), ["tang_c1.toml: step is 999", "at most the domain's shortest side"]),
             ("step_cm = 0".to_owned(), ["step is 0", "more than 0"]),

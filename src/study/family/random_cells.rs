@@ -32,7 +32,7 @@ corner_rule = "allow"
         let share = read.blocked_share;
         if !(0.0..1.0).contains(&share) {
             let message = format!("blocked_share is {share}; 0 to below 1 is accepted");
-            return Err(settings.error(message).into());
+            return Err(settings.error_at("blocked_share", message).into());
         }
         let draw =
             move |stream: &mut Stream, size, free: &[u32]| independent_cells(stream, size, share, free);
@@ -44,10 +44,15 @@ corner_rule = "allow"
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RandomCells {
+    /// Columns and rows of the map.
     size_cells: [u32; 2],
+    /// The column and row of the start cell.
     start: [u32; 2],
+    /// The column and row of the goal cell.
     goal: [u32; 2],
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
+    /// The chance that a cell is blocked.
     blocked_share: f64,
 }
 
@@ -72,12 +77,13 @@ where
     /// A size that no grid has, or a start or goal outside.
     pub(super) fn new(settings: &Settings, frame: Frame, draw: D) -> Result<Self, SettingsError> {
         let ([width, height], start, goal, _) = frame;
-        let empty = Grid2::new(width, height).map_err(|e| settings.error(format!("size_cells: {e}")))?;
+        let empty = Grid2::new(width, height)
+            .map_err(|e| settings.error_at("size_cells", format!("size_cells: {e}")))?;
         let cell = |what: &str, [x, y]: [u32; 2]| {
             empty.cell(x as i32, y as i32).ok_or_else(|| {
                 let message =
                     format!("{what} is [{x}, {y}], outside the map; cells are 0..{width} by 0..{height}");
-                settings.error(message)
+                settings.error_at(what, message)
             })
         };
         let keep_free = [cell("start", start)?, cell("goal", goal)?];

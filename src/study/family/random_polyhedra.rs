@@ -46,28 +46,37 @@ const TRIES: u32 = 10_000;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RandomPolyhedra {
+    /// The side of the cube that they stand in.
     side_cm: f64,
+    /// The side of a lattice cell.
     step_cm: f64,
     /// The fewest and the most obstacles; each number in between is as likely.
     #[schemars(inner(range(max = 10_000)))]
     count: [u32; 2],
     /// The least and the greatest extent along each axis.
     size_cm: [f64; 2],
+    /// The shapes that are drawn from, each with equal chance.
     shapes: Vec<ShapeName>,
     /// The least distance between the boxes about two obstacles; they may overlap without it.
     gap_cm: Option<f64>,
     /// How far obstacles stay from starts and goals.
     clear_cm: f64,
+    /// The queries on every draw: start and goal each.
     queries: Vec<QuerySettings>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum ShapeName {
+    /// A box along the axes.
     Box,
+    /// A prism with a regular base.
     Prism,
+    /// A regular octahedron.
     Octahedron,
+    /// A box cut in two along a diagonal.
     Wedge,
+    /// A pyramid with a square base.
     Pyramid,
 }
 

@@ -41,9 +41,13 @@ corner_rule = "allow"
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RandomRectangles {
+    /// Columns and rows of the map.
     size_cells: [u32; 2],
+    /// The column and row of the start cell.
     start: [u32; 2],
+    /// The column and row of the goal cell.
     goal: [u32; 2],
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
     /// How many are drawn.
     #[schemars(range(max = 1_000_000))]

@@ -42,7 +42,7 @@ settings = { weight = 1, ties = 'fifo' }
 label = 'second'
 planner = 'astar'
 settings = { weight = 2, ties = 'fifo' }
-then = [{ stage = 'straighten', settings = {} }]
+then = [{ stage = 'delete_inflections', settings = { line_of_sight = 'exact_interior' } }]
 [[reading]]
 id = 'corners'
 why = 'w'
@@ -135,7 +135,7 @@ fn a_changed_contender_runs_alone_and_the_records_are_those_of_a_fresh_run() {
         ),
         (
             "a stage",
-            STUDY.replace("then = [{ stage = 'straighten', settings = {} }]\n", ""),
+            STUDY.replace("then = [{ stage = 'delete_inflections', settings = { line_of_sight = 'exact_interior' } }]\n", ""),
             vec!["contender `second` has changed under 2 of 2 readings"],
             14,
         ),

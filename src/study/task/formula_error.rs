@@ -35,18 +35,18 @@ pub static ENTRY: Entry = Entry {
         "largest_excess_cm",
     ],
     settings: Accepted::of::<FormulaError>(),
-    example: r#"
+    example: r"
 samples = 500
 reach = 0.5
-"#,
+",
     build: |settings: &Settings| {
         let read: FormulaError = settings.read()?;
         if read.samples == 0 {
-            return Err(settings.error("samples is 0; at least 1 is accepted"));
+            return Err(settings.error_at("samples", "samples is 0; at least 1 is accepted"));
         }
         if !(read.reach > 0.0 && read.reach.is_finite()) {
             let message = format!("reach is {}; more than 0 is accepted", read.reach);
-            return Err(settings.error(message));
+            return Err(settings.error_at("reach", message));
         }
         Ok(Box::new(read))
     },

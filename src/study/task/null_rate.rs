@@ -73,7 +73,7 @@ variants = [
         let read: NullRate = settings.read()?;
         if !(read.window_cm > 0.0 && read.window_cm < 50.0) {
             let message = format!("window_cm is {}; above 0 and below 50 is accepted", read.window_cm);
-            return Err(settings.error(message));
+            return Err(settings.error_at("window_cm", message));
         }
         if let Some(fault) = read.fault() {
             return Err(settings.error(fault));

@@ -35,7 +35,7 @@ impl Task for PlanTask {
         if let Ok(prepared) = &prepared
             && unit.is_kept(None, 0)
         {
-            batch.keep((&unit.key).into(), prepared.exhibits.clone());
+            batch.keep(&(&unit.key).into(), prepared.exhibits.clone());
         }
         for (index, query) in unit.queries().iter().enumerate() {
             let known = unit.family.known(index);
@@ -56,7 +56,7 @@ impl Task for PlanTask {
 }
 
 impl Batch {
-    fn keep(&mut self, of: Owner, exhibits: Vec<Exhibit>) {
+    fn keep(&mut self, of: &Owner, exhibits: Vec<Exhibit>) {
         self.kept.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.clone(), exhibit }));
     }
 }
@@ -91,9 +91,9 @@ impl Trial<'_> {
                 row.values
                     .extend(plan.counts.iter().chain(&judged.values).map(|(name, value)| (*name, *value)));
                 if trace {
-                    batch.keep((&row.key).into(), std::mem::take(&mut plan.exhibits));
-                    batch.keep((&row.key).into(), judged.exhibits);
-                    batch.keep((&row.key).into(), path_exhibit(&plan));
+                    batch.keep(&(&row.key).into(), std::mem::take(&mut plan.exhibits));
+                    batch.keep(&(&row.key).into(), judged.exhibits);
+                    batch.keep(&(&row.key).into(), path_exhibit(&plan));
                 }
             }
         }

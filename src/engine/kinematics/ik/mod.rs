@@ -25,7 +25,8 @@ use std::{
 /// Which of the up to eight ways an arm takes to a pose: three signs.
 ///
 /// Two configurations on different branches are joined only through a singularity, so a motion along which
-/// the branch may not change can be refused by its ends alone.
+/// the branch may not change can be refused by its ends alone. What the signs mean is told below for the closed forms; the
+/// search has one sign of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Branch(u8);
 
@@ -48,7 +49,7 @@ impl Branch {
         self.0 & 2 == 0
     }
 
-    /// Whether the fifth angle, offset included, has a positive sine.
+    /// Whether the fifth angle, as the solver counts it, has a positive sine.
     pub fn wrist(self) -> bool {
         self.0 & 1 == 0
     }

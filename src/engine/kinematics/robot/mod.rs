@@ -4,6 +4,7 @@
 //! memory everything is metres and radians. A file may hold several bodies, so that a study can ask what
 //! the choice of one is worth.
 
+mod attached;
 mod file;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! Rows and columns of a lattice as bits, so that a straight run is followed 64 cells at a time.
 
 use super::{Jumps, LatticeWorld, Pruning};
-use base::grid::{DIRECTIONS, Grid2, Moves};
+use base::grid::{DIRECTIONS, Moves};
 use std::sync::Arc;
 
 /// Where straight runs end: for each of the four straight directions a bit for every wall and every jump point.
@@ -27,13 +27,23 @@ struct Lines {
 impl JumpLines {
     /// The lines of `world`.
     pub fn new(world: &LatticeWorld) -> Self {
-        let (grid, moves) = (world.grid(), Arc::clone(world.moves()));
-        let pruning = Pruning::under(world.corner_rule());
-        let lines = std::array::from_fn(|direction| match DIRECTIONS[direction] {
-            [_, 0] => Lines::new(grid, &moves, pruning, direction),
-            [0, _] => Lines::new(grid, &moves, pruning, direction),
+        let (moves, pruning) = (Arc::clone(world.moves()), Pruning::under(world.corner_rule()));
+        let (width, height) = (moves.width(), moves.cell_count() / moves.width());
+        let mut lines = DIRECTIONS.map(|direction| match direction {
+            [_, 0] => Lines::walls(width, height),
+            [0, _] => Lines::walls(height, width),
             _ => Lines::default(),
         });
+        for [y, x] in (0..height).flat_map(|y| (0..width).map(move |x| [y, x])) {
+            let mask = moves.mask(y * width + x);
+            // A free cell without moves is no part of any run.
+            if mask != 0 {
+                let turns = pruning.turns(mask);
+                for (direction, line, at) in [(1, y, x), (6, y, x), (3, x, y), (4, x, y)] {
+                    lines[direction].free(line, at, turns >> direction & 1 == 1);
+                }
+            }
+        }
         Self { moves, pruning, lines }
     }
 
@@ -44,20 +54,19 @@ impl JumpLines {
 }
 
 impl Lines {
-    fn new(grid: &Grid2, moves: &Moves, pruning: &Pruning, direction: usize) -> Self {
-        let is_row = DIRECTIONS[direction][1] == 0;
-        let [length, count] =
-            if is_row { [grid.width(), grid.height()] } else { [grid.height(), grid.width()] };
+    /// `count` lines of `length` cells that are all wall.
+    fn walls(length: u32, count: u32) -> Self {
         let words_per_line = (length as usize + 2).div_ceil(64);
-        let mut words = vec![[0, u64::MAX]; words_per_line * count as usize];
-        for cell in (0..grid.cell_count()).filter(|cell| grid.is_free(*cell)) {
-            let [x, y] = [cell % grid.width(), cell / grid.width()];
-            let [line, bit] = if is_row { [y, x + 1] } else { [x, y + 1] };
-            let [jumps, walls] = &mut words[line as usize * words_per_line + bit as usize / 64];
-            *walls &= !(1 << (bit % 64));
-            *jumps |= u64::from(pruning.is_turn(direction, moves.mask(cell))) << (bit % 64);
-        }
-        Self { words, words_per_line }
+        Self { words: vec![[0, u64::MAX]; words_per_line * count as usize], words_per_line }
+    }
+
+    /// Frees cell `at` of a line.
+    #[inline]
+    fn free(&mut self, line: u32, at: u32, is_jump: bool) {
+        let (word, bit) = ((at + 1) as usize / 64, (at + 1) % 64);
+        let [jumps, walls] = &mut self.words[line as usize * self.words_per_line + word];
+        *walls &= !(1 << bit);
+        *jumps |= u64::from(is_jump) << bit;
     }
 
     /// How many cells are free above cell `at` of a line, and whether the last of them is a jump point: the first.
@@ -88,7 +97,7 @@ impl Lines {
             let [jumps, walls] = words[word];
             let stops = (jumps | walls) & kept;
             if stops != 0 {
-                let stop = 63 - stops.leading_zeros();
+                let stop = stops.ilog2();
                 let is_jump = jumps >> stop & 1 == 1;
                 return (bit - word as u32 * 64 - stop - u32::from(!is_jump), is_jump);
             }

@@ -19,8 +19,10 @@ const DIAGONAL: u32 = 1393;
 /// The pruning rules under one corner rule. Sets of directions are masks over [`DIRECTIONS`].
 #[derive(Debug)]
 pub struct Pruning {
+    /// By direction of entering and legal moves.
     onward: [[u8; 256]; 8],
-    turns_on_diagonals: bool,
+    /// By legal moves, the directions of entering that make the cell a jump point.
+    turns: [u8; 256],
 }
 
 static ALLOW: LazyLock<Pruning> = LazyLock::new(|| Pruning::new(CornerRule::Allow));
@@ -41,12 +43,10 @@ impl Pruning {
         let onward: [[u8; 256]; 8] = std::array::from_fn(|came| {
             std::array::from_fn(|moves| Block { corners, moves: moves as u8 }.onward(came))
         });
-        let mut pruning = Self { onward, turns_on_diagonals: true };
-        let diagonals = (0..8).filter(|direction| is_diagonal(*direction));
-        pruning.turns_on_diagonals = diagonals
-            .flat_map(|came| (0..=u8::MAX).map(move |moves| (came, moves)))
-            .any(|(came, moves)| pruning.is_turn(came, moves));
-        pruning
+        let turns = std::array::from_fn(|moves| {
+            (0..8).filter(|came| onward[*came][moves] & !NATURAL[*came] != 0).map(|came| 1 << came).sum()
+        });
+        Self { onward, turns }
     }
 
     /// The directions to go on in from a cell with the legal `moves`, entered in direction `came`.
@@ -55,16 +55,13 @@ impl Pruning {
         self.onward[came][moves as usize]
     }
 
-    /// Whether a cell with the legal `moves`, entered in direction `came`, is a jump point: a way goes on from it in a
+    /// The directions in which a cell with the legal `moves` is a jump point if it is entered: a way goes on from it in a
     /// direction that a run in that direction does not take anyway.
+    ///
+    /// Where no corner is cut, these are straight directions only.
     #[inline]
-    pub fn is_turn(&self, came: usize, moves: u8) -> bool {
-        self.onward(came, moves) & !NATURAL[came] != 0
-    }
-
-    /// Whether a cell entered diagonally can be such a jump point at all; where no corner is cut, it cannot.
-    pub fn turns_on_diagonals(&self) -> bool {
-        self.turns_on_diagonals
+    pub fn turns(&self, moves: u8) -> u8 {
+        self.turns[moves as usize]
     }
 }
 
@@ -207,7 +204,7 @@ mod tests {
                     let found = pruning.onward(came, legal);
                     assert_eq!(found, listed, "{corners:?}, {step:?} among {free:08b}");
                     seen += 1;
-                    turned += u32::from(pruning.is_turn(came, legal));
+                    turned += u32::from(pruning.turns(legal) >> came & 1);
                 }
             }
             assert!(turned > 100 && seen > 2 * turned, "{corners:?}: {turned} jump points of {seen}");
@@ -217,6 +214,8 @@ mod tests {
     #[test]
     fn only_where_corners_are_cut_does_a_way_turn_after_a_diagonal_move() {
         let rules = [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny];
-        assert_eq!(rules.map(|rule| Pruning::under(rule).turns_on_diagonals()), [true, true, false]);
+        let diagonals: u8 = (0..8).filter(|came| is_diagonal(*came)).map(|came| 1 << came).sum();
+        let turns = |rule| (0..=u8::MAX).any(|moves| Pruning::under(rule).turns(moves) & diagonals != 0);
+        assert_eq!(rules.map(turns), [true, true, false]);
     }
 }

@@ -23,38 +23,49 @@ pub struct JumpTable {
     runs: Vec<[u16; 8]>,
 }
 
+/// A direction and, if it is diagonal, the straight ones that make it.
+type Direction = (usize, Option<[usize; 2]>);
+
+/// The passes over the cells: first to last, back, and forth again.
+///
+/// A run goes on where that of the next cell does, so that each pass takes the directions that lead to cells it has been to.
+/// A diagonal run also asks where straight ones of the next cell end, so that south-east waits for east.
+const PASSES: [&[Direction]; 3] = [
+    &[(4, None), (6, None), (7, Some([6, 4]))],
+    &[(1, None), (3, None), (0, Some([1, 3])), (5, Some([6, 3]))],
+    &[(2, Some([1, 4]))],
+];
+
 impl JumpTable {
     /// The table of `world`.
     pub fn new(world: &LatticeWorld) -> Self {
         let (moves, pruning) = (Arc::clone(world.moves()), Pruning::under(world.corner_rule()));
         let mut table = Self { runs: vec![[0; 8]; moves.cell_count() as usize], moves, pruning };
-        // A run goes on where that of the next cell does, so that cells are taken from a run's far end to its near one.
-        // Straight directions come first: diagonal runs ask where straight ones end.
-        let cells = 0..table.moves.cell_count();
-        for direction in [1, 3, 4, 6, 0, 2, 5, 7] {
-            let [dx, dy] = DIRECTIONS[direction];
-            if dy < 0 || dy == 0 && dx < 0 {
-                cells.clone().for_each(|cell| table.fill(cell, direction));
-            } else {
-                cells.clone().rev().for_each(|cell| table.fill(cell, direction));
+        let count = table.moves.cell_count();
+        for (number, pass) in PASSES.into_iter().enumerate() {
+            for place in 0..count {
+                let cell = if number == 1 { count - 1 - place } else { place };
+                let mask = table.moves.mask(cell);
+                for (direction, parts) in pass {
+                    if mask >> direction & 1 == 1 {
+                        table.fill(cell, *direction, *parts);
+                    }
+                }
             }
         }
         table
     }
 
-    fn fill(&mut self, cell: u32, direction: usize) {
-        if self.moves.mask(cell) >> direction & 1 == 0 {
-            return;
-        }
+    #[inline]
+    fn fill(&mut self, cell: u32, direction: usize, parts: Option<[usize; 2]>) {
         let [dx, dy] = DIRECTIONS[direction];
         let next = cell.wrapping_add_signed(dy * self.moves.width() as i32 + dx);
-        let beyond = self.runs[next as usize];
-        let part = |step: [i32; 2]| DIRECTIONS.iter().position(|known| *known == step);
-        let parts = if dx != 0 && dy != 0 { [part([dx, 0]), part([0, dy])] } else { [None; 2] };
-        let stops = self.pruning.is_turn(direction, self.moves.mask(next))
-            || parts.into_iter().flatten().any(|part| beyond[part] & 1 == 1);
+        let beyond = &self.runs[next as usize];
+        let is_turn = self.pruning.turns(self.moves.mask(next)) >> direction & 1 == 1;
+        let meets_jump =
+            parts.is_some_and(|[sideways, upwards]| (beyond[sideways] | beyond[upwards]) & 1 == 1);
         self.runs[cell as usize][direction] = match beyond[direction] >> 1 {
-            _ if stops => 3,
+            _ if is_turn || meets_jump => 3,
             LONGEST => LONGEST << 1 | 1,
             _ => beyond[direction] + 2,
         };

@@ -89,7 +89,9 @@ fn drawn_table(stream: &mut Stream, is_spherical: bool) -> tables::Table {
             [alpha6, a6, d[5], 0.0],
         ]
     };
-    table.iter_mut().for_each(|row| row[3] = stream.random_range(-180.0..180.0));
+    for row in &mut table {
+        row[3] = stream.random_range(-180.0..180.0);
+    }
     table
 }
 
@@ -154,7 +156,7 @@ fn at_the_shoulder(arm: &Arm, q: &Joints) -> Joints {
 fn singular_poses_are_reached_to_a_nanometre() {
     let nearly = [0.0, 1e-14, 1e-12, 9e-11, 1.1e-10, 1e-9, 1e-8, 1e-6];
     for (seed, (name, arm, _)) in (751..).zip(published()) {
-        let (mut stream, mut refused) = (seed::stream(seed), 0);
+        let (mut stream, mut refused, mut twice) = (seed::stream(seed), 0, 0);
         for index in 0..12_000 {
             let mut q = draw(&mut stream, arm.chain());
             let by = nearly[index / 24 % nearly.len()] * if index % 2 == 0 { 1.0 } else { -1.0 };
@@ -170,13 +172,17 @@ fn singular_poses_are_reached_to_a_nanometre() {
                 q[1] += if kind >= 8 { by } else { 0.0 };
             }
             let place = format!("{name}, seed {seed} case {index}: {q:?}");
-            let found = held(&arm, &q, &draw(&mut stream, arm.chain()), &place);
+            // Where joint 6 keeps its reference, another one may put the pose out of reach.
+            let mut reference = draw(&mut stream, arm.chain());
+            reference[5] = q[5];
+            let found = held(&arm, &q, &reference, &place);
             // At the edge of reach in two ways at once, rounding decides.
             let is_twice_at_the_edge = kind & 2 != 0 && kind >= 4;
             assert!(found > 0 || is_twice_at_the_edge, "{place}: not reached");
             refused += u32::from(found == 0);
+            twice += u32::from(is_twice_at_the_edge);
         }
-        assert!(refused < 100, "{name}, seed {seed}: {refused} of 12000 refused");
+        assert!(refused * 10 < twice, "{name}, seed {seed}: {refused} of {twice} refused");
     }
 }
 

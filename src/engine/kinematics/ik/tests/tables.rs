@@ -20,18 +20,17 @@ pub const PUMA: Table = [
 /// The same with the shoulder's offset in row 2.
 pub const PUMA_D2: Table = moved_d(PUMA, 1, 2, 150.05);
 
-/// The same with the shoulder's offset over rows 2 and 3, as Lee's and Armstrong's tables have it (243.5 and -93.4; here the
-/// sum is the 150.05 of above).
+/// The same with the shoulder's offset shared out over rows 2 and 3, as Armstrong's table has it.
 pub const PUMA_SHARED: Table = moved_d(PUMA, 1, 2, 243.5);
 
-/// By the modified convention: Craig (2005), figure 3.21, with the lengths above.
+/// By the modified convention: Armstrong, Khatib & Burdick (1986), as in `mdl_puma560akb.m` of Corke's Robotics Toolbox.
 pub const PUMA_MODIFIED: Table = [
     [0.0, 0.0, 0.0, 0.0],
+    [-90.0, 0.0, 243.5, 0.0],
+    [0.0, 431.8, -93.4, 0.0],
+    [90.0, -20.3, 433.1, 0.0],
     [-90.0, 0.0, 0.0, 0.0],
-    [0.0, 431.8, 150.05, 0.0],
-    [-90.0, 20.3, 431.8, 0.0],
     [90.0, 0.0, 0.0, 0.0],
-    [-90.0, 0.0, 0.0, 0.0],
 ];
 
 /// Universal Robots, CB3 user manual, appendix "Robot Parameter": UR5 series 3.

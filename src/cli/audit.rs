@@ -1,0 +1,173 @@
+//! `replan audit`: is this table possible?
+
+use super::Failure;
+use ::audit::reader::{self, Format};
+use ::audit::report::{Options, Report};
+use ::audit::witness::Budget;
+use ::audit::{coverage, output};
+use clap::Args;
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Asks of a printed table, by arithmetic alone, whether any data could have given it.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Audit {
+    /// A table (CSV, Markdown) or relations (TOML); `-` for standard input
+    #[arg(required_unless_present_any = ["list", "coverage"])]
+    file: Option<PathBuf>,
+    /// How the input is written; by its ending or looks if absent
+    #[arg(long, value_name = "FORMAT", value_parser = ["csv", "md", "toml"])]
+    format: Option<String>,
+    /// Print the whole report, certificates included, as JSON
+    #[arg(long)]
+    json: bool,
+    /// Show data behind what is possible, this many vectors a number at most
+    #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "20")]
+    witness: Option<usize>,
+    /// Try data in an order drawn from this seed, for a sample instead of the first ones
+    #[arg(long, value_name = "SEED", requires = "witness")]
+    seed: Option<u64>,
+    /// Steps that the search for data may take a number
+    #[arg(long, value_name = "STEPS", default_value_t = 100_000, requires = "witness")]
+    budget: u64,
+    /// Write the certificate of every impossible finding into this folder
+    #[arg(long, value_name = "DIR")]
+    certificates: Option<PathBuf>,
+    /// Write the table's header with every guess, to be corrected
+    #[arg(long, value_name = "FILE")]
+    stub: Option<PathBuf>,
+    /// List the checks and the items of annotations
+    #[arg(long)]
+    list: bool,
+    /// Look for numbers in this LaTeX text that no macro backs, and for stale macros
+    #[arg(long, value_name = "TEX", requires = "macros")]
+    coverage: Option<PathBuf>,
+    /// The macros that the text uses: plots/PAPER/numbers.tex or a copy of it
+    #[arg(long, value_name = "TEX")]
+    macros: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "Examples:
+  replan audit results.md                       | method | success [% of 250] | time [mean s, n=250] |
+  replan audit results.csv --json
+  replan audit claims.toml --witness
+  replan audit --coverage paper.tex --macros plots/zhang/numbers.tex
+Exit code 3: something is impossible under the premises named, or a number is backed by no macro.";
+
+impl Audit {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        if self.list {
+            say!("{}", output::list().trim_end());
+            return Ok(());
+        }
+        if let (Some(text), Some(macros)) = (&self.coverage, &self.macros) {
+            covered(text, macros)?;
+        }
+        self.file.as_deref().map_or(Ok(()), |file| self.judged(file))
+    }
+
+    fn judged(&self, file: &Path) -> Result<(), Failure> {
+        let source = if file == Path::new("-") { "stdin".to_owned() } else { file.display().to_string() };
+        let text = read(file)?;
+        let by_ending = file.extension().and_then(|ending| Format::of_ending(&ending.to_string_lossy()));
+        let asked = self.format.as_deref().and_then(Format::of_ending);
+        let format = asked.or(by_ending).unwrap_or_else(|| Format::of_text(&text));
+        let told = |faults: Vec<audit::table::Fault>| {
+            let lines: Vec<String> = faults.iter().map(|fault| format!("{source}:{fault}")).collect();
+            Failure::input(lines.join("\n"))
+        };
+        let input = reader::read(&text, format).map_err(told)?;
+        if let Some(stub) = &self.stub {
+            let headers: Vec<String> = input
+                .tables
+                .iter()
+                .map(|table| format!("| {} |\n", reader::stub(table).join(" | ")))
+                .collect();
+            write(stub, &headers.concat())?;
+        }
+        let witness = self.witness.map(|most| Budget { most, steps: self.budget, seed: self.seed });
+        let options = Options { keeps_possible: self.json, witness, ..Options::default() };
+        let report = audit::report::audit(&input, &options).map_err(told)?;
+        if let Some(folder) = &self.certificates {
+            write_certificates(folder, &report)?;
+        }
+        if self.json {
+            say!("{:#}", output::json(&source, &report));
+        } else {
+            for guess in output::guesses(&source, &input) {
+                say!("{guess}");
+            }
+            report.findings.iter().for_each(|finding| say!("{}", output::line(&source, finding)));
+            for line in output::summary(&report) {
+                say!("{line}");
+            }
+        }
+        let impossible = report.tally.values().map(|tally| tally.impossible).sum::<usize>();
+        match impossible {
+            0 => Ok(()),
+            found => {
+                Err(Failure::stale(format!("{source}: {found} findings are impossible under their premises")))
+            }
+        }
+    }
+}
+
+/// Tells what `text` holds that no macro backs.
+fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
+    let given = read(macros)?;
+    let current = current(&given, macros).map(|path| read(&path)).transpose()?;
+    let remarks = coverage::coverage(&read(text)?, &given, current.as_deref());
+    for remark in &remarks {
+        say!("{}:{remark}", text.display());
+    }
+    match remarks.len() {
+        0 => Ok(()),
+        found => Err(Failure::stale(format!("{}: {found} numbers or macros to look at", text.display()))),
+    }
+}
+
+/// Where the macros come from, if they are a copy: the first line names the paper that they were made for.
+fn current(macros: &str, given: &Path) -> Option<PathBuf> {
+    let words = macros.lines().next()?.split_once("replan render ")?.1;
+    let paper = words.split_whitespace().next()?;
+    let path = Path::new("plots").join(paper).join("numbers.tex");
+    let differs = fs::canonicalize(&path).ok()? != fs::canonicalize(given).ok()?;
+    differs.then_some(path)
+}
+
+fn write_certificates(folder: &Path, report: &Report) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| about(folder, &error))?;
+    let proved = report.findings.iter().filter_map(|finding| Some((finding, finding.certificate.as_ref()?)));
+    for (index, (finding, certificate)) in proved.enumerate() {
+        let path = folder.join(format!("{:03}_{}_{}.json", index + 1, finding.place.line, finding.check));
+        write(&path, &format!("{certificate:#}\n"))?;
+    }
+    Ok(())
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    fs::write(path, text).map_err(|error| about(path, &error))
+}
+
+fn about(path: &Path, error: &std::io::Error) -> Failure {
+    Failure { code: 1, message: format!("{}: {error}", path.display()) }
+}
+
+fn read(path: &Path) -> Result<String, Failure> {
+    let mut bytes = Vec::new();
+    let done = if path == Path::new("-") {
+        std::io::stdin().lock().read_to_end(&mut bytes).map(|_| ())
+    } else {
+        fs::read(path).map(|read| bytes = read)
+    };
+    done.map_err(|error| {
+        Failure::input(format!("{}: {error}; a readable text file is expected", path.display()))
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Failure::input(format!("{}: byte {at} is not UTF-8; UTF-8 text is expected", path.display()))
+    })
+}

@@ -1,0 +1,70 @@
+//! `replan audit` as people call it: lines, exit codes, standard input, files that it writes; and what its package knows of others.
+
+use crate::paper::Bench;
+use crate::source::PACKAGES;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::Stdio;
+
+const TABLE: &str = "| planner | success [% of 250] |\n|-|-|\n| A | 33.3 |\n| B | 33.2 |\n";
+
+#[test]
+fn an_impossible_table_is_told_in_a_line_with_exit_code_3() {
+    let bench = Bench::new();
+    bench.write("t.md", TABLE.as_bytes());
+    let said = bench.run(&["audit", "t.md", "--certificates", "proofs"]);
+    assert_eq!(said.code, Some(3), "{}", said.err);
+    let first = said.out.lines().next().unwrap();
+    assert!(
+        first.starts_with("t.md:3:2: impossible: success of A: 33.3 is the mean of no 250 values"),
+        "{first}"
+    );
+    assert_eq!(said.err, "replan: t.md: 1 findings are impossible under their premises\n");
+    assert!(bench.at("proofs/001_3_grim.json").is_file());
+}
+
+#[test]
+fn a_possible_table_ends_with_0_and_shows_its_data_if_asked() {
+    let bench = Bench::new();
+    bench.write("t.md", TABLE.replace("33.3", "33.6").as_bytes());
+    let said = bench.done(&["audit", "t.md", "--witness"]);
+    assert!(said.contains("data (all of them, 1 of 100000 steps): 84 × 2/5 of 250"), "{said}");
+    let json = bench.done(&["audit", "t.md", "--json"]);
+    assert!(json.contains("\"check\": \"grim\"") && json.contains("\"power\""), "{json}");
+}
+
+#[test]
+fn standard_input_is_read_and_wrong_input_ends_with_2() {
+    let bench = Bench::new();
+    let mut child = bench.command(&["audit", "-"]).stdin(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(TABLE.replace("33.3", "33,3").as_bytes()).unwrap();
+    let said = bench.said(&child.wait_with_output().unwrap());
+    assert_eq!(said.code, Some(2));
+    assert!(
+        said.err.starts_with("replan: stdin:3:2: column `success`: `33,3` has a decimal comma"),
+        "{}",
+        said.err
+    );
+}
+
+#[test]
+fn a_number_that_no_macro_backs_ends_with_3() {
+    let bench = Bench::new();
+    bench.write("numbers.tex", b"\\newcommand{\\nodes}{45}\n");
+    bench.write("paper.tex", b"We open 45 nodes.\n");
+    let call = ["audit", "--coverage", "paper.tex", "--macros", "numbers.tex"];
+    let said = bench.run(&call);
+    assert_eq!(said.code, Some(3));
+    assert_eq!(said.out, "paper.tex:1:9: 45 is typed by hand; macros of this value: \\nodes\n");
+    bench.write("paper.tex", b"We open \\nodes{} nodes.\n");
+    assert_eq!(bench.run(&call).code, Some(0));
+}
+
+#[test]
+fn the_audit_depends_on_estimators_alone_and_on_nothing_that_plans() {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/audit/Cargo.toml");
+    let manifest: toml::Table = std::fs::read_to_string(manifest).unwrap().parse().unwrap();
+    let own = |name: &&String| PACKAGES.contains(&name.as_str());
+    let found: Vec<&String> = manifest["dependencies"].as_table().unwrap().keys().filter(own).collect();
+    assert_eq!(found, ["stats"]);
+}
