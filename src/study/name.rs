@@ -1,5 +1,7 @@
 //! Names that people see, made from typed keys here and nowhere else, and never taken apart again.
 
+pub use base::slug::slug;
+
 use super::key::{DrawKey, Owner, ReadingKey, SweepKey, Text, TrialKey};
 use std::collections::BTreeMap;
 
@@ -106,14 +108,6 @@ pub fn choice<'a>(other: impl Iterator<Item = (&'a str, &'a str)>) -> String {
 pub fn sweep(key: &SweepKey) -> String {
     let parts: Vec<String> = key.values().iter().map(|(name, value)| format!("{name}={value}")).collect();
     parts.join(",")
-}
-
-/// `label` in lower case with everything but letters and digits turned into dashes, `*` spelled out: part of a
-/// trial's name that any shell takes as it is.
-pub fn slug(label: &str) -> String {
-    let spelled = label.to_lowercase().replace('*', "-star").replace('+', "-plus");
-    let dashed: String = spelled.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    dashed.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
 }
 
 #[cfg(test)]

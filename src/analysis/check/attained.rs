@@ -4,12 +4,14 @@ use super::{Check, Context, Entry};
 use crate::analysis::evidence::{Evidence, Pair, Run};
 use crate::analysis::metric::Metric;
 use crate::analysis::verdict::{Estimate, Finding, Verdict};
+use crate::study::record::Row;
 use crate::study::{Reading, ReadingChoice, Study};
 use audit::printed::{Digits, Printed};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -65,14 +67,24 @@ pub struct Attained<'a> {
     readings: Vec<Reading>,
 }
 
-/// A trial that was looked at: its problem, its value, and its name with the study's.
-struct Seen {
-    problem: (String, String),
-    contender: String,
+/// A trial that was looked at, and its value. Names are made of the few that are shown.
+struct Seen<'e> {
+    run: &'e Run<'e>,
+    row: &'e Row,
+    contender: &'e str,
     value: f64,
-    trial: String,
-    reading: String,
+    reading: Arc<str>,
     selected: bool,
+}
+
+/// What tells problems under one reading apart: study, group, draw and query.
+type Problem<'e> = (&'e str, &'e str, u32, Option<&'e str>);
+
+impl<'e> Seen<'e> {
+    fn problem(&self) -> Problem<'e> {
+        let key = &self.row.key;
+        (&self.run.study.name, &key.on.group, key.on.draw, key.query.as_deref())
+    }
 }
 
 /// A contender on a problem, and whether a claim is met there.
@@ -133,11 +145,11 @@ impl<'a> Attained<'a> {
 
     /// Every problem on which the claim was looked for under the evidence's reading, and whether it is met there.
     pub fn problems(&self, evidence: &Evidence<'_>) -> Vec<Outcome> {
-        let outcome = |seen: Seen| Outcome {
+        let outcome = |seen: Seen<'_>| Outcome {
             is_met: self.is_met(seen.value),
-            problem: seen.problem,
-            contender: seen.contender,
-            reading: seen.reading,
+            problem: (seen.run.study.name.clone(), seen.run.problem(seen.row)),
+            contender: seen.contender.to_owned(),
+            reading: seen.reading.to_string(),
         };
         self.seen(evidence).into_iter().map(outcome).collect()
     }
@@ -146,7 +158,7 @@ impl<'a> Attained<'a> {
         self.printed.agrees(value, self.digits)
     }
 
-    fn seen(&self, evidence: &Evidence<'_>) -> Vec<Seen> {
+    fn seen<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
         let mut seen = Vec::new();
         for place in &self.settings.r#in {
             let Some(run) =
@@ -156,8 +168,7 @@ impl<'a> Attained<'a> {
             };
             for group in &place.problems {
                 for contender in &self.settings.contenders {
-                    let found = self.seen_in(run, &evidence.point, group, contender);
-                    seen.extend(found.into_iter().map(|seen| Seen { selected: place.selected, ..seen }));
+                    seen.extend(self.seen_in(run, &evidence.point, (group, place.selected), contender));
                 }
             }
         }
@@ -183,8 +194,15 @@ impl<'a> Attained<'a> {
         point.expect("departures were looked up when the check was built").name().to_owned()
     }
 
-    fn seen_in(&self, run: &Run<'_>, point: &ReadingChoice, group: &str, contender: &str) -> Vec<Seen> {
-        let reading = self.reading_of(run.study, point, contender);
+    /// The trials of `contender` in one problem group, which was selected or not.
+    fn seen_in<'e>(
+        &self,
+        run: &'e Run<'e>,
+        point: &ReadingChoice,
+        (group, selected): (&str, bool),
+        contender: &'e str,
+    ) -> Vec<Seen<'e>> {
+        let reading: Arc<str> = self.reading_of(run.study, point, contender).into();
         let base = self.settings.against.as_deref().unwrap_or(contender);
         let value = |pair: &Pair<'_>| {
             let other = run.value(pair.other, self.metric)?;
@@ -196,27 +214,21 @@ impl<'a> Attained<'a> {
         };
         let pairs = run.pairs(group, base, contender);
         let seen = pairs.iter().filter_map(|pair| {
-            Some(Seen {
-                problem: (run.study.name.clone(), run.problem(pair.other)),
-                contender: contender.to_owned(),
-                value: value(pair)?,
-                trial: run.trial(pair.other),
-                reading: reading.clone(),
-                selected: false,
-            })
+            let (row, value, reading) = (pair.other, value(pair)?, reading.clone());
+            Some(Seen { run, row, contender, value, reading, selected })
         });
         seen.collect()
     }
 
     /// Every trial on a problem where all given claims are met.
-    fn eligible(&self, evidence: &Evidence<'_>) -> Vec<Seen> {
+    fn eligible<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
         let mut eligible = self.seen(evidence);
         for given in &self.given {
-            let mut met: BTreeMap<(String, String), bool> = BTreeMap::new();
+            let mut met: BTreeMap<Problem<'_>, bool> = BTreeMap::new();
             for seen in given.seen(evidence) {
-                *met.entry(seen.problem).or_default() |= given.is_met(seen.value);
+                *met.entry(seen.problem()).or_default() |= given.is_met(seen.value);
             }
-            eligible.retain(|seen| met.get(&seen.problem).copied().unwrap_or(false));
+            eligible.retain(|seen| met.get(&seen.problem()).copied().unwrap_or(false));
         }
         eligible
     }
@@ -224,18 +236,18 @@ impl<'a> Attained<'a> {
 
 impl Check for Attained<'_> {
     fn judge(&self, evidence: &Evidence<'_>) -> Finding {
-        let (selected, eligible): (Vec<Seen>, Vec<Seen>) =
+        let (selected, eligible): (Vec<Seen<'_>>, Vec<Seen<'_>>) =
             self.eligible(evidence).into_iter().partition(|seen| seen.selected);
-        let met: Vec<&Seen> = eligible.iter().filter(|seen| self.is_met(seen.value)).collect();
+        let met: Vec<&Seen<'_>> = eligible.iter().filter(|seen| self.is_met(seen.value)).collect();
         let given: Vec<&str> = self.given.iter().map(|given| given.claim).collect();
         let condition =
             if given.is_empty() { String::new() } else { format!(" on which {} hold", given.join(", ")) };
-        let distance = |seen: &Seen| (seen.value - self.printed.value()).abs();
+        let distance = |seen: &Seen<'_>| (seen.value - self.printed.value()).abs();
         let nearest = eligible.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let mut finding = Finding::of(ENTRY.name);
         if let Some(shown) = met.first().copied().or(nearest) {
-            finding.trial = Some(shown.trial.clone());
-            finding.reading = Some(shown.reading.clone()).filter(|name| name != evidence.point.name());
+            finding.trial = Some(shown.run.trial(shown.row));
+            finding.reading = Some(shown.reading.to_string()).filter(|name| name != evidence.point.name());
             let found = if met.is_empty() { "nearest" } else { "met" };
             let what = format!("{found}, {} by {}", self.title(), shown.contender);
             finding.ours = Some(Estimate { value: shown.value, interval: None, what, n: eligible.len() });
@@ -247,7 +259,7 @@ impl Check for Attained<'_> {
                 met.len(),
                 eligible.len(),
                 first.contender,
-                first.problem.1,
+                first.run.problem(first.row),
                 first.reading
             ),
             None => {
