@@ -1,7 +1,7 @@
 //! Everything that is drawn for a paper: figures, tables, numbers, the report's chapter.
 
 use super::figure::{self, Scene};
-use super::report;
+use super::report::{self, Undrawn};
 use super::results;
 use super::tables;
 use super::vector::{Figure, Provenance};
@@ -22,15 +22,6 @@ pub struct Output {
     pub name: String,
     /// Its content.
     pub bytes: Vec<u8>,
-}
-
-/// A figure that could not be drawn.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Undrawn {
-    /// Its id.
-    pub id: String,
-    /// Why, with its study.
-    pub why: String,
 }
 
 /// Every file of a paper, but for figures that could not be drawn.
@@ -56,20 +47,7 @@ pub fn outputs(
 ) -> Result<Outputs, RenderError> {
     let (paper, is_wanted) = (evidence.paper, |id: &str| only.is_none_or(|only| only == id));
     let marks = marks(paper, verdicts);
-    let (mut outputs, mut undrawn) = (Vec::new(), Vec::new());
-    for run in evidence.runs() {
-        for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
-            if stop.load(Ordering::Relaxed) {
-                return Err(RenderError::Interrupted);
-            }
-            match named_figure_outputs(&Scene { evidence, run, verdicts }, spec) {
-                Ok(drawn) => outputs.extend(drawn),
-                Err(error) => {
-                    undrawn.push(Undrawn { id: spec.id.get_ref().clone(), why: error.to_string() });
-                }
-            }
-        }
-    }
+    let (mut outputs, undrawn) = figures(evidence, verdicts, is_wanted, stop)?;
     let mut write = |id: &str, text: String| {
         outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
     };
@@ -90,6 +68,30 @@ pub fn outputs(
         });
     }
     Ok(Outputs { files: outputs, undrawn })
+}
+
+/// The files of the figures that are wanted, and those that cannot be drawn.
+fn figures(
+    evidence: &Evidence<'_>,
+    verdicts: &Verdicts,
+    is_wanted: impl Fn(&str) -> bool,
+    stop: &AtomicBool,
+) -> Result<(Vec<Output>, Vec<Undrawn>), RenderError> {
+    let (mut outputs, mut undrawn) = (Vec::new(), Vec::new());
+    for run in evidence.runs() {
+        for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
+            if stop.load(Ordering::Relaxed) {
+                return Err(RenderError::Interrupted);
+            }
+            match named_figure_outputs(&Scene { evidence, run, verdicts }, spec) {
+                Ok(drawn) => outputs.extend(drawn),
+                Err(error) => {
+                    undrawn.push(Undrawn { id: spec.id.get_ref().clone(), why: error.to_string() });
+                }
+            }
+        }
+    }
+    Ok((outputs, undrawn))
 }
 
 /// `drawn` unless labels of it overlap or leave the page.
