@@ -137,7 +137,10 @@ mod tests {
     #[test]
     fn a_lattice_without_nodes_or_with_too_many_is_refused() {
         let error = Grid3::new([3, 0, 2]).unwrap_err();
-        assert_eq!(error.to_string(), "a lattice of 3 × 0 × 2 nodes; each side may have 1 to 1023 nodes");
+        assert_eq!(
+            error.to_string(),
+            "a lattice of 3 × 0 × 2 nodes; each side may have 1 to 1023 nodes, and all may have 67108864"
+        );
         assert!(Grid3::new([1024, 1, 1]).is_err());
     }
 }

@@ -149,7 +149,10 @@ mod tests {
     #[test]
     fn a_grid_without_cells_is_refused() {
         let error = Grid2::new(0, 3).unwrap_err();
-        assert_eq!(error.to_string(), "a grid of 0 × 3 cells; each side may have 1 to 65535 cells");
+        assert_eq!(
+            error.to_string(),
+            "a grid of 0 × 3 cells; each side may have 1 to 65535 cells, and all may have 67108864"
+        );
         assert!(Grid2::new(3, 65_536).is_err());
     }
 }
