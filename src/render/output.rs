@@ -55,7 +55,6 @@ pub fn outputs(
     stop: &AtomicBool,
 ) -> Result<Outputs, RenderError> {
     let (paper, is_wanted) = (evidence.paper, |id: &str| only.is_none_or(|only| only == id));
-    let marks = marks(paper, verdicts);
     let (mut outputs, mut undrawn) = (Vec::new(), Vec::new());
     for run in evidence.runs() {
         for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
@@ -70,6 +69,24 @@ pub fn outputs(
             }
         }
     }
+    outputs.extend(texts(evidence, verdicts, is_wanted)?);
+    if outputs.is_empty() && undrawn.is_empty() {
+        let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
+        let (wanted, ids) = (only.unwrap_or_default(), ids.join(", "));
+        return Err(RenderError::NotStored {
+            what: format!("a figure or table `{wanted}`; there are {ids}"),
+        });
+    }
+    Ok(Outputs { files: outputs, undrawn })
+}
+
+/// The tables and the numbers of the paper that are wanted.
+fn texts(
+    evidence: &Evidence<'_>,
+    verdicts: &Verdicts,
+    is_wanted: impl Fn(&str) -> bool,
+) -> Result<Vec<Output>, RenderError> {
+    let (paper, marks, mut outputs) = (evidence.paper, marks(evidence.paper, verdicts), Vec::new());
     let mut write = |id: &str, text: String| {
         outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
     };
@@ -82,14 +99,7 @@ pub fn outputs(
     if is_wanted("numbers") {
         write("numbers", tables::numbers(evidence, verdicts)?);
     }
-    if outputs.is_empty() && undrawn.is_empty() {
-        let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
-        let (wanted, ids) = (only.unwrap_or_default(), ids.join(", "));
-        return Err(RenderError::NotStored {
-            what: format!("a figure or table `{wanted}`; there are {ids}"),
-        });
-    }
-    Ok(Outputs { files: outputs, undrawn })
+    Ok(outputs)
 }
 
 /// `drawn` unless labels of it overlap or leave the page.
