@@ -5,7 +5,7 @@
 //! `crosscheck/certificates` verifies them with nothing but Python's `fractions`.
 
 use super::checks::{Proof, Test};
-use super::exact::{Print, Span, spelled};
+use super::exact::{Print, span};
 use serde_json::{Value, json};
 
 /// The value of the field `format`.
@@ -29,14 +29,4 @@ pub fn of(check: &str, test: &dyn Test, prints: &[Print], proof: &Proof) -> Valu
         "given": proof.given,
         "steps": proof.steps,
     })
-}
-
-/// A span as `["[", "1/2", "3/4", ")"]`: a bracket for an end that is a member, a parenthesis for one that is not.
-pub fn span(span: &Span) -> Value {
-    json!([
-        if span.low_closed { "[" } else { "(" },
-        spelled(span.low),
-        spelled(span.high),
-        if span.high_closed { "]" } else { ")" },
-    ])
 }

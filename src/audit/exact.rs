@@ -6,6 +6,7 @@
 use super::printed::{Digits, Printed};
 use num_rational::Ratio;
 use num_traits::{CheckedAdd as _, CheckedDiv as _, CheckedMul as _, CheckedSub as _};
+use serde_json::{Value, json};
 
 /// An exact rational number.
 pub type Exact = Ratio<i128>;
@@ -223,6 +224,16 @@ impl Span {
         let (first, last) = self.times(step.recip())?.integers();
         Some(first <= last)
     }
+}
+
+/// A span as `["[", "1/2", "3/4", ")"]`: a bracket for an end that is a member, a parenthesis for one that is not.
+pub fn span(span: &Span) -> Value {
+    json!([
+        if span.low_closed { "[" } else { "(" },
+        spelled(span.low),
+        spelled(span.high),
+        if span.high_closed { "]" } else { ")" },
+    ])
 }
 
 #[cfg(test)]

@@ -3,10 +3,10 @@
 use super::exact::Print;
 use super::meaning::Meaning;
 use super::printed::{Digits, Printed};
-use super::relation::Relation;
+use super::relation::{Named, Relation};
 use super::sample::{self, Sample};
 use super::statistic::Statistic;
-use super::table::{Place, Quoted, Table};
+use super::table::{Place, Quoted, Table, quoted};
 use std::collections::BTreeMap;
 
 /// Everything that was read.
@@ -55,17 +55,10 @@ impl Input {
         let numbers = statistics.iter().map(quoted).collect();
         self.samples.push(sample::of_meaning(name, meaning, sample::number(meaning), numbers));
     }
+}
 
-    /// Gives every sample: those written down, and those in the rows and columns of tables.
-    pub fn each_sample(&self, give: &mut dyn FnMut(&Sample)) {
-        self.samples.iter().for_each(&mut *give);
-        for (index, table) in self.tables.iter().enumerate() {
-            sample::each(index, table, give);
-        }
-    }
-
-    /// The cell of this name: one that was named, or `table/row/column`.
-    pub fn cell(&self, name: &str) -> Option<Quoted> {
+impl Named for Input {
+    fn cell(&self, name: &str) -> Option<Quoted> {
         self.cells.get(name).cloned().or_else(|| {
             self.tables.iter().enumerate().find_map(|(index, table)| {
                 let rest = name.strip_prefix(table.name.as_str())?.strip_prefix('/')?;
@@ -78,8 +71,7 @@ impl Input {
         })
     }
 
-    /// The sample in a column of a table of statistics: `table/column`.
-    pub fn sample(&self, name: &str) -> Option<Sample> {
+    fn sample(&self, name: &str) -> Option<Sample> {
         let mut found = None;
         self.each_sample(&mut |sample| {
             if sample.name == name || sample.path == name {
@@ -88,12 +80,11 @@ impl Input {
         });
         found
     }
-}
 
-/// The number in a cell with its name.
-pub fn quoted(index: usize, table: &Table, row: usize, column: usize) -> Option<Quoted> {
-    let print = table.print(row, column)?;
-    let of = if table.name.is_empty() { String::new() } else { format!("{}: ", table.name) };
-    let name = format!("{of}{} of {}", table.columns[column].name, table.row_name(row));
-    Some(Quoted { name, place: table.rows[row][column].place, print, cell: Some([index, row, column]) })
+    fn each_sample(&self, give: &mut dyn FnMut(&Sample)) {
+        self.samples.iter().for_each(&mut *give);
+        for (index, table) in self.tables.iter().enumerate() {
+            sample::each(index, table, give);
+        }
+    }
 }

@@ -4,6 +4,7 @@
 //! paper's favour, so that "impossible" is a proof under those premises. Decisions about lattice lengths are
 //! made in integers; angles come from `libm`. Cells are `[x, y]` and stand for their centres, one unit apart.
 
+mod asked;
 pub mod bounds;
 pub mod certificate;
 pub mod checks;

@@ -278,10 +278,7 @@ impl Meaning {
             "least" => self.least = Some(exact()?),
             "most" => self.most = Some(exact()?),
             "seeds" => self.seeds = Some(natural()?),
-            "digits" => {
-                let digits = natural()?;
-                self.significant = Some(digits.min(15) as u32);
-            }
+            "digits" => self.significant = Some(natural()?.min(15) as u32),
             "quantiles" if value == "linear" => self.is_linear = true,
             "quantiles" => return Err(wrong(&item, "quantiles=linear")),
             "rounding" => self.digits = rounding(value).ok_or_else(|| wrong(&item, &roundings()))?,

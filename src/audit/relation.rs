@@ -1,15 +1,25 @@
 //! A relation of a TOML file: a check asked of numbers by name.
 
-use super::checks::{Entry, REGISTRY, Test, find};
 use super::exact::{self, Exact, Print};
-use super::input::Input;
-use super::meaning::{natural, rounding, roundings};
+use super::meaning::natural;
 use super::printed::Digits;
 use super::reader::{Number, number};
 use super::sample::Sample;
 use super::table::{Fault, Place, Quoted};
 use std::collections::BTreeMap;
 use toml::Value;
+
+/// What relations name.
+pub trait Named {
+    /// The cell of this name: one that was named, or `table/row/column`.
+    fn cell(&self, name: &str) -> Option<Quoted>;
+
+    /// The sample in a column of a table of statistics: `table/column`.
+    fn sample(&self, name: &str) -> Option<Sample>;
+
+    /// Gives every sample: those written down, and those in the rows and columns of tables.
+    fn each_sample(&self, give: &mut dyn FnMut(&Sample));
+}
 
 /// A check asked of numbers by name.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,50 +33,10 @@ pub struct Relation {
     /// How digits end.
     pub digits: Digits,
     /// Its other keys.
-    keys: BTreeMap<String, Value>,
+    pub(super) keys: BTreeMap<String, Value>,
 }
 
 impl Relation {
-    /// The relation with these keys.
-    ///
-    /// # Errors
-    /// If it names no check, or one that has no form in TOML, or a key that the check does not have.
-    pub fn of(mut keys: BTreeMap<String, Value>, digits: Digits, place: Place) -> Result<Self, Fault> {
-        let fault = |message: String| Fault::new(place, message);
-        let mut text = |key: &str| match keys.remove(key) {
-            Some(Value::String(text)) => Ok(text),
-            None => Ok(String::new()),
-            Some(other) => Err(fault(format!("`{key}` is {other}; a text in quotes is accepted"))),
-        };
-        let (check, name, read) = (text("check")?, text("name")?, text("rounding")?);
-        let known = || {
-            let forms = REGISTRY.iter().filter(|entry| entry.relation.is_some()).map(|entry| entry.name);
-            forms.collect::<Vec<_>>().join(", ")
-        };
-        let form = find(&check).and_then(|entry| entry.relation.as_ref());
-        let form =
-            form.ok_or_else(|| fault(format!("check `{check}` is no relation; accepted: {}", known())))?;
-        let digits = match read.as_str() {
-            "" => digits,
-            other => rounding(other).ok_or_else(|| {
-                fault(format!("rounding `{other}` is not known; accepted: {}", roundings()))
-            })?,
-        };
-        if let Some(key) = keys.keys().find(|key| !form.keys.contains(&key.as_str())) {
-            let message = format!("check `{check}` has no key `{key}`; it has {}", form.keys.join(", "));
-            return Err(fault(message));
-        }
-        Ok(Self { check, name, place, digits, keys })
-    }
-
-    /// The test that it asks for.
-    pub(super) fn test(&self, input: &Input) -> Result<(&'static Entry, Box<dyn Test>), Fault> {
-        let entry =
-            find(&self.check).ok_or_else(|| self.fault(format!("there is no check `{}`", self.check)))?;
-        let form = entry.relation.as_ref().ok_or_else(|| self.fault("it has no form in TOML"))?;
-        Ok((entry, (form.build)(self, input)?))
-    }
-
     /// A fault at its place.
     pub fn fault(&self, message: impl std::fmt::Display) -> Fault {
         Fault::new(self.place, format!("relation `{}`: {message}", self.check))
@@ -148,27 +118,27 @@ impl Relation {
     ///
     /// # Errors
     /// If it is missing, names no cell, or is no number.
-    pub fn number(&self, key: &str, input: &Input) -> Result<Quoted, Fault> {
+    pub fn number(&self, key: &str, named: &dyn Named) -> Result<Quoted, Fault> {
         let text = self.text(key)?.ok_or_else(|| {
             self.fault(format!(
                 "`{key}` is missing; a printed number or the name of a cell in quotes is accepted"
             ))
         })?;
-        self.resolve(key, text, input)
+        self.resolve(key, text, named)
     }
 
     /// Printed numbers, each by name or as it stands.
     ///
     /// # Errors
     /// If the list is missing, or one of them names no cell or is no number.
-    pub fn numbers(&self, key: &str, input: &Input) -> Result<Vec<Quoted>, Fault> {
+    pub fn numbers(&self, key: &str, named: &dyn Named) -> Result<Vec<Quoted>, Fault> {
         let list = self.keys.get(key).and_then(Value::as_array).filter(|list| !list.is_empty());
         let accepted = "a list of printed numbers or names of cells in quotes is accepted";
         let list = list.ok_or_else(|| self.fault(format!("`{key}` is missing or no list; {accepted}")))?;
         let one = |value: &Value| {
             let text =
                 value.as_str().ok_or_else(|| self.fault(format!("`{key}` holds {value}; {accepted}")))?;
-            self.resolve(key, text, input)
+            self.resolve(key, text, named)
         };
         list.iter().map(one).collect()
     }
@@ -177,26 +147,26 @@ impl Relation {
     ///
     /// # Errors
     /// As [`numbers`](Self::numbers).
-    pub fn numbers_if(&self, key: &str, input: &Input) -> Result<Vec<Quoted>, Fault> {
-        if self.has(key) { self.numbers(key, input) } else { Ok(Vec::new()) }
+    pub fn numbers_if(&self, key: &str, named: &dyn Named) -> Result<Vec<Quoted>, Fault> {
+        if self.has(key) { self.numbers(key, named) } else { Ok(Vec::new()) }
     }
 
     /// A sample, by name.
     ///
     /// # Errors
     /// If the key is missing or names none.
-    pub fn sample(&self, key: &str, input: &Input) -> Result<Sample, Fault> {
+    pub fn sample(&self, key: &str, named: &dyn Named) -> Result<Sample, Fault> {
         let name = self.text(key)?.unwrap_or_default();
-        input.sample(name).ok_or_else(|| {
+        named.sample(name).ok_or_else(|| {
             let mut known = Vec::new();
-            input.each_sample(&mut |sample| known.push(sample.path.clone()));
+            named.each_sample(&mut |sample| known.push(sample.path.clone()));
             known.truncate(20);
             self.fault(format!("`{key}` is `{name}`, which names no sample; there are: {}", known.join(", ")))
         })
     }
 
-    fn resolve(&self, key: &str, text: &str, input: &Input) -> Result<Quoted, Fault> {
-        if let Some(quoted) = input.cell(text) {
+    fn resolve(&self, key: &str, text: &str, named: &dyn Named) -> Result<Quoted, Fault> {
+        if let Some(quoted) = named.cell(text) {
             return Ok(quoted);
         }
         let name = if self.name.is_empty() { key.to_owned() } else { format!("{key} of {}", self.name) };

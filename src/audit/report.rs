@@ -1,7 +1,8 @@
 //! Runs every check on an input and says of each application what was found, under which readings of the digits, with
 //! which power, what would mend it, and whether the table's ranking hangs on it.
 
-use super::checks::{Entry, REGISTRY, Test};
+use super::asked;
+use super::checks::{Entry, Proof, REGISTRY, Test};
 use super::exact::{Exact, Print, ceil, floor, whole};
 use super::input::Input;
 use super::printed::{Digits, Printed};
@@ -158,7 +159,7 @@ pub fn audit(input: &Input, options: &Options) -> Result<Report, Vec<Fault>> {
     }
     let mut faults = Vec::new();
     for relation in &input.relations {
-        match relation.test(input) {
+        match asked::test(relation, input) {
             Ok((entry, test)) => run.take(entry, test.as_ref()),
             Err(fault) => faults.push(fault),
         }
@@ -175,6 +176,16 @@ struct Run<'a> {
     options: &'a Options,
     report: Report,
     powers: BTreeMap<String, Option<Power>>,
+}
+
+/// What is known of a test when its finding is written.
+struct Told {
+    class: Class,
+    answer: Option<bool>,
+    is_odd: bool,
+    readings: Vec<&'static str>,
+    power: Option<Power>,
+    proof: Option<Proof>,
 }
 
 impl Run<'_> {
@@ -194,30 +205,34 @@ impl Run<'_> {
             Some(true) => Class::Possible,
         };
         let applied = self.report.tally.get(entry.name).map_or(0, |tally| tally.applied);
-        let is_shown =
-            class != Class::Possible || self.options.keeps_possible || self.options.witness.is_some();
         let power =
             (!self.options.skips_power && answer.is_some() && (class < Class::Unchecked || applied < POWERS))
                 .then(|| self.power(entry, test, &prints))
                 .flatten();
         self.count(entry.name, class, power);
-        if !is_shown {
-            return;
+        if class != Class::Possible || self.options.keeps_possible || self.options.witness.is_some() {
+            let finding = Told { class, answer, is_odd, readings, power, proof };
+            self.tell(entry.name, test, &prints, finding);
         }
+    }
+
+    /// Adds what was found about `test` to the findings.
+    fn tell(&mut self, check: &'static str, test: &dyn Test, prints: &[Print], told: Told) {
+        let Told { class, answer, is_odd, readings, power, proof } = told;
         let first = &test.numbers()[0];
-        let mut said = test.said(&prints, answer != Some(false));
+        let mut said = test.said(prints, answer != Some(false));
         if is_odd {
             said += &format!("; not if digits are rounded to nearest, only by: {}", listed(&readings));
         }
         let mut budget = self.options.witness.clone();
         let witness = match (answer, budget.as_mut()) {
-            (Some(true), Some(budget)) => test.witness(&prints, budget),
+            (Some(true), Some(budget)) => test.witness(prints, budget),
             _ => None,
         };
-        let certificate = proof.map(|proof| super::certificate::of(entry.name, test, &prints, &proof));
-        let mend = (answer == Some(false)).then(|| self.mend(test, &prints)).flatten();
+        let certificate = proof.map(|proof| super::certificate::of(check, test, prints, &proof));
+        let mend = (answer == Some(false)).then(|| self.mend(test, prints)).flatten();
         self.report.findings.push(Finding {
-            check: entry.name,
+            check,
             class,
             place: first.place,
             name: first.name.clone(),

@@ -4,10 +4,9 @@
 //! T trials each. So everything that is asked of means, deviations and quantiles is asked of samples alone.
 
 use super::exact::{Exact, Print, div, whole};
-use super::input::quoted;
 use super::meaning::{Count, Divisor, Kind, Meaning};
 use super::statistic::Statistic;
-use super::table::{Quoted, Table};
+use super::table::{Quoted, Table, quoted};
 
 /// Values behind printed statistics.
 #[derive(Debug, Clone, PartialEq)]

@@ -113,3 +113,11 @@ pub struct Quoted {
     /// Its table, row and column, where it has some.
     pub cell: Option<[usize; 3]>,
 }
+
+/// The number in a cell with its name.
+pub fn quoted(index: usize, table: &Table, row: usize, column: usize) -> Option<Quoted> {
+    let print = table.print(row, column)?;
+    let of = if table.name.is_empty() { String::new() } else { format!("{}: ", table.name) };
+    let name = format!("{of}{} of {}", table.columns[column].name, table.row_name(row));
+    Some(Quoted { name, place: table.rows[row][column].place, print, cell: Some([index, row, column]) })
+}

@@ -92,14 +92,7 @@ impl Moments {
         for index in 0..count.max(0) {
             let value = bottom + (index + turn) % count;
             taken.push(value);
-            let rest = Self {
-                n: self.n - 1,
-                most: value,
-                sum: self.sum - value,
-                squares: self.squares - value * value,
-                ..self
-            };
-            let outcome = rest.descend(taken, budget, rng, found);
+            let outcome = self.without(value).descend(taken, budget, rng, found);
             taken.pop();
             is_complete &= outcome?;
             if budget.steps == 0 {
@@ -107,6 +100,17 @@ impl Moments {
             }
         }
         Some(is_complete)
+    }
+
+    /// What is left to be met after `value`, which no later value exceeds.
+    fn without(self, value: i128) -> Self {
+        Self {
+            n: self.n - 1,
+            most: value,
+            sum: self.sum - value,
+            squares: self.squares - value * value,
+            ..self
+        }
     }
 
     /// Whether sum and sum of squares can still be met; none if 128 bits do not suffice.

@@ -97,11 +97,9 @@ impl Audit {
         if self.json {
             say!("{:#}", output::json(&source, &report));
         } else {
-            for guess in output::guesses(&source, &input) {
-                say!("{guess}");
-            }
-            report.findings.iter().for_each(|finding| say!("{}", output::line(&source, finding)));
-            for line in output::summary(&report) {
+            let findings = report.findings.iter().map(|finding| output::line(&source, finding));
+            let lines = output::guesses(&source, &input).into_iter().chain(findings);
+            for line in lines.chain(output::summary(&report)) {
                 say!("{line}");
             }
         }

@@ -1,7 +1,7 @@
 //! Everything that is drawn for a paper: figures, tables, numbers, the report's chapter.
 
 use super::figure::{self, Scene};
-use super::report;
+use super::report::{self, Undrawn};
 use super::results;
 use super::tables;
 use super::vector::{Figure, Provenance};
@@ -23,15 +23,6 @@ pub struct Output {
     pub name: String,
     /// Its content.
     pub bytes: Vec<u8>,
-}
-
-/// A figure that could not be drawn.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Undrawn {
-    /// Its id.
-    pub id: String,
-    /// Why, with its study.
-    pub why: String,
 }
 
 /// Every file of a paper, but for figures that could not be drawn.
@@ -56,6 +47,37 @@ pub fn outputs(
     stop: &AtomicBool,
 ) -> Result<Outputs, RenderError> {
     let (paper, is_wanted) = (evidence.paper, |id: &str| only.is_none_or(|only| only == id));
+    let marks = marks(paper, verdicts);
+    let (mut outputs, undrawn) = figures(evidence, verdicts, is_wanted, stop)?;
+    let mut write = |id: &str, text: String| {
+        outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
+    };
+    for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
+        write(&table.id, tables::table(evidence, table, verdicts)?);
+    }
+    for table in paper.results.iter().filter(|table| is_wanted(table.id.get_ref())) {
+        write(table.id.get_ref(), results::latex(evidence, table, &marks)?);
+    }
+    if is_wanted("numbers") {
+        write("numbers", tables::numbers(evidence, verdicts)?);
+    }
+    if outputs.is_empty() && undrawn.is_empty() {
+        let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
+        let (wanted, ids) = (only.unwrap_or_default(), ids.join(", "));
+        return Err(RenderError::NotStored {
+            what: format!("a figure or table `{wanted}`; there are {ids}"),
+        });
+    }
+    Ok(Outputs { files: outputs, undrawn })
+}
+
+/// The files of the figures that are wanted, and those that cannot be drawn.
+fn figures(
+    evidence: &Evidence<'_>,
+    verdicts: &Verdicts,
+    is_wanted: impl Fn(&str) -> bool,
+    stop: &AtomicBool,
+) -> Result<(Vec<Output>, Vec<Undrawn>), RenderError> {
     let (mut outputs, mut undrawn) = (Vec::new(), Vec::new());
     let figures = evidence.runs().flat_map(|run| run.study.figures.iter().map(move |spec| (run, spec)));
     let figures: Vec<_> = figures.filter(|(_, spec)| is_wanted(spec.id.get_ref())).collect();
@@ -72,37 +94,7 @@ pub fn outputs(
             Err(missing) => undrawn.push(missing),
         }
     }
-    outputs.extend(texts(evidence, verdicts, is_wanted)?);
-    if outputs.is_empty() && undrawn.is_empty() {
-        let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
-        let (wanted, ids) = (only.unwrap_or_default(), ids.join(", "));
-        return Err(RenderError::NotStored {
-            what: format!("a figure or table `{wanted}`; there are {ids}"),
-        });
-    }
-    Ok(Outputs { files: outputs, undrawn })
-}
-
-/// The tables and the numbers of the paper that are wanted.
-fn texts(
-    evidence: &Evidence<'_>,
-    verdicts: &Verdicts,
-    is_wanted: impl Fn(&str) -> bool,
-) -> Result<Vec<Output>, RenderError> {
-    let (paper, marks, mut outputs) = (evidence.paper, marks(evidence.paper, verdicts), Vec::new());
-    let mut write = |id: &str, text: String| {
-        outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
-    };
-    for table in paper.tables.iter().filter(|table| is_wanted(&table.id)) {
-        write(&table.id, tables::table(evidence, table, verdicts)?);
-    }
-    for table in paper.results.iter().filter(|table| is_wanted(table.id.get_ref())) {
-        write(table.id.get_ref(), results::latex(evidence, table, &marks)?);
-    }
-    if is_wanted("numbers") {
-        write("numbers", tables::numbers(evidence, verdicts)?);
-    }
-    Ok(outputs)
+    Ok((outputs, undrawn))
 }
 
 /// `drawn` unless labels of it overlap or leave the page.

@@ -2,7 +2,6 @@
 
 mod chapters;
 
-use super::output::Undrawn;
 use super::tables::short;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Counts, Finding, Judged, Together, Verdicts};
@@ -14,6 +13,15 @@ use std::fmt::Write as _;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
+
+/// A figure that could not be drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Undrawn {
+    /// Its id.
+    pub id: String,
+    /// Why, with its study.
+    pub why: String,
+}
 
 const OPENING: &str = "# What the papers claim and what we found
 

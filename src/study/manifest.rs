@@ -212,25 +212,32 @@ impl Manifest {
             ("problem group", &self.problems, &before.problems),
             ("contender", &self.contenders, &before.contenders),
         ] {
-            for label in ours.keys() {
-                let is_other =
-                    |[own, other]: &&[usize; 2]| hash_of(ours, label, *own) != hash_of(theirs, label, *other);
-                let changed = both.iter().filter(is_other).count();
-                if !theirs.contains_key(label) {
-                    reasons.push(format!("{what} `{label}` is new"));
-                } else if changed > 0 {
-                    let under = match both.len() {
-                        1 => String::new(),
-                        all => format!(" under {changed} of {all} readings"),
-                    };
-                    reasons.push(format!("{what} `{label}` has changed{under}"));
-                }
-            }
-            let gone = theirs.keys().filter(|label| !ours.contains_key(*label));
-            reasons.extend(gone.map(|label| format!("{what} `{label}` is gone")));
+            reasons.extend(changes(what, ours, theirs, &both));
         }
         reasons
     }
+}
+
+/// What is new, has changed or is gone among the things called `what`; `both` are the readings of both runs.
+fn changes(what: &str, ours: &Hashes, theirs: &Hashes, both: &[[usize; 2]]) -> Vec<String> {
+    let mut changes = Vec::new();
+    for label in ours.keys() {
+        let is_other =
+            |[own, other]: &&[usize; 2]| hash_of(ours, label, *own) != hash_of(theirs, label, *other);
+        let changed = both.iter().filter(is_other).count();
+        if !theirs.contains_key(label) {
+            changes.push(format!("{what} `{label}` is new"));
+        } else if changed > 0 {
+            let under = match both.len() {
+                1 => String::new(),
+                all => format!(" under {changed} of {all} readings"),
+            };
+            changes.push(format!("{what} `{label}` has changed{under}"));
+        }
+    }
+    let gone = theirs.keys().filter(|label| !ours.contains_key(*label));
+    changes.extend(gone.map(|label| format!("{what} `{label}` is gone")));
+    changes
 }
 
 fn hash_of<'h>(hashes: &'h Hashes, label: &str, reading: usize) -> Option<&'h str> {

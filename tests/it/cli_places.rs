@@ -62,7 +62,7 @@ fn robots_are_listed_with_the_solver_that_fits_and_a_broken_file_is_said_to_be_b
     let said = bench.run(&["list", "robots"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
     assert!(
-        said.out.contains("  ur5 ") && said.err.contains("missing field `d_mm`"),
+        said.out.contains("  ur5 ") && said.err.contains("missing key `d_mm`"),
         "{}\n{}",
         said.out,
         said.err

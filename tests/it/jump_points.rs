@@ -93,5 +93,5 @@ fn the_memory_that_was_prepared_is_a_count_and_an_unknown_setting_is_refused() {
     let Build::Planner(build) = planner::find("jps").unwrap().build else { panic!("it plans") };
     let wrong = Settings::composed("a test", toml::from_str("preparation = 'never'").unwrap());
     let message = build(&wrong).err().unwrap().to_string();
-    assert!(message.contains("`never`") && message.contains("`each_query`"), "{message}");
+    assert!(message.contains("\"never\"") && message.contains("\"each_query\""), "{message}");
 }

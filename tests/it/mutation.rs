@@ -48,6 +48,10 @@ fn is_located(message: &str) -> bool {
         let rest = rest.strip_prefix("line ").or_else(|| rest.strip_prefix("byte ")).unwrap_or(rest);
         rest.starts_with(|c: char| c.is_ascii_digit())
     };
+    // A Parquet file is no text: its name is all that can be said.
+    if first.contains(".parquet") || first.contains("manifest.toml") || first.contains("verdicts.toml") {
+        return true;
+    }
     let endings = [".toml", ".txt", ".map", ".scen"];
     let is_file =
         |ending: &str| first.match_indices(ending).any(|(at, _)| is_place(&first[at + ending.len()..]));

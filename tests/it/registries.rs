@@ -1,6 +1,7 @@
 //! Holds every registry to its folder: each file with an entry is registered under its own name, in order.
 
 use crate::source::files;
+use audit::checks;
 use engine::planner;
 use replan::analysis::{check, metric};
 use replan::render::figure;
@@ -31,6 +32,7 @@ fn registries() -> Vec<Registry> {
         registry!("study/task", task),
         registry!("analysis/check", check),
         registry!("render/figure", figure),
+        registry!("checks", checks),
     ]
 }
 

@@ -13,7 +13,7 @@ pub static ENTRY: Entry = Entry {
     name: "octagon_nodes",
     about: "is there a regular octagon about a lattice point that holds as many other lattice points as stated?",
     settings: Accepted::of::<OctagonNodes>(),
-    example: r"
+    example: "
 nodes = 48
 ",
     build: |context| {

@@ -14,7 +14,7 @@ pub static ENTRY: Entry = Entry {
     name: "point_distance",
     about: "is a printed distance that between two printed points?",
     settings: Accepted::of::<Settings>(),
-    example: r"
+    example: "
 from = [22.5, 15.5]
 to = [26.5, 28.5]
 ",

@@ -13,7 +13,7 @@ pub static ENTRY: Entry = Entry {
     name: "reach_ring",
     about: "do reach and singularity of a planar two-link arm forbid an inner disc of the radius stated?",
     settings: Accepted::of::<Settings>(),
-    example: r"
+    example: "
 links_cm = [30.0, 20.0]
 radius_cm = 20.0
 ",

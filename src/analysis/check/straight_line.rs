@@ -15,7 +15,7 @@ pub static ENTRY: Entry = Entry {
     name: "straight_line",
     about: "is a printed length at least the straight line between start and goal?",
     settings: Accepted::of::<Settings>(),
-    example: r"
+    example: "
 start = [22.0, 15.0]
 goal = [26.0, 28.0]
 ",

@@ -1,10 +1,10 @@
 //! What several checks say or do alike.
 
 use crate::exact::{Exact, Print, Span, decimal, mul, spelled, whole};
-use crate::input::{Input, quoted};
+use crate::input::Input;
 use crate::meaning::Kind;
 use crate::printed::Digits;
-use crate::table::{Column, Quoted, Table};
+use crate::table::{Column, Quoted, Table, quoted};
 use serde_json::{Value, json};
 
 /// How the digits are read, as a premise.

@@ -2,9 +2,9 @@
 
 use super::{Entry, Test};
 use crate::exact::Print;
-use crate::input::{Input, quoted};
+use crate::input::Input;
 use crate::meaning::{Better, Kind};
-use crate::table::{Quoted, Table};
+use crate::table::{Quoted, Table, quoted};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

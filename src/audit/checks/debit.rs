@@ -5,6 +5,7 @@ use super::{Entry, Proof, Test};
 use crate::exact::{Exact, Print, add, div, mul, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
+use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;

@@ -4,7 +4,7 @@ use super::arguments::{count, digits, gap, multiple, shown};
 use super::{Entry, FromRelation, Proof, Test};
 use crate::exact::{Exact, Print, Span, div, mul, spelled, whole};
 use crate::input::Input;
-use crate::relation::Relation;
+use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};

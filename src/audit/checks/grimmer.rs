@@ -2,11 +2,11 @@
 
 use super::arguments::{count, digits, shown, up_to_twice};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::certificate;
+use crate::exact;
 use crate::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
-use crate::relation::Relation;
+use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
@@ -167,7 +167,7 @@ impl Moment {
     fn step(squares: &Squares) -> Value {
         json!({
             "sum": squares.sum.to_string(),
-            "windows": squares.windows.iter().map(certificate::span).collect::<Vec<_>>(),
+            "windows": squares.windows.iter().map(exact::span).collect::<Vec<_>>(),
             "least": squares.least.to_string(),
             "most": squares.most.map(|most| most.to_string()),
         })

@@ -4,6 +4,7 @@ use super::arguments::digits;
 use super::{Entry, Proof, Test};
 use crate::exact::Print;
 use crate::input::Input;
+use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;

@@ -2,12 +2,12 @@
 
 use super::arguments::{digits, shown_span};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::certificate;
+use crate::exact;
 use crate::exact::{Print, Span, add, mul, spelled, whole};
-use crate::input::{Input, quoted};
+use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
-use crate::table::{Fault, Quoted, Table};
+use crate::table::{Fault, Quoted, Table, quoted};
 use serde_json::{Value, json};
 
 /// The registry's entry.
@@ -134,8 +134,7 @@ impl Test for Formed {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let step =
-            |(form, span): &(Form, Span)| json!({ "form": form.name(), "span": certificate::span(span) });
+        let step = |(form, span): &(Form, Span)| json!({ "form": form.name(), "span": exact::span(span) });
         let steps: Vec<Value> = self.allowed(prints)?.iter().map(step).collect();
         let forms: Vec<&str> = self.forms.iter().map(|form| form.name()).collect();
         Some(Proof {

@@ -4,7 +4,7 @@ use super::arguments::{count, digits, shown};
 use super::{Entry, FromRelation, Proof, Test};
 use crate::exact::{Exact, Print, add, div, mul, spelled, sub, whole};
 use crate::input::Input;
-use crate::relation::Relation;
+use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};

@@ -3,10 +3,10 @@
 use super::arguments::digits;
 use super::{Entry, FromRelation, Proof, Test};
 use crate::exact::Print;
-use crate::input::{Input, quoted};
+use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
-use crate::table::{Fault, Quoted, Table};
+use crate::table::{Fault, Quoted, Table, quoted};
 use serde_json::json;
 
 /// The registry's entry.

@@ -5,6 +5,7 @@ use super::{Entry, Proof, Test};
 use crate::exact::{Exact, Print, Span, add, div, mul, spelled, sub, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
+use crate::relation::Named as _;
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::Quoted;

@@ -2,6 +2,7 @@
 
 use super::{Entry, Test, grimmer};
 use crate::input::Input;
+use crate::relation::Named as _;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

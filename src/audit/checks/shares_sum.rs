@@ -2,12 +2,12 @@
 
 use super::arguments::{count, digits, shown_span, spans};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::certificate;
+use crate::exact;
 use crate::exact::{Exact, Print, Span, div, spelled, whole};
-use crate::input::{Input, quoted};
+use crate::input::Input;
 use crate::meaning::{Count, Kind};
 use crate::relation::Relation;
-use crate::table::{Fault, Quoted, Table};
+use crate::table::{Fault, Quoted, Table, quoted};
 use serde_json::json;
 
 /// The registry's entry.
@@ -116,7 +116,7 @@ impl Test for SharesSum {
         let given = json!({ "whole": spelled(self.all), "n": self.n.map(|n| n.to_string()) });
         let sum = Self::sum(prints)?;
         if !sum.contains(self.all) {
-            return Some(Proof { given, steps: json!([{ "sum": certificate::span(&sum) }]) });
+            return Some(Proof { given, steps: json!([{ "sum": exact::span(&sum) }]) });
         }
         let ends = |(first, last): (i128, i128)| json!([first.to_string(), last.to_string()]);
         let counts: Vec<_> = self.counts(prints)?.into_iter().map(ends).collect();

@@ -2,13 +2,13 @@
 
 use super::arguments::{digits, shown_span, spans};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::certificate;
+use crate::exact;
 use crate::exact::{Exact, Print, Span, mul, spelled, whole};
-use crate::input::{Input, quoted};
+use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
 use crate::statistic::Statistic;
-use crate::table::{Fault, Quoted, Table};
+use crate::table::{Fault, Quoted, Table, quoted};
 use serde_json::json;
 
 /// The registry's entry.
@@ -100,6 +100,6 @@ impl Test for SumOfMeans {
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
         let given = json!({ "cut": self.cut.map(spelled) });
-        Some(Proof { given, steps: json!([{ "sum": certificate::span(&self.allowed(prints)?) }]) })
+        Some(Proof { given, steps: json!([{ "sum": exact::span(&self.allowed(prints)?) }]) })
     }
 }

@@ -2,10 +2,10 @@
 
 use super::arguments::{digits, shown};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::certificate;
+use crate::exact;
 use crate::exact::{Exact, Print, Span, spelled, whole};
 use crate::input::Input;
-use crate::relation::Relation;
+use crate::relation::{Named as _, Relation};
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use serde_json::json;
@@ -93,6 +93,6 @@ impl Test for TotalOverMean {
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
         let given = json!({ "n": self.n.map(|n| n.to_string()), "unit": spelled(self.unit) });
-        Some(Proof { given, steps: json!([{ "quotient": certificate::span(&self.quotient(prints)?) }]) })
+        Some(Proof { given, steps: json!([{ "quotient": exact::span(&self.quotient(prints)?) }]) })
     }
 }

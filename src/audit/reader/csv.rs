@@ -6,20 +6,7 @@ use crate::table::{Fault, Place};
 /// The table in `text`; none, with a fault, if there is no header or rows are ragged.
 pub fn raw(text: &str, faults: &mut Vec<Fault>) -> Option<Raw> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut start = 0;
-    let mut line = 1;
-    let mut header = "";
-    for whole in text.split_inclusive('\n') {
-        start += whole.len();
-        header = whole.trim_end_matches(['\n', '\r']);
-        if !header.trim().is_empty() && !header.starts_with('#') {
-            break;
-        }
-        (line, header) = (line + 1, "");
-    }
-    if header.is_empty() {
-        return None;
-    }
+    let (line, header, start) = header(text)?;
     let delimiter = delimiter(header);
     let header = split(header, delimiter);
     let mut rows = Vec::new();
@@ -50,6 +37,19 @@ pub fn raw(text: &str, faults: &mut Vec<Fault>) -> Option<Raw> {
         }
     }
     Some(Raw { name: String::new(), line, header, rows })
+}
+
+/// The first line that is neither empty nor a comment, with its number and where the next one starts.
+fn header(text: &str) -> Option<(usize, &str, usize)> {
+    let mut start = 0;
+    for (index, whole) in text.split_inclusive('\n').enumerate() {
+        start += whole.len();
+        let line = whole.trim_end_matches(['\n', '\r']);
+        if !line.trim().is_empty() && !line.starts_with('#') {
+            return Some((index + 1, line, start));
+        }
+    }
+    None
 }
 
 fn ragged(line: usize, found: usize, expected: usize, delimiter: char) -> Fault {

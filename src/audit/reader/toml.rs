@@ -1,10 +1,10 @@
 //! TOML with tables, cells, samples and relations between them.
 
 use super::Raw;
+use crate::asked;
 use crate::input::Input;
 use crate::meaning::{self, Meaning};
 use crate::printed::Digits;
-use crate::relation::Relation;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Place};
 use serde::Deserialize;
@@ -49,28 +49,10 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
             return None;
         }
     };
-    let digits = match &document.rounding {
-        None => Digits::Any,
-        Some(name) => meaning::rounding(name.get_ref()).unwrap_or_else(|| {
-            let message =
-                format!("rounding `{}` is not known; accepted: {}", name.get_ref(), meaning::roundings());
-            faults.push(Fault::new(line(name.span().start), message));
-            Digits::Any
-        }),
-    };
+    let digits = digits_of(document.rounding.as_ref(), line, faults);
     let mut raws: Vec<Raw> = Vec::new();
-    for table in document.table {
-        // The text of a string in three quotes starts a line below its quotes.
-        let first = line(table.text.span().start).line + 1;
-        let mut found = super::markdown::raw(table.text.get_ref(), first, faults);
-        match found.pop() {
-            Some(raw) if found.is_empty() => raws.push(Raw { name: table.name.get_ref().clone(), ..raw }),
-            _ => {
-                let message =
-                    format!("table `{}`: its text must hold one Markdown table", table.name.get_ref());
-                faults.push(Fault::new(line(table.text.span().start), message));
-            }
-        }
+    for table in &document.table {
+        raws.extend(raw_of(table, line(table.text.span().start), faults));
     }
     let mut input = Input::of_tables(super::tables(raws, faults));
     for (name, cell) in document.cells {
@@ -89,12 +71,41 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
     }
     for relation in document.relation {
         let place = line(relation.span().start);
-        match Relation::of(relation.into_inner(), digits, place) {
+        match asked::read(relation.into_inner(), digits, place) {
             Ok(relation) => input.relations.push(relation),
             Err(fault) => faults.push(fault),
         }
     }
     Some(input)
+}
+
+/// The table whose text starts at `place`; none, with a fault, if it is not one Markdown table.
+fn raw_of(table: &TableText, place: Place, faults: &mut Vec<Fault>) -> Option<Raw> {
+    // The text of a string in three quotes starts a line below its quotes.
+    let mut found = super::markdown::raw(table.text.get_ref(), place.line + 1, faults);
+    let name = table.name.get_ref();
+    match found.pop() {
+        Some(raw) if found.is_empty() => Some(Raw { name: name.clone(), ..raw }),
+        _ => {
+            faults.push(Fault::new(place, format!("table `{name}`: its text must hold one Markdown table")));
+            None
+        }
+    }
+}
+
+/// How digits end where nothing else is said; unknown words are faults at the place that `line` gives.
+fn digits_of(
+    rounding: Option<&Spanned<String>>,
+    line: impl Fn(usize) -> Place,
+    faults: &mut Vec<Fault>,
+) -> Digits {
+    let Some(name) = rounding else { return Digits::Any };
+    meaning::rounding(name.get_ref()).unwrap_or_else(|| {
+        let message =
+            format!("rounding `{}` is not known; accepted: {}", name.get_ref(), meaning::roundings());
+        faults.push(Fault::new(line(name.span().start), message));
+        Digits::Any
+    })
 }
 
 /// Takes a sample: its name, what it is, and its statistics.

@@ -31,7 +31,7 @@ pub static ENTRY: Entry = Entry {
     needs: WorldKind::ArmAmongPolyhedra,
     columns: COLUMNS,
     settings: Accepted::of::<JointAstar>(),
-    example: r"
+    example: "
 delta_deg = 10.0
 neighbours = 12
 ",

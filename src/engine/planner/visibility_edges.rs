@@ -22,7 +22,7 @@ pub static ENTRY: Entry = Entry {
     needs: WorldKind::Polyhedra,
     columns: &["opened", "expansions", "generated"],
     settings: Accepted::of::<Visibility>(),
-    example: r"
+    example: "
 spacing_cm = 3.0
 ",
     build: Build::Planner(|settings| {

@@ -117,16 +117,15 @@ impl House {
     }
 }
 
-#[test]
-fn a_changed_contender_runs_alone_and_the_records_are_those_of_a_fresh_run() {
+/// What changes, what is said of it, and how many of the 14 trials of each contender are kept besides whole units.
+fn changes() -> Vec<(&'static str, String, Vec<&'static str>, usize)> {
     let reordered = |spec: &str| {
         let (head, rest) = spec.split_once("[[contender]]\nlabel = 'first'").unwrap();
         let (first, tail) = rest.split_once("[[contender]]").unwrap();
         let (second, readings) = tail.split_once("[[reading]]").unwrap();
         format!("{head}[[contender]]{second}[[contender]]\nlabel = 'first'{first}[[reading]]{readings}")
     };
-    // What changes, what is said of it, and how many of the 14 trials of each contender are kept besides whole units.
-    for (what, spec, why, kept) in [
+    vec![
         (
             "settings",
             STUDY.replace("weight = 2", "weight = 4"),
@@ -162,7 +161,12 @@ fn a_changed_contender_runs_alone_and_the_records_are_those_of_a_fresh_run() {
             0,
         ),
         ("their order", reordered(STUDY), vec![], 0),
-    ] {
+    ]
+}
+
+#[test]
+fn a_changed_contender_runs_alone_and_the_records_are_those_of_a_fresh_run() {
+    for (what, spec, why, kept) in changes() {
         let house = House::new();
         let first = house.run(STUDY, "runs");
         assert_eq!((first.trials, first.reused, first.kept), (28, 0, 0));

@@ -35,7 +35,7 @@ pub static ENTRY: Entry = Entry {
         "largest_excess_cm",
     ],
     settings: Accepted::of::<FormulaError>(),
-    example: r"
+    example: "
 samples = 500
 reach = 0.5
 ",
