@@ -81,12 +81,8 @@ impl Audit {
         };
         let input = reader::read(&text, format).map_err(told)?;
         if let Some(stub) = &self.stub {
-            let headers: Vec<String> = input
-                .tables
-                .iter()
-                .map(|table| format!("| {} |\n", reader::stub(table).join(" | ")))
-                .collect();
-            write(stub, &headers.concat())?;
+            let header = |table| format!("| {} |\n", reader::stub(table).join(" | "));
+            write(stub, &input.tables.iter().map(header).collect::<String>())?;
         }
         let witness = self.witness.map(|most| Budget { most, steps: self.budget, seed: self.seed });
         let options = Options { keeps_possible: self.json, witness, ..Options::default() };

@@ -2,7 +2,7 @@
 //!
 //! Print takes the SVG; screens need no more pixels, and pictures are committed.
 //! Both carry the command that made them and the hash of the spec behind them. The PNG is indexed when
-//! 256 colours describe it to within [`palette::TOLERANCE`] levels, else plain 8-bit RGB.
+//! 256 colours describe it to within `palette::TOLERANCE` levels, else plain 8-bit RGB.
 
 use super::RenderError;
 use super::font::Weight;

@@ -24,15 +24,14 @@ fn cases() -> u64 {
     std::env::var("REPLAN_MUTATIONS").map_or(CASES, |text| text.parse().unwrap())
 }
 
-/// Whether `work` ended well or was refused; what went wrong if it panicked, took too long, or was refused by a message that
-/// does not say where.
-fn fault(work: impl FnOnce() -> Result<(), String>, says_where: fn(&str) -> bool) -> Result<bool, String> {
+/// What went wrong with a case, if anything did: `work` panicked, took too long, or refused without saying where.
+fn fault(work: impl FnOnce() -> Result<(), String>) -> Result<bool, String> {
     let (ns, ended) = replan::study::clock::timed(|| catch_unwind(AssertUnwindSafe(work)));
     let seconds = ns as f64 * 1e-9;
     match ended {
         Err(_) => Err("it panicked".to_owned()),
         Ok(_) if seconds > LONGEST_S => Err(format!("it took {seconds:.1} s")),
-        Ok(Err(message)) if !says_where(&message) => {
+        Ok(Err(message)) if !is_located(&message) => {
             Err(format!("it was refused without a place: {message}"))
         }
         Ok(Ok(())) => Ok(true),
@@ -67,7 +66,7 @@ fn no_damaged_spec_robot_scene_or_map_panics_and_every_refusal_says_where() {
         let mut stream = seed::stream(seed::derive(2024, &["mutation", &case.to_string()]));
         let file = stream.random_range(0..subject.files());
         let bytes = damage::damaged(&mut stream, subject.bytes(file));
-        match fault(|| subject.read(file, &bytes), is_located) {
+        match fault(|| subject.read(file, &bytes)) {
             Ok(is_accepted) => accepted += u64::from(is_accepted),
             Err(what) => faults.push(format!("case {case}, {}: {what}", subject.name(file))),
         }
@@ -121,14 +120,11 @@ fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
         let index = subject.find(file);
         let text = String::from_utf8(subject.bytes(index).to_vec()).unwrap();
         assert!(text.contains(from), "{file} does not hold `{from}`");
-        let refused = fault(
-            || {
-                let refused = subject.read(index, text.replacen(from, to, 1).as_bytes());
-                assert!(refused.as_ref().is_err_and(|e| e.contains(said)), "{to}: {refused:?}");
-                refused
-            },
-            is_located,
-        );
+        let refused = fault(|| {
+            let refused = subject.read(index, text.replacen(from, to, 1).as_bytes());
+            assert!(refused.as_ref().is_err_and(|e| e.contains(said)), "{to}: {refused:?}");
+            refused
+        });
         assert_eq!(refused, Ok(false), "{to}");
     }
 }

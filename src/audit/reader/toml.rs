@@ -50,10 +50,8 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
         }
     };
     let digits = digits_of(document.rounding.as_ref(), line, faults);
-    let mut raws: Vec<Raw> = Vec::new();
-    for table in &document.table {
-        raws.extend(raw_of(table, line(table.text.span().start), faults));
-    }
+    let raw = |table: &TableText| raw_of(table, line(table.text.span().start), faults);
+    let raws: Vec<Raw> = document.table.iter().filter_map(raw).collect();
     let mut input = Input::of_tables(super::tables(raws, faults));
     for (name, cell) in document.cells {
         let place = line(cell.span().start);

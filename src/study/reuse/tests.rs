@@ -117,14 +117,16 @@ impl House {
     }
 }
 
+/// `spec` with its two contenders in the other order.
+fn reordered(spec: &str) -> String {
+    let (head, rest) = spec.split_once("[[contender]]\nlabel = 'first'").unwrap();
+    let (first, tail) = rest.split_once("[[contender]]").unwrap();
+    let (second, readings) = tail.split_once("[[reading]]").unwrap();
+    format!("{head}[[contender]]{second}[[contender]]\nlabel = 'first'{first}[[reading]]{readings}")
+}
+
 /// What changes, what is said of it, and how many of the 14 trials of each contender are kept besides whole units.
 fn changes() -> Vec<(&'static str, String, Vec<&'static str>, usize)> {
-    let reordered = |spec: &str| {
-        let (head, rest) = spec.split_once("[[contender]]\nlabel = 'first'").unwrap();
-        let (first, tail) = rest.split_once("[[contender]]").unwrap();
-        let (second, readings) = tail.split_once("[[reading]]").unwrap();
-        format!("{head}[[contender]]{second}[[contender]]\nlabel = 'first'{first}[[reading]]{readings}")
-    };
     vec![
         (
             "settings",
