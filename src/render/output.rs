@@ -6,11 +6,12 @@ use super::results;
 use super::tables;
 use super::vector::{Figure, Provenance};
 use super::{RenderError, marks};
-use crate::analysis::evidence::Evidence;
+use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
 use crate::study::StudyError;
 use crate::study::spec::FigureSpec;
 use crate::study::store::write_whole;
+use rayon::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -78,17 +79,19 @@ fn figures(
     stop: &AtomicBool,
 ) -> Result<(Vec<Output>, Vec<Undrawn>), RenderError> {
     let (mut outputs, mut undrawn) = (Vec::new(), Vec::new());
-    for run in evidence.runs() {
-        for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
-            if stop.load(Ordering::Relaxed) {
-                return Err(RenderError::Interrupted);
-            }
-            match named_figure_outputs(&Scene { evidence, run, verdicts }, spec) {
-                Ok(drawn) => outputs.extend(drawn),
-                Err(error) => {
-                    undrawn.push(Undrawn { id: spec.id.get_ref().clone(), why: error.to_string() });
-                }
-            }
+    let figures = evidence.runs().flat_map(|run| run.study.figures.iter().map(move |spec| (run, spec)));
+    let figures: Vec<_> = figures.filter(|(_, spec)| is_wanted(spec.id.get_ref())).collect();
+    let draw = |(run, spec): &(&Run<'_>, &FigureSpec)| {
+        if stop.load(Ordering::Relaxed) {
+            return Err(RenderError::Interrupted);
+        }
+        Ok(named_figure_outputs(&Scene { evidence, run, verdicts }, spec)
+            .map_err(|error| Undrawn { id: spec.id.get_ref().clone(), why: error.to_string() }))
+    };
+    for drawn in figures.par_iter().map(draw).collect::<Result<Vec<_>, _>>()? {
+        match drawn {
+            Ok(drawn) => outputs.extend(drawn),
+            Err(missing) => undrawn.push(missing),
         }
     }
     Ok((outputs, undrawn))

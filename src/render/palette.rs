@@ -24,37 +24,54 @@ pub fn opaque(rgba: &[u8]) -> Vec<u8> {
 /// The commonest colours are kept as they are; the rest go to the first kept one near enough. The
 /// tolerance grows until 256 suffice; none if they do not within [`TOLERANCE`].
 pub fn indexed(rgba: &[u8]) -> Option<Indexed> {
-    let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
-    for (color, pixels) in runs(rgba) {
-        *counts.entry(color).or_default() += pixels;
+    let (runs, mut counts) = (runs(rgba), BTreeMap::<u32, usize>::new());
+    for (color, pixels) in &runs {
+        *counts.entry(*color).or_default() += pixels;
     }
     let mut common: Vec<(u32, usize)> = counts.into_iter().collect();
     common.sort_by_key(|&(color, count)| (std::cmp::Reverse(count), color));
     let (kept, index) = (0..=TOLERANCE).step_by(2).find_map(|tolerance| within(&common, tolerance))?;
     let mut pixels = Vec::with_capacity(rgba.len() / 4);
-    for (color, count) in runs(rgba) {
+    for (color, count) in runs {
         pixels.resize(pixels.len() + count, index[&color]);
     }
     Some(Indexed { palette: kept.concat(), pixels })
 }
 
-/// Pixels that are compared at once.
-const BLOCK: usize = 64;
+/// Pixels that are compared at once; where they differ, the second number of them.
+const BLOCKS: [usize; 2] = [64, 8];
 
 /// Runs of equal colours, as one number each: a figure is mostly paper, and whether a block is of one colour is asked of
 /// its bytes at once, which is quick however this is compiled.
-fn runs(rgba: &[u8]) -> impl Iterator<Item = (u32, usize)> {
-    rgba.chunks(4 * BLOCK).flat_map(|block| {
-        let pixels = block.as_chunks::<4>().0;
-        let is_uniform = block[4..] == block[..block.len() - 4];
-        let longest = if is_uniform { pixels.len() } else { 1 };
-        pixels.chunks(longest).map(|run| (color(run[0]), run.len()))
-    })
+fn runs(rgba: &[u8]) -> Vec<(u32, usize)> {
+    let mut runs: Vec<(u32, usize)> = Vec::new();
+    let mut add = |pixels: &[u8]| {
+        let (color, count) = (color(pixels), pixels.len() / 4);
+        match runs.last_mut() {
+            Some((last, known)) if *last == color => *known += count,
+            _ => runs.push((color, count)),
+        }
+    };
+    for block in rgba.chunks(4 * BLOCKS[0]) {
+        if is_uniform(block) {
+            add(block);
+            continue;
+        }
+        for part in block.chunks(4 * BLOCKS[1]) {
+            if is_uniform(part) { add(part) } else { part.chunks(4).for_each(&mut add) }
+        }
+    }
+    runs
 }
 
-/// Red, green and blue as one number, red first.
-fn color([red, green, blue, _]: [u8; 4]) -> u32 {
-    u32::from_be_bytes([0, red, green, blue])
+/// Whether all pixels are equal: each is then equal to the one before.
+fn is_uniform(pixels: &[u8]) -> bool {
+    pixels[4..] == pixels[..pixels.len() - 4]
+}
+
+/// Red, green and blue of the first pixel as one number, red first.
+fn color(pixels: &[u8]) -> u32 {
+    u32::from_be_bytes([0, pixels[0], pixels[1], pixels[2]])
 }
 
 type Kept = (Vec<[u8; 3]>, BTreeMap<u32, u8>);
@@ -86,13 +103,14 @@ mod tests {
     }
 
     #[test]
-    fn runs_hold_every_pixel_in_order() {
+    fn runs_hold_every_pixel_in_order_and_neighbours_differ() {
         let shades = (0..1000_u32).map(|n| if n < 300 { 7 } else { (n / 3 % 5) as u8 });
         let colors: Vec<[u8; 3]> = shades.map(|shade| [shade, 0, 1]).collect();
-        let bytes = rgba(&colors);
-        let unrolled = runs(&bytes).flat_map(|(color, count)| std::iter::repeat_n(color, count));
+        let found = runs(&rgba(&colors));
+        let unrolled = found.iter().flat_map(|(color, count)| std::iter::repeat_n(*color, *count));
         assert!(unrolled.eq(colors.iter().map(|[r, g, b]| u32::from_be_bytes([0, *r, *g, *b]))));
-        assert!(runs(&bytes).any(|(_, count)| count == BLOCK), "no block was taken at once");
+        assert_eq!(found[0].1, 300, "blocks of one colour are one run");
+        assert!(found.windows(2).all(|pair| pair[0].0 != pair[1].0));
     }
 
     #[test]
