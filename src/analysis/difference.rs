@@ -66,9 +66,9 @@ fn of_claim(stored: &Judged, now: &Judged) -> Option<String> {
 
 /// The first thing that differs of one finding.
 fn of_finding(stored: &Finding, now: &Finding) -> Option<String> {
-    let check = &now.check;
-    unlike("check", &stored.check, check)
-        .or_else(|| unlike(&format!("verdict of `{check}`"), &stored.verdict, &now.verdict))
+    let check = &now.criterion;
+    unlike("criterion", &stored.criterion, check)
+        .or_else(|| unlike(&format!("class of `{check}`"), &stored.verdict, &now.verdict))
         .or_else(|| unlike(&format!("number of `{check}`"), &stored.ours, &now.ours))
         .or_else(|| (stored != now).then(|| format!("the reasons of `{check}` read otherwise")))
 }

@@ -38,6 +38,8 @@ pub struct Run<'a> {
     /// The records.
     pub records: Arc<Records>,
     reading: ReadingKey,
+    /// The session of the clock, from 1.
+    session: u32,
     index: Arc<Index>,
 }
 
@@ -52,8 +54,8 @@ struct Index {
     prepared: BTreeMap<Arc<DrawKey>, usize>,
     /// Exhibits by their owners.
     kept: BTreeMap<Owner, Vec<usize>>,
-    /// The clock readings of each timed trial in the first session; those of others are not pooled with them.
-    readings_ns: BTreeMap<TrialKey, Vec<f64>>,
+    /// The clock readings of each timed trial by session, from 1; those of several are never pooled.
+    readings_ns: Vec<BTreeMap<TrialKey, Vec<f64>>>,
 }
 
 /// Trials of two contenders on one problem.
@@ -124,6 +126,13 @@ impl<'a> Evidence<'a> {
         Self { paper: self.paper, point, runs, polylines: self.polylines.clone() }
     }
 
+    /// The same records, with the clock as it was read in the session of this number, from 1.
+    #[must_use]
+    pub fn in_session(&self, session: u32) -> Self {
+        let runs = self.runs.iter().map(|(name, run)| (*name, Run { session, ..run.under(&self.point) })).collect();
+        Self { paper: self.paper, point: self.point.clone(), runs, polylines: self.polylines.clone() }
+    }
+
     /// The run of the study called `name`.
     pub fn run(&self, name: &str) -> Option<&Run<'a>> {
         self.runs.get(name)
@@ -158,7 +167,8 @@ impl<'a> Run<'a> {
         let records = read_records(folder, &study.name, &manifest.files)?;
         let index = Arc::new(Index::of(study.names(), &records));
         let reading = point.for_trials(&study.readings).key(&study.readings);
-        Ok(Self { study, manifest: Arc::new(manifest), records: Arc::new(records), reading, index })
+        let (manifest, records) = (Arc::new(manifest), Arc::new(records));
+        Ok(Self { study, manifest, records, reading, session: 1, index })
     }
 
     fn under(&self, point: &ReadingChoice) -> Self {
@@ -167,8 +177,18 @@ impl<'a> Run<'a> {
             manifest: self.manifest.clone(),
             records: self.records.clone(),
             reading: point.for_trials(&self.study.readings).key(&self.study.readings),
+            session: self.session,
             index: self.index.clone(),
         }
+    }
+
+    /// How many sessions of the clock are stored.
+    pub fn sessions(&self) -> usize {
+        self.index.readings_ns.len()
+    }
+
+    fn times(&self, row: &Row) -> Option<&Vec<f64>> {
+        self.index.readings_ns.get(self.session as usize - 1)?.get(&row.key)
     }
 
     /// Whether its trials ran under the reading.
@@ -179,7 +199,9 @@ impl<'a> Run<'a> {
     /// What `metric` is for `row`; `None` if it was not measured.
     pub fn value(&self, row: &Row, metric: &Metric) -> Option<f64> {
         let raw = if metric.is_clock() {
-            self.index.readings_ns.get(&row.key).and_then(|times| summary::median(times))
+            self.times(row).and_then(|times| summary::median(times))
+        } else if metric.is_status() {
+            Some(f64::from(u8::from(matches!(row.status, Status::Solved | Status::Rejected))))
         } else {
             row.value(metric.column)
         };
@@ -188,7 +210,7 @@ impl<'a> Run<'a> {
 
     /// Every clock reading of `row` in the unit of `metric`; none if it was not timed or `metric` is not of the clock.
     pub fn repeats(&self, row: &Row, metric: &Metric) -> Vec<f64> {
-        let times = self.index.readings_ns.get(&row.key).filter(|_| metric.is_clock());
+        let times = self.times(row).filter(|_| metric.is_clock());
         times.into_iter().flatten().map(|time| time * metric.scale).collect()
     }
 
@@ -296,8 +318,13 @@ impl Index {
         for (place, kept) in records.batch.kept.iter().enumerate() {
             index.kept.entry(kept.of.clone()).or_default().push(place);
         }
-        for time in records.times.iter().filter(|time| time.session == 1) {
-            index.readings_ns.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
+        for time in &records.times {
+            let session = time.session.max(1) as usize;
+            if index.readings_ns.len() < session {
+                index.readings_ns.resize_with(session, BTreeMap::new);
+            }
+            let of_trial = index.readings_ns[session - 1].entry(time.trial.clone()).or_default();
+            of_trial.push(time.plan_wall_ns as f64);
         }
         index
     }

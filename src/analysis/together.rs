@@ -4,10 +4,10 @@
 //! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes one
 //! of its problems. Every choice of problems is looked at.
 
-use super::check::{Attained, Context, checks};
+use super::class::{Polarity, Verdict};
+use super::criterion::{Attained, Context, EXISTS};
 use super::evidence::Evidence;
 use super::verdict::Together;
-use crate::study::paper::Claim;
 use crate::study::{ReadingChoice, StudyError};
 use base::settings::SettingsError;
 use rayon::prelude::*;
@@ -18,6 +18,39 @@ type Outcomes = BTreeMap<String, bool>;
 
 /// Outcomes of one study: by problem, then contender.
 type Problems = BTreeMap<String, BTreeMap<String, Outcomes>>;
+
+/// What a criterion says of a claim under each reading that a study explores.
+#[derive(Debug, Clone)]
+pub struct Explored {
+    /// The claim.
+    pub claim: String,
+    /// The study.
+    pub study: String,
+    /// Each reading with the class there; none if it was not run.
+    pub readings: Vec<(ReadingChoice, Option<Verdict>)>,
+}
+
+impl Explored {
+    /// Under how many readings it holds, in a sentence.
+    pub fn said(&self) -> Option<String> {
+        let known: Vec<(&ReadingChoice, Polarity)> =
+            self.readings.iter().filter_map(|(point, verdict)| Some((point, (*verdict)?.polarity()))).collect();
+        let count = |wanted| known.iter().filter(|(_, polarity)| *polarity == wanted).count();
+        let (held, open) = (count(Polarity::For), count(Polarity::Open));
+        let rarer = if held * 2 > known.len() { Polarity::Against } else { Polarity::For };
+        let single = known.iter().filter(|(point, polarity)| *polarity == rarer && !point.name().contains(','));
+        let named = single.map(|(point, _)| point.name()).collect::<Vec<_>>().join(", ");
+        let verb = if rarer == Polarity::For { "under" } else { "not under" };
+        let tail = if named.is_empty() { String::new() } else { format!("; of the single options {verb} {named}") };
+        (!known.is_empty()).then(|| {
+            format!(
+                "it holds under {held} of {} readings explored in {} and is open under {open}{tail}",
+                known.len(),
+                self.study
+            )
+        })
+    }
+}
 
 /// What one study shows under one reading.
 #[derive(Default)]
@@ -32,10 +65,10 @@ struct Met {
 ///
 /// # Errors
 /// A settings error of a check.
-pub fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
+pub fn together(evidence: &Evidence<'_>, explored: &[Explored]) -> Result<Vec<Together>, SettingsError> {
     let under = |point| {
         let view = evidence.under(point);
-        let mut sets = held(&view)?;
+        let mut sets = held(view.point.name(), explored);
         sets.extend(met(&view)?.iter().flat_map(|(study, met)| sets_of(study, met, view.point.name())));
         Ok(sets)
     };
@@ -62,45 +95,38 @@ fn points(evidence: &Evidence<'_>) -> Vec<ReadingChoice> {
 fn met(view: &Evidence<'_>) -> Result<BTreeMap<String, Met>, SettingsError> {
     let mut all: BTreeMap<String, Met> = BTreeMap::new();
     for claim in &view.paper.claims {
-        let Some(settings) = claim.checks.get("attained") else { continue };
-        let context = Context { claim, settings, paper: view.paper, point: &view.point };
-        for seen in Attained::new(&context)?.problems(view) {
-            let (study, problem) = seen.problem;
-            let met = all.entry(study).or_default();
-            met.readings.insert(seen.contender.clone(), seen.reading);
-            let by_contender = met.problems.entry(problem).or_default();
-            by_contender.entry(seen.contender).or_default().insert(claim.id.clone(), seen.is_met);
+        let Some(settings) = claim.check(EXISTS.name).filter(|_| claim.printed.is_some()) else { continue };
+        let attained = Attained::new(&Context { claim, settings, paper: view.paper, point: &view.point })?;
+        for seen in attained.seen(view) {
+            let met = all.entry(seen.run.study.name.clone()).or_default();
+            met.readings.insert(seen.contender.to_owned(), seen.reading.to_string());
+            let by_contender = met.problems.entry(seen.run.problem(seen.row)).or_default();
+            let outcomes = by_contender.entry(seen.contender.to_owned()).or_default();
+            outcomes.insert(claim.id.clone(), attained.is_met(seen.value));
         }
     }
     Ok(all)
 }
 
-/// One set per study that explores readings: the claims that hold there under the evidence's reading, each by the
-/// contenders and on the problems that it names.
-fn held(view: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
-    let mut studies: BTreeMap<String, BTreeMap<String, bool>> = BTreeMap::new();
-    let explores = |claim: &&Claim| claim.checks.values().any(|of| of.table().contains_key("explored"));
-    for claim in view.paper.claims.iter().filter(explores) {
-        for (_, check) in checks(view.paper, &view.point, claim)? {
-            if let Some((study, holds)) = check.holds(view) {
-                *studies.entry(study).or_default().entry(claim.id.clone()).or_insert(true) &= holds;
-            }
-        }
+/// One set per study that explores readings: the claims that hold there under the reading, each by the contenders and on the
+/// problems that it names.
+fn held(reading: &str, explored: &[Explored]) -> Vec<Together> {
+    let mut studies: BTreeMap<&str, [BTreeSet<String>; 2]> = BTreeMap::new();
+    for one in explored {
+        let found = one.readings.iter().find(|(point, _)| point.name() == reading);
+        let Some(verdict) = found.and_then(|(_, verdict)| *verdict) else { continue };
+        let [hold, fail] = studies.entry(&one.study).or_default();
+        if verdict.polarity() == Polarity::For { hold } else { fail }.insert(one.claim.clone());
     }
-    let set = |(study, claims): (String, BTreeMap<String, bool>)| {
-        let named = |wanted: bool| {
-            claims.iter().filter(|(_, holds)| **holds == wanted).map(|(id, _)| id.clone()).collect()
-        };
-        Together {
-            study,
-            problem: "those that each claim names".to_owned(),
-            reading: view.point.name().to_owned(),
-            under: "those that each claim names".to_owned(),
-            hold: named(true),
-            fail: named(false),
-        }
+    let set = |(study, [hold, fail]): (&str, [BTreeSet<String>; 2])| Together {
+        study: study.to_owned(),
+        problem: "those that each claim names".to_owned(),
+        reading: reading.to_owned(),
+        under: "those that each claim names".to_owned(),
+        hold: hold.difference(&fail).cloned().collect(),
+        fail: fail.into_iter().collect(),
     };
-    Ok(studies.into_iter().map(set).collect())
+    studies.into_iter().map(set).collect()
 }
 
 /// The sets of every contender that is an alternative for another; contenders without alternative belong to all.

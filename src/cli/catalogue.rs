@@ -1,6 +1,6 @@
 //! Everything registered, in one form: for `replan list`, for the schemas of files, and for tests of both.
 
-use crate::analysis::check;
+use crate::analysis::{criterion, rule};
 use crate::render::figure;
 use crate::study::files::{self, FileKind};
 use crate::study::{family, paper, prepared, task};
@@ -67,16 +67,28 @@ pub fn tasks() -> Vec<Item> {
     task::REGISTRY.iter().map(item).collect()
 }
 
-/// Checks of claims.
-pub fn checks() -> Vec<Item> {
-    let item = |e: &&check::Entry| Item {
+/// Criteria of claims.
+pub fn criteria() -> Vec<Item> {
+    let item = |e: &&criterion::Entry| Item {
         name: e.name,
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
         columns: &[],
     };
-    check::REGISTRY.iter().map(item).collect()
+    criterion::REGISTRY.iter().map(item).collect()
+}
+
+/// Rules of arithmetic on printed numbers.
+pub fn rules() -> Vec<Item> {
+    let item = |e: &&rule::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: Some(e.settings),
+        example: e.example,
+        columns: &[],
+    };
+    rule::REGISTRY.iter().map(item).collect()
 }
 
 /// Kinds of figure.

@@ -49,17 +49,22 @@ fn study() -> Value {
 
 fn paper() -> Value {
     let mut generator = generator();
-    let checks: Map<String, Value> = catalogue::checks()
-        .iter()
-        .filter_map(|item| Some((item.name.to_owned(), item.settings?.within(&mut generator))))
-        .collect();
+    let mut parts = |items: &[Item]| -> Map<String, Value> {
+        let part = |item: &Item| Some((item.name.to_owned(), item.settings?.within(&mut generator)));
+        items.iter().filter_map(part).collect()
+    };
+    let (criteria, rules) = (parts(&catalogue::criteria()), parts(&catalogue::rules()));
+    let several = |part: Value| json!({ "type": "array", "items": part });
+    let shown = criteria.iter().map(|(name, part)| (name.clone(), several(part.clone()))).collect();
     let kind =
         catalogue::files().into_iter().find(|item| item.name == "paper").and_then(|item| item.settings);
     let mut root = kind.map_or(Value::Null, |accepted| accepted.whole_with(generator));
-    if let Some(check) = root.pointer_mut("/$defs/ClaimSpec/properties/check").and_then(Value::as_object_mut)
-    {
-        check.insert("properties".to_owned(), Value::Object(checks));
-        check.insert("additionalProperties".to_owned(), Value::Bool(false));
+    for (key, entries) in [("check", criteria), ("shows", shown), ("rule", rules)] {
+        let place = format!("/$defs/ClaimSpec/properties/{key}");
+        if let Some(table) = root.pointer_mut(&place).and_then(Value::as_object_mut) {
+            table.insert("properties".to_owned(), Value::Object(entries));
+            table.insert("additionalProperties".to_owned(), Value::Bool(false));
+        }
     }
     root
 }

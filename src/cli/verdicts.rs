@@ -1,6 +1,7 @@
 //! The verdict table on the terminal.
 
-use crate::analysis::verdict::{Counts, Estimate, Judged, Verdict, Verdicts};
+use crate::analysis::class::Verdict;
+use crate::analysis::verdict::{Counts, Estimate, Judged, Verdicts};
 use std::io::IsTerminal as _;
 
 /// Prints every claim's verdict, and how many there are of each.

@@ -228,10 +228,10 @@ fn reason(text: &mut String, judged: &Judged) {
         if let [first, .., last] = &finding.because[..]
             && first.len() + last.len() > LONG
         {
-            line!(text, "- {}:{}", finding.check, aside(finding));
+            line!(text, "- {}:{}", finding.criterion, aside(finding));
             finding.because.iter().for_each(|reason| line!(text, "  - {reason}"));
         } else {
-            line!(text, "- {}: {}.{}", finding.check, finding.because.join("; "), aside(finding));
+            line!(text, "- {}: {}.{}", finding.criterion, finding.because.join("; "), aside(finding));
         }
         for premise in &finding.premises {
             line!(text, "  - premise: {premise}");

@@ -128,10 +128,29 @@ struct ClaimSpec {
     untestable: Option<String>,
     /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
     theorem: Option<String>,
-    /// How it is judged: the settings of each check, by the check's name.
+    /// What was changed in how it is judged after a run had been seen, and why.
+    changed_after_run: Option<String>,
+    /// How it is judged: the settings of each criterion, by the criterion's name.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, AnyTable>")]
     check: BTreeMap<String, Spanned<Table>>,
+    /// What is shown beside it and decides nothing: the settings of criteria, by the criterion's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Vec<AnyTable>>")]
+    shows: BTreeMap<String, Vec<Spanned<Table>>>,
+    /// What arithmetic on printed numbers says of it: the settings of each rule, by the rule's name.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
+    rule: BTreeMap<String, Spanned<Table>>,
+    /// The claims all of which the sentence says.
+    #[serde(default)]
+    all_of: Vec<Spanned<String>>,
+    /// The claims some one of which the sentence says.
+    #[serde(default)]
+    any_of: Vec<Spanned<String>>,
+    /// The claims that are the cells of this row of a table.
+    #[serde(default)]
+    cells: Vec<Spanned<String>>,
 }
 
 /// What the paper says.
@@ -155,8 +174,65 @@ pub struct Claim {
     pub untestable: Option<String>,
     /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
     pub theorem: Option<String>,
-    /// How it is judged: checks by name.
-    pub checks: BTreeMap<String, Settings>,
+    /// What was changed in how it is judged after a run had been seen, and why.
+    pub changed_after_run: Option<String>,
+    /// How it is judged, and what is shown beside: rules and criteria by name.
+    asked: Vec<(Asked, String, Settings)>,
+    /// The claims that it is made of.
+    pub parts: Parts,
+}
+
+/// What a claim asks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Asked {
+    /// A rule: arithmetic on printed numbers.
+    Rule,
+    /// A criterion that decides.
+    Decides,
+    /// A criterion that is shown and decides nothing.
+    Shown,
+}
+
+/// The claims that a claim is made of; they count with it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Parts {
+    /// None.
+    None,
+    /// A sentence that says all of them.
+    AllOf(Vec<String>),
+    /// A sentence that says some one of them.
+    AnyOf(Vec<String>),
+    /// The cells of a row of a table.
+    Cells(Vec<String>),
+}
+
+impl Parts {
+    /// Their ids.
+    pub fn ids(&self) -> &[String] {
+        match self {
+            Self::None => &[],
+            Self::AllOf(ids) | Self::AnyOf(ids) | Self::Cells(ids) => ids,
+        }
+    }
+}
+
+impl Claim {
+    /// Every rule and criterion with its settings.
+    pub fn asked(&self) -> impl Iterator<Item = (Asked, &str, &Settings)> {
+        self.asked.iter().map(|(asked, name, settings)| (*asked, name.as_str(), settings))
+    }
+
+    /// Every criterion that decides or is shown, with its settings.
+    pub fn criteria(&self) -> impl Iterator<Item = (&str, &Settings)> {
+        let criteria = self.asked().filter(|(asked, ..)| *asked != Asked::Rule);
+        criteria.map(|(_, name, settings)| (name, settings))
+    }
+
+    /// The settings of the criterion called `name` that it is judged by.
+    pub fn check(&self, name: &str) -> Option<&Settings> {
+        let mut decides = self.asked().filter(|(asked, own, _)| *asked == Asked::Decides && *own == name);
+        decides.next().map(|(.., settings)| settings)
+    }
 }
 
 /// A checked paper with its studies.
@@ -288,6 +364,11 @@ impl Paper {
         own.chain(behind).chain(self.results.iter().map(|table| table.id.get_ref().as_str()))
     }
 
+    /// The sentence or row that the claim called `id` is a part of, and with which it counts.
+    pub fn whole_of(&self, id: &str) -> Option<&Claim> {
+        self.claims.iter().find(|claim| claim.parts.ids().iter().any(|part| part == id))
+    }
+
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.id == id)
@@ -341,11 +422,12 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         );
         return Err(document.error(printed.span(), message));
     }
-    if spec.check.is_empty() && spec.untestable.is_none() {
-        let message = format!("claim `{id}` needs checks, or `untestable` with what the paper leaves out");
+    let parts = parts(document, spec)?;
+    let asked = asked(document, spec);
+    if asked.is_empty() && spec.untestable.is_none() && parts == Parts::None {
+        let message = format!("claim `{id}` needs `check`, `rule`, parts, or `untestable` with what the paper leaves out");
         return Err(document.error(spec.id.span(), message));
     }
-    let checks = spec.check.iter().map(|(name, table)| (name.clone(), Settings::written(document, table)));
     Ok(Claim {
         id: id.clone(),
         at: spec.at.clone(),
@@ -356,6 +438,34 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
         digits: spec.digits,
         untestable: spec.untestable.clone(),
         theorem: spec.theorem.clone(),
-        checks: checks.collect(),
+        changed_after_run: spec.changed_after_run.clone(),
+        asked,
+        parts,
     })
+}
+
+fn asked(document: &Arc<Document>, spec: &ClaimSpec) -> Vec<(Asked, String, Settings)> {
+    let one = |asked: Asked| {
+        move |(name, table): (&String, &Spanned<Table>)| (asked, name.clone(), Settings::written(document, table))
+    };
+    let shown = spec.shows.iter().flat_map(|(name, tables)| tables.iter().map(move |table| (name, table)));
+    let rules = spec.rule.iter().map(one(Asked::Rule));
+    rules.chain(spec.check.iter().map(one(Asked::Decides))).chain(shown.map(one(Asked::Shown))).collect()
+}
+
+fn parts(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Parts, SettingsError> {
+    let kinds = [
+        (&spec.all_of, Parts::AllOf as fn(Vec<String>) -> Parts),
+        (&spec.any_of, Parts::AnyOf),
+        (&spec.cells, Parts::Cells),
+    ];
+    let mut given = kinds.into_iter().filter(|(ids, _)| !ids.is_empty());
+    match (given.next(), given.next()) {
+        (None, _) => Ok(Parts::None),
+        (Some((ids, of)), None) => Ok(of(ids.iter().map(|id| id.get_ref().clone()).collect())),
+        _ => {
+            let message = format!("claim `{}`: one of `all_of`, `any_of` and `cells` is accepted", spec.id.get_ref());
+            Err(document.error(spec.id.span(), message))
+        }
+    }
 }

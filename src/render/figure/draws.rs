@@ -1,9 +1,9 @@
 //! Distributions of our draws, with the printed number marked: one panel a claim.
 //!
-//! What is drawn stands in each claim's check `row_among_draws`.
+//! What is drawn stands in each claim's check `one_draw`.
 
-use super::{Entry, Kind, Scene, check_claim, printed_value};
-use crate::analysis::check;
+use super::{Entry, Kind, Scene, asked_claim, printed_value};
+use crate::analysis::criterion::{self, Context};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rules::Rules;
@@ -35,7 +35,7 @@ panels = [
     build: |settings, _study, paper| {
         let read: Draws = settings.read()?;
         for panel in &read.panels {
-            check_claim(settings, paper, &panel.claim, "row_among_draws")?;
+            asked_claim(settings, paper, &panel.claim, "one_draw")?;
         }
         Ok(Box::new(Asked { read, settings: settings.clone() }))
     },
@@ -82,7 +82,10 @@ impl Kind for Asked {
 
 impl Asked {
     fn panel(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Result<Panel, RenderError> {
-        let sets = check::draws(scene.evidence, &self.settings, &spec.claim)?;
+        let (paper, point) = (scene.evidence.paper, &scene.evidence.point);
+        let claim = asked_claim(&self.settings, paper, &spec.claim, "one_draw")?;
+        let context = Context { claim, settings: &self.settings, paper, point };
+        let sets = criterion::draws(&context, scene.evidence)?;
         let printed = printed_value(scene.evidence, &spec.claim);
         // The outermost hundredth on either side would squeeze all the rest.
         let ends = sets.iter().flat_map(|set| [0.01, 0.99].map(|share| quantile_type7(&set.values, share)));

@@ -26,7 +26,6 @@ mod row_draws;
 mod saving_over;
 mod search_flow;
 mod share_bars;
-mod specification_curve;
 mod success_bands;
 mod sweep_curves;
 mod tidying;
@@ -39,7 +38,7 @@ use super::latex::Table;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
 use crate::study::Study;
-use crate::study::paper::Paper;
+use crate::study::paper::{Claim, Paper};
 use crate::study::spec::FigureSpec;
 use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean, none_called};
 use toml::Table as Toml;
@@ -145,7 +144,6 @@ pub static REGISTRY: &[&Entry] = &[
     &saving_over::ENTRY,
     &search_flow::ENTRY,
     &share_bars::ENTRY,
-    &specification_curve::ENTRY,
     &success_bands::ENTRY,
     &sweep_curves::ENTRY,
     &tidying::ENTRY,
@@ -175,16 +173,16 @@ fn check_labels<'a>(
     Ok(())
 }
 
-/// The claim called `id`, whose checks say what is to be shown.
-fn check_claim(settings: &Settings, paper: &Paper, id: &str, check: &str) -> Result<(), SettingsError> {
+/// The claim called `id`, whose criterion `name` says what is to be shown.
+fn asked_claim<'p>(settings: &Settings, paper: &'p Paper, id: &str, name: &str) -> Result<&'p Claim, SettingsError> {
     let Some(claim) = paper.claim(id) else {
         let known = paper.claims.iter().map(|claim| claim.id.as_str());
         return Err(settings.error_about(id, none_called("claim", id, known)));
     };
-    if claim.checks.contains_key(check) {
-        return Ok(());
+    if claim.criteria().any(|(own, _)| own == name) {
+        return Ok(claim);
     }
-    let message = format!("claim `{id}` has no check `{check}`, which says what is to be shown");
+    let message = format!("claim `{id}` has no criterion `{name}`, which says what is to be shown");
     Err(settings.error_about(id, message))
 }
 

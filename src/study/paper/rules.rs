@@ -1,6 +1,6 @@
 //! What must hold in a paper as a whole: names that exist, tables that fit, a ledger without gaps.
 
-use super::{ClaimSpec, Paper};
+use super::{ClaimSpec, Paper, Parts};
 use base::settings::{Document, Faults, Spanned, none_called};
 use std::collections::BTreeSet;
 
@@ -18,6 +18,7 @@ impl Paper {
         let claims: BTreeSet<&str> = self.claims.iter().map(|claim| claim.id.as_str()).collect();
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
         let figures: BTreeSet<&str> = self.figure_ids().chain(self.table_ids()).collect();
+        self.check_parts(specs, &claims, faults);
         for row in &self.ledger {
             self.known("claim", &row.claims, &claims, faults);
             self.known("figure or table", &row.figures, &figures, faults);
@@ -43,6 +44,25 @@ impl Paper {
         self.check_results(faults);
         self.check_readings(faults);
         self.check_numbering(faults);
+    }
+
+    /// A part exists, belongs to one sentence or row, and is no sentence of parts itself.
+    fn check_parts(&self, specs: &[ClaimSpec], claims: &BTreeSet<&str>, faults: &mut Faults) {
+        let mut taken: BTreeSet<&str> = BTreeSet::new();
+        for spec in specs {
+            for ids in [&spec.all_of, &spec.any_of, &spec.cells] {
+                self.known("claim", ids, claims, faults);
+            }
+            for part in spec.all_of.iter().chain(&spec.any_of).chain(&spec.cells) {
+                let id = part.get_ref();
+                let is_whole = self.claim(id).is_some_and(|claim| claim.parts != Parts::None);
+                if !taken.insert(id) || is_whole {
+                    let why = if is_whole { "has parts itself" } else { "is a part already" };
+                    let message = format!("claim `{id}` {why}; a part counts with one sentence or row");
+                    faults.add(self.document.error(part.span(), message));
+                }
+            }
+        }
     }
 
     /// Ids of figures and tables are names of files: plain ones, each once.

@@ -1,0 +1,123 @@
+use super::*;
+
+/// Every pair of verdicts.
+fn pairs() -> impl Iterator<Item = [Verdict; 2]> {
+    Verdict::ALL.into_iter().flat_map(|one| Verdict::ALL.into_iter().map(move |two| [one, two]))
+}
+
+#[test]
+fn of_any_two_findings_a_proof_wins_then_what_is_against_then_what_is_open_then_the_weakest() {
+    for pair in pairs() {
+        let all = combined(pair, false);
+        assert_eq!(all, combined([pair[1], pair[0]], false), "{pair:?}: the order does not count");
+        assert!(pair.contains(&all), "{pair:?}: nothing is made up");
+        let least = pair.into_iter().map(Verdict::polarity).min().unwrap();
+        assert_eq!(all.polarity(), least, "{pair:?}");
+        if pair.contains(&Verdict::Impossible) {
+            assert_eq!(all, Verdict::Impossible, "{pair:?}");
+        }
+        if least == Polarity::For {
+            assert_eq!(all, pair[0].max(pair[1]), "{pair:?}: the weaker of two for it");
+        }
+    }
+}
+
+#[test]
+fn what_the_paper_leaves_out_yields_to_what_speaks_against_it_and_to_nothing_else() {
+    for verdict in Verdict::ALL {
+        let expected = if verdict.polarity() == Polarity::Against { verdict } else { Verdict::Untestable };
+        assert_eq!(combined([verdict], true), expected, "{verdict:?}");
+    }
+    assert_eq!(combined([], true), Verdict::Untestable);
+    assert_eq!(combined([], false), Verdict::Undecided, "what was only checked for possibility");
+}
+
+#[test]
+fn a_sentence_of_two_parts_takes_the_least_or_the_greatest_of_them() {
+    for pair in pairs() {
+        let polarities = pair.map(Verdict::polarity);
+        let (all, any) = (all_of(&pair), any_of(&pair));
+        assert_eq!(all.polarity(), polarities[0].min(polarities[1]), "all of {pair:?}");
+        assert_eq!(any.polarity(), polarities[0].max(polarities[1]), "any of {pair:?}");
+        for (whole, takes) in [(all, Verdict::max as fn(_, _) -> _), (any, Verdict::min)] {
+            if polarities == [Polarity::For; 2] {
+                assert_eq!(whole, takes(pair[0], pair[1]), "{pair:?}");
+            }
+        }
+        let lacking = pair == [Verdict::Untestable; 2];
+        assert_eq!(all == Verdict::Untestable, lacking || (all.polarity(), polarities.contains(&Polarity::For), pair.contains(&Verdict::Untestable), pair.contains(&Verdict::Undecided)) == (Polarity::Open, true, true, false), "{pair:?}");
+    }
+    assert_eq!([all_of(&[]), any_of(&[])], [Verdict::Undecided; 2]);
+}
+
+const OUTCOMES: [Outcome; 5] =
+    [Outcome::Holds, Outcome::SignOnly, Outcome::Open, Outcome::Fails, Outcome::Proved];
+
+/// Every combination of what lowers a class.
+fn caps() -> impl Iterator<Item = Caps> {
+    let clocks = [None, Some(Sessions::TooFew), Some(Sessions::Disagree), Some(Sessions::Agree)];
+    (0..64_u8).flat_map(move |bits| {
+        let has = move |bit: u8| bits >> bit & 1 == 1;
+        clocks.into_iter().map(move |clock| Caps {
+            searched: has(0),
+            fitted: has(1),
+            existential: has(2),
+            powerless: has(3),
+            censored: has(4),
+            without_premises: has(5),
+            clock,
+        })
+    })
+}
+
+#[test]
+fn nothing_raises_a_class_and_nothing_turns_its_sign() {
+    for outcome in OUTCOMES {
+        let bare = of_finding(outcome, Caps::default()).unwrap();
+        for caps in caps() {
+            let Some(verdict) = of_finding(outcome, caps) else {
+                assert!(outcome == Outcome::Proved && caps.without_premises, "{outcome:?} {caps:?}");
+                continue;
+            };
+            assert!(verdict == bare || verdict.polarity() == Polarity::Open || verdict > bare, "{caps:?}");
+            let turned = (verdict.polarity(), bare.polarity());
+            let opposite = [(Polarity::For, Polarity::Against), (Polarity::Against, Polarity::For)];
+            assert!(!opposite.contains(&turned), "{outcome:?} {caps:?}");
+        }
+    }
+}
+
+#[test]
+fn each_cap_does_what_it_says() {
+    let found = |outcome, caps| of_finding(outcome, caps).unwrap();
+    let none = Caps::default;
+    let agree = Some(Sessions::Agree);
+    for (caps, holds, sign, fails) in [
+        (none(), Verdict::Reproduced, Verdict::DirectionOnly, Verdict::NotReproduced),
+        (Caps { searched: true, ..none() }, Verdict::Attainable, Verdict::DirectionOnly, Verdict::NotReproduced),
+        (Caps { existential: true, ..none() }, Verdict::Attainable, Verdict::DirectionOnly, Verdict::NotReproduced),
+        (Caps { fitted: true, ..none() }, Verdict::Fitted, Verdict::DirectionOnly, Verdict::NotReproduced),
+        (Caps { fitted: true, searched: true, ..none() }, Verdict::Attainable, Verdict::DirectionOnly, Verdict::NotReproduced),
+        (Caps { powerless: true, ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::NotReproduced),
+        (Caps { censored: true, ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::Undecided),
+        (Caps { clock: Some(Sessions::TooFew), ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::Undecided),
+        (Caps { clock: Some(Sessions::Disagree), ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::Undecided),
+        (Caps { clock: agree, ..none() }, Verdict::Reproduced, Verdict::DirectionOnly, Verdict::NotReproduced),
+    ] {
+        assert_eq!(
+            [Outcome::Holds, Outcome::SignOnly, Outcome::Fails].map(|outcome| found(outcome, caps)),
+            [holds, sign, fails],
+            "{caps:?}"
+        );
+        assert_eq!(found(Outcome::Open, caps), Verdict::Undecided, "{caps:?}");
+        assert_eq!(found(Outcome::Proved, caps), Verdict::Impossible, "no measurement lowers a proof: {caps:?}");
+    }
+    let elsewhere = Caps { without_premises: true, ..none() };
+    assert_eq!(of_finding(Outcome::Proved, elsewhere), None, "a proof counts where its premises hold");
+}
+
+#[test]
+fn an_interval_that_holds_the_bound_leaves_it_open() {
+    let said = |low, high| Outcome::at_least(low, high, 0.5);
+    assert_eq!([said(0.5, 0.7), said(0.4, 0.7), said(0.1, 0.4)], [Outcome::Holds, Outcome::Open, Outcome::Fails]);
+}

@@ -1,0 +1,230 @@
+//! A share with its interval: of trials solved or with a mark, of events, of draws on which something holds throughout.
+
+use super::{Context, Criterion, Entry, Found};
+use crate::analysis::class::Outcome;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::selection::{Case, Draw, Selection, SelectionSpec, solved};
+use crate::analysis::statistic::{self, plan};
+use crate::analysis::verdict::Estimate;
+use crate::study::Study;
+use crate::study::column;
+use crate::study::record::{Row, Status};
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::Resampling;
+use stats::interval::Interval;
+use stats::paired::EQUAL;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "share",
+    about: "does a share lie within bounds: of trials solved or with a mark, of events, of draws?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "postures", problems = ["C1", "C2"], contender = "A*" }
+hits = "solved"
+accepted = [0.995, 1.0]
+"#,
+    build: |context| Ok(Box::new(Share::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at.
+    of: SelectionSpec,
+    /// What is counted.
+    hits: Hits,
+    /// The columns that are all above 0 where it is hit (`marked`), or the one that counts events (`events`).
+    #[serde(default)]
+    columns: Vec<String>,
+    /// The column that counts the chances for `events`.
+    per: Option<String>,
+    /// The number that the metric is above (`above`).
+    bound: Option<f64>,
+    /// The status that trials must have to be asked at all.
+    among: Option<Status>,
+    /// The least and the greatest share under which the claim holds; without, it is shown and decides nothing.
+    accepted: Option<[f64; 2]>,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum Hits {
+    /// Trials that are solved.
+    Solved,
+    /// Paths that the verifier refuses, of those that come back.
+    Rejected,
+    /// Trials with marks.
+    Marked,
+    /// Events, of the chances that `per` counts.
+    Events,
+    /// Solved trials whose metric is above `bound`.
+    Above,
+    /// Cases that both solve, with the metric below the other contender's.
+    Lower,
+    /// Cases that both solve, with the metric above the other contender's.
+    Higher,
+    /// Draws with the metric below the other contender's on every case that both solve.
+    LowerThroughout,
+}
+
+impl Hits {
+    fn said(self) -> &'static str {
+        match self {
+            Self::Solved => "trials solved",
+            Self::Rejected => "paths refused by the verifier",
+            Self::Marked => "trials marked",
+            Self::Events => "events",
+            Self::Above => "trials above",
+            Self::Lower => "cases on which it is lower",
+            Self::Higher => "cases on which it is higher",
+            Self::LowerThroughout => "draws on every case of which it is lower",
+        }
+    }
+}
+
+struct Share<'a> {
+    of: Selection<'a>,
+    settings: Settings,
+    plan: Resampling,
+}
+
+impl<'a> Share<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let of = Selection::new(context, &settings.of)?;
+        let hits = settings.hits;
+        for name in settings.columns.iter().chain(&settings.per) {
+            if column::find(name).is_none() {
+                return Err(context.settings.error_about(name, format!("there is no column `{name}`")));
+            }
+        }
+        let needs_columns = matches!(hits, Hits::Marked | Hits::Events);
+        if needs_columns == settings.columns.is_empty() || (hits == Hits::Events) != settings.per.is_some() {
+            let message = "`marked` and `events` take `columns`, and `events` takes `per`; nothing else does";
+            return Err(context.settings.error_at("hits", message));
+        }
+        if (hits == Hits::Above) != settings.bound.is_some() {
+            return Err(context.settings.error_at("hits", "`above` takes a `bound`; nothing else does"));
+        }
+        if matches!(hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
+            of.metric(context)?;
+        }
+        if matches!(hits, Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
+            of.against(context)?;
+        }
+        if let Some(accepted) = settings.accepted {
+            context.rising("accepted", accepted, [0.0, 1.0])?;
+        }
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, settings, plan })
+    }
+
+    /// Hits and chances of one case; none if it is not asked.
+    fn counts(&self, case: &Case<'_>) -> Option<[f64; 2]> {
+        let row: &Row = case.row;
+        if self.settings.among.is_some_and(|status| row.status != status) {
+            return None;
+        }
+        let hit = |is: bool| Some([f64::from(u8::from(is)), 1.0]);
+        let gap = || case.pair().map(|(base, own)| own - base);
+        match self.settings.hits {
+            Hits::Solved => hit(row.status == Status::Solved),
+            Hits::Rejected => {
+                let is_returned = matches!(row.status, Status::Solved | Status::Rejected);
+                hit(row.status == Status::Rejected).filter(|_| is_returned)
+            }
+            Hits::Marked => {
+                let marks: Option<Vec<f64>> = self.settings.columns.iter().map(|name| row.value(name)).collect();
+                hit(marks?.iter().all(|mark| *mark > 0.0))
+            }
+            Hits::Events => {
+                let chances = row.value(self.settings.per.as_deref()?)?;
+                Some([row.value(&self.settings.columns[0])?, chances])
+            }
+            Hits::Above => hit(case.value? > self.settings.bound? + EQUAL),
+            Hits::Lower | Hits::LowerThroughout => hit(gap()? < -EQUAL),
+            Hits::Higher => hit(gap()? > EQUAL),
+        }
+    }
+
+    /// Hits and chances of one draw.
+    fn of_draw(&self, draw: &Draw<'_>) -> [f64; 2] {
+        let counts = draw.cases.iter().filter_map(|case| self.counts(case));
+        let [hits, chances] = counts.fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        if self.settings.hits == Hits::LowerThroughout && chances > 0.0 {
+            return [f64::from(u8::from(hits == chances)), 1.0];
+        }
+        [hits, chances]
+    }
+
+    fn outcome(&self, interval: Interval) -> Option<Outcome> {
+        let [low, high] = self.settings.accepted?;
+        let accepted = Interval::new(low, high);
+        Some(if accepted.contains(interval.low) && accepted.contains(interval.high) {
+            Outcome::Holds
+        } else if accepted.meets(interval) {
+            Outcome::Open
+        } else {
+            Outcome::Fails
+        })
+    }
+
+    /// A trial of the minority: what speaks against the greater share.
+    fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>], share: f64) -> Option<String> {
+        let mut cases = draws.iter().flat_map(|draw| &draw.cases);
+        let is_rare = |case: &&Case<'_>| {
+            self.counts(case).is_some_and(|[hits, chances]| (hits < chances) == (share > 0.5))
+        };
+        Some(self.of.run(evidence)?.trial(cases.find(is_rare)?.row))
+    }
+}
+
+impl Criterion for Share<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let draws = self.of.draws(evidence);
+        let counts: Vec<[f64; 2]> =
+            draws.iter().map(|draw| self.of_draw(draw)).filter(|count| count[1] > 0.0).collect();
+        let counted = self.settings.hits.said();
+        let Some((share, interval, how)) = statistic::share(&counts, self.plan) else {
+            return Found::open(format!("{}: nothing has {counted}", self.of.said()));
+        };
+        let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        let mut named = self.settings.columns.join(" and ");
+        if let Some(bound) = self.settings.bound {
+            named = format!("{} {bound}", self.of.metric.map_or("", |metric| metric.label).to_lowercase());
+        }
+        let named = if named.is_empty() { String::new() } else { format!(" ({named})") };
+        let [low, high] = [interval.low, interval.high].map(|end| 100.0 * end);
+        let accepted = self.settings.accepted.map_or_else(String::new, |[least, most]| {
+            format!("; accepted {} to {} %", 100.0 * least, 100.0 * most)
+        });
+        let because = format!(
+            "{}: {counted}{named} {} of {}, {:.2} % ({low:.2} to {high:.2} %, {how}){accepted}",
+            self.of.said(),
+            total[0],
+            total[1],
+            100.0 * share,
+        );
+        let what = format!("share of {counted}{named}, {how}");
+        Found {
+            outcome: self.outcome(interval),
+            ours: Some(Estimate::new(share, interval, what, counts.len()).of_cases(solved(&draws))),
+            trial: self.shown(evidence, &draws, share),
+            because: vec![because],
+            limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
+            units: "draws",
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}

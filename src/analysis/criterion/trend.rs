@@ -1,0 +1,137 @@
+//! Whether a metric, or a saving, grows along a column.
+
+use super::{Context, Criterion, Entry, Found};
+use crate::analysis::class::Outcome;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric::Metric;
+use crate::analysis::selection::{Case, Selection, SelectionSpec, solved};
+use crate::analysis::statistic::plan;
+use crate::analysis::verdict::Estimate;
+use crate::study::Study;
+use crate::study::column;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::Resampling;
+use stats::{pooled, summary};
+use std::collections::BTreeMap;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "trend",
+    about: "does a metric, or what a contender saves, grow along a column? the slope over draws, with medians",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "random", problems = ["disjoint", "overlapping"], contender = "A*", metric = "nodes" }
+over = "obstacles"
+rising = true
+"#,
+    build: |context| Ok(Box::new(Trend::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at; with `against`, what is saved against it in per cent.
+    of: SelectionSpec,
+    /// The column along which it is claimed to change.
+    over: String,
+    /// Whether it is claimed to grow; to fall otherwise.
+    rising: bool,
+}
+
+struct Trend<'a> {
+    of: Selection<'a>,
+    metric: &'static Metric,
+    over: String,
+    rising: bool,
+    plan: Resampling,
+}
+
+impl<'a> Trend<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let of = Selection::new(context, &settings.of)?;
+        let metric = of.metric(context)?;
+        if column::find(&settings.over).is_none() {
+            let message = format!("there is no column `{}` to look along", settings.over);
+            return Err(context.settings.error_at("over", message));
+        }
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, metric, over: settings.over, rising: settings.rising, plan })
+    }
+
+    fn point(&self, case: &Case<'_>) -> Option<(f64, f64)> {
+        let number = if case.base.is_some() { case.saving_percent() } else { case.value };
+        Some((case.row.value(&self.over)?, number?))
+    }
+
+    /// Medians in the lower, middle and upper third of the column, beside the slope: a slope alone may be one outlier's.
+    fn medians(points: &[(f64, f64)]) -> String {
+        let places: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
+        let cuts = [1.0, 2.0].map(|third| summary::quantile_type7(&places, third / 3.0).unwrap_or(0.0));
+        let mut thirds: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+        for (x, y) in points {
+            thirds.entry(cuts.iter().filter(|cut| x > cut).count()).or_default().push(*y);
+        }
+        let medians = thirds.values().filter_map(|numbers| summary::median(numbers));
+        medians.map(|median| format!("{median:.3}")).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl Criterion for Trend<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let draws = self.of.draws(evidence);
+        let points: Vec<Vec<(f64, f64)>> = draws
+            .iter()
+            .map(|draw| draw.cases.iter().filter_map(|case| self.point(case)).collect())
+            .filter(|points: &Vec<_>| !points.is_empty())
+            .collect();
+        let Some(found) = pooled::slope(&points, self.plan) else { return Found::too_few(points.len(), 2) };
+        let claimed = if self.rising { 1.0 } else { -1.0 };
+        let (one, other) = (claimed * found.interval.low, claimed * found.interval.high);
+        let outcome = if one.min(other) > 0.0 {
+            Outcome::Holds
+        } else if one.max(other) < 0.0 {
+            Outcome::Fails
+        } else {
+            Outcome::Open
+        };
+        let metric = self.metric.label.to_lowercase();
+        let (subject, unit) = match &self.of.against {
+            Some(_) => (format!("saving in {metric}"), "points"),
+            None => (metric, self.metric.unit),
+        };
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let because = format!(
+            "{}: {subject} along {} changes by {:+.4}{unit} each (95 % interval {:+.4} to {:+.4}, {} draws); medians by thirds of {} {}",
+            self.of.said(),
+            self.over,
+            found.value,
+            found.interval.low,
+            found.interval.high,
+            found.units,
+            self.over,
+            Self::medians(&points.concat()),
+        );
+        let what = format!("slope of {subject} along {}:{unit} each, bootstrap 95 % over draws", self.over);
+        let against = draws.iter().flat_map(|draw| &draw.cases).find(|case| self.point(case).is_some());
+        Found {
+            outcome: Some(outcome),
+            ours: Some(Estimate::new(found.value, found.interval, what, found.units).of_cases(solved(&draws))),
+            trial: against.and_then(|case| Some(self.of.run(evidence)?.trial(case.row))),
+            because: vec![because],
+            limits: vec![0.0],
+            units: "draws",
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}

@@ -1,0 +1,344 @@
+//! Which trials a criterion, a figure or a table looks at: resolved once, then asked of the runs under any reading.
+
+use super::criterion::Context;
+use super::evidence::{Evidence, Run};
+use super::metric::Metric;
+use crate::study::Study;
+use crate::study::key::{DrawKey, SweepKey};
+use crate::study::name;
+use crate::study::record::{Row, Status};
+use base::settings::SettingsError;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A selection as claims write it.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SelectionSpec {
+    /// The study whose records are looked at.
+    pub study: String,
+    /// The problem group, by its label, or several; a label that ends in `*` stands for all that begin so.
+    pub problems: Labels,
+    /// The contender, by its label, or several.
+    #[serde(default)]
+    pub contender: Labels,
+    /// The contender that it is held against, on the same problems.
+    pub against: Option<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
+    pub metric: Option<String>,
+    /// The one query of each draw that is looked at; all if absent.
+    pub query: Option<String>,
+    /// The one point of the study's sweeps, as trials name it: `samples=100`; all if absent.
+    pub sweep: Option<String>,
+    /// Only draws count of which everyone who is compared solves every query.
+    #[serde(default)]
+    pub whole_draws: bool,
+    /// A study that explores readings: the same is asked of it under each of them, and shown.
+    pub explored: Option<Explored>,
+}
+
+/// One label, or several.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "a label, or a list of labels, is accepted")]
+pub enum Labels {
+    /// One label.
+    One(String),
+    /// Several labels.
+    Several(Vec<String>),
+}
+
+impl Default for Labels {
+    fn default() -> Self {
+        Self::Several(Vec::new())
+    }
+}
+
+impl Labels {
+    /// The labels as they are written.
+    pub fn listed(&self) -> Vec<String> {
+        match self {
+            Self::One(label) => vec![label.clone()],
+            Self::Several(labels) => labels.clone(),
+        }
+    }
+}
+
+/// Where readings are explored.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "the name of a study, or a table with `study` and `problems`, is accepted")]
+pub enum Explored {
+    /// A study with the same problem groups.
+    Study(String),
+    /// A study with other ones.
+    Elsewhere(ExploredIn),
+}
+
+/// A study that explores readings on problem groups of its own.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExploredIn {
+    /// The study.
+    pub study: String,
+    /// Its problem groups.
+    pub problems: Labels,
+}
+
+/// A selection whose every name was found.
+pub struct Selection<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// The problem groups, in the order that they are named in.
+    pub groups: Vec<String>,
+    /// The contenders.
+    pub contenders: Vec<String>,
+    /// The contender that they are held against.
+    pub against: Option<String>,
+    /// The metric; absent if statuses alone are looked at.
+    pub metric: Option<&'static Metric>,
+    /// The one query.
+    pub query: Option<String>,
+    /// The one point of the sweeps.
+    pub sweep: Option<SweepKey>,
+    /// Whether only draws count of which everything is solved.
+    pub whole_draws: bool,
+}
+
+/// One trial, and the trial that it is held against.
+pub struct Case<'e> {
+    /// The trial.
+    pub row: &'e Row,
+    /// The trial of the other contender on the same problem.
+    pub base: Option<&'e Row>,
+    /// The metric, if the trial was solved and it was measured.
+    pub value: Option<f64>,
+    /// The metric of the other trial, likewise.
+    pub base_value: Option<f64>,
+}
+
+/// What was drawn independently (a map, a roadmap, a seed of a contender that draws), with all that was asked of it.
+pub struct Draw<'e> {
+    /// The problem group.
+    pub group: &'e str,
+    /// Its trials.
+    pub cases: Vec<Case<'e>>,
+}
+
+impl Case<'_> {
+    /// Both numbers, the other contender's first.
+    pub fn pair(&self) -> Option<(f64, f64)> {
+        self.base_value.zip(self.value)
+    }
+
+    /// What is saved against the other contender, in per cent; none if its number is not above 0.
+    pub fn saving_percent(&self) -> Option<f64> {
+        self.pair().filter(|(base, _)| *base > 0.0).map(|(base, own)| 100.0 * (1.0 - own / base))
+    }
+
+    /// Whether some side has no number although it might have one: not because there is no path for either.
+    pub fn is_censored(&self) -> bool {
+        let no_path = |row: &Row| row.status == Status::NoPath;
+        match self.base {
+            Some(base) => {
+                self.pair().is_none() && !(no_path(self.row) && no_path(base)) && !self.is_unmeasured()
+            }
+            None => self.value.is_none() && !no_path(self.row) && !self.is_unmeasured(),
+        }
+    }
+
+    /// Whether both sides are solved, and one was not measured: the clock is read for some trials only.
+    fn is_unmeasured(&self) -> bool {
+        let solved = |row: &Row| row.status == Status::Solved;
+        solved(self.row) && self.base.is_none_or(solved)
+    }
+}
+
+impl<'a> Selection<'a> {
+    /// The selection `of`, of which every name is looked up.
+    ///
+    /// # Errors
+    /// A study, problem group, contender, metric or sweep point that does not exist, at its own place.
+    pub fn new(context: &Context<'a>, of: &SelectionSpec) -> Result<Self, SettingsError> {
+        let contenders = of.contender.listed();
+        let named: Vec<&str> = contenders.iter().chain(&of.against).map(String::as_str).collect();
+        let study = context.study(&of.study, &[], &named)?;
+        let groups = context.groups(study, &of.problems)?;
+        let metric = of.metric.as_ref().map(|name| context.metric(name, study)).transpose()?;
+        let sweep = of.sweep.as_ref().map(|text| {
+            study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
+                let known: Vec<String> =
+                    study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
+                let message =
+                    format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
+                context.settings.error_at("of.sweep", message)
+            })
+        });
+        let sweep = sweep.transpose()?;
+        let (against, query, whole_draws) = (of.against.clone(), of.query.clone(), of.whole_draws);
+        Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_draws })
+    }
+
+    /// The one contender.
+    ///
+    /// # Errors
+    /// There is none, or more.
+    pub fn contender(&self, context: &Context<'_>) -> Result<&str, SettingsError> {
+        match &self.contenders[..] {
+            [one] => Ok(one),
+            all => Err(context
+                .settings
+                .error_at("of.contender", format!("`of` names {} contenders; one is accepted", all.len()))),
+        }
+    }
+
+    /// The contender that it is held against.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn against(&self, context: &Context<'_>) -> Result<&str, SettingsError> {
+        let missing = || context.settings.error_at("of", "`of` needs `against`: the contender that it is held against");
+        self.against.as_deref().ok_or_else(missing)
+    }
+
+    /// The metric.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn metric(&self, context: &Context<'_>) -> Result<&'static Metric, SettingsError> {
+        self.metric.ok_or_else(|| context.settings.error_at("of", "`of` needs a `metric`"))
+    }
+
+    /// Whether it reads a clock.
+    pub fn is_clock(&self) -> bool {
+        self.metric.is_some_and(Metric::is_clock)
+    }
+
+    /// The stored run that it looks at.
+    pub fn run<'e, 'p>(&self, evidence: &'e Evidence<'p>) -> Option<&'e Run<'p>> {
+        evidence.run(&self.study.name)
+    }
+
+    /// The trials of its contenders, by draw; problems that could not be posed are left out, and so, if only whole draws
+    /// count, are draws of which something is not solved.
+    pub fn draws<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Draw<'e>> {
+        let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
+        let mut draws: Vec<Draw<'e>> = Vec::new();
+        for group in &self.groups {
+            let bases: BTreeMap<_, &Row> = self.against.as_ref().map_or_else(BTreeMap::new, |against| {
+                self.rows(run, group, against).into_iter().map(|row| (row.case(), row)).collect()
+            });
+            let mut places: BTreeMap<(&Arc<DrawKey>, u32), usize> = BTreeMap::new();
+            for contender in &self.contenders {
+                for row in self.rows(run, group, contender) {
+                    let base = bases.get(&row.case()).copied();
+                    if self.against.is_some() && base.is_none() {
+                        continue;
+                    }
+                    let unit = (&row.key.on, row.key.repeat);
+                    let place = *places.entry(unit).or_insert(draws.len());
+                    if place == draws.len() {
+                        draws.push(Draw { group: &row.key.on.group, cases: Vec::new() });
+                    }
+                    draws[place].cases.push(self.case(run, row, base));
+                }
+            }
+        }
+        draws.retain(|draw| !self.whole_draws || draw.is_whole());
+        draws
+    }
+
+    fn case<'e>(&self, run: &Run<'_>, row: &'e Row, base: Option<&'e Row>) -> Case<'e> {
+        let solved = |row: &&Row| row.status == Status::Solved;
+        let value = |row: Option<&Row>| run.value(row.filter(solved)?, self.metric?);
+        Case { row, base, value: value(Some(row)), base_value: value(base) }
+    }
+
+    /// The trials of `contender` in one group that are looked at.
+    pub fn rows<'e>(&self, run: &'e Run<'_>, group: &str, contender: &str) -> Vec<&'e Row> {
+        let mut rows = run.rows(group, contender);
+        rows.retain(|row| {
+            row.status != Status::InvalidProblem
+                && self.query.as_ref().is_none_or(|query| row.query() == query)
+                && self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep)
+        });
+        rows
+    }
+
+    /// What is looked at, in a sentence: `A against B on X, Y of study`.
+    pub fn said(&self) -> String {
+        let who = self.contenders.join(", ");
+        let against = self.against.as_ref().map_or_else(String::new, |other| format!(" against {other}"));
+        let query = self.query.as_ref().map_or_else(String::new, |query| format!(", query {query}"));
+        let at = self.sweep.as_ref().map_or_else(String::new, |key| format!(", {}", name::sweep(key)));
+        format!("{who}{against} on {} of {}{query}{at}", self.groups_said(), self.study.name)
+    }
+
+    fn groups_said(&self) -> String {
+        if self.groups.len() > 3 {
+            return format!("{} problem groups", self.groups.len());
+        }
+        self.groups.join(", ")
+    }
+}
+
+impl Draw<'_> {
+    /// Whether all that is compared is solved on it.
+    pub fn is_whole(&self) -> bool {
+        let solved = |row: &Row| row.status == Status::Solved;
+        self.cases.iter().all(|case| solved(case.row) && case.base.is_none_or(solved))
+    }
+}
+
+/// Of all cases those that are solved by everyone who is compared, and all.
+pub fn solved(draws: &[Draw<'_>]) -> [usize; 2] {
+    let is_solved = |row: &Row| row.status == Status::Solved;
+    let cases = || draws.iter().flat_map(|draw| &draw.cases);
+    let both = cases().filter(|case| is_solved(case.row) && case.base.is_none_or(is_solved));
+    [both.count(), cases().count()]
+}
+
+/// Cases that have no number on some side although they might.
+pub fn censored(draws: &[Draw<'_>]) -> usize {
+    draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_censored()).count()
+}
+
+/// Both numbers of every case that has them, the other contender's first, by draw; draws without any are left out.
+pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
+    let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(Case::pair).collect::<Vec<_>>();
+    draws.iter().map(of_draw).filter(|pairs| !pairs.is_empty()).collect()
+}
+
+/// The pairs of every draw with its censored cases filled in, once as if they spoke one way by the largest difference
+/// seen, and once the other way: what is found either way does not hang on them. Nothing where nothing is censored.
+pub fn filled(draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
+    let seen = || draws.iter().flat_map(|draw| &draw.cases).filter_map(Case::pair);
+    let most = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
+    let count = seen().count();
+    if censored(draws) == 0 || count == 0 {
+        return Vec::new();
+    }
+    let middle = seen().map(|(base, _)| base).sum::<f64>() / count as f64;
+    let number = |case: &Case<'_>, fill: f64| {
+        case.pair().or_else(|| case.is_censored().then(|| (middle, (middle + fill).max(0.0))))
+    };
+    let of_draw = |draw: &Draw<'_>, fill: f64| draw.cases.iter().filter_map(|case| number(case, fill)).collect();
+    let all = |fill: f64| {
+        draws.iter().map(|draw| of_draw(draw, fill)).filter(|pairs: &Vec<_>| !pairs.is_empty()).collect()
+    };
+    vec![all(most), all(-most)]
+}
+
+/// The trial whose number, as `of` takes it, is nearest to `value`.
+pub fn nearest(
+    selection: &Selection<'_>,
+    evidence: &Evidence<'_>,
+    draws: &[Draw<'_>],
+    of: impl Fn(&Case<'_>) -> Option<f64>,
+    value: f64,
+) -> Option<String> {
+    let cases = draws.iter().flat_map(|draw| &draw.cases);
+    let apart = cases.filter_map(|case| Some((case.row, (of(case)? - value).abs())));
+    let (row, _) = apart.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(selection.run(evidence)?.trial(row))
+}

@@ -1,0 +1,214 @@
+//! Statistics, each defined once: of one draw, and of all draws of a selection with their intervals.
+//!
+//! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
+
+use super::selection::{Case, Draw};
+use crate::study::record::Status;
+use base::seed;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::{Estimate, Resampling};
+use stats::interval::Interval;
+use stats::pooled;
+use stats::proportion::clopper_pearson;
+use stats::summary;
+
+/// Level of every interval.
+pub const LEVEL: f64 = 0.95;
+
+/// A bootstrap as every verdict makes it, with the stream of draws that belongs to `names`.
+pub fn plan(names: &[&str]) -> Resampling {
+    Resampling { resamples: 2000, level: LEVEL, seed: seed::derive(0, names) }
+}
+
+/// What one draw gives.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OfDraw {
+    /// The mean over its solved queries.
+    #[default]
+    Mean,
+    /// The least over its solved queries.
+    Least,
+    /// The greatest over its solved queries.
+    Greatest,
+    /// The share of its queries that are solved, in per cent.
+    SolvedPercent,
+}
+
+impl OfDraw {
+    /// Its name in captions, tables and reasons.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mean => "mean",
+            Self::Least => "least",
+            Self::Greatest => "greatest",
+            Self::SolvedPercent => "share solved",
+        }
+    }
+
+    /// The number that `draw` gives, of the metric or, with another contender, of what is saved against it in per cent.
+    pub fn of(self, draw: &Draw<'_>) -> Option<f64> {
+        if self == Self::SolvedPercent {
+            let solved = draw.cases.iter().filter(|case| case.row.status == Status::Solved).count();
+            return (!draw.cases.is_empty()).then(|| 100.0 * solved as f64 / draw.cases.len() as f64);
+        }
+        let number = |case: &Case<'_>| if case.base.is_some() { case.saving_percent() } else { case.value };
+        let numbers: Vec<f64> = draw.cases.iter().filter_map(number).collect();
+        let folded = |from, of: fn(f64, f64) -> f64| {
+            (!numbers.is_empty()).then(|| numbers.iter().copied().fold(from, of))
+        };
+        match self {
+            Self::Least => folded(f64::INFINITY, f64::min),
+            Self::Greatest => folded(f64::NEG_INFINITY, f64::max),
+            Self::Mean | Self::SolvedPercent => summary::mean(&numbers),
+        }
+    }
+}
+
+/// What all draws of a selection give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OfAll {
+    /// The mean over all solved cases.
+    Mean,
+    /// The median over all cases, failures infinite.
+    Median,
+    /// The standard deviation over all solved cases.
+    Deviation,
+    /// By how many per cent the sum over the cases that both solve is below the other contender's.
+    ReductionPercent,
+    /// The sum over the cases that both solve over the other contender's.
+    Ratio,
+    /// The median on the first of two problem groups over that on the second.
+    RatioOfGroups,
+}
+
+impl OfAll {
+    /// Its name in captions, tables and reasons.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mean => "mean",
+            Self::Median => "median, failures infinite,",
+            Self::Deviation => "standard deviation",
+            Self::ReductionPercent => "reduction in % of the mean",
+            Self::Ratio => "ratio of the means",
+            Self::RatioOfGroups => "ratio of the medians on two groups",
+        }
+    }
+
+    /// Whether it sets two contenders beside each other.
+    pub fn is_paired(self) -> bool {
+        matches!(self, Self::ReductionPercent | Self::Ratio)
+    }
+
+    /// The number that means no difference, if it sets two contenders beside each other.
+    pub fn no_difference(self) -> Option<f64> {
+        match self {
+            Self::ReductionPercent => Some(0.0),
+            Self::Ratio | Self::RatioOfGroups => Some(1.0),
+            Self::Mean | Self::Median | Self::Deviation => None,
+        }
+    }
+
+    /// The number with its bootstrap interval over draws; none below two.
+    pub fn of(self, draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
+        if self.is_paired() {
+            return self.of_pairs(&super::selection::pairs(draws), plan);
+        }
+        if self == Self::RatioOfGroups {
+            return of_groups(draws, plan);
+        }
+        let values: Vec<Vec<f64>> = draws.iter().map(|draw| self.values(draw)).collect();
+        let values: Vec<Vec<f64>> = values.into_iter().filter(|values| !values.is_empty()).collect();
+        let sums = || values.iter().map(|draw| [draw.iter().sum(), draw.len() as f64]).collect::<Vec<_>>();
+        match self {
+            Self::Median => pooled::median(&values, plan),
+            Self::Deviation => pooled::deviation(&values, plan),
+            _ => pooled::ratio_of_sums(&sums(), plan),
+        }
+    }
+
+    /// That of pairs by draw, the other contender's number first.
+    pub fn of_pairs(self, pairs: &[Vec<(f64, f64)>], plan: Resampling) -> Option<Estimate> {
+        let sums = |pairs: &Vec<(f64, f64)>| {
+            pairs.iter().fold([0.0, 0.0], |[own, base], pair| [own + pair.1, base + pair.0])
+        };
+        let ratio = pooled::ratio_of_sums(&pairs.iter().map(sums).collect::<Vec<_>>(), plan)?;
+        if self == Self::Ratio {
+            return Some(ratio);
+        }
+        let percent = |ratio: f64| 100.0 * (1.0 - ratio);
+        let interval = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
+        Some(Estimate { value: percent(ratio.value), interval, ..ratio })
+    }
+
+    fn values(self, draw: &Draw<'_>) -> Vec<f64> {
+        let value = |case: &Case<'_>| match (self, case.value) {
+            (Self::Median, None) if case.row.status != Status::Solved => Some(f64::INFINITY),
+            (_, value) => value,
+        };
+        draw.cases.iter().filter_map(value).collect()
+    }
+}
+
+/// The median on the first group over that on the second, the interval from the ends of both; of a single draw the number
+/// itself.
+fn of_groups(draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
+    let first = draws.first()?.group;
+    let side = |is_first: bool| {
+        let own = draws.iter().filter(|draw| (draw.group == first) == is_first);
+        let values: Vec<Vec<f64>> =
+            own.map(|draw| draw.cases.iter().filter_map(|case| case.value).collect()).collect();
+        let median = summary::median(&values.concat())?;
+        let found = pooled::median(&values, plan);
+        Some((median, found.map_or(Interval::new(median, median), |found| found.interval)))
+    };
+    let ((above, one), (below, other)) = (side(true)?, side(false).filter(|(median, _)| *median > 0.0)?);
+    let interval = Interval::new(one.low / other.high, one.high / other.low);
+    Some(Estimate { value: above / below, interval, units: draws.len(), undefined: 0 })
+}
+
+/// A share of chances that are hit, with its interval: exact where every draw has one chance, else by bootstrap over draws.
+///
+/// `counts` has the hits and chances of each draw; none without chances.
+pub fn share(counts: &[[f64; 2]], plan: Resampling) -> Option<(f64, Interval, &'static str)> {
+    let sum = |of: usize| counts.iter().map(|count| count[of]).sum::<f64>();
+    let (hits, chances) = (sum(0), sum(1));
+    if chances <= 0.0 {
+        return None;
+    }
+    if counts.iter().all(|[_, chances]| *chances == 1.0) {
+        let interval = clopper_pearson(hits as usize, chances as usize, LEVEL)?;
+        return Some((hits / chances, interval, "exact 95 %"));
+    }
+    let found = pooled::ratio_of_sums(counts, plan)?;
+    Some((found.value, found.interval, "bootstrap 95 % over draws"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_of_single_chances_is_exact_and_draws_of_several_are_units() {
+        let plan = plan(&["a test"]);
+        let (value, interval, how) = share(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], plan).unwrap();
+        assert_eq!((value, how), (0.75, "exact 95 %"));
+        assert!((interval.low - 0.1941).abs() < 1e-4 && (interval.high - 0.9937).abs() < 1e-4, "{interval:?}");
+        // Draws that agree within themselves: as uncertain as their number says, not as that of their queries.
+        let draws: Vec<[f64; 2]> = (0..10).map(|i| [if i % 2 == 0 { 100.0 } else { 0.0 }, 100.0]).collect();
+        let (value, interval, _) = share(&draws, plan).unwrap();
+        assert!(value == 0.5 && interval.half_width() > 0.25, "{interval:?}");
+        assert!(share(&[[0.0, 0.0]], plan).is_none() && share(&[], plan).is_none());
+    }
+
+    #[test]
+    fn a_reduction_and_a_ratio_say_the_same() {
+        let pairs: Vec<Vec<(f64, f64)>> = (1..20).map(|i| vec![(f64::from(i), 0.5 * f64::from(i))]).collect();
+        let [reduction, ratio] =
+            [OfAll::ReductionPercent, OfAll::Ratio].map(|of| of.of_pairs(&pairs, plan(&["x"])).unwrap());
+        assert!((reduction.value - 50.0).abs() < 1e-9 && (ratio.value - 0.5).abs() < 1e-9);
+        assert!(reduction.interval.low <= reduction.interval.high, "{:?}", reduction.interval);
+    }
+}
