@@ -215,7 +215,7 @@ fn verdict_on(evidence: &Evidence<'_>, claim: &Claim) -> Result<Verdict, Setting
 mod tests;
 
 pub use across_readings::Outcome;
-pub use attained::{Attained, Outcome as Attainment};
+pub use attained::Attained;
 pub use row_among_draws::Draws;
 
 /// The draws that the claim called `id` is ranked among, as its check `row_among_draws` says.
