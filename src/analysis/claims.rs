@@ -25,7 +25,9 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     for study in &paper.studies {
         for (index, id) in study.fitted_to.iter().enumerate() {
             if paper.claim(id).is_none() {
-                faults.add(study.document.error_at(&format!("fitted_to.{index}"), none_called("claim", id, ids())));
+                faults.add(
+                    study.document.error_at(&format!("fitted_to.{index}"), none_called("claim", id, ids())),
+                );
             }
         }
     }
@@ -47,7 +49,10 @@ pub fn claims_hash(paper: &Paper) -> String {
             .map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()))
             .collect();
         let parts = &claim.parts;
-        format!("{} {:?} {:?} {:?} {asked:?} {parts:?}\n", claim.id, claim.printed, claim.digits, claim.untestable)
+        format!(
+            "{} {:?} {:?} {:?} {asked:?} {parts:?}\n",
+            claim.id, claim.printed, claim.digits, claim.untestable
+        )
     });
     sha256(judged.collect::<String>().as_bytes())
 }
@@ -85,7 +90,8 @@ enum Built<'a> {
 impl<'a> Built<'a> {
     fn new(asked: Asked, name: &str, context: &Context<'a>) -> Result<Self, SettingsError> {
         let unknown = |what: &str, known: Vec<&'static str>| {
-            let message = format!("claim `{}`: {}", context.claim.id, none_called(what, name, known.into_iter()));
+            let message =
+                format!("claim `{}`: {}", context.claim.id, none_called(what, name, known.into_iter()));
             context.settings.error(message)
         };
         if asked == Asked::Rule {
@@ -93,8 +99,9 @@ impl<'a> Built<'a> {
                 .ok_or_else(|| unknown("rule", rule::REGISTRY.iter().map(|entry| entry.name).collect()))?;
             return Ok(Self::Rule((entry.build)(context)?));
         }
-        let entry = criterion::find(name)
-            .ok_or_else(|| unknown("criterion", criterion::REGISTRY.iter().map(|entry| entry.name).collect()))?;
+        let entry = criterion::find(name).ok_or_else(|| {
+            unknown("criterion", criterion::REGISTRY.iter().map(|entry| entry.name).collect())
+        })?;
         criterion::explored(entry, context)?;
         Ok(Self::Criterion((entry.build)(context)?, entry))
     }
@@ -110,7 +117,8 @@ fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<(Judged, Vec<Ex
             Built::Criterion(criterion, entry) => {
                 let mut finding = of_criterion(entry.name, &*criterion, evidence, claim);
                 if let Some((study, settings)) = criterion::explored(entry, &context)? {
-                    let readings = explore(entry, evidence, claim, &settings, study.explored().unwrap_or_default())?;
+                    let readings =
+                        explore(entry, evidence, claim, &settings, study.explored().unwrap_or_default())?;
                     let explored = Explored { claim: claim.id.clone(), study: study.name.clone(), readings };
                     finding.because.extend(explored.said());
                     all_explored.push(explored);
@@ -153,11 +161,8 @@ fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings
 }
 
 fn of_rule(name: &str, found: Found) -> Finding {
-    let caps = Caps {
-        existential: found.existential,
-        without_premises: found.without_premises,
-        ..Caps::default()
-    };
+    let caps =
+        Caps { existential: found.existential, without_premises: found.without_premises, ..Caps::default() };
     let mut finding = finding(name, found, caps);
     if caps.without_premises && finding.verdict.is_none() {
         finding.because.push("the premises of the proof do not hold under this reading".to_owned());
@@ -197,7 +202,8 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
 
 /// What the stored sessions of the clock say, each judged by itself.
 fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> Sessions {
-    let stored = of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(|run| run.sessions()).min();
+    let stored =
+        of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(|run| run.sessions()).min();
     let count = stored.unwrap_or(0);
     if count < class::SESSIONS {
         return Sessions::TooFew;
@@ -229,7 +235,8 @@ fn explore(
 
 /// Sentences of parts and rows of cells take their class from theirs.
 fn with_parts(paper: &Paper, mut judged: Vec<Judged>) -> Vec<Judged> {
-    let alone: BTreeMap<String, Verdict> = judged.iter().map(|one| (one.claim.clone(), one.verdict)).collect();
+    let alone: BTreeMap<String, Verdict> =
+        judged.iter().map(|one| (one.claim.clone(), one.verdict)).collect();
     for (claim, judged) in paper.claims.iter().zip(&mut judged) {
         let (name, of, ids): (_, fn(&[Verdict]) -> Verdict, _) = match &claim.parts {
             Parts::None => continue,
@@ -238,6 +245,7 @@ fn with_parts(paper: &Paper, mut judged: Vec<Judged>) -> Vec<Judged> {
             Parts::AllOf(ids) => ("all_of", class::all_of, ids),
             Parts::Cells(ids) => ("cells", class::all_of, ids),
             Parts::AnyOf(ids) => ("any_of", class::any_of, ids),
+            Parts::MeansOneOf(ids) => ("means_one_of", class::one_meant, ids),
         };
         let verdicts: Vec<Verdict> = ids.iter().map(|id| alone[id]).collect();
         let listed = |verdict: Verdict| {

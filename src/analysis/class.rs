@@ -145,13 +145,12 @@ pub fn of_finding(outcome: Outcome, caps: Caps) -> Option<Verdict> {
         Outcome::Open => Verdict::Undecided,
         Outcome::Fails => Verdict::NotReproduced,
         Outcome::SignOnly => Verdict::DirectionOnly,
-        Outcome::Holds => [
-            (caps.searched || caps.existential, Verdict::Attainable),
-            (caps.fitted, Verdict::Fitted),
-        ]
-        .into_iter()
-        .find_map(|(applies, verdict)| applies.then_some(verdict))
-        .unwrap_or(Verdict::Reproduced),
+        Outcome::Holds => {
+            [(caps.searched || caps.existential, Verdict::Attainable), (caps.fitted, Verdict::Fitted)]
+                .into_iter()
+                .find_map(|(applies, verdict)| applies.then_some(verdict))
+                .unwrap_or(Verdict::Reproduced)
+        }
     };
     let no_clock = matches!(caps.clock, Some(Sessions::TooFew | Sessions::Disagree));
     let is_hollow = caps.powerless && measured.polarity() == Polarity::For;
@@ -200,6 +199,17 @@ pub fn any_of(parts: &[Verdict]) -> Verdict {
         None => Verdict::Undecided,
         Some(Polarity::Open) => open(among(Polarity::Open)),
         Some(polarity) => among(polarity).min_by_key(|part| rank(*part)).unwrap_or(Verdict::Undecided),
+    }
+}
+
+/// The class of a sentence that means one of its parts and does not say which: that of all of them where they speak one
+/// way, undecided where they do not.
+pub fn one_meant(parts: &[Verdict]) -> Verdict {
+    let (all, any) = (all_of(parts), any_of(parts));
+    match (all.polarity(), any.polarity()) {
+        (Polarity::For, _) | (Polarity::Open, Polarity::Open) => all,
+        (_, Polarity::Against) => any,
+        _ => Verdict::Undecided,
     }
 }
 

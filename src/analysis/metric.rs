@@ -139,7 +139,11 @@ mod tests {
     fn metrics_are_in_order_and_read_columns_that_exist() {
         assert!(METRICS.windows(2).all(|pair| pair[0].name < pair[1].name));
         for metric in METRICS {
-            assert!(metric.is_clock() || metric.is_status() || column::find(metric.column).is_some(), "{}", metric.name);
+            assert!(
+                metric.is_clock() || metric.is_status() || column::find(metric.column).is_some(),
+                "{}",
+                metric.name
+            );
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::criterion::Context;
 use super::evidence::{Evidence, Run};
-use super::metric::Metric;
+use super::metric::{Better, Metric};
 use crate::study::Study;
 use crate::study::key::{DrawKey, SweepKey};
 use crate::study::name;
@@ -197,7 +197,8 @@ impl<'a> Selection<'a> {
     /// # Errors
     /// There is none.
     pub fn against(&self, context: &Context<'_>) -> Result<&str, SettingsError> {
-        let missing = || context.settings.error_at("of", "`of` needs `against`: the contender that it is held against");
+        let missing =
+            || context.settings.error_at("of", "`of` needs `against`: the contender that it is held against");
         self.against.as_deref().ok_or_else(missing)
     }
 
@@ -309,9 +310,10 @@ pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
     draws.iter().map(of_draw).filter(|pairs| !pairs.is_empty()).collect()
 }
 
-/// The pairs of every draw with its censored cases filled in, once as if they spoke one way by the largest difference
-/// seen, and once the other way: what is found either way does not hang on them. Nothing where nothing is censored.
-pub fn filled(draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
+/// The pairs of every draw with its censored cases filled in by the largest difference seen: against the contender where it
+/// alone failed, for it where the other did, and where that is not known once one way and once the other. What is found
+/// every time does not hang on them. Nothing where nothing is censored.
+pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
     let seen = || draws.iter().flat_map(|draw| &draw.cases).filter_map(Case::pair);
     let most = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
     let count = seen().count();
@@ -319,14 +321,26 @@ pub fn filled(draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
         return Vec::new();
     }
     let middle = seen().map(|(base, _)| base).sum::<f64>() / count as f64;
-    let number = |case: &Case<'_>, fill: f64| {
-        case.pair().or_else(|| case.is_censored().then(|| (middle, (middle + fill).max(0.0))))
+    let worse = match selection.metric.map(|metric| metric.better) {
+        Some(Better::Lower) => 1.0,
+        Some(Better::Higher) => -1.0,
+        Some(Better::Neither) | None => 0.0,
     };
-    let of_draw = |draw: &Draw<'_>, fill: f64| draw.cases.iter().filter_map(|case| number(case, fill)).collect();
-    let all = |fill: f64| {
-        draws.iter().map(|draw| of_draw(draw, fill)).filter(|pairs: &Vec<_>| !pairs.is_empty()).collect()
+    let number = |case: &Case<'_>, unknown: f64| {
+        let way = match (case.base_value, case.value) {
+            _ if worse == 0.0 => unknown,
+            (Some(_), None) => worse,
+            (None, Some(_)) => -worse,
+            _ => unknown,
+        };
+        let filled = || (middle, (middle + way * most).max(0.0));
+        case.pair().or_else(|| case.is_censored().then(filled))
     };
-    vec![all(most), all(-most)]
+    let all = |unknown: f64| {
+        let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|case| number(case, unknown)).collect();
+        draws.iter().map(of_draw).filter(|pairs: &Vec<_>| !pairs.is_empty()).collect()
+    };
+    vec![all(1.0), all(-1.0)]
 }
 
 /// The trial whose number, as `of` takes it, is nearest to `value`.

@@ -21,7 +21,8 @@ pub fn settles(found: &Found, caps: Caps) -> String {
         return format!("results of the {} cases without a number, which could turn it", found.censored);
     }
     if caps.powerless {
-        return "a paper that prints more than one draw: no number of ours narrows what one draw may be".to_owned();
+        return "a paper that prints more than one draw: no number of ours narrows what one draw may be"
+            .to_owned();
     }
     if let Some(needed) = found.needs {
         return format!("{needed} draws at least");
@@ -61,7 +62,11 @@ mod tests {
     fn an_interval_around_a_limit_asks_for_more_units() {
         let said = |ends| settles(&found(ends), Caps::default());
         // Half a width of 1/4 against a distance of 1/8: four times as many.
-        assert!(said([0.25, 0.375, 0.75]).starts_with("about 40 trials, not 10"), "{}", said([0.25, 0.375, 0.75]));
+        assert!(
+            said([0.25, 0.375, 0.75]).starts_with("about 40 trials, not 10"),
+            "{}",
+            said([0.25, 0.375, 0.75])
+        );
         for no_number in [[0.4, 0.5, 0.6], [0.6, 0.7, 0.8]] {
             assert!(said(no_number).starts_with("the paper's own inputs"), "{no_number:?}");
         }

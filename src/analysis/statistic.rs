@@ -195,7 +195,10 @@ mod tests {
         let plan = plan(&["a test"]);
         let (value, interval, how) = share(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], plan).unwrap();
         assert_eq!((value, how), (0.75, "exact 95 %"));
-        assert!((interval.low - 0.1941).abs() < 1e-4 && (interval.high - 0.9937).abs() < 1e-4, "{interval:?}");
+        assert!(
+            (interval.low - 0.1941).abs() < 1e-4 && (interval.high - 0.9937).abs() < 1e-4,
+            "{interval:?}"
+        );
         // Draws that agree within themselves: as uncertain as their number says, not as that of their queries.
         let draws: Vec<[f64; 2]> = (0..10).map(|i| [if i % 2 == 0 { 100.0 } else { 0.0 }, 100.0]).collect();
         let (value, interval, _) = share(&draws, plan).unwrap();

@@ -2,8 +2,8 @@
 
 use super::latex::{Cell, Column, Numbers, Table};
 use super::{RenderError, marks};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Verdict;
+use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Estimate, Judged, Verdicts};
 use crate::study::paper::{OursSpec, Paper, TableRow, TableSpec};
 

@@ -148,6 +148,9 @@ struct ClaimSpec {
     /// The claims some one of which the sentence says.
     #[serde(default)]
     any_of: Vec<Spanned<String>>,
+    /// The claims one of which the sentence means, without saying which.
+    #[serde(default)]
+    means_one_of: Vec<Spanned<String>>,
     /// The claims that are the cells of this row of a table.
     #[serde(default)]
     cells: Vec<Spanned<String>>,
@@ -202,6 +205,8 @@ pub enum Parts {
     AllOf(Vec<String>),
     /// A sentence that says some one of them.
     AnyOf(Vec<String>),
+    /// A sentence that means one of them and does not say which.
+    MeansOneOf(Vec<String>),
     /// The cells of a row of a table.
     Cells(Vec<String>),
 }
@@ -211,7 +216,7 @@ impl Parts {
     pub fn ids(&self) -> &[String] {
         match self {
             Self::None => &[],
-            Self::AllOf(ids) | Self::AnyOf(ids) | Self::Cells(ids) => ids,
+            Self::AllOf(ids) | Self::AnyOf(ids) | Self::MeansOneOf(ids) | Self::Cells(ids) => ids,
         }
     }
 }
@@ -425,7 +430,9 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
     let parts = parts(document, spec)?;
     let asked = asked(document, spec);
     if asked.is_empty() && spec.untestable.is_none() && parts == Parts::None {
-        let message = format!("claim `{id}` needs `check`, `rule`, parts, or `untestable` with what the paper leaves out");
+        let message = format!(
+            "claim `{id}` needs `check`, `rule`, parts, or `untestable` with what the paper leaves out"
+        );
         return Err(document.error(spec.id.span(), message));
     }
     Ok(Claim {
@@ -446,7 +453,9 @@ fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsEr
 
 fn asked(document: &Arc<Document>, spec: &ClaimSpec) -> Vec<(Asked, String, Settings)> {
     let one = |asked: Asked| {
-        move |(name, table): (&String, &Spanned<Table>)| (asked, name.clone(), Settings::written(document, table))
+        move |(name, table): (&String, &Spanned<Table>)| {
+            (asked, name.clone(), Settings::written(document, table))
+        }
     };
     let shown = spec.shows.iter().flat_map(|(name, tables)| tables.iter().map(move |table| (name, table)));
     let rules = spec.rule.iter().map(one(Asked::Rule));
@@ -457,6 +466,7 @@ fn parts(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Parts, SettingsEr
     let kinds = [
         (&spec.all_of, Parts::AllOf as fn(Vec<String>) -> Parts),
         (&spec.any_of, Parts::AnyOf),
+        (&spec.means_one_of, Parts::MeansOneOf),
         (&spec.cells, Parts::Cells),
     ];
     let mut given = kinds.into_iter().filter(|(ids, _)| !ids.is_empty());
@@ -464,7 +474,10 @@ fn parts(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Parts, SettingsEr
         (None, _) => Ok(Parts::None),
         (Some((ids, of)), None) => Ok(of(ids.iter().map(|id| id.get_ref().clone()).collect())),
         _ => {
-            let message = format!("claim `{}`: one of `all_of`, `any_of` and `cells` is accepted", spec.id.get_ref());
+            let message = format!(
+                "claim `{}`: one of `all_of`, `any_of`, `means_one_of` and `cells` is accepted",
+                spec.id.get_ref()
+            );
             Err(document.error(spec.id.span(), message))
         }
     }

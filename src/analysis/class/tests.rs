@@ -45,9 +45,34 @@ fn a_sentence_of_two_parts_takes_the_least_or_the_greatest_of_them() {
             }
         }
         let lacking = pair == [Verdict::Untestable; 2];
-        assert_eq!(all == Verdict::Untestable, lacking || (all.polarity(), polarities.contains(&Polarity::For), pair.contains(&Verdict::Untestable), pair.contains(&Verdict::Undecided)) == (Polarity::Open, true, true, false), "{pair:?}");
+        assert_eq!(
+            all == Verdict::Untestable,
+            lacking
+                || (
+                    all.polarity(),
+                    polarities.contains(&Polarity::For),
+                    pair.contains(&Verdict::Untestable),
+                    pair.contains(&Verdict::Undecided)
+                ) == (Polarity::Open, true, true, false),
+            "{pair:?}"
+        );
     }
     assert_eq!([all_of(&[]), any_of(&[])], [Verdict::Undecided; 2]);
+}
+
+#[test]
+fn parts_of_which_one_is_meant_decide_nothing_unless_they_speak_one_way() {
+    for pair in pairs() {
+        let [one, two] = pair.map(Verdict::polarity);
+        let meant = one_meant(&pair);
+        let expected = if one == two { one } else { Polarity::Open };
+        assert_eq!(meant.polarity(), expected, "{pair:?}");
+        if one == two && one == Polarity::For {
+            assert_eq!(meant, pair[0].max(pair[1]), "the weaker of two for it: {pair:?}");
+        }
+        let is_proved = pair == [Verdict::Impossible; 2];
+        assert_eq!(meant == Verdict::Impossible, is_proved, "impossible only if each is: {pair:?}");
+    }
 }
 
 const OUTCOMES: [Outcome; 5] =
@@ -94,15 +119,45 @@ fn each_cap_does_what_it_says() {
     let agree = Some(Sessions::Agree);
     for (caps, holds, sign, fails) in [
         (none(), Verdict::Reproduced, Verdict::DirectionOnly, Verdict::NotReproduced),
-        (Caps { searched: true, ..none() }, Verdict::Attainable, Verdict::DirectionOnly, Verdict::NotReproduced),
-        (Caps { existential: true, ..none() }, Verdict::Attainable, Verdict::DirectionOnly, Verdict::NotReproduced),
+        (
+            Caps { searched: true, ..none() },
+            Verdict::Attainable,
+            Verdict::DirectionOnly,
+            Verdict::NotReproduced,
+        ),
+        (
+            Caps { existential: true, ..none() },
+            Verdict::Attainable,
+            Verdict::DirectionOnly,
+            Verdict::NotReproduced,
+        ),
         (Caps { fitted: true, ..none() }, Verdict::Fitted, Verdict::DirectionOnly, Verdict::NotReproduced),
-        (Caps { fitted: true, searched: true, ..none() }, Verdict::Attainable, Verdict::DirectionOnly, Verdict::NotReproduced),
+        (
+            Caps { fitted: true, searched: true, ..none() },
+            Verdict::Attainable,
+            Verdict::DirectionOnly,
+            Verdict::NotReproduced,
+        ),
         (Caps { powerless: true, ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::NotReproduced),
         (Caps { censored: true, ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::Undecided),
-        (Caps { clock: Some(Sessions::TooFew), ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::Undecided),
-        (Caps { clock: Some(Sessions::Disagree), ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::Undecided),
-        (Caps { clock: agree, ..none() }, Verdict::Reproduced, Verdict::DirectionOnly, Verdict::NotReproduced),
+        (
+            Caps { clock: Some(Sessions::TooFew), ..none() },
+            Verdict::Undecided,
+            Verdict::Undecided,
+            Verdict::Undecided,
+        ),
+        (
+            Caps { clock: Some(Sessions::Disagree), ..none() },
+            Verdict::Undecided,
+            Verdict::Undecided,
+            Verdict::Undecided,
+        ),
+        (
+            Caps { clock: agree, ..none() },
+            Verdict::Reproduced,
+            Verdict::DirectionOnly,
+            Verdict::NotReproduced,
+        ),
     ] {
         assert_eq!(
             [Outcome::Holds, Outcome::SignOnly, Outcome::Fails].map(|outcome| found(outcome, caps)),
@@ -110,7 +165,11 @@ fn each_cap_does_what_it_says() {
             "{caps:?}"
         );
         assert_eq!(found(Outcome::Open, caps), Verdict::Undecided, "{caps:?}");
-        assert_eq!(found(Outcome::Proved, caps), Verdict::Impossible, "no measurement lowers a proof: {caps:?}");
+        assert_eq!(
+            found(Outcome::Proved, caps),
+            Verdict::Impossible,
+            "no measurement lowers a proof: {caps:?}"
+        );
     }
     let elsewhere = Caps { without_premises: true, ..none() };
     assert_eq!(of_finding(Outcome::Proved, elsewhere), None, "a proof counts where its premises hold");
@@ -119,5 +178,8 @@ fn each_cap_does_what_it_says() {
 #[test]
 fn an_interval_that_holds_the_bound_leaves_it_open() {
     let said = |low, high| Outcome::at_least(low, high, 0.5);
-    assert_eq!([said(0.5, 0.7), said(0.4, 0.7), said(0.1, 0.4)], [Outcome::Holds, Outcome::Open, Outcome::Fails]);
+    assert_eq!(
+        [said(0.5, 0.7), said(0.4, 0.7), said(0.1, 0.4)],
+        [Outcome::Holds, Outcome::Open, Outcome::Fails]
+    );
 }

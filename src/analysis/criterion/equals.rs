@@ -75,9 +75,9 @@ impl Criterion for Equals<'_> {
                 let pair = match self.truth {
                     None => case.pair(),
                     // What was not measured is as wrong as what is far off, unless the truth is unknown too.
-                    Some(truth) => run.value(case.row, truth).map(|truth| {
-                        (truth, run.value(case.row, self.metric).unwrap_or(f64::INFINITY))
-                    }),
+                    Some(truth) => run
+                        .value(case.row, truth)
+                        .map(|truth| (truth, run.value(case.row, self.metric).unwrap_or(f64::INFINITY))),
                 };
                 let Some((truth, own)) = pair else { continue };
                 let apart = (own - truth).abs();
@@ -97,9 +97,13 @@ impl Criterion for Equals<'_> {
             [same, all] if same == all => Outcome::Holds,
             _ => Outcome::Fails,
         };
-        let what = self.truth.map_or_else(|| format!("that of {}", self.of.against.as_deref().unwrap_or_default()), |truth| truth.label.to_lowercase());
+        let what = self.truth.map_or_else(
+            || format!("that of {}", self.of.against.as_deref().unwrap_or_default()),
+            |truth| truth.label.to_lowercase(),
+        );
         let metric = self.metric.label.to_lowercase();
-        let refused = draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.row.status == Status::Rejected);
+        let refused =
+            draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.row.status == Status::Rejected);
         let mut because = vec![format!(
             "{}: {metric} is {what} on {} of {} trials; they are {worst:.4} apart at most, and {:+.2} % on the whole",
             self.of.said(),

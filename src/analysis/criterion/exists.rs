@@ -90,8 +90,7 @@ pub struct Attained<'a> {
 
 /// A trial that was looked at, and its value. Names are made of the few that are shown.
 pub struct Seen<'e> {
-    /// The study's run.
-    pub run: &'e Run<'e>,
+    run: &'e Run<'e>,
     /// The trial.
     pub row: &'e Row,
     /// The contender that stands for the paper's.
@@ -104,10 +103,11 @@ pub struct Seen<'e> {
 }
 
 /// What tells problems under one reading apart: study, group, draw and query.
-type Problem<'e> = (&'e str, &'e str, u32, Option<&'e str>);
+pub type Problem<'e> = (&'e str, &'e str, u32, Option<&'e str>);
 
 impl<'e> Seen<'e> {
-    fn problem(&self) -> Problem<'e> {
+    /// The problem that it is about.
+    pub fn problem(&self) -> Problem<'e> {
         let key = &self.row.key;
         (&self.run.study.name, &key.on.group, key.on.draw, key.query.as_deref())
     }
@@ -146,6 +146,11 @@ impl<'a> Attained<'a> {
         Ok(Self { contenders, against, places, metric, printed, digits, given, claim, readings })
     }
 
+    /// The claim's id.
+    pub fn claim(&self) -> &'a str {
+        self.claim
+    }
+
     /// Whether the claim is met by a number.
     pub fn is_met(&self, value: f64) -> bool {
         self.printed.agrees(value, self.digits)
@@ -157,10 +162,11 @@ impl<'a> Attained<'a> {
         for place in &self.places {
             let run = evidence.run(&place.study.name);
             let Some(run) = run.filter(|run| self.is_asked_of(run.study, &evidence.point)) else { continue };
-            for contender in &self.contenders {
-                let reading: Arc<str> = self.reading_of(run.study, &evidence.point, contender).into();
-                for group in &place.groups {
-                    seen.extend(self.seen_in(run, (group, place.selected), contender, &reading));
+            let reading = |label: &'e String| (label, self.reading_of(run.study, &evidence.point, label));
+            let contenders: Vec<_> = self.contenders.iter().map(reading).collect();
+            for group in &place.groups {
+                for (contender, reading) in &contenders {
+                    seen.extend(self.seen_in(run, (group, place.selected), contender, reading));
                 }
             }
         }
@@ -178,12 +184,15 @@ impl<'a> Attained<'a> {
     }
 
     /// The reading that the contender called `label` runs under.
-    fn reading_of(&self, study: &Study, point: &ReadingChoice, label: &str) -> String {
-        let mut choices = point.choices().clone();
+    fn reading_of(&self, study: &Study, point: &ReadingChoice, label: &str) -> Arc<str> {
         let contender = study.contenders.iter().find(|contender| contender.label == label);
-        choices.extend(contender.into_iter().flat_map(|contender| contender.departs.clone()));
+        let Some(contender) = contender.filter(|contender| !contender.departs.is_empty()) else {
+            return point.name().into();
+        };
+        let mut choices = point.choices().clone();
+        choices.extend(contender.departs.clone());
         let point = ReadingChoice::new(&self.readings, &choices);
-        point.expect("departures were looked up when the criterion was built").name().to_owned()
+        point.expect("departures were looked up when the criterion was built").name().into()
     }
 
     /// The trials of `contender` in one problem group, which was selected or not.
@@ -347,10 +356,15 @@ impl Criterion for Differs<'_> {
             all if all == self.sets.len() => Outcome::Holds,
             _ => Outcome::SignOnly,
         });
-        let first = self.sets.iter().flatten().find_map(|group| run.rows(group, &self.contender).into_iter().next());
+        let first =
+            self.sets.iter().flatten().find_map(|group| run.rows(group, &self.contender).into_iter().next());
         found.trial = first.map(|row| run.trial(row));
         let metric = self.metric.label.to_lowercase();
-        found.because.push(format!("{metric} of {} differs in {differ} of {} sets", self.contender, self.sets.len()));
+        found.because.push(format!(
+            "{metric} of {} differs in {differ} of {} sets",
+            self.contender,
+            self.sets.len()
+        ));
         found
     }
 

@@ -153,7 +153,8 @@ impl<'a> LeastOf<'a> {
         let mut all = Vec::new();
         for problem in &self.of.groups {
             let sides = self.sides(run, problem);
-            let compared = (0..self.pairs.len()).filter_map(|index| self.compare(run, &sides, problem, index));
+            let compared =
+                (0..self.pairs.len()).filter_map(|index| self.compare(run, &sides, problem, index));
             all.extend(compared);
         }
         all
@@ -195,7 +196,11 @@ impl<'a> LeastOf<'a> {
     fn because(&self, all: &[Compared]) -> Vec<String> {
         let label = self.metric.label.to_lowercase();
         let met = all.iter().filter(|one| one.ratio < self.limit()).count();
-        let by = if self.by_percent > 0.0 { format!(" by more than {} %", self.by_percent) } else { String::new() };
+        let by = if self.by_percent > 0.0 {
+            format!(" by more than {} %", self.by_percent)
+        } else {
+            String::new()
+        };
         let all_of = self.pairs.len() * self.of.groups.len();
         let mut because = vec![format!("in {met} of {all_of} comparisons the median {label} is less{by}")];
         because.extend(theorem(all));

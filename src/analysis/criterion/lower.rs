@@ -105,7 +105,7 @@ impl<'a> Lower<'a> {
         let turned = |pairs: Vec<Vec<(f64, f64)>>| {
             self.change(&pairs).is_some_and(|(_, interval, _)| self.outcome(interval) != outcome)
         };
-        let is_turned = selection::filled(&draws).into_iter().any(turned);
+        let is_turned = selection::filled(&self.of, &draws).into_iter().any(turned);
         let what = format!("change of {metric} in %, bootstrap 95 % over draws");
         let change = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
         Found {
@@ -170,7 +170,8 @@ impl<'a> Lower<'a> {
             band.len(),
         );
         let what = format!("least mean difference in points, at {}, simultaneous 95 % band", at(least));
-        let case = draws.iter().flat_map(|draw| &draw.cases).find(|case| case.row.key.sweep == points[least].key);
+        let case =
+            draws.iter().flat_map(|draw| &draw.cases).find(|case| case.row.key.sweep == points[least].key);
         Found {
             outcome: Some(outcome),
             ours: Some(Estimate::new(mean[least], band[least], what, curves.len()).of_cases(solved(&draws))),

@@ -306,7 +306,12 @@ impl<'a> Context<'a> {
     }
 
     /// An error unless `low..high` rises and lies in `least..most`.
-    pub fn rising(&self, key: &str, [low, high]: [f64; 2], [least, most]: [f64; 2]) -> Result<(), SettingsError> {
+    pub fn rising(
+        &self,
+        key: &str,
+        [low, high]: [f64; 2],
+        [least, most]: [f64; 2],
+    ) -> Result<(), SettingsError> {
         if least <= low && low <= high && high <= most {
             return Ok(());
         }

@@ -182,7 +182,9 @@ impl Criterion for OnEvery<'_> {
         let shown = counterexample.or_else(|| all().find(|(says, _)| *says == Says::Equal));
         let counts: Vec<[f64; 2]> = said
             .iter()
-            .map(|draw| [draw.iter().filter(|(says, _)| *says == Says::For).count() as f64, draw.len() as f64])
+            .map(|draw| {
+                [draw.iter().filter(|(says, _)| *says == Says::For).count() as f64, draw.len() as f64]
+            })
             .filter(|count| count[1] > 0.0)
             .collect();
         let ours = statistic::share(&counts, self.plan).map(|(share, interval, how)| {

@@ -95,7 +95,11 @@ impl<'a> OneDraw<'a> {
     fn title(&self) -> String {
         match (self.of.metric, &self.of.against) {
             (Some(metric), Some(_)) => {
-                format!("{} saving in {} over a draw's queries, %", self.statistic.name(), metric.label.to_lowercase())
+                format!(
+                    "{} saving in {} over a draw's queries, %",
+                    self.statistic.name(),
+                    metric.label.to_lowercase()
+                )
             }
             (Some(metric), None) => format!("{} {}", self.statistic.name(), metric.title().to_lowercase()),
             (None, _) => format!("{}, %", self.statistic.name()),
@@ -159,7 +163,8 @@ impl Criterion for OneDraw<'_> {
             false if is_saving && mean * printed > 0.0 => Outcome::SignOnly,
             false => Outcome::Fails,
         };
-        let powerless = self.statistic == OfDraw::SolvedPercent && interval.high - interval.low >= NO_POWER_POINTS;
+        let powerless =
+            self.statistic == OfDraw::SolvedPercent && interval.high - interval.low >= NO_POWER_POINTS;
         let mut because = vec![said(&draws, &self.printed)];
         because.extend(powerless.then(|| {
             format!(
@@ -168,7 +173,8 @@ impl Criterion for OneDraw<'_> {
             )
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more draw", self.title());
-        let apart = |draw: &&Draw<'_>| self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - printed).abs());
+        let apart =
+            |draw: &&Draw<'_>| self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - printed).abs());
         let nearest = drawn.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
         let trial = nearest.and_then(|draw| Some(self.of.run(evidence)?.trial(draw.cases.first()?.row)));
         Found {

@@ -61,7 +61,12 @@ impl Criterion for PrintsAs<'_> {
         let agree = [low, high].map(|value| self.printed.agrees(value, self.digits));
         let outcome = match agree {
             [true, true] => Outcome::Holds,
-            [false, false] if self.printed.interval(self.digits).low > high || self.printed.interval(self.digits).high < low => Outcome::Fails,
+            [false, false]
+                if self.printed.interval(self.digits).low > high
+                    || self.printed.interval(self.digits).high < low =>
+            {
+                Outcome::Fails
+            }
             _ => Outcome::Open,
         };
         let verb = if agree == [true, true] { "prints as" } else { "does not print as" };

@@ -246,7 +246,9 @@ impl Criterion for RowOneDraw<'_> {
         let drawn: Vec<Vec<Draw<'_>>> = self.rows.iter().map(|row| row.of.draws(evidence)).collect();
         let cells = self.cells(&drawn);
         let wide = cells.len() == self.printed.len();
-        let (Some(place), Some(level)) = (place(&self.printed, &cells), Level::of(&self.printed, &cells).filter(|_| wide)) else {
+        let (Some(place), Some(level)) =
+            (place(&self.printed, &cells), Level::of(&self.printed, &cells).filter(|_| wide))
+        else {
             return Found::too_few(cells.iter().map(Vec::len).min().unwrap_or(0), 3);
         };
         // Among our draws and the row itself.

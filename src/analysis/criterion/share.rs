@@ -137,7 +137,8 @@ impl<'a> Share<'a> {
                 hit(row.status == Status::Rejected).filter(|_| is_returned)
             }
             Hits::Marked => {
-                let marks: Option<Vec<f64>> = self.settings.columns.iter().map(|name| row.value(name)).collect();
+                let marks: Option<Vec<f64>> =
+                    self.settings.columns.iter().map(|name| row.value(name)).collect();
                 hit(marks?.iter().all(|mark| *mark > 0.0))
             }
             Hits::Events => {

@@ -118,7 +118,9 @@ impl Criterion for Trend<'_> {
         let against = draws.iter().flat_map(|draw| &draw.cases).find(|case| self.point(case).is_some());
         Found {
             outcome: Some(outcome),
-            ours: Some(Estimate::new(found.value, found.interval, what, found.units).of_cases(solved(&draws))),
+            ours: Some(
+                Estimate::new(found.value, found.interval, what, found.units).of_cases(solved(&draws)),
+            ),
             trial: against.and_then(|case| Some(self.of.run(evidence)?.trial(case.row))),
             because: vec![because],
             limits: vec![0.0],

@@ -117,7 +117,7 @@ impl<'a> Within<'a> {
         if !self.statistic.is_paired() {
             return 0;
         }
-        let turned = selection::filled(draws).into_iter().any(|pairs| {
+        let turned = selection::filled(&self.of, draws).into_iter().any(|pairs| {
             let found = self.statistic.of_pairs(&pairs, self.plan);
             found.is_some_and(|found| self.outcome(found.interval) != outcome)
         });

@@ -2,8 +2,8 @@
 //! machine stays untestable; this says what can be said of its digits.
 
 use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use audit::clock::Tick;
 use audit::printed::{Digits, Printed};
 use base::settings::Accepted;
@@ -34,13 +34,7 @@ chosen = "read off these two times (it is also the period of a PC's clock interr
         let with = settings.with.iter().map(|id| Ok(context.printed_of(id)?.0));
         let all = with.chain([Ok(printed)]).collect::<Result<Vec<_>, _>>()?;
         let tick = Tick { numerator, denominator };
-        Ok(Box::new(ClockTicks {
-            tick,
-            chosen: settings.chosen,
-            printed,
-            all,
-            digits: context.digits(),
-        }))
+        Ok(Box::new(ClockTicks { tick, chosen: settings.chosen, printed, all, digits: context.digits() }))
     },
 };
 

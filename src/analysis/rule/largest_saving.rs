@@ -1,9 +1,9 @@
 //! Whether a printed saving on a printed path length is possible for any path between the two cells.
 
 use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Outcome;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use audit::bounds::{largest_saving_percent, straight_line};
 use audit::lattice::{Octile, Step, lengths_printing};
 use audit::printed::{Digits, Printed};

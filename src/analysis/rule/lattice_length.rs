@@ -1,9 +1,9 @@
 //! Whether a printed length is that of any 8-connected path between the two cells.
 
 use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Outcome;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
 use audit::printed::{Digits, Printed};
 use audit::with_an_end_moved;

@@ -1,9 +1,9 @@
 //! Whether each row of a printed table lists as many points as the text says; the points must be those that a study uses.
 
 use super::{Context, Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Outcome;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use crate::study::paper::TableRow;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;

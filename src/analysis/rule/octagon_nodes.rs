@@ -1,9 +1,9 @@
 //! Whether any regular octagon about a lattice point holds a stated number of other lattice points.
 
 use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Outcome;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;

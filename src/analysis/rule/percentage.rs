@@ -1,9 +1,9 @@
 //! Whether a printed percentage is what the printed cells give.
 
 use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Outcome;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use audit::percent::Reduction;
 use audit::printed::{Digits, Printed};
 use base::settings::Accepted;

@@ -1,9 +1,9 @@
 //! Whether a printed distance is that between the two printed points.
 
 use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Outcome;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Estimate;
 use audit::bounds::straight_line;
 use audit::printed::{Digits, Printed};

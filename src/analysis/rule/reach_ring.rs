@@ -1,9 +1,9 @@
 //! Whether the points that a two-link arm cannot take, or takes only stretched or folded, reach as far as stated.
 
 use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Outcome;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use base::settings::Accepted;
 use engine::kinematics::planar_2r::Planar2r;
 use schemars::JsonSchema;

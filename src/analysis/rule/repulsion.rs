@@ -4,9 +4,9 @@
 //! f = (1/d0 − 1/d) / d² per unit of distance (Tang et al. 2023, eqs. 21 and 24).
 
 use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Outcome;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,9 +1,9 @@
 //! Whether a printed length is at least the straight line between its ends.
 
 use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
 use crate::analysis::class::Outcome;
 use crate::analysis::criterion::Found;
+use crate::analysis::evidence::Evidence;
 use audit::bounds::{shortfall, straight_line, straight_line_between};
 use audit::neighbourhood;
 use audit::printed::{Digits, Printed};

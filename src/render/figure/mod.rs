@@ -174,7 +174,12 @@ fn check_labels<'a>(
 }
 
 /// The claim called `id`, whose criterion `name` says what is to be shown.
-fn asked_claim<'p>(settings: &Settings, paper: &'p Paper, id: &str, name: &str) -> Result<&'p Claim, SettingsError> {
+fn asked_claim<'p>(
+    settings: &Settings,
+    paper: &'p Paper,
+    id: &str,
+    name: &str,
+) -> Result<&'p Claim, SettingsError> {
     let Some(claim) = paper.claim(id) else {
         let known = paper.claims.iter().map(|claim| claim.id.as_str());
         return Err(settings.error_about(id, none_called("claim", id, known)));

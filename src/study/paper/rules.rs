@@ -50,10 +50,11 @@ impl Paper {
     fn check_parts(&self, specs: &[ClaimSpec], claims: &BTreeSet<&str>, faults: &mut Faults) {
         let mut taken: BTreeSet<&str> = BTreeSet::new();
         for spec in specs {
-            for ids in [&spec.all_of, &spec.any_of, &spec.cells] {
+            let kinds = [&spec.all_of, &spec.any_of, &spec.means_one_of, &spec.cells];
+            for ids in kinds {
                 self.known("claim", ids, claims, faults);
             }
-            for part in spec.all_of.iter().chain(&spec.any_of).chain(&spec.cells) {
+            for part in kinds.into_iter().flatten() {
                 let id = part.get_ref();
                 let is_whole = self.claim(id).is_some_and(|claim| claim.parts != Parts::None);
                 if !taken.insert(id) || is_whole {
