@@ -77,7 +77,7 @@ impl Joint {
                 "`{}` stands for `{metric}` under this reading; `{}` or `{}` is accepted",
                 settings.metric, settings.exterior, settings.interior
             );
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("metric", message));
         };
         Ok(Self { settings, length, turn, convention })
     }
