@@ -37,9 +37,9 @@ fn faults_of_several_claims_and_of_several_names_in_one_check_are_told_at_once()
     assert_eq!(said.code, Some(2), "{}", said.err);
     for fault in [
         "mini/paper.toml:27:15: no study that is looked at has a contender `B*`",
-        "mini/paper.toml:37:13: study `draws` has no problem group `drown`",
-        "mini/paper.toml:37:22: study `draws` has no problem group `lost`",
-        "mini/paper.toml:39:9: study `draws` has no contender `Two`",
+        "mini/paper.toml:36:13: study `draws` has no problem group `drown`",
+        "mini/paper.toml:36:22: study `draws` has no problem group `lost`",
+        "mini/paper.toml:38:9: study `draws` has no contender `Two`",
         "mini/room.toml:5:22: fitted_to: there is no claim `toll`",
     ] {
         assert!(said.err.contains(fault), "{fault}\nis said: {}", said.err);

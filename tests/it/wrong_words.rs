@@ -116,7 +116,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "goal = [11, 9]",
         "goal = [12, 9]",
-        "mini/draws.toml:19:58: goal is [12, 9], outside the map; cells are 0..12 by 0..12",
+        "mini/draws.toml:19:60: goal is [12, 9], outside the map; cells are 0..12 by 0..12",
     ),
     wrong(
         "room",
@@ -196,13 +196,13 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "claim.check.attained",
         "claim.check.obtained",
-        "claim `cost` asks for the check `obtained`, which does not exist; the checks are ",
+        "claim `cost` asks for the check `obtained`, which does not exist (did you mean `attained`?); the checks are ",
     ),
     wrong(
         "paper",
         "metric = \"nodes\"",
         "metric = \"knots\"",
-        "mini/paper.toml:38:10: there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are ",
+        "mini/paper.toml:37:10: there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are ",
     ),
     wrong(
         "paper",
@@ -214,13 +214,13 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "study = \"draws\"",
         "study = \"drawn\"",
-        "mini/paper.toml:36:9: there is no study `drawn` (did you mean `draws`?); there are draws, room",
+        "mini/paper.toml:35:9: there is no study `drawn` (did you mean `draws`?); there are draws, room",
     ),
     wrong(
         "paper",
         "lower = \"Two-sided\"",
         "lower = \"Two\"",
-        "mini/paper.toml:39:9: study `draws` has no contender `Two` (did you mean `Two-sided`?); it has A*, Two-sided",
+        "mini/paper.toml:38:9: study `draws` has no contender `Two` (did you mean `Two-sided`?); it has A*, Two-sided",
     ),
     wrong(
         "paper",

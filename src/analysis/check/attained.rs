@@ -99,6 +99,15 @@ pub struct Outcome {
     pub is_met: bool,
 }
 
+/// Refuses contenders that depart from readings which the paper does not have.
+fn check_departures(study: &Study, readings: &[Reading]) -> Result<(), SettingsError> {
+    for (index, contender) in study.contenders.iter().enumerate() {
+        ReadingChoice::new(readings, &contender.departs)
+            .map_err(|message| study.document.error_at(&format!("contender.{index}.departs"), message))?;
+    }
+    Ok(())
+}
+
 impl<'a> Attained<'a> {
     /// The check of the claim of `context`.
     ///
@@ -113,10 +122,7 @@ impl<'a> Attained<'a> {
             // A place need not have every contender, but each must exist in some place.
             let study = context.study_in(&format!("in.{index}"), &place.study, &place.problems, &[])?;
             metric = Some(context.metric(&settings.metric, study)?);
-            for (index, contender) in study.contenders.iter().enumerate() {
-                ReadingChoice::new(&readings, &contender.departs)
-                    .map_err(|e| study.document.error_at(&format!("contender.{index}.departs"), e))?;
-            }
+            check_departures(study, &readings)?;
             for label in wanted {
                 let is_known = settings.r#in.iter().any(|place| {
                     context

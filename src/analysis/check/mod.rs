@@ -284,18 +284,6 @@ fn listed(problems: &[String]) -> String {
     if problems.len() > 3 { format!("{} problem groups", problems.len()) } else { problems.join(", ") }
 }
 
-/// Refuses a grid or a length that a search for polylines would not come to the end of.
-fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(), SettingsError> {
-    let (key, message) = if !size.iter().all(|side| (1..=200).contains(side)) {
-        ("size", format!("size is {size:?}; 1 to 200 columns and rows are accepted"))
-    } else if !(0.0..=200.0).contains(&longest) {
-        ("longest", format!("longest is {longest}; 0 to 200 cells are accepted"))
-    } else {
-        return Ok(());
-    };
-    Err(context.settings.error_at(key, message))
-}
-
 /// How the keys start that name studies, problem groups, contenders and metrics.
 const STUDY_KEYS: [&str; 2] = ["stud", "explored"];
 const PROBLEM_KEYS: [&str; 4] = ["problem", "searched", "rows", "in"];

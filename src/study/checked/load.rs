@@ -165,13 +165,7 @@ impl Study {
         for contender in &self.contenders {
             for sweep in self.sweep_points() {
                 if let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) {
-                    faults.keep(check_extent(
-                        &self.document,
-                        contender,
-                        &sweep,
-                        pipeline.planner.asks(),
-                        &families,
-                    ));
+                    faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), &families));
                 }
             }
             for stage in &contender.stages {
@@ -236,7 +230,6 @@ fn keep<T>(faults: &mut Faults, result: Result<T, StudyError>) -> Result<Option<
 
 /// A planner that asks for more of a roadmap than there is would make nothing but invalid rows.
 fn check_extent(
-    document: &Document,
     contender: &Contender,
     sweep: &SweepPoint,
     asked: Option<Extent>,
@@ -248,7 +241,7 @@ fn check_extent(
         let at = name::sweep(&sweep.key);
         let swept = if at.is_empty() { at } else { format!(" at {at}") };
         let message = format!("contender `{}`{swept} on problems `{}`: {lack}", contender.label, group.label);
-        return Err(document.error(contender.stages[0].named.clone(), message));
+        return Err(contender.stages[0].settings.error(message));
     }
     Ok(())
 }
