@@ -92,6 +92,15 @@ impl<'e> Seen<'e> {
     }
 }
 
+/// Refuses contenders that depart from readings which the paper does not have.
+fn check_departures(study: &Study, readings: &[Reading]) -> Result<(), SettingsError> {
+    for (index, contender) in study.contenders.iter().enumerate() {
+        ReadingChoice::new(readings, &contender.departs)
+            .map_err(|message| study.document.error_at(&format!("contender.{index}.departs"), message))?;
+    }
+    Ok(())
+}
+
 impl<'a> Attained<'a> {
     /// The check of the claim of `context`.
     ///
@@ -101,14 +110,12 @@ impl<'a> Attained<'a> {
         let settings: Settings = context.settings.read()?;
         let readings = context.paper.readings();
         let mut metric = None;
-        for place in &settings.r#in {
+        for (index, place) in settings.r#in.iter().enumerate() {
             let wanted = settings.contenders.iter().chain(&settings.against);
             // A place need not have every contender, but each must exist in some place.
-            let study = context.study(&place.study, &place.problems, &[])?;
+            let study = context.study_in(&format!("in.{index}"), &place.study, &place.problems, &[])?;
             metric = Some(context.metric(&settings.metric, study)?);
-            for departs in study.contenders.iter().map(|contender| &contender.departs) {
-                ReadingChoice::new(&readings, departs).map_err(|e| study.document.error(0..0, e))?;
-            }
+            check_departures(study, &readings)?;
             for label in wanted {
                 let is_known = settings.r#in.iter().any(|place| {
                     context
@@ -118,16 +125,18 @@ impl<'a> Attained<'a> {
                 });
                 if !is_known {
                     let message = format!("no study that is looked at has a contender `{label}`");
-                    return Err(context.settings.error(message));
+                    return Err(context.settings.error_about("", &super::CONTENDER_KEYS, label, message));
                 }
             }
         }
-        let metric = metric.ok_or_else(|| context.settings.error("`in` names no study to look at"))?;
+        let metric =
+            metric.ok_or_else(|| context.settings.error_at("in", "`in` names no study to look at"))?;
         let mut given = Vec::new();
         for id in &settings.given {
             let claim = context.claim_called(id)?;
             let settings = claim.checks.get(ENTRY.name).ok_or_else(|| {
-                context.settings.error(format!("claim `{id}` cannot be given: it has no `attained` check"))
+                let message = format!("claim `{id}` cannot be given: it has no `attained` check");
+                context.settings.error_about("", &["given"], id, message)
             })?;
             given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
