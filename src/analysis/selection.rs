@@ -162,8 +162,8 @@ impl<'a> Selection<'a> {
     pub fn new(context: &Context<'a>, of: &SelectionSpec) -> Result<Self, SettingsError> {
         let contenders = of.contender.listed();
         let named: Vec<&str> = contenders.iter().chain(&of.against).map(String::as_str).collect();
-        let study = context.study(&of.study, &[], &named)?;
-        let groups = context.groups(study, &of.problems)?;
+        let study = context.study("of", &of.study, &named)?;
+        let groups = context.groups("of", study, &of.problems)?;
         let metric = of.metric.as_ref().map(|name| context.metric(name, study)).transpose()?;
         let sweep = of.sweep.as_ref().map(|text| {
             study.sweep_point(text).map(|point| point.key).ok_or_else(|| {

@@ -1,6 +1,6 @@
 //! Whether the printed number is met exactly by any stored trial, alone or together with other printed numbers.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{CONTENDER_KEYS, Context, Criterion, Entry, Found};
 use crate::analysis::class::Outcome;
 use crate::analysis::evidence::{Evidence, Pair, Run};
 use crate::analysis::metric::Metric;
@@ -113,6 +113,15 @@ impl<'e> Seen<'e> {
     }
 }
 
+/// Refuses contenders that depart from readings which the paper does not have.
+fn check_departures(study: &Study, readings: &[Reading]) -> Result<(), SettingsError> {
+    for (index, contender) in study.contenders.iter().enumerate() {
+        ReadingChoice::new(readings, &contender.departs)
+            .map_err(|message| study.document.error_at(&format!("contender.{index}.departs"), message))?;
+    }
+    Ok(())
+}
+
 impl<'a> Attained<'a> {
     /// The criterion of the claim of `context`.
     ///
@@ -129,7 +138,7 @@ impl<'a> Attained<'a> {
             let known = || places.iter().flat_map(|place| &place.study.contenders).map(|c| c.label.as_str());
             if !known().any(|own| own == label) {
                 let message = none_called("contender", label, known());
-                return Err(context.settings.error_about(label, message));
+                return Err(context.settings.error_about("", &CONTENDER_KEYS, label, message));
             }
         }
         let mut given = Vec::new();
@@ -137,7 +146,7 @@ impl<'a> Attained<'a> {
             let claim = context.claim_called(id)?;
             let settings = claim.check(ENTRY.name).ok_or_else(|| {
                 let message = format!("claim `{id}` cannot be given: it has no criterion `exists`");
-                context.settings.error_about(id, message)
+                context.settings.error_about("", &["given"], id, message)
             })?;
             given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
@@ -249,14 +258,12 @@ fn places<'a>(
     readings: &[Reading],
 ) -> Result<(Vec<Place<'a>>, &'static Metric), SettingsError> {
     let (mut places, mut metric) = (Vec::new(), None);
-    for place in &settings.r#in {
-        let study = context.study(&place.study, &[], &[])?;
-        let groups = context.groups(study, &place.problems)?;
+    for (index, place) in settings.r#in.iter().enumerate() {
+        let within = format!("in.{index}");
+        let study = context.study(&within, &place.study, &[])?;
+        let groups = context.groups(&within, study, &place.problems)?;
         metric = Some(context.metric(&settings.metric, study)?);
-        for contender in &study.contenders {
-            ReadingChoice::new(readings, &contender.departs)
-                .map_err(|error| study.document.error_at("contender", error))?;
-        }
+        check_departures(study, readings)?;
         places.push(Place { study, groups, selected: place.selected });
     }
     let metric = metric.ok_or_else(|| context.settings.error_at("in", "`in` names no study to look at"))?;
@@ -326,7 +333,8 @@ impl<'a> Differs<'a> {
         let ([place], [contender]) = (&places[..], &contenders[..]) else {
             return Err(context.settings.error_at("differ", "`differ` takes one place and one contender"));
         };
-        context.study(&place.study.name, &settings.differ.concat(), &[contender])?;
+        context.study("", &place.study.name, &[contender])?;
+        context.groups("differ", place.study, &Labels::Several(settings.differ.concat()))?;
         Ok(Self { study: place.study, contender: contender.clone(), metric, sets: settings.differ })
     }
 }

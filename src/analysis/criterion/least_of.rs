@@ -93,7 +93,7 @@ impl<'a> LeastOf<'a> {
         }
         let of = Selection::new(context, &settings.of)?;
         let named: Vec<&str> = lower.iter().chain(&higher).map(String::as_str).collect();
-        context.study(&of.study.name, &[], &named)?;
+        context.study("", &of.study.name, &named)?;
         let metric = of.metric(context)?;
         let with = |low: &String| higher.iter().map(|high| (low.clone(), high.clone())).collect::<Vec<_>>();
         let pairs: Vec<(String, String)> = lower.iter().flat_map(with).collect();

@@ -26,7 +26,7 @@ use super::verdict::Estimate;
 use crate::study::paper::{self, Claim, Paper};
 use crate::study::{ReadingChoice, Study};
 use audit::printed::{Digits, Printed};
-use base::settings::{Accepted, Settings, SettingsError, did_you_mean, none_called};
+use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean, none_called};
 
 /// What was found about a claim, before its class is decided.
 #[derive(Debug, Default)]
@@ -150,7 +150,7 @@ pub fn explored<'a>(
         Explored::Study(name) => (name, None),
         Explored::Elsewhere(place) => (place.study, Some(place.problems.listed())),
     };
-    let study = context.study(&name, &[], &[])?;
+    let study = context.study("of.explored", &name, &[])?;
     if study.explore.is_none() {
         let message = format!("study `{name}` explores no readings; it needs a table `explore`");
         return Err(context.settings.error_at("of.explored", message));
@@ -168,6 +168,12 @@ pub fn explored<'a>(
         .map_err(|error| context.settings.error_at("of.explored", error.to_string()))?;
     Ok(Some((study, settings)))
 }
+
+/// How the keys start that name studies, problem groups, contenders and metrics.
+const STUDY_KEYS: [&str; 2] = ["stud", "explored"];
+const PROBLEM_KEYS: [&str; 2] = ["problem", "differ"];
+const CONTENDER_KEYS: [&str; 4] = ["contender", "against", "lower", "higher"];
+const METRIC_KEYS: [&str; 3] = ["metric", "over", "truth"];
 
 impl From<paper::Digits> for Digits {
     fn from(digits: paper::Digits) -> Self {
@@ -198,7 +204,7 @@ impl<'a> Context<'a> {
     pub fn claim_called(&self, id: &str) -> Result<&'a Claim, SettingsError> {
         self.paper.claim(id).ok_or_else(|| {
             let known = self.paper.claims.iter().map(|claim| claim.id.as_str());
-            self.settings.error_about(id, none_called("claim", id, known))
+            self.settings.error_about("", &[""], id, none_called("claim", id, known))
         })
     }
 
@@ -208,63 +214,55 @@ impl<'a> Context<'a> {
         digits.unwrap_or(paper::Digits::Unknown).into()
     }
 
-    /// The study called `name`, which must have the problem groups and contenders named.
-    pub fn study(
-        &self,
-        name: &str,
-        problems: &[String],
-        contenders: &[&str],
-    ) -> Result<&'a Study, SettingsError> {
+    /// The study called `name`, which must have the contenders named; `within` is the part of the settings that names them.
+    pub fn study(&self, within: &str, name: &str, contenders: &[&str]) -> Result<&'a Study, SettingsError> {
         let study = self.paper.study(name).ok_or_else(|| {
             let known = self.paper.studies.iter().map(|study| study.name.as_str());
-            self.settings.error_about(name, none_called("study", name, known))
+            self.settings.error_about(within, &STUDY_KEYS, name, none_called("study", name, known))
         })?;
-        let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-        for problem in problems {
-            self.among("problem group", problem, study, &groups)?;
+        let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
+        let mut faults = Faults::default();
+        // A study that measures without contenders has labels of its task's own.
+        for label in contenders.iter().filter(|label| !known.is_empty() && !known.contains(label)) {
+            faults.add(self.unknown(within, "contender", &CONTENDER_KEYS, label, (study, &known)));
         }
-        let labels: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
-        for wanted in contenders {
-            self.among("contender", wanted, study, &labels)?;
-        }
+        faults.done()?;
         Ok(study)
     }
 
-    fn among(&self, what: &str, name: &str, study: &Study, known: &[&str]) -> Result<(), SettingsError> {
-        // A study that measures without contenders has labels of its task's own.
-        if known.contains(&name) || known.is_empty() {
-            return Ok(());
-        }
-        let hint = did_you_mean(name, known.iter().copied());
+    fn unknown(
+        &self,
+        within: &str,
+        what: &str,
+        keys: &[&str],
+        label: &str,
+        (study, known): (&Study, &[&str]),
+    ) -> SettingsError {
+        let hint = did_you_mean(label, known.iter().copied());
         let message =
-            format!("study `{}` has no {what} `{name}`{hint}; it has {}", study.name, known.join(", "));
-        Err(self.settings.error_about(name, message))
+            format!("study `{}` has no {what} `{label}`{hint}; it has {}", study.name, known.join(", "));
+        self.settings.error_about(within, keys, label, message)
     }
 
-    /// The problem groups of `study` that `labels` name, in their order.
-    pub fn groups(&self, study: &Study, labels: &Labels) -> Result<Vec<String>, SettingsError> {
-        let mut groups = Vec::new();
+    /// The problem groups of `study` that `labels` name, in their order; `within` is the part of the settings that names
+    /// them.
+    pub fn groups(&self, within: &str, study: &Study, labels: &Labels) -> Result<Vec<String>, SettingsError> {
+        let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
+        let (mut groups, mut faults) = (Vec::new(), Faults::default());
         for label in labels.listed() {
-            let Some(beginning) = label.strip_suffix('*') else {
-                self.study(&study.name, std::slice::from_ref(&label), &[])?;
-                groups.push(label);
-                continue;
+            let is_meant = |group: &&&str| match label.strip_suffix('*') {
+                Some(beginning) => group.starts_with(beginning),
+                None => **group == label,
             };
-            let before = groups.len();
-            let begun = study.groups.iter().filter(|group| group.label.starts_with(beginning));
-            groups.extend(begun.map(|group| group.label.clone()));
-            if groups.len() == before {
-                let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-                let message = format!(
-                    "study `{}` has no problem group that begins with `{beginning}`; it has {}",
-                    study.name,
-                    known.join(", ")
-                );
-                return Err(self.settings.error_about(&label, message));
+            let meant: Vec<String> = known.iter().filter(is_meant).map(|group| (*group).to_owned()).collect();
+            if meant.is_empty() {
+                faults.add(self.unknown(within, "problem group", &PROBLEM_KEYS, &label, (study, &known)));
             }
+            groups.extend(meant);
         }
+        faults.done()?;
         if groups.is_empty() {
-            return Err(self.settings.error_at("of.problems", "`problems` needs at least one label"));
+            return Err(self.settings.error_at(within, "`problems` needs at least one label"));
         }
         Ok(groups)
     }
@@ -278,7 +276,7 @@ impl<'a> Context<'a> {
                 "there is no metric `{name}`, nor a reading that gives the name a meaning{hint}; the metrics are {}",
                 known.join(", ")
             );
-            self.settings.error_about(name, message)
+            self.settings.error_about("", &METRIC_KEYS, name, message)
         })
     }
 
@@ -297,7 +295,7 @@ impl<'a> Context<'a> {
             metric.name,
             produced.join(", ")
         );
-        Err(self.settings.error_about(name, message))
+        Err(self.settings.error_about("", &METRIC_KEYS, name, message))
     }
 
     /// The names that the stream of a bootstrap on this claim is derived from.

@@ -98,7 +98,12 @@ impl<'a> Share<'a> {
         let hits = settings.hits;
         for name in settings.columns.iter().chain(&settings.per) {
             if column::find(name).is_none() {
-                return Err(context.settings.error_about(name, format!("there is no column `{name}`")));
+                return Err(context.settings.error_about(
+                    "",
+                    &["columns", "per"],
+                    name,
+                    format!("there is no column `{name}`"),
+                ));
             }
         }
         let needs_columns = matches!(hits, Hits::Marked | Hits::Events);

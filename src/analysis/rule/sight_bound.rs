@@ -77,7 +77,7 @@ impl SightBound {
             if let Some(unknown) = options.iter().find(|option| !known.contains(option)) {
                 let message =
                     format!("`holds_when` asks for {id}={unknown}; the options are {}", known.join(", "));
-                return Err(context.settings.error(message));
+                return Err(context.settings.error_at(&format!("holds_when.{id}"), message));
             }
         }
         let choices = context.point.choices();

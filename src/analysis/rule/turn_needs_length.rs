@@ -64,7 +64,7 @@ struct TurnNeedsLength {
 impl TurnNeedsLength {
     fn new(context: &Context<'_>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        super::check_search(context, settings.size, settings.longest)?;
+        super::joint_length_turn::check_search(context, settings.size, settings.longest)?;
         let window =
             |id: &str| context.printed_of(id).map(|(printed, digits)| (printed, printed.interval(digits)));
         let (turn, against) = (window(&settings.turn)?, window(&settings.against)?);

@@ -218,7 +218,7 @@ fn eight_moves_are_the_hops_to_the_nearest_points() {
 
 #[test]
 fn a_lattice_and_a_query_that_do_not_fit_say_why() {
-    let lattice = |x: [f64; 2], step| TipLattice::new(x, [0.0, 50.0], step).unwrap_err();
+    let lattice = |x: [f64; 2], step| TipLattice::new(x, [0.0, 50.0], step).unwrap_err().1;
     assert_eq!(
         lattice([-50.0, 50.0], 0.3),
         "step_cm is 0.3, which does not divide x_cm of 100 cm; a whole number of steps is accepted"
