@@ -18,6 +18,7 @@ pub mod meaning;
 pub mod output;
 pub mod percent;
 pub mod printed;
+pub mod reach;
 pub mod reader;
 pub mod relation;
 pub mod report;

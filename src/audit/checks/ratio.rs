@@ -3,7 +3,7 @@
 use super::arguments::{digits, shown_span};
 use super::{Entry, FromRelation, Proof, Test};
 use crate::exact;
-use crate::exact::{Print, Span, add, mul, spelled, whole};
+use crate::exact::{Print, Span, add, mul, whole};
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
@@ -138,7 +138,7 @@ impl Test for Formed {
         let steps: Vec<Value> = self.allowed(prints)?.iter().map(step).collect();
         let forms: Vec<&str> = self.forms.iter().map(|form| form.name()).collect();
         Some(Proof {
-            given: json!({ "forms": forms, "unit": spelled(whole(1)) }),
+            given: json!({ "forms": forms }),
             steps: Value::Array(steps),
         })
     }

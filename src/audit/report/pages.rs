@@ -50,11 +50,14 @@ fn the_certificates_that_python_verifies_are_those_of_the_examples() {
     let (_, report) = audited("examples.toml");
     let proved = report.findings.iter().filter_map(|finding| Some((finding, finding.certificate.as_ref()?)));
     let mut names = Vec::new();
+    if is_writing() {
+        fs::remove_dir_all(&folder).unwrap();
+        fs::create_dir_all(&folder).unwrap();
+    }
     for (index, (finding, certificate)) in proved.enumerate() {
         let name = format!("{:02}_{}.json", index + 1, finding.check);
         let text = format!("{certificate:#}\n");
         if is_writing() {
-            fs::create_dir_all(&folder).unwrap();
             fs::write(folder.join(&name), &text).unwrap();
         }
         assert!(
