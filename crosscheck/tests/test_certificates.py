@@ -75,7 +75,7 @@ WORDS += ["sample", "population", "either", "four", "eight", "linear", "high", "
 
 
 def mutated() -> list[tuple[str, tuple, dict]]:
-    """Every certificate with one value changed, for every value and change: its check and the place as well."""
+    """Every certificate with one value changed, in every way: its check and the place as well."""
     found = []
     for certificate in certificates():
         for path in leaves(certificate):

@@ -11,12 +11,12 @@ pub mod checks;
 pub mod clock;
 pub mod coverage;
 pub mod exact;
+pub mod form;
 pub mod fvalues;
 pub mod input;
 pub mod lattice;
 pub mod meaning;
 pub mod output;
-pub mod percent;
 pub mod printed;
 pub mod reach;
 pub mod reader;
@@ -40,17 +40,6 @@ pub enum AuditError {
     NotANumber {
         /// The text found.
         text: String,
-    },
-    /// A reduction was asked of a cell that may print zero or a negative value.
-    #[error(
-        "a reduction from {before} to {after} has no meaning: the first must be positive and the second \
-         not negative, whatever their digits stand for"
-    )]
-    NoReduction {
-        /// Printed value before.
-        before: String,
-        /// Printed value after.
-        after: String,
     },
 }
 
