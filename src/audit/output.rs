@@ -163,6 +163,9 @@ pub fn list() -> String {
     text
 }
 
+/// Checks of which what is possible is worth a line on the page of public tables.
+const POSSIBLE: [&str; 6] = ["clock", "grim", "lattice", "ratio_label", "reduction", "total_over_mean"];
+
 /// What is impossible or a signal, and what each check did, as a section of Markdown under `title`.
 pub fn section(title: &str, about: &str, report: &Report) -> String {
     let mut text = format!("## {title}\n\n{}\n\n", about.trim());
@@ -185,7 +188,7 @@ pub fn section(title: &str, about: &str, report: &Report) -> String {
     }
     let possible = report.findings.iter().filter(|finding| finding.class == Class::Possible);
     for finding in possible
-        .filter(|finding| ["grim", "total_over_mean", "reduction", "ratio_label"].contains(&finding.check))
+        .filter(|finding| POSSIBLE.contains(&finding.check))
     {
         text += &format!("- possible ({}): {}: {}.\n", finding.check, finding.name, finding.said);
     }

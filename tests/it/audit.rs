@@ -61,6 +61,30 @@ fn a_number_that_no_macro_backs_ends_with_3() {
 }
 
 #[test]
+fn a_macro_that_the_stored_run_does_not_give_is_stale() {
+    let home = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let bench = Bench::new();
+    let stored = std::fs::read_to_string(home.join("plots/movingai_sample/numbers.tex")).unwrap();
+    let line = stored.lines().position(|line| line.contains("Ours}{")).unwrap();
+    let value = stored.lines().nth(line).unwrap().split(['{', '}']).nth(3).unwrap().to_owned();
+    let wrong = stored.replacen(&format!("Ours}}{{{value}}}"), "Ours}{31415}", 1);
+    bench.write("copy.tex", wrong.as_bytes());
+    bench.write("paper.tex", b"No number.\n");
+    let (text, copy) = (bench.at("paper.tex"), bench.at("copy.tex"));
+    let called = |macros: &Path| {
+        let mut command = bench.command(&["audit", "--coverage"]);
+        command.arg(&text).arg("--macros").arg(macros).current_dir(home);
+        bench.said(&command.output().unwrap())
+    };
+    let said = called(&copy);
+    assert_eq!(said.code, Some(3), "{}", said.err);
+    let expected = format!("copy.tex:{}:1: ", line + 1);
+    assert!(said.out.contains(&expected) && said.out.contains("is 31415, but now it is"), "{}", said.out);
+    assert_eq!(said.out.lines().count(), 1);
+    assert_eq!(called(Path::new("plots/movingai_sample/numbers.tex")).code, Some(0));
+}
+
+#[test]
 fn the_audit_depends_on_estimators_alone_and_on_nothing_that_plans() {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/audit/Cargo.toml");
     let manifest: toml::Table = std::fs::read_to_string(manifest).unwrap().parse().unwrap();

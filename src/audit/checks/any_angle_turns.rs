@@ -26,8 +26,8 @@ pub static ENTRY: Entry = Entry {
 
 /// How far beyond the straight line paths are looked for, and how long that may be, cells: work grows threefold for each
 /// half cell of the first.
-const BEYOND: f64 = 4.0;
-const APART: f64 = 50.0;
+const BEYOND: f64 = 2.5;
+const APART: f64 = 30.0;
 
 struct AnyAngle {
     /// The turn sum, then the length.
@@ -42,7 +42,7 @@ struct AnyAngle {
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     let missing = || {
-        relation.fault("`from` and `to` are needed, points \"X:Y\" a whole number of cells apart, 1 to 50 in all")
+        relation.fault("`from` and `to` are needed, points \"X:Y\" a whole number of cells apart, 1 to 30 in all")
     };
     let (from, to) = relation.point("from")?.zip(relation.point("to")?).ok_or_else(missing)?;
     let displacement = between(from, to).ok_or_else(missing)?;

@@ -30,7 +30,7 @@ fn is_writing() -> bool {
 #[test]
 fn the_page_of_public_tables_says_what_the_audit_finds() {
     let mut page = PREAMBLE.to_owned();
-    for name in ["vamp", "curobo", "rdt", "zhang"] {
+    for name in ["vamp", "curobo", "rdt", "zhang", "fu2018", "planar"] {
         let (about, report) = audited(&format!("{name}.toml"));
         page += &crate::output::section(&format!("[{name}.toml](audit/{name}.toml)"), &about, &report);
     }
