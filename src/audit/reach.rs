@@ -170,7 +170,9 @@ mod tests {
     #[test]
     fn within_a_range_exactly_the_sums_of_squares_that_occur_are_met() {
         let (mut met, mut gaps) = (0, 0);
-        for (n, width) in [(1, 9), (2, 14), (3, 14), (4, 12), (5, 11), (6, 9), (7, 8), (9, 6), (14, 4), (30, 3)] {
+        for (n, width) in
+            [(1, 9), (2, 14), (3, 14), (4, 12), (5, 11), (6, 9), (7, 8), (9, 6), (14, 4), (30, 3)]
+        {
             let all = written_out(n, width);
             for shift in [0, -3] {
                 for sum in 0..=i128::from(n) * width {
@@ -184,7 +186,8 @@ mod tests {
                         let expected = all.contains(&(sum, squares));
                         assert_eq!(is_met(asked, &mut 100_000), Some(expected), "{asked:?}");
                         let (least, most) = extremes(n, sum, [Some(0), Some(width)]).unwrap();
-                        let is_plausible = (squares - sum) % 2 == 0 && (least..=most.unwrap()).contains(&squares);
+                        let is_plausible =
+                            (squares - sum) % 2 == 0 && (least..=most.unwrap()).contains(&squares);
                         met += u32::from(expected);
                         gaps += u32::from(is_plausible && !expected);
                     }
@@ -239,7 +242,11 @@ mod tests {
             (50, 600, 12_002, [Some(0), Some(25)]),
         ] {
             let mut steps = 1000;
-            assert_eq!(is_met(Asked { n, sum, squares, ends }, &mut steps), Some(true), "{n} {sum} {squares}");
+            assert_eq!(
+                is_met(Asked { n, sum, squares, ends }, &mut steps),
+                Some(true),
+                "{n} {sum} {squares}"
+            );
         }
     }
 }

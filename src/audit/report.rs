@@ -355,6 +355,8 @@ fn listed(names: &[&str]) -> String {
 #[cfg(test)]
 mod pages;
 #[cfg(test)]
+mod power;
+#[cfg(test)]
 mod simulation;
 #[cfg(test)]
 mod tests;

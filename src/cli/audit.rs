@@ -1,6 +1,5 @@
 //! `replan audit`: is this table possible?
 
-use super::progress::doing;
 use super::{Failure, render};
 use ::audit::reader::{self, Format};
 use ::audit::report::{Options, Report};
@@ -92,7 +91,7 @@ impl Audit {
             write_certificates(folder, &report)?;
         }
         if self.json {
-            say!("{:#}", output::json(&source, &report));
+            say!("{:#}", output::json(&source, &input, &report));
         } else {
             let findings = report.findings.iter().map(|finding| output::line(&source, finding));
             let lines = output::guesses(&source, &input).into_iter().chain(findings);
@@ -119,7 +118,7 @@ fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
     };
     if current.is_none() {
         let why = "its first line names no paper of this folder, so that stale values were not looked for";
-        doing(&format!("{}: {why}", macros.display()));
+        eprintln!("replan: {}: {why}", macros.display());
     }
     let remarks = coverage::coverage(&read(text)?, &given, current.as_deref());
     for remark in &remarks {

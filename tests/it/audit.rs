@@ -31,6 +31,7 @@ fn a_possible_table_ends_with_0_and_shows_its_data_if_asked() {
     assert!(said.contains("data (all of them, 1 of 100000 steps): 84 × 2/5 of 250"), "{said}");
     let json = bench.done(&["audit", "t.md", "--json"]);
     assert!(json.contains("\"check\": \"grim\"") && json.contains("\"power\""), "{json}");
+    assert!(json.contains("\"guessed\"") && json.contains("planner [label]"), "{json}");
 }
 
 #[test]

@@ -55,8 +55,7 @@ impl Check for StraightLine {
         let Settings { start, goal, size } = self.settings;
         let least = straight_line(start, goal);
         let (printed, longest) = (self.print.printed, self.print.printed.interval(self.print.digits).high);
-        let is_short =
-            against(self.print, self.apart, Moves::Any).is_some_and(|(order, _)| order.is_lt());
+        let is_short = against(self.print, self.apart, Moves::Any).is_some_and(|(order, _)| order.is_lt());
         let short = is_short.then_some(least - longest);
         let line = format!("the straight line from {start:?} to {goal:?} is {least:.4} long");
         let found = match short {

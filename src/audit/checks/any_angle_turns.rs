@@ -42,7 +42,8 @@ struct AnyAngle {
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     let missing = || {
-        relation.fault("`from` and `to` are needed, points \"X:Y\" a whole number of cells apart, 1 to 30 in all")
+        relation
+            .fault("`from` and `to` are needed, points \"X:Y\" a whole number of cells apart, 1 to 30 in all")
     };
     let (from, to) = relation.point("from")?.zip(relation.point("to")?).ok_or_else(missing)?;
     let displacement = between(from, to).ok_or_else(missing)?;
@@ -130,7 +131,9 @@ impl Test for AnyAngle {
     fn said(&self, prints: &[Print], _is_possible: bool) -> String {
         let [turns, length] = [prints[0], prints[1]].map(|print| print.printed);
         match self.polyline(prints) {
-            None => format!("length {length} is more than {BEYOND} cells above the straight line, or another one"),
+            None => {
+                format!("length {length} is more than {BEYOND} cells above the straight line, or another one")
+            }
             Some(None) => {
                 format!("no polyline through cell centres is {length} long and turns by {turns}° in all")
             }
@@ -140,7 +143,9 @@ impl Test for AnyAngle {
                 let cells: Vec<String> = found.cells.iter().map(at).collect();
                 let [dx, dy] = [goal[0] - start[0], goal[1] - start[1]];
                 let shown = cells.join(" ");
-                format!("{length} and {turns}° are met together over ({dx}, {dy}) cells, by {shown} from the start")
+                format!(
+                    "{length} and {turns}° are met together over ({dx}, {dy}) cells, by {shown} from the start"
+                )
             }
         }
     }
@@ -152,7 +157,8 @@ impl Test for AnyAngle {
         };
         let conventions: Vec<&str> = self.conventions.iter().map(named).collect();
         let [columns, rows] = self.size;
-        let grid = if self.is_bounded { format!("a grid of {columns} by {rows} cells") } else { "any grid".into() };
+        let grid =
+            if self.is_bounded { format!("a grid of {columns} by {rows} cells") } else { "any grid".into() };
         vec![
             format!("the path is a polyline whose bends are cell centres of {grid}; obstacles are left out"),
             format!("the sum is of {}", conventions.join(" or of ")),

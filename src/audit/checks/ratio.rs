@@ -91,9 +91,6 @@ impl Test for Formed {
         let step = |(form, span): &(Form, Span)| json!({ "form": form.name(), "span": exact::span(span) });
         let steps: Vec<Value> = self.allowed(prints)?.iter().map(step).collect();
         let forms: Vec<&str> = self.forms.iter().map(|form| form.name()).collect();
-        Some(Proof {
-            given: json!({ "forms": forms }),
-            steps: Value::Array(steps),
-        })
+        Some(Proof { given: json!({ "forms": forms }), steps: Value::Array(steps) })
     }
 }

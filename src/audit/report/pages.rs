@@ -69,3 +69,17 @@ fn the_certificates_that_python_verifies_are_those_of_the_examples() {
     let stored = fs::read_dir(&folder).unwrap().count();
     assert_eq!(stored, names.len(), "{names:?}");
 }
+
+#[test]
+fn the_page_on_checks_has_every_check_with_its_example_premises_mathematics_and_source() {
+    let page = fs::read_to_string(root().join("docs/AUDIT.md")).unwrap();
+    let sections: Vec<&str> = page.split("\n### ").skip(1).collect();
+    assert_eq!(sections.len(), REGISTRY.len());
+    for (section, entry) in sections.into_iter().zip(REGISTRY) {
+        let Entry { name, about, example, premises, source, .. } = entry;
+        let head =
+            format!("{name}\n\n{about}\n\n- refuses: `{example}`\n- premises: {premises}\n- mathematics: ");
+        assert!(section.starts_with(&head), "docs/AUDIT.md should have\n### {head}");
+        assert!(section.contains(&format!("\n- source: {source}\n")), "{name}: {source}");
+    }
+}
