@@ -6,24 +6,29 @@ use super::together::together;
 use super::verdict::{Finding, Judged, Verdict, Verdicts};
 use crate::study::paper::{Claim, Paper};
 use base::hash::sha256;
-use base::settings::SettingsError;
+use base::settings::{Faults, SettingsError, none_called};
 use rayon::prelude::*;
 
 /// Builds every check of every claim, so that `replan check` finds what is wrong before anything runs.
 ///
 /// # Errors
-/// An unknown check, a metric that the study does not produce, a problem group or contender that it lacks.
+/// All at once: an unknown check, a metric that the study does not produce, a problem group or contender that it lacks.
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
+    let mut faults = Faults::default();
     for study in &paper.studies {
-        for id in &study.fitted_to {
+        for (index, id) in study.fitted_to.iter().enumerate() {
             if paper.claim(id).is_none() {
-                let message = format!("fitted_to names the claim `{id}`, which {} does not have", paper.id);
-                return Err(study.document.error(0..0, message));
+                let known = paper.claims.iter().map(|claim| claim.id.as_str());
+                let message = format!("fitted_to: {}", none_called("claim", id, known));
+                faults.add(study.document.error_at(&format!("fitted_to.{index}"), message));
             }
         }
     }
     let point = default_point(paper);
-    paper.claims.iter().try_for_each(|claim| checks(paper, &point, claim).map(|_| ()))
+    for claim in &paper.claims {
+        faults.keep(checks(paper, &point, claim));
+    }
+    faults.done()
 }
 
 /// The hash of what claims say and how they are judged, for manifests: wording and ledger do not count.

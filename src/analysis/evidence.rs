@@ -11,6 +11,7 @@ use crate::study::{ReadingChoice, Study, StudyError};
 use audit::turns::{Polyline, TurnQuery, shortest_polyline};
 use base::hash::sha256;
 use engine::planner::Exhibit;
+use rayon::prelude::*;
 use stats::summary;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -98,10 +99,10 @@ impl<'a> Evidence<'a> {
     /// # Errors
     /// [`StudyError::Stored`] for a run that is missing, damaged or made by another spec.
     pub fn read(paper: &'a Paper, point: ReadingChoice, folder: &Path) -> Result<Self, StudyError> {
-        let mut runs = BTreeMap::new();
-        for study in &paper.studies {
-            runs.insert(study.name.as_str(), Run::read(study, &point, folder)?);
-        }
+        let read = |study: &'a Study| Ok((study.name.as_str(), Run::read(study, &point, folder)?));
+        // Gathered in order before any error is passed on, so that it is the first study's.
+        let runs: Vec<Result<_, StudyError>> = paper.studies.par_iter().map(read).collect();
+        let runs = runs.into_iter().collect::<Result<_, _>>()?;
         Ok(Self { paper, point, runs, polylines: Arc::default() })
     }
 

@@ -265,7 +265,7 @@ fn compare(id: &str, cases: &[Case], folder: &Path) -> Result<Vec<Outcome>, Cros
     let bar = Bar::default();
     bar.begin(&format!("{id}: comparing"), cases.len());
     let outcomes = cases.par_iter().map(|case| {
-        let outcome = case.judge(folder);
+        let outcome = case.compare(folder);
         bar.step();
         outcome
     });

@@ -162,7 +162,7 @@ impl Case {
     ///
     /// # Errors
     /// [`CrosscheckError::Answer`] for answers that are missing or do not fit the questions.
-    pub fn judge(&self, folder: &FilePath) -> Result<Outcome, CrosscheckError> {
+    pub fn compare(&self, folder: &FilePath) -> Result<Outcome, CrosscheckError> {
         let folder = self.folder(folder);
         let asked =
             |name, questions| Asked { subject: self.subject.as_ref(), folder: &folder, name, questions };

@@ -291,7 +291,12 @@ impl Spec {
     ) -> Result<Case, CrosscheckError> {
         let at = |message: String| self.document.error(entry.span(), message);
         let WorkspaceEntry { label, paths } = entry.get_ref();
-        let world = paths.world(sources.folder, sources.inputs)?;
+        let index =
+            self.file.workspaces.iter().position(|known| known.span() == entry.span()).unwrap_or_default();
+        let misnamed = |key: &str, message: String| {
+            self.document.error_at(&format!("workspace.{index}.paths.{key}"), message)
+        };
+        let world = paths.world(sources.folder, sources.inputs, &misnamed)?;
         let arm = world.as_arm().ok_or_else(|| {
             at(format!(
                 "the world of `{label}` is a {}; accepted: a planar arm's workspace",

@@ -9,6 +9,7 @@ use crate::study::name::Names;
 use crate::study::record::{Kept, Row, Status};
 use crate::study::store::read_records;
 use crate::study::{Inputs, ReadingChoice, Study, StudyError};
+use base::settings::SettingsError;
 use engine::space::World;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -91,21 +92,27 @@ impl StoredPaths {
         Study::load(&folder.join(format!("{}.toml", self.study)), inputs)
     }
 
-    /// The world that the study, in the paper's `folder`, poses under its default readings.
+    /// The world that the study, in the paper's `folder`, poses under its default readings; `misnamed` makes an error about
+    /// one of these settings.
     ///
     /// # Errors
     /// A study or problem group that does not exist or is wrong.
-    pub fn world(&self, folder: &Path, inputs: &Inputs) -> Result<World, CrosscheckError> {
+    pub fn world(
+        &self,
+        folder: &Path,
+        inputs: &Inputs,
+        misnamed: &dyn Fn(&str, String) -> SettingsError,
+    ) -> Result<World, CrosscheckError> {
         let study = self.study(folder, inputs)?;
         let group = study.groups.iter().find(|group| group.label == self.problems).ok_or_else(|| {
             let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
             let message =
                 format!("there are no problems `{}`; there are {}", self.problems, known.join(", "));
-            study.document.error(0..0, message)
+            misnamed("problems", message)
         })?;
         let point = ReadingChoice::new(&study.readings, &BTreeMap::new());
         let point = point.expect("a loaded study's defaults are among its options");
         let prepared = group.family(&point, inputs)?.prepare(0);
-        Ok(prepared.map_err(|invalid| study.document.error(0..0, invalid.0))?.world)
+        Ok(prepared.map_err(|invalid| misnamed("problems", invalid.0))?.world)
     }
 }

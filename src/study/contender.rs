@@ -7,6 +7,7 @@ use base::settings::{Settings, SettingsError};
 use engine::planner::{self, Build, Invalid, Plan, Planner, Request, Stage};
 use std::collections::BTreeMap;
 use std::mem::discriminant;
+use std::ops::Range;
 use toml::Table;
 
 /// A pipeline under a label.
@@ -29,6 +30,8 @@ pub struct Contender {
 pub struct StageUse {
     /// The entry.
     pub entry: &'static planner::Entry,
+    /// Where the study names it.
+    pub named: Range<usize>,
     /// Its settings.
     pub settings: Settings,
 }

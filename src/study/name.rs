@@ -2,7 +2,7 @@
 
 pub use base::slug::slug;
 
-use super::key::{DrawKey, Owner, ReadingKey, SweepKey, Text, TrialKey};
+use super::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
 use std::collections::BTreeMap;
 
 /// How a study's records are named: what is left out of a name because it goes without saying.
@@ -106,14 +106,18 @@ pub fn choice<'a>(other: impl Iterator<Item = (&'a str, &'a str)>) -> String {
 
 /// `setting=value,…`.
 pub fn sweep(key: &SweepKey) -> String {
-    let parts: Vec<String> = key.values().iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let parts: Vec<String> = key.values().iter().map(sweep_value).collect();
     parts.join(",")
+}
+
+/// `setting=value`.
+pub fn sweep_value((setting, value): &(Text, SweepValue)) -> String {
+    format!("{setting}={value}")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::key::SweepValue;
     use std::sync::Arc;
 
     /// One numbered group and one that is not, two contenders, two readings.

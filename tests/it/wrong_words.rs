@@ -67,7 +67,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "weight = 1,",
         "weight = -1,",
-        "weight is -1; 0 (Dijkstra), 1 (A*), any larger number, or",
+        "mini/draws.toml:24:23: weight is -1; 0 (Dijkstra), 1 (A*), any larger number, or",
     ),
     wrong(
         "draws",
@@ -97,7 +97,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "default = \"allow\"",
         "default = \"deny\"",
-        "reading `corners` has no option `deny`; it has allow,",
+        "mini/draws.toml:44:11: reading `corners` has no option `deny`; it has allow,",
     ),
     wrong(
         "draws",
@@ -116,7 +116,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "goal = [11, 9]",
         "goal = [12, 9]",
-        "goal is [12, 9], outside the map; cells are 0..12 by 0..12",
+        "mini/draws.toml:19:60: goal is [12, 9], outside the map; cells are 0..12 by 0..12",
     ),
     wrong(
         "room",
@@ -196,31 +196,31 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "claim.check.attained",
         "claim.check.obtained",
-        "claim `cost` asks for the check `obtained`, which does not exist; the checks are ",
+        "claim `cost` asks for the check `obtained`, which does not exist (did you mean `attained`?); the checks are ",
     ),
     wrong(
         "paper",
         "metric = \"nodes\"",
         "metric = \"knots\"",
-        "there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are ",
+        "mini/paper.toml:37:10: there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are ",
     ),
     wrong(
         "paper",
         "metric = \"path_cost_cells\"",
         "metric = \"plan_time_us\"",
-        "study `room` does not produce the metric `plan_time_us`; it produces ",
+        "mini/paper.toml:26:10: study `room` does not produce the metric `plan_time_us`; it produces ",
     ),
     wrong(
         "paper",
         "study = \"draws\"",
         "study = \"drawn\"",
-        "there is no study `drawn` (did you mean `draws`?); there are draws, room",
+        "mini/paper.toml:35:9: there is no study `drawn` (did you mean `draws`?); there are draws, room",
     ),
     wrong(
         "paper",
         "lower = \"Two-sided\"",
         "lower = \"Two\"",
-        "study `draws` has no contender `Two` (did you mean `Two-sided`?); it has A*, Two-sided",
+        "mini/paper.toml:38:9: study `draws` has no contender `Two` (did you mean `Two-sided`?); it has A*, Two-sided",
     ),
     wrong(
         "paper",

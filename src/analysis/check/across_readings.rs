@@ -94,7 +94,7 @@ impl<'a> Across<'a> {
         let study = context.study(&settings.study, &groups, &contenders)?;
         if study.explore.is_none() {
             let message = format!("study `{}` explores no readings; it needs a table `explore`", study.name);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("study", message));
         }
         context.metric(&settings.metric, study)?;
         Ok(Self { settings, study, context: *context, printed: context.printed()? })

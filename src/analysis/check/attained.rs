@@ -68,35 +68,37 @@ pub struct Attained<'a> {
 }
 
 /// A trial that was looked at, and its value. Names are made of the few that are shown.
-struct Seen<'e> {
+pub struct Seen<'e> {
     run: &'e Run<'e>,
-    row: &'e Row,
-    contender: &'e str,
-    value: f64,
-    reading: Arc<str>,
+    /// The trial.
+    pub row: &'e Row,
+    /// The contender that stands for the paper's.
+    pub contender: &'e str,
+    /// What the claim's number is there.
+    pub value: f64,
+    /// The reading that it ran under.
+    pub reading: Arc<str>,
     selected: bool,
 }
 
 /// What tells problems under one reading apart: study, group, draw and query.
-type Problem<'e> = (&'e str, &'e str, u32, Option<&'e str>);
+pub type Problem<'e> = (&'e str, &'e str, u32, Option<&'e str>);
 
 impl<'e> Seen<'e> {
-    fn problem(&self) -> Problem<'e> {
+    /// The problem that it is about.
+    pub fn problem(&self) -> Problem<'e> {
         let key = &self.row.key;
         (&self.run.study.name, &key.on.group, key.on.draw, key.query.as_deref())
     }
 }
 
-/// A contender on a problem, and whether a claim is met there.
-pub struct Outcome {
-    /// The study and the problem in it.
-    pub problem: (String, String),
-    /// The contender that stands for the paper's.
-    pub contender: String,
-    /// The reading that it ran under.
-    pub reading: String,
-    /// Whether the claim is met.
-    pub is_met: bool,
+/// Refuses contenders that depart from readings which the paper does not have.
+fn check_departures(study: &Study, readings: &[Reading]) -> Result<(), SettingsError> {
+    for (index, contender) in study.contenders.iter().enumerate() {
+        ReadingChoice::new(readings, &contender.departs)
+            .map_err(|message| study.document.error_at(&format!("contender.{index}.departs"), message))?;
+    }
+    Ok(())
 }
 
 impl<'a> Attained<'a> {
@@ -108,14 +110,12 @@ impl<'a> Attained<'a> {
         let settings: Settings = context.settings.read()?;
         let readings = context.paper.readings();
         let mut metric = None;
-        for place in &settings.r#in {
+        for (index, place) in settings.r#in.iter().enumerate() {
             let wanted = settings.contenders.iter().chain(&settings.against);
             // A place need not have every contender, but each must exist in some place.
-            let study = context.study(&place.study, &place.problems, &[])?;
+            let study = context.study_in(&format!("in.{index}"), &place.study, &place.problems, &[])?;
             metric = Some(context.metric(&settings.metric, study)?);
-            for departs in study.contenders.iter().map(|contender| &contender.departs) {
-                ReadingChoice::new(&readings, departs).map_err(|e| study.document.error(0..0, e))?;
-            }
+            check_departures(study, &readings)?;
             for label in wanted {
                 let is_known = settings.r#in.iter().any(|place| {
                     context
@@ -125,16 +125,18 @@ impl<'a> Attained<'a> {
                 });
                 if !is_known {
                     let message = format!("no study that is looked at has a contender `{label}`");
-                    return Err(context.settings.error(message));
+                    return Err(context.settings.error_about("", &super::CONTENDER_KEYS, label, message));
                 }
             }
         }
-        let metric = metric.ok_or_else(|| context.settings.error("`in` names no study to look at"))?;
+        let metric =
+            metric.ok_or_else(|| context.settings.error_at("in", "`in` names no study to look at"))?;
         let mut given = Vec::new();
         for id in &settings.given {
             let claim = context.claim_called(id)?;
             let settings = claim.checks.get(ENTRY.name).ok_or_else(|| {
-                context.settings.error(format!("claim `{id}` cannot be given: it has no `attained` check"))
+                let message = format!("claim `{id}` cannot be given: it has no `attained` check");
+                context.settings.error_about("", &["given"], id, message)
             })?;
             given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
@@ -143,22 +145,18 @@ impl<'a> Attained<'a> {
         Ok(Self { settings, metric, printed, digits, given, claim, readings })
     }
 
-    /// Every problem on which the claim was looked for under the evidence's reading, and whether it is met there.
-    pub fn problems(&self, evidence: &Evidence<'_>) -> Vec<Outcome> {
-        let outcome = |seen: Seen<'_>| Outcome {
-            is_met: self.is_met(seen.value),
-            problem: (seen.run.study.name.clone(), seen.run.problem(seen.row)),
-            contender: seen.contender.to_owned(),
-            reading: seen.reading.to_string(),
-        };
-        self.seen(evidence).into_iter().map(outcome).collect()
+    /// The claim's id.
+    pub fn claim(&self) -> &'a str {
+        self.claim
     }
 
-    fn is_met(&self, value: f64) -> bool {
+    /// Whether `value` prints as the claim's number.
+    pub fn is_met(&self, value: f64) -> bool {
         self.printed.agrees(value, self.digits)
     }
 
-    fn seen<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
+    /// Every trial in which the claim's number was looked for under the evidence's reading.
+    pub fn seen<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
         let mut seen = Vec::new();
         for place in &self.settings.r#in {
             let Some(run) =
@@ -166,9 +164,11 @@ impl<'a> Attained<'a> {
             else {
                 continue;
             };
+            let reading = |label: &'e String| (label, self.reading_of(run.study, &evidence.point, label));
+            let contenders: Vec<_> = self.settings.contenders.iter().map(reading).collect();
             for group in &place.problems {
-                for contender in &self.settings.contenders {
-                    seen.extend(self.seen_in(run, &evidence.point, (group, place.selected), contender));
+                for (contender, reading) in &contenders {
+                    seen.extend(self.seen_in(run, reading, (group, place.selected), contender));
                 }
             }
         }
@@ -186,23 +186,25 @@ impl<'a> Attained<'a> {
     }
 
     /// The reading that the contender called `label` runs under.
-    fn reading_of(&self, study: &Study, point: &ReadingChoice, label: &str) -> String {
-        let mut choices = point.choices().clone();
+    fn reading_of(&self, study: &Study, point: &ReadingChoice, label: &str) -> Arc<str> {
         let contender = study.contenders.iter().find(|contender| contender.label == label);
-        choices.extend(contender.into_iter().flat_map(|contender| contender.departs.clone()));
+        let Some(contender) = contender.filter(|contender| !contender.departs.is_empty()) else {
+            return point.name().into();
+        };
+        let mut choices = point.choices().clone();
+        choices.extend(contender.departs.clone());
         let point = ReadingChoice::new(&self.readings, &choices);
-        point.expect("departures were looked up when the check was built").name().to_owned()
+        point.expect("departures were looked up when the check was built").name().into()
     }
 
     /// The trials of `contender` in one problem group, which was selected or not.
     fn seen_in<'e>(
         &self,
         run: &'e Run<'e>,
-        point: &ReadingChoice,
+        reading: &Arc<str>,
         (group, selected): (&str, bool),
         contender: &'e str,
     ) -> Vec<Seen<'e>> {
-        let reading: Arc<str> = self.reading_of(run.study, point, contender).into();
         let base = self.settings.against.as_deref().unwrap_or(contender);
         let value = |pair: &Pair<'_>| {
             let other = run.value(pair.other, self.metric)?;

@@ -33,12 +33,12 @@ sets = [
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let mut metric = None;
-        for set in &settings.sets {
+        for (index, set) in settings.sets.iter().enumerate() {
             let contenders = [settings.contender.as_str(), settings.against.as_str()];
-            let study = context.study(&set.study, &set.problems, &contenders)?;
+            let study = context.study_in(&format!("sets.{index}"), &set.study, &set.problems, &contenders)?;
             metric = Some(context.metric(&settings.metric, study)?);
         }
-        let metric = metric.ok_or_else(|| context.settings.error("`sets` names no problems"))?;
+        let metric = metric.ok_or_else(|| context.settings.error_at("sets", "`sets` names no problems"))?;
         Ok(Box::new(HowOften { settings, metric }))
     },
 };

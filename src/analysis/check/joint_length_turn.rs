@@ -53,6 +53,18 @@ struct Settings {
     longest: f64,
 }
 
+/// Refuses a grid or a length that a search for polylines would not come to the end of.
+pub(super) fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(), SettingsError> {
+    let (key, message) = if !size.iter().all(|side| (1..=200).contains(side)) {
+        ("size", format!("size is {size:?}; 1 to 200 columns and rows are accepted"))
+    } else if !(0.0..=200.0).contains(&longest) {
+        ("longest", format!("longest is {longest}; 0 to 200 cells are accepted"))
+    } else {
+        return Ok(());
+    };
+    Err(context.settings.error_at(key, message))
+}
+
 struct Joint {
     settings: Settings,
     length: (Printed, Interval),
@@ -63,7 +75,7 @@ struct Joint {
 impl Joint {
     fn new(context: &Context<'_>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        super::check_search(context, settings.size, settings.longest)?;
+        check_search(context, settings.size, settings.longest)?;
         let window =
             |id: &str| context.printed_of(id).map(|(printed, digits)| (printed, printed.interval(digits)));
         let (length, turn) = (window(&settings.length)?, window(&settings.turn)?);
@@ -77,7 +89,7 @@ impl Joint {
                 "`{}` stands for `{metric}` under this reading; `{}` or `{}` is accepted",
                 settings.metric, settings.exterior, settings.interior
             );
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("metric", message));
         };
         Ok(Self { settings, length, turn, convention })
     }

@@ -19,7 +19,9 @@ pub static ENTRY: Entry = Entry {
     build: |context| {
         let settings: Settings = context.settings.read()?;
         if settings.start.is_some() != settings.goal.is_some() {
-            return Err(context.settings.error("`start` and `goal` are given together or not at all"));
+            let given = if settings.start.is_some() { "start" } else { "goal" };
+            let message = "`start` and `goal` are given together or not at all";
+            return Err(context.settings.error_at(given, message));
         }
         Ok(Box::new(LatticeLength { settings, printed: context.printed()?, digits: context.digits() }))
     },

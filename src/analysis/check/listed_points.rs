@@ -52,11 +52,12 @@ impl ListedPoints {
         let groups: Vec<String> = settings.rows.values().cloned().collect();
         let study = context.study(&settings.study, &groups, &[])?;
         let table = context.paper.tables.iter().find(|table| table.id == settings.table);
-        let table = table
-            .ok_or_else(|| context.settings.error(format!("the paper has no table `{}`", settings.table)))?;
+        let table = table.ok_or_else(|| {
+            context.settings.error_at("table", format!("the paper has no table `{}`", settings.table))
+        })?;
         let mut found = Vec::new();
         for row in &table.rows {
-            let printed = points(row).map_err(|message| context.settings.error(message))?;
+            let printed = points(row).map_err(|message| context.settings.error_at("table", message))?;
             if let Some(label) = settings.rows.get(&row.label) {
                 let group = study.groups.iter().find(|group| group.label == *label);
                 let used = group.and_then(|group| used(group.settings.table().get(&settings.key)?));
@@ -65,7 +66,7 @@ impl ListedPoints {
                         "row `{}` of table `{}` prints {printed:?}, but `{}` of problem group `{label}` is {used:?}",
                         row.label, table.id, settings.key
                     );
-                    return Err(context.settings.error(message));
+                    return Err(context.settings.error_at(&format!("rows.{}", row.label), message));
                 }
             }
             found.push((row.label.clone(), printed.len()));

@@ -94,9 +94,12 @@ impl<'a> LowestMedian<'a> {
         let explored =
             settings.explored.as_ref().map(|name| context.study(name, &settings.problems, &contenders));
         let explored = explored.transpose()?;
-        if settings.lower.is_empty() || settings.higher.is_empty() || settings.problems.is_empty() {
-            let message = "`lower`, `higher` and `problems` each need at least one name";
-            return Err(context.settings.error(message));
+        let (lower, higher, problems) = (&settings.lower, &settings.higher, &settings.problems);
+        for (key, names) in [("lower", lower), ("higher", higher), ("problems", problems)] {
+            if names.is_empty() {
+                let message = format!("{key} is empty; at least one name is accepted");
+                return Err(context.settings.error_at(key, message));
+            }
         }
         if !(0.0..100.0).contains(&settings.by_percent) {
             let message = format!("by_percent is {}; 0 to below 100 is accepted", settings.by_percent);

@@ -55,7 +55,7 @@ use super::verdict::{Finding, Verdict};
 use crate::study::paper::{self, Claim, Paper};
 use crate::study::{ReadingChoice, Study};
 use audit::printed::{Digits, Printed};
-use base::settings::{Accepted, Settings, SettingsError, did_you_mean, none_called};
+use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean, none_called};
 
 /// A check with its settings.
 pub trait Check {
@@ -178,26 +178,34 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 /// The checks of a claim, built.
 ///
 /// # Errors
-/// A check that does not exist, and what a check refuses of its settings.
+/// All at once: a check that does not exist, and what a check refuses of its settings.
 pub fn checks<'a>(
     paper: &'a Paper,
     point: &'a ReadingChoice,
     claim: &'a Claim,
 ) -> Result<Vec<(&'static str, Box<dyn Check + 'a>)>, SettingsError> {
-    let mut built = Vec::new();
+    let (mut built, mut faults) = (Vec::new(), Faults::default());
     for (name, settings) in &claim.checks {
-        let entry = find(name).ok_or_else(|| {
-            let known: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
-            let message = format!(
-                "claim `{}` asks for the check `{name}`, which does not exist; the checks are {}",
-                claim.id,
-                known.join(", ")
-            );
-            settings.error(message)
-        })?;
-        built.push((entry.name, (entry.build)(&Context { claim, settings, paper, point })?));
+        let check = entry(claim, name, settings)
+            .and_then(|entry| Ok((entry.name, (entry.build)(&Context { claim, settings, paper, point })?)));
+        built.extend(faults.keep(check));
     }
+    faults.done()?;
     Ok(built)
+}
+
+/// The entry that a claim asks for as `name`.
+fn entry(claim: &Claim, name: &str, settings: &Settings) -> Result<&'static Entry, SettingsError> {
+    find(name).ok_or_else(|| {
+        let known: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
+        let message = format!(
+            "claim `{}` asks for the check `{name}`, which does not exist{}; the checks are {}",
+            claim.id,
+            did_you_mean(name, known.iter().copied()),
+            known.join(", ")
+        );
+        settings.error(message)
+    })
 }
 
 /// The verdict on one claim under the evidence's reading, without the reasons.
@@ -215,7 +223,7 @@ fn verdict_on(evidence: &Evidence<'_>, claim: &Claim) -> Result<Verdict, Setting
 mod tests;
 
 pub use across_readings::Outcome;
-pub use attained::{Attained, Outcome as Attainment};
+pub use attained::Attained;
 pub use row_among_draws::Draws;
 
 /// The draws that the claim called `id` is ranked among, as its check `row_among_draws` says.
@@ -243,10 +251,20 @@ fn context<'a>(
 ) -> Result<Context<'a>, SettingsError> {
     let (paper, point) = (evidence.paper, &evidence.point);
     let claim = paper.claim(id).ok_or_else(|| {
-        asker.error_about(id, none_called("claim", id, paper.claims.iter().map(|c| c.id.as_str())))
+        asker.error_about(
+            "",
+            &["claim"],
+            id,
+            none_called("claim", id, paper.claims.iter().map(|c| c.id.as_str())),
+        )
     })?;
     let settings = claim.checks.get(check).ok_or_else(|| {
-        asker.error_about(id, format!("claim `{id}` has no check `{check}`, which says what is to be shown"))
+        asker.error_about(
+            "",
+            &["claim"],
+            id,
+            format!("claim `{id}` has no check `{check}`, which says what is to be shown"),
+        )
     })?;
     Ok(Context { claim, settings, paper, point })
 }
@@ -266,17 +284,11 @@ fn listed(problems: &[String]) -> String {
     if problems.len() > 3 { format!("{} problem groups", problems.len()) } else { problems.join(", ") }
 }
 
-/// Refuses a grid or a length that a search for polylines would not come to the end of.
-fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(), SettingsError> {
-    let message = if !size.iter().all(|side| (1..=200).contains(side)) {
-        format!("size is {size:?}; 1 to 200 columns and rows are accepted")
-    } else if !(0.0..=200.0).contains(&longest) {
-        format!("longest is {longest}; 0 to 200 cells are accepted")
-    } else {
-        return Ok(());
-    };
-    Err(context.settings.error(message))
-}
+/// How the keys start that name studies, problem groups, contenders and metrics.
+const STUDY_KEYS: [&str; 2] = ["stud", "explored"];
+const PROBLEM_KEYS: [&str; 4] = ["problem", "searched", "rows", "in"];
+const CONTENDER_KEYS: [&str; 6] = ["contender", "against", "lower", "higher", "whenever", "of"];
+const METRIC_KEYS: [&str; 2] = ["metric", "over"];
 
 impl<'a> Context<'a> {
     /// The claim's printed number.
@@ -296,7 +308,7 @@ impl<'a> Context<'a> {
     fn claim_called(&self, id: &str) -> Result<&'a Claim, SettingsError> {
         self.paper.claim(id).ok_or_else(|| {
             let known = self.paper.claims.iter().map(|claim| claim.id.as_str());
-            self.settings.error_about(id, none_called("claim", id, known))
+            self.settings.error_about("", &[""], id, none_called("claim", id, known))
         })
     }
 
@@ -312,10 +324,22 @@ impl<'a> Context<'a> {
         problems: &[String],
         contenders: &[&str],
     ) -> Result<&'a Study, SettingsError> {
+        self.study_in("", name, problems, contenders)
+    }
+
+    /// The same of names that stand in the part of the settings that `within` leads to.
+    fn study_in(
+        &self,
+        within: &str,
+        name: &str,
+        problems: &[String],
+        contenders: &[&str],
+    ) -> Result<&'a Study, SettingsError> {
         let study = self.paper.study(name).ok_or_else(|| {
             let known = self.paper.studies.iter().map(|study| study.name.as_str());
-            self.settings.error_about(name, none_called("study", name, known))
+            self.settings.error_about(within, &STUDY_KEYS, name, none_called("study", name, known))
         })?;
+        let mut faults = Faults::default();
         for problem in problems {
             if !study.groups.iter().any(|group| group.label == *problem) {
                 let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
@@ -324,7 +348,7 @@ impl<'a> Context<'a> {
                     "study `{name}` has no problem group `{problem}`{hint}; it has {}",
                     known.join(", ")
                 );
-                return Err(self.settings.error_about(problem, message));
+                faults.add(self.settings.error_about(within, &PROBLEM_KEYS, problem, message));
             }
         }
         for wanted in contenders {
@@ -333,9 +357,10 @@ impl<'a> Context<'a> {
                 let hint = did_you_mean(wanted, known.iter().copied());
                 let message =
                     format!("study `{name}` has no contender `{wanted}`{hint}; it has {}", known.join(", "));
-                return Err(self.settings.error_about(wanted, message));
+                faults.add(self.settings.error_about(within, &CONTENDER_KEYS, wanted, message));
             }
         }
+        faults.done()?;
         Ok(study)
     }
 
@@ -348,7 +373,7 @@ impl<'a> Context<'a> {
                 "there is no metric `{name}`, nor a reading that gives the name a meaning{hint}; the metrics are {}",
                 known.join(", ")
             );
-            self.settings.error_about(name, message)
+            self.settings.error_about("", &METRIC_KEYS, name, message)
         })
     }
 
@@ -368,7 +393,7 @@ impl<'a> Context<'a> {
                 metric.name,
                 produced.join(", ")
             );
-            return Err(self.settings.error_about(name, message));
+            return Err(self.settings.error_about("", &METRIC_KEYS, name, message));
         }
         Ok(metric)
     }

@@ -22,7 +22,7 @@ claims = ["edges.chs", "edges.chs.turn", "edges.chs.r2"]
         let claims: Vec<&Claim> = claims.collect::<Result<_, _>>()?;
         if claims.len() < 2 || claims.iter().any(|claim| claim.checks.contains_key(ENTRY.name)) {
             let message = "`claims` needs at least two, none of which is over claims itself";
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("claims", message));
         }
         Ok(Box::new(OverClaims { claims }))
     },

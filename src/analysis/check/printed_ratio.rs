@@ -56,17 +56,19 @@ impl PrintedRatio {
         let study = context.study(&settings.study, &settings.problems, &[settings.contender.as_str()])?;
         let metrics = settings.metrics.iter().map(|name| context.metric(name, study));
         let metrics = metrics.collect::<Result<Vec<_>, _>>()?;
-        if metrics.is_empty() || settings.within_percent.is_nan() || settings.within_percent <= 0.0 {
-            return Err(context
-                .settings
-                .error("at least one metric and a within_percent above 0 are needed"));
+        if metrics.is_empty() {
+            return Err(context.settings.error_at("metrics", "metrics is empty; at least one is accepted"));
+        }
+        if settings.within_percent.is_nan() || settings.within_percent <= 0.0 {
+            let message = format!("within_percent is {}; more than 0 is accepted", settings.within_percent);
+            return Err(context.settings.error_at("within_percent", message));
         }
         let [(one, of_one), (two, of_two)] =
             [context.printed_of(&settings.of[0])?, context.printed_of(&settings.of[1])?];
         let (a, b) = (one.interval(of_one), two.interval(of_two));
         if b.low <= 0.0 {
             let message = format!("claim `{}` may print 0; a ratio needs more", settings.of[1]);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("of.1", message));
         }
         let printed = [one.value() / two.value(), a.low / b.high, a.high / b.low];
         Ok(Self { settings, printed, metrics })

@@ -34,7 +34,7 @@ accepted = [0.0, 0.5]
         let [low, high] = settings.accepted;
         if !(0.0..=high).contains(&low) {
             let message = format!("accepted is [{low}, {high}]; two rising ratios of 0 or more are accepted");
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("accepted", message));
         }
         let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);
         Ok(Box::new(Ratio { settings, study, metric, seed }))

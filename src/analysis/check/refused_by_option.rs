@@ -50,12 +50,9 @@ impl<'a> RefusedByOption<'a> {
         let reading = study.readings.iter().find(|reading| reading.id == settings.reading);
         let options = reading.map(|reading| reading.options.keys().cloned().collect()).ok_or_else(|| {
             let known: Vec<&str> = study.readings.iter().map(|reading| reading.id.as_str()).collect();
-            context.settings.error(format!(
-                "study `{}` has no reading `{}`; it has {}",
-                study.name,
-                settings.reading,
-                known.join(", ")
-            ))
+            let (name, reading, known) = (&study.name, &settings.reading, known.join(", "));
+            let message = format!("study `{name}` has no reading `{reading}`; it has {known}");
+            context.settings.error_at("reading", message)
         })?;
         Ok(Self { settings, study, options })
     }

@@ -93,13 +93,13 @@ impl RowAmongDraws {
     fn new(context: &Context<'_>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
         let mut metric = None;
-        for set in &settings.sets {
+        for (index, set) in settings.sets.iter().enumerate() {
             let mut contenders = vec![settings.contender.as_str()];
             contenders.extend(settings.against.as_deref());
-            let study = context.study(&set.study, &set.problems, &contenders)?;
+            let study = context.study_in(&format!("sets.{index}"), &set.study, &set.problems, &contenders)?;
             metric = Some(context.metric(&settings.metric, study)?);
         }
-        let metric = metric.ok_or_else(|| context.settings.error("`sets` names no draws"))?;
+        let metric = metric.ok_or_else(|| context.settings.error_at("sets", "`sets` names no draws"))?;
         Ok(Self { settings, metric, printed: context.printed()?, digits: context.digits() })
     }
 

@@ -41,7 +41,7 @@ refused_below = 0.05
                 "the claim `{}`, named as `least`, prints more than `{}`, named as `greatest`; the other way round is accepted",
                 settings.least, settings.greatest
             );
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("least", message));
         }
         let range = Interval::new(least, greatest);
         Ok(Box::new(SavingsWithin { settings, study, metric, range }))

@@ -36,13 +36,14 @@ accepted = [0.995, 1.0]
             if column::find(name).is_none() {
                 let message =
                     format!("there is no column `{name}`; a column's name or `{SOLVED}` is accepted");
-                return Err(context.settings.error(message));
+                let key = if settings.of.as_ref() == Some(name) { "of" } else { "hits" };
+                return Err(context.settings.error_at(key, message));
             }
         }
         let [low, high] = settings.accepted;
         if !(0.0..=high).contains(&low) || high > 1.0 {
             let message = format!("accepted is [{low}, {high}]; two rising shares from 0 to 1 are accepted");
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("accepted", message));
         }
         let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);
         Ok(Box::new(Share { settings, study, seed }))

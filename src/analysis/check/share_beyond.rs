@@ -25,11 +25,16 @@ sets = [
     build: |context| {
         let settings: Settings = context.settings.read()?;
         let mut metric = None;
-        for set in &settings.sets {
-            let study = context.study(&set.study, &set.problems, &[settings.contender.as_str()])?;
+        for (index, set) in settings.sets.iter().enumerate() {
+            let study = context.study_in(
+                &format!("sets.{index}"),
+                &set.study,
+                &set.problems,
+                &[settings.contender.as_str()],
+            )?;
             metric = Some(context.metric(&settings.metric, study)?);
         }
-        let metric = metric.ok_or_else(|| context.settings.error("`sets` names no problems"))?;
+        let metric = metric.ok_or_else(|| context.settings.error_at("sets", "`sets` names no problems"))?;
         Ok(Box::new(ShareBeyond { settings, metric }))
     },
 };

@@ -76,7 +76,7 @@ impl SightBound {
             if let Some(unknown) = options.iter().find(|option| !known.contains(option)) {
                 let message =
                     format!("`under` asks for {id}={unknown}; the options are {}", known.join(", "));
-                return Err(context.settings.error(message));
+                return Err(context.settings.error_at(&format!("under.{id}"), message));
             }
         }
         let choices = context.point.choices();

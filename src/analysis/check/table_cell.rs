@@ -34,7 +34,7 @@ sweep = "samples=100"
                 study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
             let known = known.join(", ");
             let message = format!("study `{}` has no sweep `{}`; it has {known}", study.name, settings.sweep);
-            context.settings.error(message)
+            context.settings.error_at("sweep", message)
         })?;
         let is_fitted = study.fitted_to.contains(&context.claim.id);
         Ok(Box::new(TableCell { settings, study, sweep: point.key, printed: context.printed()?, is_fitted }))

@@ -36,7 +36,7 @@ rising = true
         let metric = context.metric(&settings.metric, study)?;
         if column::find(&settings.over).is_none() {
             let message = format!("there is no column `{}` to look along", settings.over);
-            return Err(context.settings.error(message));
+            return Err(context.settings.error_at("over", message));
         }
         let seed = seed::derive(0, &[&context.paper.id, &context.claim.id]);
         Ok(Box::new(Trend { settings, study, metric, seed }))

@@ -63,7 +63,7 @@ struct TurnNeedsLength {
 impl TurnNeedsLength {
     fn new(context: &Context<'_>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        super::check_search(context, settings.size, settings.longest)?;
+        super::joint_length_turn::check_search(context, settings.size, settings.longest)?;
         let window =
             |id: &str| context.printed_of(id).map(|(printed, digits)| (printed, printed.interval(digits)));
         let (turn, against) = (window(&settings.turn)?, window(&settings.against)?);
@@ -89,9 +89,9 @@ impl TurnNeedsLength {
 
     /// What is left of the proof where one end is moved to a neighbour.
     fn moved(&self, evidence: &Evidence<'_>, convention: Convention) -> String {
-        let found =
-            [[true, false], [false, true]].map(|near| self.least(evidence, convention, self.turn.1, near));
-        let least = found.into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let least = |near| self.least(evidence, convention, self.turn.1, near);
+        let (start, goal) = rayon::join(|| least([true, false]), || least([false, true]));
+        let least = [start, goal].into_iter().flatten().fold(f64::INFINITY, f64::min);
         let rests = if least > self.against.1.high { "does not rest" } else { "rests" };
         format!(
             "with the start or the goal moved to one of its eight neighbours such a path is at least {least:.4} cells long, \
@@ -104,7 +104,8 @@ impl TurnNeedsLength {
         let Self { turn: (turn, window), against: (beside, length), .. } = self;
         let name = if convention == Convention::Exterior { "exterior" } else { "interior" };
         let more = Interval { high: f64::INFINITY, ..*window };
-        let least = [*window, more].map(|window| self.least(evidence, convention, window, [false, false]));
+        let least = |window| self.least(evidence, convention, window, [false, false]);
+        let least: [Option<f64>; 2] = rayon::join(|| least(*window), || least(more)).into();
         let said = |least: Option<f64>| match least {
             Some(least) => {
                 let change = 100.0 * (least / beside.value() - 1.0);

@@ -27,8 +27,10 @@ problems = [
         let settings: Settings = context.settings.read()?;
         let contenders = [settings.contender.as_str()];
         let study = context.study(&settings.study, &settings.problems.concat(), &contenders)?;
-        if settings.problems.iter().any(|set| set.len() < 2) || settings.problems.is_empty() {
-            return Err(context.settings.error("each set of problems needs at least two names"));
+        let short = settings.problems.iter().position(|set| set.len() < 2);
+        if let Some(set) = short.or(settings.problems.is_empty().then_some(0)) {
+            let message = "each set of problems needs at least two names";
+            return Err(context.settings.error_at(&format!("problems.{set}"), message));
         }
         let metric = context.metric(&settings.metric, study)?;
         let is_fitted = study.fitted_to.contains(&context.claim.id);

@@ -153,6 +153,11 @@ pub(super) fn parse(text: &str) -> Result<Spanned<DeValue<'_>>, toml::de::Error>
 
 /// Where the value that `path` leads to stands inside `value`.
 pub(super) fn span_of(value: &Spanned<DeValue<'_>>, path: &str) -> Range<usize> {
+    part_of(value, path).span()
+}
+
+/// The value that `path` leads to inside `value`, or the innermost on the way that there is.
+pub(super) fn part_of<'a, 't>(value: &'a Spanned<DeValue<'t>>, path: &str) -> &'a Spanned<DeValue<'t>> {
     let mut found = value;
     for step in path.split('.') {
         let next = match found.get_ref() {
@@ -165,5 +170,5 @@ pub(super) fn span_of(value: &Spanned<DeValue<'_>>, path: &str) -> Range<usize> 
             None => break,
         }
     }
-    found.span()
+    found
 }

@@ -61,7 +61,49 @@ fn an_overlay_that_changes_nothing_keeps_the_place() {
     let other: Table = toml::from_str("weight = 'heavy'").unwrap();
     assert_eq!(settings.overlaid(&same, "reading weight"), settings);
     let error = settings.overlaid(&other, "reading weight").read::<Inner>().unwrap_err().to_string();
-    assert!(error.starts_with("a.toml:4 with reading weight: "), "{error}");
+    assert!(error.starts_with("a.toml:4:23: with reading weight: `weight` is \"heavy\""), "{error}");
+}
+
+/// Line and column of an error.
+fn place(error: &SettingsError) -> (usize, usize) {
+    let SettingsError::At { line, column, .. } = error else { panic!("{error}") };
+    (*line, *column)
+}
+
+#[test]
+fn a_name_at_fault_stands_in_its_own_table_under_its_own_key_in_its_own_part() {
+    let settings = second_part(
+        "[[part]]\nsettings = { of = \"A*\" }\n[[part]]\n[part.settings]\nproblems = [\"A*\"]\nof = \"A*\"\n\
+         sets = [{ problems = [\"x\"] }, { problems = [\"x\"] }]\n",
+    );
+    for (within, keys, word, expected) in [
+        ("", &["of"][..], "A*", (6, 6)),
+        ("", &["problem"], "A*", (5, 13)),
+        ("", &["against"], "A*", (5, 13)),
+        ("sets.1", &["problem"], "x", (7, 45)),
+        ("sets.1", &["of"], "A*", (6, 6)),
+        ("sets.0", &["of"], "absent", (7, 9)),
+    ] {
+        let error = settings.error_about(within, keys, word, "wrong");
+        assert_eq!(place(&error), expected, "{within} {keys:?} {word}: {error}");
+    }
+}
+
+#[test]
+fn an_entry_without_a_table_is_at_fault_where_it_is_named() {
+    let document = Document::new(Path::new("a.toml"), "planner = \"astar\"\n".to_owned());
+    let error = Settings::absent(&document, 10..17, "planner `astar`").read::<Inner>().unwrap_err();
+    assert_eq!(place(&error), (1, 11));
+    assert!(error.to_string().contains("planner `astar`: missing key `weight`"), "{error}");
+}
+
+#[test]
+fn a_key_that_no_overlay_gave_is_at_fault_where_the_table_below_has_it() {
+    let settings =
+        second_part("[[part]]\nsettings = { weight = 1 }\n[[part]]\nsettings = { wait = 3, weight = 2 }\n");
+    let over: Table = toml::from_str("weight = 4").unwrap();
+    let error = settings.overlaid(&over, "reading weight").read::<Inner>().unwrap_err();
+    assert_eq!(place(&error), (4, 21), "{error}");
 }
 
 #[test]

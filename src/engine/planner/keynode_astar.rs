@@ -40,8 +40,9 @@ last_resort = false
     build: Build::Planner(|settings| {
         let read: Keynode = settings.read()?;
         if read.search != Mode::OpenList && (read.cluster || read.last_resort) {
-            let message = "cluster and last_resort belong to search = \"open_list\"; false is accepted here";
-            return Err(settings.error(message));
+            let key = if read.cluster { "cluster" } else { "last_resort" };
+            let message = format!("{key} belongs to search = \"open_list\"; false is accepted here");
+            return Err(settings.error_at(key, message));
         }
         Ok(Box::new(read))
     }),

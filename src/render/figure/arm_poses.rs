@@ -1,13 +1,13 @@
 //! The whole arm along its path: postures at even intervals, the last one solid, one row a contender, one panel a view.
 
 use super::polyhedra_scene::{View, add_obstacles, panel, points, stored};
-use super::{Entry, Kind, Scene, Shown};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Key, Sheet, Swatch};
 use crate::render::scene3::{Paint, Scene as Solids};
 use crate::render::style::{GREEN, ORANGE, PURPLE, Rgb, Stroke, VERMILLION, WHITE, Width};
-use crate::study::name;
+use crate::study::key::SweepKey;
 use crate::study::record::{Row, Status};
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -17,7 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "arm_poses",
     about: "the whole arm along its path among polyhedra, one row a contender, one panel a view",
-    settings: Accepted::of::<ArmPoses>(),
+    settings: Accepted::of::<Read>(),
     example: r#"
 problem = "C1"
 contenders = ["Jia's A*, 12 neighbours", "This method"]
@@ -25,9 +25,10 @@ views = ["corner"]
 sweep = "delta_deg=10.0"
 "#,
     build: |settings, study, _paper| {
-        let read: ArmPoses = settings.read()?;
+        let read: Read = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
-        Ok(Box::new(read))
+        let sweep = read.sweep.as_ref().map(|text| ask::sweep(settings, study, text)).transpose()?;
+        Ok(Box::new(ArmPoses { read, sweep }))
     },
 };
 
@@ -36,7 +37,7 @@ const PLOT_PT: f64 = 220.0;
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct ArmPoses {
+struct Read {
     /// The problem group; its first draw is shown, or the first that only the first contender solves.
     problem: String,
     /// Whether it is the latter, if there is one whose arm is stored.
@@ -46,8 +47,14 @@ struct ArmPoses {
     contenders: Vec<String>,
     /// One panel each.
     views: Vec<View>,
-    /// The value of the sweep, where there is one.
+    /// The sweeps' values of the trial that is shown, as `setting=value,…`; the first trial if absent.
     sweep: Option<String>,
+}
+
+struct ArmPoses {
+    read: Read,
+    /// The point of the sweeps that is shown; the first trial if absent.
+    sweep: Option<SweepKey>,
 }
 
 /// From the first posture to the last.
@@ -62,15 +69,16 @@ fn axis(share: f64) -> Stroke {
 
 impl Kind for ArmPoses {
     fn shown(&self) -> Vec<Shown<'_>> {
-        Shown::first(&self.problem, &self.contenders)
+        Shown::first(&self.read.problem, &self.read.contenders)
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let columns = if self.views.len() == 1 { self.contenders.len() } else { self.views.len() };
+        let columns =
+            if self.read.views.len() == 1 { self.read.contenders.len() } else { self.read.views.len() };
         let mut sheet = Sheet::new(Width::Double, columns, PLOT_PT).noted("Rod radii are assumed.");
-        for contender in &self.contenders {
+        for contender in &self.read.contenders {
             let row = self.row(scene, contender)?;
-            for view in &self.views {
+            for view in &self.read.views {
                 let mut solids = Solids::default();
                 add_obstacles(&mut solids, scene.run, &row.key.on, false)?;
                 let keys = arm(&mut solids, scene, row)?;
@@ -81,7 +89,8 @@ impl Kind for ArmPoses {
                         |share| format!("stopped after {:.0} % of the path", 100.0 * share),
                     ),
                 };
-                let seen = if self.views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
+                let seen =
+                    if self.read.views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
                 let title = format!("{}: {end}{seen}", row.key.contender);
                 sheet.add(panel(title, solids, *view, keys)?);
             }
@@ -93,8 +102,8 @@ impl Kind for ArmPoses {
 impl ArmPoses {
     /// The first draw with a stored arm that only the first contender solves.
     fn chosen(&self, scene: &Scene<'_>) -> Option<u32> {
-        let rows = |contender: &String| scene.run.rows(&self.problem, contender).into_iter();
-        let (first, others) = self.contenders.split_first()?;
+        let rows = |contender: &String| scene.run.rows(&self.read.problem, contender).into_iter();
+        let (first, others) = self.read.contenders.split_first()?;
         let fails = |replicate: u32, other: &String| {
             rows(other).any(|row| row.draw() == replicate && row.status != Status::Solved)
         };
@@ -107,14 +116,14 @@ impl ArmPoses {
     }
 
     fn row<'a>(&self, scene: &'a Scene<'_>, contender: &str) -> Result<&'a Row, RenderError> {
-        let rows = scene.run.rows(&self.problem, contender);
-        let chosen = if self.first_alone { self.chosen(scene) } else { None };
+        let rows = scene.run.rows(&self.read.problem, contender);
+        let chosen = if self.read.first_alone { self.chosen(scene) } else { None };
         let is_asked = |row: &&Row| {
-            self.sweep.as_ref().is_none_or(|sweep| name::sweep(&row.key.sweep) == *sweep)
+            self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep)
                 && chosen.is_none_or(|replicate| row.draw() == replicate)
         };
         rows.into_iter().find(is_asked).ok_or_else(|| RenderError::NotStored {
-            what: format!("a trial of `{contender}` on `{}`", self.problem),
+            what: format!("a trial of `{contender}` on `{}`", self.read.problem),
         })
     }
 }

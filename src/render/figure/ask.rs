@@ -18,30 +18,33 @@ pub(super) fn known(
     problems: &[String],
     contenders: &[String],
 ) -> Result<(), SettingsError> {
-    let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-    let labels: Vec<&str> = study.contenders.iter().map(|contender| contender.label.as_str()).collect();
-    for (what, wanted, known) in [("problem group", problems, groups), ("contender", contenders, labels)] {
-        if let Some(name) = wanted.iter().find(|name| !known.contains(&name.as_str())) {
-            let message =
-                format!("study `{}` has no {what} `{name}`; it has {}", study.name, known.join(", "));
-            return Err(settings.error(message));
-        }
-    }
-    Ok(())
+    super::check_labels(settings, study, contenders, problems)
 }
 
 /// The point of the sweeps that people write as `text`.
 pub(super) fn sweep(settings: &Settings, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
     study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
         let known: Vec<String> = study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
-        settings.error(format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", ")))
+        let message = format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
+        settings.error_about("", &["sweep"], text, message)
     })
 }
 
-/// The printed number of the claim `id`.
-pub(super) fn printed(settings: &Settings, paper: &Paper, id: &str) -> Result<f64, SettingsError> {
+/// The printed number of the claim `id`, which the settings name at `key`.
+pub(super) fn printed(settings: &Settings, paper: &Paper, key: &str, id: &str) -> Result<f64, SettingsError> {
     let number = paper.claim(id).and_then(|claim| claim.printed.as_ref()?.parse().ok());
-    number.ok_or_else(|| settings.error(format!("there is no claim `{id}` with a printed number")))
+    number.ok_or_else(|| settings.error_at(key, format!("there is no claim `{id}` with a printed number")))
+}
+
+/// The printed numbers of the claims that the settings list under `key`.
+pub(super) fn all_printed<'a>(
+    settings: &Settings,
+    paper: &Paper,
+    key: &str,
+    ids: impl IntoIterator<Item = &'a String>,
+) -> Result<Vec<f64>, SettingsError> {
+    let ids = ids.into_iter().enumerate();
+    ids.map(|(index, id)| printed(settings, paper, &format!("{key}.{index}"), id)).collect()
 }
 
 /// Which series `contender` is drawn as: the paper's own for its label, or the one at its place.

@@ -32,7 +32,7 @@ at_once = 3
             let (poses, names) = (read.poses.len(), read.names.len());
             let message =
                 format!("there are {poses} poses and {names} names; as many of either are accepted");
-            return Err(settings.error(message));
+            return Err(settings.error_at("names", message));
         }
         Ok(Box::new(read))
     },

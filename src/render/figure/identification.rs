@@ -9,12 +9,13 @@ use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, Fill, GREY, Stroke, Width, series_color, series_marker, series_stroke};
 use crate::study::contender::SweepPoint;
 use crate::study::key::{SweepValue, Text};
-use crate::study::name;
+use crate::study::{Study, name};
 use base::seed;
-use base::settings::Accepted;
+use base::settings::{Accepted, Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
+use std::collections::BTreeSet;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -34,7 +35,9 @@ studies = ["identify_full", "identify_front", "identify_branch", "identify_poses
         let read: Read = settings.read()?;
         ask::known(settings, study, &[], std::slice::from_ref(&read.contender))?;
         if let Some(missing) = read.studies.iter().find(|name| paper.study(name).is_none()) {
-            return Err(settings.error(format!("there is no study `{missing}`")));
+            let known = paper.studies.iter().map(|study| study.name.as_str());
+            let message = none_called("study", missing, known);
+            return Err(settings.error_about("", &["studies"], missing, message));
         }
         if read.printed.len() != read.others.len() {
             let message = format!(
@@ -42,22 +45,24 @@ studies = ["identify_full", "identify_front", "identify_branch", "identify_poses
                 read.printed.len(),
                 read.others.len()
             );
-            return Err(settings.error(message));
+            return Err(settings.error_at("printed", message));
         }
-        let printed = read.printed.iter().map(|id| ask::printed(settings, paper, id));
-        let printed = printed.collect::<Result<_, _>>()?;
+        let printed = ask::all_printed(settings, paper, "printed", &read.printed)?;
+        let others = others(settings, study, &read.others)?;
         let mut row = Vec::new();
         if let Some(wanted) = &read.row {
             let sweep = study.sweeps.iter().find(|sweep| sweep.key == wanted.sweep);
             let sweep = sweep.ok_or_else(|| {
-                settings.error(format!("study `{}` does not sweep `{}`", study.name, wanted.sweep))
+                let message = format!("study `{}` does not sweep `{}`", study.name, wanted.sweep);
+                settings.error_at("row.sweep", message)
             })?;
             for value in sweep.key_values().into_iter().flatten() {
-                let claim = ask::printed(settings, paper, &format!("{}{value}", wanted.printed))?;
+                let claim =
+                    ask::printed(settings, paper, "row.printed", &format!("{}{value}", wanted.printed))?;
                 row.push((value, claim));
             }
         }
-        Ok(Box::new(Identification { read, printed, row }))
+        Ok(Box::new(Identification { read, others, printed, row }))
     },
 };
 
@@ -70,7 +75,7 @@ struct Read {
     sweep: String,
     /// What stands along the axis.
     axis: String,
-    /// What the other sweeps are at: one panel each.
+    /// A value of another sweep, as `setting=value`: one panel each.
     others: Vec<String>,
     /// The claim printed for each panel.
     printed: Vec<String>,
@@ -91,9 +96,30 @@ struct RowOf {
 
 struct Identification {
     read: Read,
+    /// What the other sweeps are at, one a panel.
+    others: Vec<Other>,
     printed: Vec<f64>,
     /// The row's cells: the value of its sweep and the printed share.
     row: Vec<(SweepValue, f64)>,
+}
+
+/// A sweep's setting and one of its values.
+type Other = (Text, SweepValue);
+
+/// The sweeps and values that people write as `setting=value`.
+fn others(settings: &Settings, study: &Study, written: &[String]) -> Result<Vec<Other>, SettingsError> {
+    let points = study.sweep_points();
+    let known: BTreeSet<&Other> = points.iter().flat_map(|point| point.key.values()).collect();
+    let find = |(index, text): (usize, &String)| {
+        let found = known.iter().find(|other| name::sweep_value(other) == *text);
+        found.map(|other| (*other).clone()).ok_or_else(|| {
+            let known: Vec<String> = known.iter().map(|other| name::sweep_value(other)).collect();
+            let message =
+                format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
+            settings.error_at(&format!("others.{index}"), message)
+        })
+    };
+    written.iter().enumerate().map(find).collect()
 }
 
 /// The root of the mean square of the differences of a mean curve from the printed cells.
@@ -107,13 +133,12 @@ fn row_distance(draws: &[&Vec<f64>], printed: &[f64]) -> Option<f64> {
 type Point = [f64; 4];
 
 impl Identification {
-    fn curve(&self, run: &Run<'_>, other: &str) -> Vec<Point> {
+    fn curve(&self, run: &Run<'_>, other: &Other) -> Vec<Point> {
         let Some(group) = run.study.groups.first() else { return Vec::new() };
         let mut points = Vec::new();
         for point in run.study.sweep_points() {
-            let is_other = |(key, value): &(Text, SweepValue)| format!("{key}={value}") == other;
             let value = point.key.value(&self.read.sweep).and_then(SweepValue::as_f64);
-            let value = value.filter(|_| point.key.values().iter().any(is_other));
+            let value = value.filter(|_| point.key.value(&other.0) == Some(&other.1));
             let Some(value) = value else { continue };
             let draws = solved_percents(run, &group.label, &self.read.contender, &point.key);
             let seed = seed::derive(0, &["identification", &run.study.name, &name::sweep(&point.key)]);
@@ -174,16 +199,19 @@ impl Identification {
 
 impl Kind for Identification {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let panels = self.read.others.len() + usize::from(!self.row.is_empty());
+        let panels = self.others.len() + usize::from(!self.row.is_empty());
         let mut sheet = Sheet::new(Width::Double, panels, 150.0);
         let runs: Vec<&Run<'_>> =
             self.read.studies.iter().filter_map(|name| scene.evidence.run(name)).collect();
-        for (other, printed) in self.read.others.iter().zip(&self.printed) {
+        for (other, printed) in self.others.iter().zip(&self.printed) {
             let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.curve(run, other)).collect();
             let x = Axis::over(&self.read.axis, curves.iter().flatten().map(|point| point[0]));
             let [low, high] = x.ends();
-            let mut panel =
-                Panel::new(other.replace('=', " = "), x, Axis::linear("groups solved (%)", -3.0, 103.0)?);
+            let mut panel = Panel::new(
+                format!("{} = {}", other.0, other.1),
+                x,
+                Axis::linear("groups solved (%)", -3.0, 103.0)?,
+            );
             let dashed = Stroke::solid(GREY, 0.9).dashed(Dash::Dashed);
             panel.add(Line::through(vec![[low, *printed], [high, *printed]], dashed).labelled("printed"));
             Self::add_curves(&mut panel, &runs, &curves);

@@ -28,8 +28,12 @@ contenders = ["A* 8", "Modified 24", "Modified 48", "Modified 80", "CHS r=2", "C
         ask::known(settings, study, &read.problems, &read.contenders)?;
         let find = |name: &str| {
             metric::find(name).ok_or_else(|| {
-                settings
-                    .error_about(name, none_called("metric", name, metric::METRICS.iter().map(|m| m.name)))
+                settings.error_about(
+                    "",
+                    &["metric", "length"],
+                    name,
+                    none_called("metric", name, metric::METRICS.iter().map(|m| m.name)),
+                )
             })
         };
         let (work, length) = (find(&read.metric)?, find(&read.length)?);

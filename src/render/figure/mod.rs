@@ -153,6 +153,9 @@ pub static REGISTRY: &[&Entry] = &[
     &tradeoff::ENTRY,
 ];
 
+/// How the keys of settings start that name contenders.
+const CONTENDER_KEYS: [&str; 3] = ["contender", "against", "rows"];
+
 /// Refuses contenders and problem groups that `study` does not have.
 fn check_labels<'a>(
     settings: &Settings,
@@ -161,31 +164,32 @@ fn check_labels<'a>(
     problems: impl IntoIterator<Item = &'a String>,
 ) -> Result<(), SettingsError> {
     let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
-    if let Some(label) = contenders.into_iter().find(|label| !known.contains(&label.as_str())) {
+    let mut faults = Faults::default();
+    for label in contenders.into_iter().filter(|label| !known.contains(&label.as_str())) {
         let hint = did_you_mean(label, known.iter().copied());
         let message = format!("no contender is called `{label}`{hint}; they are {}", known.join(", "));
-        return Err(settings.error_about(label, message));
+        faults.add(settings.error_about("", &CONTENDER_KEYS, label, message));
     }
     let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-    if let Some(label) = problems.into_iter().find(|label| !groups.contains(&label.as_str())) {
+    for label in problems.into_iter().filter(|label| !groups.contains(&label.as_str())) {
         let hint = did_you_mean(label, groups.iter().copied());
         let message = format!("no problem group is called `{label}`{hint}; they are {}", groups.join(", "));
-        return Err(settings.error_about(label, message));
+        faults.add(settings.error_about("", &["problem"], label, message));
     }
-    Ok(())
+    faults.done()
 }
 
 /// The claim called `id`, whose checks say what is to be shown.
 fn check_claim(settings: &Settings, paper: &Paper, id: &str, check: &str) -> Result<(), SettingsError> {
     let Some(claim) = paper.claim(id) else {
         let known = paper.claims.iter().map(|claim| claim.id.as_str());
-        return Err(settings.error_about(id, none_called("claim", id, known)));
+        return Err(settings.error_about("", &["claim"], id, none_called("claim", id, known)));
     };
     if claim.checks.contains_key(check) {
         return Ok(());
     }
     let message = format!("claim `{id}` has no check `{check}`, which says what is to be shown");
-    Err(settings.error_about(id, message))
+    Err(settings.error_about("", &["claim"], id, message))
 }
 
 /// The number that the claim called `id` prints.

@@ -33,13 +33,12 @@ savings = ["length.least", "length.greatest"]
         let read: Read = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
         let metric = crate::analysis::metric::find(&read.metric).ok_or_else(|| {
-            settings.error_about(
-                &read.metric,
+            settings.error_at(
+                "metric",
                 none_called("metric", &read.metric, crate::analysis::metric::METRICS.iter().map(|m| m.name)),
             )
         })?;
-        let printed = read.savings.iter().flatten().map(|id| ask::printed(settings, paper, id));
-        let printed = printed.collect::<Result<_, _>>()?;
+        let printed = ask::all_printed(settings, paper, "savings", read.savings.iter().flatten())?;
         let sweep = ask::sweep(settings, study, &read.sweep)?;
         Ok(Box::new(PairedBoxes { read, metric, sweep, printed }))
     },

@@ -24,8 +24,10 @@ views = ["corner"]
     build: |settings, study, _paper| {
         let read: PolyhedraPaths = settings.read()?;
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
-        if read.views.is_empty() || read.contenders.is_empty() {
-            return Err(settings.error("contenders and views name at least one each"));
+        for (key, count) in [("contenders", read.contenders.len()), ("views", read.views.len())] {
+            if count == 0 {
+                return Err(settings.error_at(key, format!("{key} is empty; at least one is accepted")));
+            }
         }
         Ok(Box::new(read))
     },

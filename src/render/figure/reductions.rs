@@ -10,7 +10,7 @@ use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{BLUE, INK, Marker, Stroke, VERMILLION, Width};
-use base::settings::Accepted;
+use base::settings::{Accepted, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Estimate;
@@ -39,15 +39,17 @@ panels = [
         let read: Reductions = settings.read()?;
         let contenders = read.contenders.iter().chain([&read.against]);
         check_labels(settings, study, contenders, read.panels.iter().flat_map(|panel| &panel.problems))?;
-        for panel in &read.panels {
+        for (index, panel) in read.panels.iter().enumerate() {
             if paper.claim(&panel.claim).is_none() {
-                return Err(settings.error(format!("there is no claim `{}`", panel.claim)));
+                let known = paper.claims.iter().map(|claim| claim.id.as_str());
+                let message = none_called("claim", &panel.claim, known);
+                return Err(settings.error_at(&format!("panels.{index}.claim"), message));
             }
             let columns = study.columns();
             if !metric::find(&panel.metric).is_some_and(|metric| columns.contains(metric.column)) {
                 let message =
                     format!("study `{}` does not produce the metric `{}`", study.name, panel.metric);
-                return Err(settings.error(message));
+                return Err(settings.error_at(&format!("panels.{index}.metric"), message));
             }
         }
         Ok(Box::new(read))

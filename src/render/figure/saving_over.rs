@@ -28,13 +28,13 @@ over = "obstacles"
         let read: Settings = settings.read()?;
         super::check_labels(settings, study, [&read.contender, &read.against], &read.problems)?;
         let metric = metric::find(&read.metric).ok_or_else(|| {
-            settings.error_about(
-                &read.metric,
+            settings.error_at(
+                "metric",
                 none_called("metric", &read.metric, metric::METRICS.iter().map(|m| m.name)),
             )
         })?;
         let column = column::find(&read.over)
-            .ok_or_else(|| settings.error(format!("there is no column `{}`", read.over)))?;
+            .ok_or_else(|| settings.error_at("over", format!("there is no column `{}`", read.over)))?;
         Ok(Box::new(SavingOver { settings: read, metric, about: column.about }))
     },
 };

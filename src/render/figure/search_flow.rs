@@ -26,7 +26,9 @@ shares = [0.15, 0.5, 1.0]
         let read: SearchFlow = settings.read()?;
         check_labels(settings, study, [&read.contender], [&read.problem])?;
         if read.shares.is_empty() || read.shares.iter().any(|share| !(0.0..=1.0).contains(share)) {
-            return Err(settings.error("shares of opened cells from 0 to 1 are accepted, one a panel"));
+            return Err(
+                settings.error_at("shares", "shares of opened cells from 0 to 1 are accepted, one a panel")
+            );
         }
         Ok(Box::new(read))
     },

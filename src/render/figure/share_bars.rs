@@ -30,8 +30,7 @@ printed = ["t2.original.800"]
         let read: Read = settings.read()?;
         let named: Vec<String> = read.problems.iter().chain(&read.against).cloned().collect();
         ask::known(settings, study, &named, &[])?;
-        let printed = read.printed.iter().map(|id| ask::printed(settings, paper, id));
-        let printed = printed.collect::<Result<_, _>>()?;
+        let printed = ask::all_printed(settings, paper, "printed", &read.printed)?;
         let sweep = ask::sweep(settings, study, &read.sweep)?;
         Ok(Box::new(ShareBars { contenders: labels(study), printed, read, sweep }))
     },
@@ -42,7 +41,7 @@ printed = ["t2.original.800"]
 struct Read {
     /// The problem groups, by their labels.
     problems: Vec<String>,
-    /// The setting that the study sweeps.
+    /// The point of the sweeps that is shown, as `setting=value,…`; empty without sweeps.
     sweep: String,
     /// Claims whose printed shares are drawn as lines.
     #[serde(default)]

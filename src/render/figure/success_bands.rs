@@ -78,20 +78,22 @@ impl Shown {
         if study.sweeps.len() > 1 {
             let message =
                 format!("study `{}` sweeps more than `{}`, and one sweep is drawn", study.name, read.sweep);
-            return Err(settings.error(message));
+            return Err(settings.error_at("sweep", message));
         }
         let value = |key: &SweepKey| key.value(&read.sweep)?.as_f64();
         let points = study.sweep_points().into_iter().map(|point| point.key);
         let points: Vec<(f64, SweepKey)> = points.filter_map(|key| Some((value(&key)?, key))).collect();
         if points.is_empty() {
             let message = format!("study `{}` does not sweep numbers of `{}`", study.name, read.sweep);
-            return Err(settings.error(message));
+            return Err(settings.error_at("sweep", message));
         }
         let mut rows = Vec::new();
-        for row in read.rows {
+        for (index, row) in read.rows.into_iter().enumerate() {
+            let key = format!("rows.{index}.printed");
             let cells = row.printed.iter().flat_map(|prefix| {
+                let key = &key;
                 points.iter().map(move |(x, _)| {
-                    ask::printed(settings, paper, &format!("{prefix}{x}")).map(|printed| [*x, printed])
+                    ask::printed(settings, paper, key, &format!("{prefix}{x}")).map(|printed| [*x, printed])
                 })
             });
             rows.push(RowOf { printed: cells.collect::<Result<_, _>>()?, contender: row.contender });

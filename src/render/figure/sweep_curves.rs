@@ -27,13 +27,17 @@ label = "Jia's step δ (°)"
         super::check_labels(settings, study, &read.contenders, [&read.problem])?;
         let found = |name: &String| {
             metric::find(name).ok_or_else(|| {
-                settings
-                    .error_about(name, none_called("metric", name, metric::METRICS.iter().map(|m| m.name)))
+                settings.error_about(
+                    "",
+                    &["metric", "length"],
+                    name,
+                    none_called("metric", name, metric::METRICS.iter().map(|m| m.name)),
+                )
             })
         };
         let metrics = read.metrics.iter().map(found).collect::<Result<_, _>>()?;
         if !study.sweeps.iter().any(|sweep| sweep.key == read.along) {
-            return Err(settings.error(format!("the study has no sweep over `{}`", read.along)));
+            return Err(settings.error_at("along", format!("the study has no sweep over `{}`", read.along)));
         }
         Ok(Box::new(SweepCurves { settings: read, metrics }))
     },

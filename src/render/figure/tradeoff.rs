@@ -33,10 +33,10 @@ panels = [
             &read.contenders,
             read.panels.iter().flat_map(|panel| &panel.problems),
         )?;
-        for name in [&read.x, &read.y] {
+        for (key, name) in [("x", &read.x), ("y", &read.y)] {
             if !metric::find(name).is_some_and(|metric| study.columns().contains(metric.column)) {
                 let message = format!("study `{}` does not produce the metric `{name}`", study.name);
-                return Err(settings.error(message));
+                return Err(settings.error_at(key, message));
             }
         }
         Ok(Box::new(read))

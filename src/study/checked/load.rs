@@ -14,6 +14,7 @@ use engine::planner::{self, Build};
 use engine::space::roadmap::Extent;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 use toml::Table;
@@ -55,7 +56,7 @@ impl Study {
             task_settings: optional(
                 document,
                 spec.task_settings.as_ref(),
-                spec.task.as_ref().map_or(0, |task| task.span().start),
+                spec.task.as_ref().map_or(0..0, Spanned::span),
                 "task_settings",
             ),
             searched: spec.searched,
@@ -89,6 +90,9 @@ impl Study {
         if faults.is_empty() {
             self.check_sweeps(faults);
         }
+        if !self.check_defaults(faults) {
+            return Ok(());
+        }
         match self.single_options() {
             Ok(points) => {
                 let mut known = Families::default();
@@ -102,6 +106,23 @@ impl Study {
             }
             Err(error) => keep(faults, Err(error)).map(|_: Option<()>| ()),
         }
+    }
+
+    /// Whether each reading's default is one of its options.
+    fn check_defaults(&self, faults: &mut Faults) -> bool {
+        let mut is_right = true;
+        for (index, reading) in self.readings.iter().enumerate() {
+            let (id, default) = (&reading.id, &reading.default);
+            if !reading.options.contains_key(default) {
+                let known: Vec<&str> = reading.options.keys().map(String::as_str).collect();
+                let hint = did_you_mean(default, known.iter().copied());
+                let message =
+                    format!("reading `{id}` has no option `{default}`{hint}; it has {}", known.join(", "));
+                faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
+                is_right = false;
+            }
+        }
+        is_right
     }
 
     /// Refuses problems whose start or goal is in collision under the default reading.
@@ -156,7 +177,7 @@ impl Study {
                         stage.entry.needs.name(),
                         kind.name()
                     );
-                    faults.add(stage.settings.error(message));
+                    faults.add(self.document.error(stage.named.clone(), message));
                 }
             }
         }
@@ -281,13 +302,14 @@ fn look_up<T>(
     find(name.get_ref()).ok_or_else(|| document.error(name.span(), none_called(what, name.get_ref(), known)))
 }
 
-/// The settings in `table`; without it, empty ones of what is named at byte `at`.
-fn optional(document: &Arc<Document>, table: Option<&Spanned<Table>>, at: usize, whose: &str) -> Settings {
-    let Some(table) = table else {
-        let line = document.text()[..at].matches('\n').count() + 1;
-        return Settings::composed(format!("{}:{line}: {whose}", document.path().display()), Table::new());
-    };
-    Settings::written(document, table)
+/// The settings in `table`; without it, empty ones of what is named `at`.
+fn optional(
+    document: &Arc<Document>,
+    table: Option<&Spanned<Table>>,
+    at: Range<usize>,
+    whose: &str,
+) -> Settings {
+    table.map_or_else(|| Settings::absent(document, at, whose), |table| Settings::written(document, table))
 }
 
 fn sweep(spec: SweepSpec) -> Sweep {
@@ -358,6 +380,6 @@ fn stage(
         document.error(name.span(), message)
     })?;
     let whose = format!("contender `{label}`, {what} `{}`", entry.name);
-    let settings = optional(document, settings, name.span().start, &whose).completed(entry.settings);
-    Ok(StageUse { entry, settings })
+    let settings = optional(document, settings, name.span(), &whose).completed(entry.settings);
+    Ok(StageUse { entry, named: name.span(), settings })
 }

@@ -78,18 +78,17 @@ struct ArmWorkspace {
 
 impl ArmWorkspace {
     fn posed(&self, settings: &Settings) -> Result<Posed, SettingsError> {
-        let refuse = |message: String| settings.error(message);
+        let refuse = |key: &'static str| move |message: String| settings.error_at(key, message);
         if !(self.inner_radius_cm.is_finite() && self.inner_radius_cm >= 0.0) {
-            return Err(refuse(format!(
-                "inner_radius_cm is {}; 0 or more is accepted",
-                self.inner_radius_cm
-            )));
+            let message = format!("inner_radius_cm is {}; 0 or more is accepted", self.inner_radius_cm);
+            return Err(refuse("inner_radius_cm")(message));
         }
         let rules = ArmRules {
             arm: Planar2r::new(self.links_cm[0], self.links_cm[1])
-                .map_err(|e| refuse(format!("links_cm: {e}")))?,
+                .map_err(|e| refuse("links_cm")(format!("links_cm: {e}")))?,
             elbow: self.elbow.into(),
-            lattice: TipLattice::new(self.x_cm, self.y_cm, self.step_cm).map_err(refuse)?,
+            lattice: TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
+                .map_err(|(key, message)| refuse(key)(message))?,
             inner_radius_cm: self.inner_radius_cm,
             touch: self.touching.into(),
             corner_rule: self.corner_rule.into(),
@@ -101,34 +100,38 @@ impl ArmWorkspace {
             }
             (None, None) => Vec::new(),
             (start, _) => {
-                let missing = if start.is_some() { "goal_cm" } else { "start_cm" };
-                return Err(refuse(format!(
-                    "{missing} is missing; start and goal are given together or not at all"
-                )));
+                let (given, missing) =
+                    if start.is_some() { ("start_cm", "goal_cm") } else { ("goal_cm", "start_cm") };
+                let message =
+                    format!("{missing} is missing; start and goal are given together or not at all");
+                return Err(refuse(given)(message));
             }
         };
-        let obstacles = self.obstacles().map_err(refuse)?;
+        let obstacles = self.obstacles().map_err(|(key, message)| settings.error_at(&key, message))?;
         let world = ArmWorld::new(rules, obstacles.clone());
         for query in &queries {
-            for (what, point) in [("start", &query.start), ("goal", &query.goal)] {
-                world.free_cell(what, point).map_err(refuse)?;
+            for (what, key, point) in [("start", "start_cm", &query.start), ("goal", "goal_cm", &query.goal)]
+            {
+                world.free_cell(what, point).map_err(refuse(key))?;
             }
         }
         Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
     }
 
-    fn obstacles(&self) -> Result<Vec<Obstacle>, String> {
+    /// The obstacles, or the key at fault and what is wrong.
+    fn obstacles(&self) -> Result<Vec<Obstacle>, (String, String)> {
         let (count, shapes) = (self.obstacles_cm.len(), &self.obstacle_shapes);
         if shapes.len() != 1 && shapes.len() != count {
-            return Err(format!(
+            let message = format!(
                 "obstacle_shapes names {} shapes for {count} obstacles; one for all or one for each is accepted",
                 shapes.len()
-            ));
+            );
+            return Err(("obstacle_shapes".to_owned(), message));
         }
         let shaped = self.obstacles_cm.iter().enumerate().map(|(index, center)| {
             shapes[index.min(shapes.len() - 1)]
                 .obstacle(*center, self.obstacle_diameter_cm)
-                .map_err(|e| format!("obstacle {}: {e}", index + 1))
+                .map_err(|e| (format!("obstacles_cm.{index}"), format!("obstacle {}: {e}", index + 1)))
         });
         shaped.collect()
     }

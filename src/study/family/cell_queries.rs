@@ -148,8 +148,8 @@ struct SpeedSetting {
 }
 
 impl CellQueries {
-    /// The first number that cannot be.
-    fn fault(&self) -> Option<String> {
+    /// The key of the first number that cannot be, and what is wrong with it.
+    fn fault(&self) -> Option<(&'static str, String)> {
         let speed = self.speed.unwrap_or(SpeedSetting { tool_mm_s: 1.0, acceleration_mm_s2: 1.0 });
         let numbers = [
             ("radius_mm", self.radius_mm),
@@ -162,8 +162,10 @@ impl CellQueries {
         ];
         let wrong = numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
         let wrong =
-            wrong.map(|(key, value)| format!("{key} is {value}; a finite number above 0 is accepted"));
-        wrong.or_else(|| (self.samples == 0).then(|| "samples is 0; at least 1 is accepted".to_owned()))
+            wrong.map(|(key, value)| (key, format!("{key} is {value}; a finite number above 0 is accepted")));
+        wrong.or_else(|| {
+            (self.samples == 0).then(|| ("samples", "samples is 0; at least 1 is accepted".to_owned()))
+        })
     }
 
     fn rules(&self) -> LineRules {
@@ -269,12 +271,14 @@ struct Posed {
 impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
-        if let Some(fault) = read.fault() {
-            return Err(settings.error(fault));
+        if let Some((key, message)) = read.fault() {
+            return Err(settings.error_at(key, message));
         }
-        let locate = |name: &str| inputs.locate(name).map_err(|message| settings.error_about(name, message));
-        let files = [locate(&read.robot)?, locate(&read.scene)?, locate(&read.queries)?];
-        let robot = Robot::load(&files[0]).map_err(|e| settings.error(e.to_string()))?;
+        let locate =
+            |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
+        let files =
+            [locate("robot", &read.robot)?, locate("scene", &read.scene)?, locate("queries", &read.queries)?];
+        let robot = Robot::load(&files[0]).map_err(|e| settings.error_at("robot", e.to_string()))?;
         let robot = match read.tool_mm {
             Some(tool_mm) => robot
                 .with_tool_length(tool_mm * 1e-3)

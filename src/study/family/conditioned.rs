@@ -59,15 +59,17 @@ of = [
         let planner = read.planner(settings)?;
         let queries = families[0].queries().to_vec();
         if queries.len() != 1 || families.iter().any(|family| family.queries() != queries) {
-            return Err(settings.error("`of` has families with different queries, or more than one").into());
+            return Err(settings
+                .error_at("of", "`of` has families with different queries, or more than one")
+                .into());
         }
         let mut files: Vec<PathBuf> = families.iter().flat_map(|family| family.inputs().to_vec()).collect();
         let found = match &read.found {
             None => BTreeMap::new(),
             Some(name) => {
-                let file = inputs.locate(name).map_err(|message| settings.error_about(name, message))?;
-                let found =
-                    found::read(&file, &read.fingerprint()).map_err(|message| settings.error(message))?;
+                let file = inputs.locate(name).map_err(|message| settings.error_at("found", message))?;
+                let found = found::read(&file, &read.fingerprint())
+                    .map_err(|message| settings.error_at("found", message))?;
                 files.push(file);
                 found
             }
@@ -148,28 +150,29 @@ impl Conditioned {
             if column::find(name).is_none() {
                 let known: Vec<&str> = column::COLUMNS.iter().map(|column| column.name).collect();
                 let message = format!("`given` names the column `{name}`; there are {}", known.join(", "));
-                return Err(settings.error(message));
+                return Err(settings.error_at(&format!("given.{name}"), message));
             }
             if low.is_nan() || high.is_nan() || low > high {
                 let message = format!("`given.{name}` is [{low}, {high}]; [least, greatest] is accepted");
-                return Err(settings.error(message));
+                return Err(settings.error_at(&format!("given.{name}"), message));
             }
         }
-        if self.of.is_empty() || self.tries == 0 {
-            return Err(settings.error("at least one family in `of` and one try are needed"));
+        if self.of.is_empty() {
+            return Err(settings.error_at("of", "of is empty; at least one family is accepted"));
+        }
+        if self.tries == 0 {
+            return Err(settings.error_at("tries", "tries is 0; at least 1 is accepted"));
         }
         Ok(())
     }
 
     fn families(&self, settings: &Settings, inputs: &Inputs) -> Result<Vec<Box<dyn Family>>, StudyError> {
-        let build = |of: &Of| {
+        let build = |(index, of): (usize, &Of)| {
             let entry = super::find(&of.family).ok_or_else(|| {
                 let known: Vec<&str> = super::REGISTRY.iter().map(|entry| entry.name).collect();
-                settings.error(format!(
-                    "there is no problem family `{}`; there are {}",
-                    of.family,
-                    known.join(", ")
-                ))
+                let message =
+                    format!("there is no problem family `{}`; there are {}", of.family, known.join(", "));
+                settings.error_at(&format!("of.{index}.family"), message)
             })?;
             let mut table = self.shared.clone();
             table.extend(of.settings.clone());
@@ -180,10 +183,13 @@ impl Conditioned {
             if family.world() == WorldKind::Lattice {
                 Ok(family)
             } else {
-                Err(settings.error(format!("family `{}` poses no problems on a lattice", of.family)).into())
+                Err({
+                    let message = format!("family `{}` poses no problems on a lattice", of.family);
+                    settings.error_at(&format!("of.{index}.family"), message).into()
+                })
             }
         };
-        self.of.iter().map(build).collect()
+        self.of.iter().enumerate().map(build).collect()
     }
 
     fn planner(&self, settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
@@ -193,9 +199,13 @@ impl Conditioned {
         );
         let entry = planner::find(&self.planner).filter(|entry| entry.needs == WorldKind::Lattice);
         match entry.map(|entry| entry.build) {
-            Some(Build::Planner(build)) => build(&table)
-                .map_err(|error| settings.error(format!("planner_settings: {}", error.message()))),
-            _ => Err(settings.error(format!("there is no planner `{}` for a lattice", self.planner))),
+            Some(Build::Planner(build)) => build(&table).map_err(|error| {
+                settings.error_at("planner_settings", format!("planner_settings: {}", error.message()))
+            }),
+            _ => {
+                Err(settings
+                    .error_at("planner", format!("there is no planner `{}` for a lattice", self.planner)))
+            }
         }
     }
 }

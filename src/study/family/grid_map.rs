@@ -28,8 +28,8 @@ corner_rule = "allow"
 "#,
     build: |settings, inputs| {
         let read: GridMap = settings.read()?;
-        let file = inputs.locate(&read.map).map_err(|message| settings.error_about(&read.map, message))?;
-        let grid = read_text_map(&file).map_err(|e| settings.error(e.to_string()))?;
+        let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
+        let grid = read_text_map(&file).map_err(|e| settings.error_at("map", e.to_string()))?;
         lattice::prepare(grid.clone(), read.corner_rule, read.start, read.goal)
             .map_err(|invalid| settings.error(invalid.0))?;
         let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());

@@ -38,13 +38,15 @@ corner_rule = "forbid_any"
 "#,
     build: |settings, inputs| {
         let read: MovingAi = settings.read()?;
-        let file = |name: &str| inputs.locate(name).map_err(|message| settings.error_about(name, message));
-        let files = [file(&read.map)?, file(&read.scenarios)?];
-        let refused = |e: base::grid::GridError| settings.error(e.to_string());
-        let grid = read_movingai_map(&files[0]).map_err(refused)?;
-        let all = read_scenarios(&files[1], &grid).map_err(refused)?;
-        read.check_names(&all).map_err(|message| settings.error(message))?;
-        let scenarios = read.picked(all).map_err(|message| settings.error(message))?;
+        let file =
+            |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
+        let files = [file("map", &read.map)?, file("scenarios", &read.scenarios)?];
+        let refused =
+            |key: &'static str| move |e: base::grid::GridError| settings.error_at(key, e.to_string());
+        let grid = read_movingai_map(&files[0]).map_err(refused("map"))?;
+        let all = read_scenarios(&files[1], &grid).map_err(refused("scenarios"))?;
+        read.check_names(&all).map_err(|message| settings.error_at("scenarios", message))?;
+        let scenarios = read.picked(all).map_err(|message| settings.error_at("scenarios", message))?;
         let point = |cell: u32| grid.xy(cell).map(f64::from).to_vec();
         let query = |s: &Scenario| Query {
             name: format!("line-{}", s.line),

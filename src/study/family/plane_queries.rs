@@ -38,7 +38,7 @@ radius_mm = 220
             );
             return Err(settings.error_at("samples", message).into());
         }
-        let file = inputs.locate(&read.map).map_err(|message| settings.error_about(&read.map, message))?;
+        let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
         let document = Document::open(&file)?;
         let map: MapFile = document.read()?;
         let plane = map.plane(&document)?;

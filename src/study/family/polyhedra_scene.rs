@@ -10,7 +10,7 @@ use base::settings::{Accepted, Settings, SettingsError};
 use engine::geometry::Vec3;
 use engine::kinematics::Robot;
 use engine::planner::Invalid;
-use engine::space::polyhedra::{CarriedArm, DOWN, read_scene};
+use engine::space::polyhedra::{CarriedArm, DOWN, PolyhedraError, read_scene};
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
@@ -84,21 +84,31 @@ struct Posed {
 
 fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
     let read: SceneSettings = settings.read()?;
-    let refuse = |message: String| settings.error(message);
-    let file = inputs.locate(&read.scene).map_err(refuse)?;
+    let refuse = |key: &'static str| move |message: String| settings.error_at(key, message);
+    let file = inputs.locate(&read.scene).map_err(refuse("scene"))?;
     let scene = read_scene(&file)?;
-    let mut world = PolyhedraWorld::new(scene.bodies, scene.domain, read.step_cm, read.growth_cm)
-        .map_err(|e| settings.error(format!("{}: {e}", read.scene)))?;
+    let mut world =
+        PolyhedraWorld::new(scene.bodies, scene.domain, read.step_cm, read.growth_cm).map_err(|e| {
+            let key = match e {
+                PolyhedraError::Step { .. } => "step_cm",
+                PolyhedraError::Growth { .. } => "growth_cm",
+                _ => "scene",
+            };
+            settings.error_at(key, format!("{}: {e}", read.scene))
+        })?;
     let mut files = vec![file];
     match (&read.robot, &read.body) {
         (Some(robot), Some(body)) => {
-            let file = inputs.locate(robot).map_err(refuse)?;
-            let robot = Robot::load(&file).map_err(|e| settings.error(e.to_string()))?;
-            world = world.with_arm(CarriedArm::new(&robot, body).map_err(refuse)?);
+            let file = inputs.locate(robot).map_err(refuse("robot"))?;
+            let robot = Robot::load(&file).map_err(|e| settings.error_at("robot", e.to_string()))?;
+            world = world.with_arm(CarriedArm::new(&robot, body).map_err(refuse("body"))?);
             files.push(file);
         }
         (None, None) => {}
-        _ => return Err(settings.error("robot and body are given together or not at all").into()),
+        (robot, _) => {
+            let given = if robot.is_some() { "robot" } else { "body" };
+            return Err(settings.error_at(given, "robot and body are given together or not at all").into());
+        }
     }
     if let Some(radius) = read.scatter_cm
         && !(radius.is_finite() && radius > 0.0)
@@ -118,14 +128,15 @@ pub(super) fn check(
     queries: &[Query],
 ) -> Result<(), SettingsError> {
     if queries.is_empty() {
-        return Err(settings.error("queries is empty; at least one start and goal is needed"));
+        return Err(settings.error_at("queries", "queries is empty; at least one start and goal is needed"));
     }
-    for query in queries {
+    for (index, query) in queries.iter().enumerate() {
         for (what, end) in [("start", &query.start), ("goal", &query.goal)] {
-            let at = world.free_point(what, end).map_err(|message| settings.error(message))?;
+            let key = format!("queries.{index}.{what}");
+            let at = world.free_point(what, end).map_err(|message| settings.error_at(&key, message))?;
             if !is_reachable(world, &at) {
                 let message = format!("the arm cannot reach the {what} {end:?} with its tool pointing down");
-                return Err(settings.error(message));
+                return Err(settings.error_at(&key, message));
             }
         }
     }

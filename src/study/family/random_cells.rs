@@ -107,7 +107,7 @@ pub(super) fn check_range(
         return Ok(());
     }
     let message = format!("{key} is [{least}, {most}]; [least, most] with 1 ≤ least ≤ most is accepted");
-    Err(settings.error(message))
+    Err(settings.error_at(key, message))
 }
 
 impl<D> Family for Drawn<D>

@@ -85,21 +85,23 @@ impl RandomPolyhedra {
         let [fewest, most] = self.count;
         let [least, greatest] = self.size_cm;
         let fault = if fewest > most {
-            Some(format!("count is [{fewest}, {most}]; the fewest and the most, in this order, are accepted"))
-        } else if !(0.0 < least && least <= greatest && greatest < self.side_cm) {
-            Some(format!(
-                "size_cm is [{least}, {greatest}]; two rising sizes above 0 and below side_cm are accepted"
+            Some((
+                "count",
+                format!("count is [{fewest}, {most}]; the fewest and the most, in this order, are accepted"),
             ))
+        } else if !(0.0 < least && least <= greatest && greatest < self.side_cm) {
+            let message = format!(
+                "size_cm is [{least}, {greatest}]; two rising sizes above 0 and below side_cm are accepted"
+            );
+            Some(("size_cm", message))
         } else if self.shapes.is_empty() {
-            Some(
-                "shapes is empty; at least one of box, prism, octahedron, wedge, pyramid is needed"
-                    .to_owned(),
-            )
+            let message = "shapes is empty; at least one of box, prism, octahedron, wedge, pyramid is needed";
+            Some(("shapes", message.to_owned()))
         } else {
             None
         };
-        if let Some(message) = fault {
-            return Err(settings.error(message));
+        if let Some((key, message)) = fault {
+            return Err(settings.error_at(key, message));
         }
         let empty = self.world(Vec::new()).map_err(|invalid| settings.error(invalid.0))?;
         let queries: Vec<Query> = self.queries.iter().map(QuerySettings::query).collect();

@@ -70,8 +70,8 @@ variants = [
     build: |settings| {
         let read: Identify = settings.read()?;
         let fault = open::fault(&read.cases, &read.variants);
-        if let Some(fault) = fault.or_else(|| open::fault_of_excess(read.excess_steps)) {
-            return Err(settings.error(fault));
+        if let Some((key, message)) = fault.or_else(|| open::fault_of_excess(read.excess_steps)) {
+            return Err(settings.error_at(&key, message));
         }
         Ok(Box::new(read))
     },

@@ -75,8 +75,8 @@ variants = [
             let message = format!("window_cm is {}; above 0 and below 50 is accepted", read.window_cm);
             return Err(settings.error_at("window_cm", message));
         }
-        if let Some(fault) = read.fault() {
-            return Err(settings.error(fault));
+        if let Some((key, message)) = read.fault() {
+            return Err(settings.error_at(&key, message));
         }
         Ok(Box::new(read))
     },
@@ -99,17 +99,22 @@ struct NullRate {
 }
 
 impl NullRate {
-    fn fault(&self) -> Option<String> {
+    /// The key at fault and what is wrong with it, if anything.
+    fn fault(&self) -> Option<(String, String)> {
         if let Some(fault) = endpoints::fault(&self.cases, &self.variants) {
             return Some(fault);
         }
-        if let Some(variant) = self.variants.iter().find(|variant| slug(&variant.label) == slug(ANY)) {
-            return Some(format!("variant `{}` has the name of the row over all variants", variant.label));
+        if let Some(index) = self.variants.iter().position(|variant| slug(&variant.label) == slug(ANY)) {
+            let label = &self.variants[index].label;
+            let message = format!("variant `{label}` has the name of the row over all variants");
+            return Some((format!("variants.{index}.label"), message));
         }
-        let never = self.variants.iter().find(|variant| variant.never_lowered().is_some());
+        let never = self.variants.iter().position(|variant| variant.never_lowered().is_some());
         match (never, self.excess_steps) {
-            (Some(variant), None) => {
-                Some(format!("variant `{}` never lowers open nodes; excess_steps is needed", variant.label))
+            (Some(index), None) => {
+                let label = &self.variants[index].label;
+                let message = format!("variant `{label}` never lowers open nodes; excess_steps is needed");
+                Some((format!("variants.{index}.open_node"), message))
             }
             (_, excess) => excess.and_then(endpoints::fault_of_excess),
         }

@@ -1,4 +1,4 @@
-//! Every contender plans on every problem; the verifier judges what comes back.
+//! Every contender plans on every problem; the verifier checks what comes back.
 
 use super::{Entry, Task};
 use crate::study::family::Query;
@@ -14,7 +14,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "plan",
-    about: "every contender plans on every problem; the verifier judges what comes back",
+    about: "every contender plans on every problem; the verifier checks what comes back",
     revision: 1,
     columns: &[],
     settings: Accepted::of::<NoSettings>(),
@@ -86,13 +86,13 @@ impl Trial<'_> {
             Err(panic) => (row.status, row.reason) = (Status::Crashed, Some(panic_text(panic.as_ref()))),
             Ok(Err(invalid)) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),
             Ok(Ok(mut plan)) => {
-                let judged = verification::judge(&request, &plan, &self.entrant.pipeline, truth);
-                (row.status, row.reason) = judged.outcome;
+                let verified = verification::verify(&request, &plan, &self.entrant.pipeline, truth);
+                (row.status, row.reason) = verified.outcome;
                 row.values
-                    .extend(plan.counts.iter().chain(&judged.values).map(|(name, value)| (*name, *value)));
+                    .extend(plan.counts.iter().chain(&verified.values).map(|(name, value)| (*name, *value)));
                 if trace {
                     batch.keep(&(&row.key).into(), std::mem::take(&mut plan.exhibits));
-                    batch.keep(&(&row.key).into(), judged.exhibits);
+                    batch.keep(&(&row.key).into(), verified.exhibits);
                     batch.keep(&(&row.key).into(), path_exhibit(&plan));
                 }
             }

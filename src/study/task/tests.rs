@@ -109,7 +109,7 @@ repeats = 4
     assert_eq!(shown(&untimed.studies.into_iter().next().unwrap().quick()), (7, None, 0.5));
     for (wrong, part) in [
         (quick.replace("expansions = 7", "expansions = 0"), "a whole number from 1 to"),
-        (quick.replace("excess_steps = 0.5", "variants = []"), "one case and one variant"),
+        (quick.replace("excess_steps = 0.5", "variants = []"), "variants is empty; at least one is accepted"),
         (quick.replace("budget", "budgets"), "budgets"),
     ] {
         let error = with_quick(&wrong).unwrap_err();

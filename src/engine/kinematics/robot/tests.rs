@@ -43,7 +43,11 @@ const REFUSALS: &[(&str, &str, &str)] = &[
     ("length_mm = 150", "length_mm = -1", "tool.length_mm is -1; accepted: 0 (no tool) or more"),
     ("length_mm = 150", "length_mm = inf", "`length_mm` is inf; a finite number is accepted"),
     ("length_mm = 150", "length_mm = 0", "capsule `tool_body` spans a share of the tool"),
-    ("position_mm = [0, 0, 0]", "position_mm = [0, nan, 0]", "base.position_mm is [0.0, NaN, 0.0]"),
+    (
+        "position_mm = [0, 0, 0]",
+        "position_mm = [0, nan, 0]",
+        "`position_mm[1]` is nan; a finite number is accepted",
+    ),
     ("radius_mm = 150", "radius_mm = -150", "the capsule's radius is -0.15; it must be greater than 0"),
     ("link = 0", "link = 7", "capsule `base` is on link 7; accepted: 0 (base) to 6"),
     (

@@ -114,7 +114,7 @@ impl Posture {
         ] {
             if value.is_nan() || value <= above || (value.is_infinite() && name != "bounds_rad") {
                 let least = if above < 0.0 { "0 or more" } else { "more than 0" };
-                return Err(settings.error(format!("{name} is {value}; {least} is accepted")));
+                return Err(settings.error_at(name, format!("{name} is {value}; {least} is accepted")));
             }
         }
         Ok(read)

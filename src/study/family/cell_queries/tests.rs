@@ -185,12 +185,12 @@ fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
             query.name
         );
         for (index, plan) in plans.into_iter().enumerate().filter(|(_, plan)| plan.ending == Ending::Solved) {
-            let judged = case.judge(&request, &plan);
-            assert_eq!(judged.outcome.1, None, "group {}", query.name);
+            let verified = case.verify(&request, &plan);
+            assert_eq!(verified.outcome.1, None, "group {}", query.name);
             solved[index] += 1;
             for (which, mutant) in mutants(&plan).iter().enumerate() {
-                let judged = case.judge(&request, mutant);
-                assert_eq!(judged.outcome.0, crate::study::record::Status::Rejected, "mutant {which}");
+                let verified = case.verify(&request, mutant);
+                assert_eq!(verified.outcome.0, crate::study::record::Status::Rejected, "mutant {which}");
                 refused += 1;
             }
         }
