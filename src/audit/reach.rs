@@ -55,9 +55,8 @@ pub fn is_met(asked: Asked, steps: &mut u64) -> Option<bool> {
         top.next -= 1;
         match left.settled()? {
             Some(true) => return Some(true),
-            Some(false) => {}
             None if seen.insert(left) => open.push(left.opened()?),
-            None => {}
+            Some(false) | None => {}
         }
     }
     Some(false)
