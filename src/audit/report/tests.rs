@@ -192,46 +192,45 @@ fn no_mutated_input_panics_and_every_fault_has_its_line() {
     assert!(read_ones > 500 && faulty > 500, "{read_ones} read and {faulty} faulty");
 }
 
+/// Wrong input, and how what is said of it begins.
+const WRONG: [(&str, Format, &str); 16] = [
+    ("a,b [% of 5]\n1,20\n2\n", Format::Csv, "3: 1 cells, where the header has 2"),
+    ("a,b [% of 5]\nx,\"1,234\"\n", Format::Csv, "2:2: column `b`: `1,234` may have a thousands separator"),
+    ("a;b [% of 5]\nx;12,5\n", Format::Csv, "2:2: column `b`: `12,5` has a decimal comma"),
+    ("a,b [% of 0]\nx,1\n", Format::Csv, "1:2: `% of 0` is no item"),
+    ("a,b [mean, n=-3]\nx,1\n", Format::Csv, "1:2: `n=-3` is no item"),
+    ("a,b [% of runs]\nx,1\n", Format::Csv, "1:2: column `b` names the column `runs`; there are: a, b"),
+    (
+        "a,b [mean, n=m],m\nx,1.5,0\n",
+        Format::Csv,
+        "2:3: column `m` is the n of column `b`, and here it is `0`; a whole number from 1",
+    ),
+    (
+        "a,b [% of m],m\nx,-,-\ny,20,\n",
+        Format::Csv,
+        "3:3: column `m` is the n of column `b`, and here it is missing",
+    ),
+    ("|a|b [% of 5]|\n|-|-|\n|x|1|2|\n", Format::Markdown, "3: 3 cells, where the header has 2"),
+    ("|a|b [speed]|\n|-|-|\n|x|1|\n", Format::Markdown, "1:2: `speed` is no item of an annotation"),
+    ("", Format::Csv, "1: there is no table here"),
+    ("words\n", Format::Markdown, "1: there is no table here"),
+    (
+        "[[relation]]\ncheck = \"magic\"\n",
+        Format::Toml,
+        "1: check `magic` is no relation; accepted: any_angle_turns, clock",
+    ),
+    (
+        "[[relation]]\ncheck = \"grim\"\nvalue = \"1.2\"\nm = 3\n",
+        Format::Toml,
+        "1: check `grim` has no key `m`",
+    ),
+    ("[[sample]]\nname = \"x\"\nmean = 1.2\n", Format::Toml, "1: `1.2` is no text in quotes"),
+    ("x = 1\n", Format::Toml, "1: unknown field `x`"),
+];
+
 #[test]
 fn bad_input_is_told_with_its_line_and_cell() {
-    for (text, format, said) in [
-        ("a,b [% of 5]\n1,20\n2\n", Format::Csv, "3: 1 cells, where the header has 2"),
-        (
-            "a,b [% of 5]\nx,\"1,234\"\n",
-            Format::Csv,
-            "2:2: column `b`: `1,234` may have a thousands separator",
-        ),
-        ("a;b [% of 5]\nx;12,5\n", Format::Csv, "2:2: column `b`: `12,5` has a decimal comma"),
-        ("a,b [% of 0]\nx,1\n", Format::Csv, "1:2: `% of 0` is no item"),
-        ("a,b [mean, n=-3]\nx,1\n", Format::Csv, "1:2: `n=-3` is no item"),
-        ("a,b [% of runs]\nx,1\n", Format::Csv, "1:2: column `b` names the column `runs`; there are: a, b"),
-        (
-            "a,b [mean, n=m],m\nx,1.5,0\n",
-            Format::Csv,
-            "2:3: column `m` is the n of column `b`, and here it is `0`; a whole number from 1",
-        ),
-        (
-            "a,b [% of m],m\nx,-,-\ny,20,\n",
-            Format::Csv,
-            "3:3: column `m` is the n of column `b`, and here it is missing",
-        ),
-        ("|a|b [% of 5]|\n|-|-|\n|x|1|2|\n", Format::Markdown, "3: 3 cells, where the header has 2"),
-        ("|a|b [speed]|\n|-|-|\n|x|1|\n", Format::Markdown, "1:2: `speed` is no item of an annotation"),
-        ("", Format::Csv, "1: there is no table here"),
-        ("words\n", Format::Markdown, "1: there is no table here"),
-        (
-            "[[relation]]\ncheck = \"magic\"\n",
-            Format::Toml,
-            "1: check `magic` is no relation; accepted: any_angle_turns, clock",
-        ),
-        (
-            "[[relation]]\ncheck = \"grim\"\nvalue = \"1.2\"\nm = 3\n",
-            Format::Toml,
-            "1: check `grim` has no key `m`",
-        ),
-        ("[[sample]]\nname = \"x\"\nmean = 1.2\n", Format::Toml, "1: `1.2` is no text in quotes"),
-        ("x = 1\n", Format::Toml, "1: unknown field `x`"),
-    ] {
+    for (text, format, said) in WRONG {
         let faults = read(text, format).unwrap_err();
         assert!(faults[0].to_string().starts_with(said), "{text}\n{said}\n{}", faults[0]);
     }
