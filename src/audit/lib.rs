@@ -4,8 +4,8 @@
 //! printed, under which premises, with a certificate that another program can verify.
 //!
 //! ```
-//! use audit::reader::{Format, read};
-//! use audit::report::{Class, Options, audit};
+//! use replan_audit::reader::{Format, read};
+//! use replan_audit::report::{Class, Options, audit};
 //!
 //! let table = "| planner | success [% of 250] |\n|---|---|\n| A | 33.3 |\n| B | 33.2 |\n";
 //! let input = read(table, Format::Markdown).expect("the table is well formed");
