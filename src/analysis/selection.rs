@@ -155,9 +155,7 @@ impl<'a> Selection<'a> {
         let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
         let mut draws: Vec<Draw<'e>> = Vec::new();
         let reader = self.metric.map(|metric| run.reader(metric));
-        let value = |row: Option<&Row>| {
-            reader.as_ref()?(row.filter(|row| row.status == Status::Solved)?)
-        };
+        let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| row.status == Status::Solved)?);
         for group in &self.groups {
             let bases = self.against.as_ref().map(|against| Cases::of(self.rows(run, group, against)));
             let mut places: BTreeMap<(u32, u32), usize> = BTreeMap::new();
