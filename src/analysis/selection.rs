@@ -74,6 +74,12 @@ impl Case<'_> {
         }
     }
 
+    /// Whether some side did not come to an end: what it would have given is not known.
+    pub fn is_unended(&self) -> bool {
+        let is_cut = |row: &Row| matches!(row.status, Status::BudgetSpent | Status::Crashed);
+        is_cut(self.row) || self.base.is_some_and(is_cut)
+    }
+
     /// Whether both sides are solved, and one was not measured: the clock is read for some trials only.
     fn is_unmeasured(&self) -> bool {
         let solved = |row: &Row| row.status == Status::Solved;
@@ -232,6 +238,11 @@ pub fn solved(draws: &[Draw<'_>]) -> [usize; 2] {
 /// Cases that have no number on some side although they might.
 pub fn censored(draws: &[Draw<'_>]) -> usize {
     draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_censored()).count()
+}
+
+/// Cases that did not come to an end on some side.
+pub fn unended(draws: &[Draw<'_>]) -> usize {
+    draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_unended()).count()
 }
 
 /// Both numbers of every case that has them, the other contender's first, by draw; draws without any are left out.

@@ -16,7 +16,7 @@ use scenario::{Counts, Scenario};
 use std::sync::OnceLock;
 
 /// Papers drawn for a scenario, unless `REPLAN_PAPERS` says otherwise.
-const PAPERS: usize = 400;
+const PAPERS: usize = 250;
 
 fn papers() -> usize {
     std::env::var("REPLAN_PAPERS").map_or(PAPERS, |text| text.parse().unwrap())

@@ -182,18 +182,23 @@ fn rows() -> Vec<Scenario> {
     let cell = |id: &String| format!("[[claim]]\nid = \"{id}\"\nat = \"here\"\nprinted = \"0\"\nuntestable = \"a cell\"\n");
     let text = claim("row_one_draw", &settings) + &cells.iter().map(cell).collect::<String>();
     let scenario = |truth, draws: usize, off: f64, made, bounds| {
+        let is_censored = truth == "censored";
         let world = move |stream: &mut Stream| {
             let mut sample = Sample::default();
             for _ in 0..draws {
                 sample.draw();
-                row(&mut sample, stream, 0.0);
+                row(&mut sample, stream, if is_censored { 0.6 } else { 0.0 });
+            }
+            if is_censored {
+                sample.spend();
             }
             let printed = row(&mut Sample::default().begun(), stream, off);
             let cells = ["c1", "c2", "c3", "c4"].into_iter().zip(printed);
             let printed = cells.map(|(id, solved)| (id, (10 * solved).to_string())).collect();
             World { printed, ..World::new(sample.records(), off == 0.0) }
         };
-        let about = format!("printed is one more row, each cell's chance {off} lower; {draws} maps");
+        let tail = if is_censored { "; ours 0.6 lower, the queries that are not solved without an end" } else { "" };
+        let about = format!("printed is one more row, each cell's chance {off} lower; {draws} maps{tail}");
         Scenario { criterion: "row_one_draw", truth, about, claim: text.clone(), made, world: Box::new(world), bounds }
     };
     let ordinary = Bounds { false_against: Some(0.1), ..Bounds::default() };
@@ -202,7 +207,8 @@ fn rows() -> Vec<Scenario> {
         scenario("true", 40, 0.0, Made::Swept, ordinary),
         scenario("false", 200, 0.6, Made::Swept, right(at_most(0.05))),
         scenario("false by a little", 200, 0.1, Made::Swept, ordinary),
-        scenario("underpowered", 19, 0.6, Made::Swept, never_firm()),
+        scenario("underpowered", 39, 0.6, Made::Swept, never_firm()),
+        scenario("censored", 200, 0.0, Made::Swept, never_firm()),
         scenario("fitted", 200, 0.0, Made::SweptFitted, never_reproduced()),
         scenario("searched", 200, 0.0, Made::SweptSearched, never_reproduced()),
     ]

@@ -182,6 +182,13 @@ impl Sample {
         row.values.extend([(column, Value::Real(value))]);
     }
 
+    /// Lets every trial that was not solved have spent its budget.
+    pub fn spend(&mut self) {
+        for row in self.records.batch.rows.iter_mut().filter(|row| row.status == Status::NoPath) {
+            row.status = Status::BudgetSpent;
+        }
+    }
+
     /// A reading of the clock, for the trial that was put last.
     pub fn clock(&mut self, session: u32, plan_wall_ns: f64) {
         let trial = self.records.batch.rows.last().unwrap().key.clone();
