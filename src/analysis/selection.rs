@@ -251,13 +251,14 @@ pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
     draws.iter().map(of_draw).filter(|pairs| !pairs.is_empty()).collect()
 }
 
-/// The pairs of every draw with its censored cases filled in by the largest difference seen: against the contender where it
-/// alone failed, for it where the other did, and where that is not known once one way and once the other. What is found
-/// every time does not hang on them. Nothing where nothing is censored.
+/// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
+/// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
+/// way and once the other. What is found every time does not hang on them. Nothing where nothing is censored.
 pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
     let seen = || draws.iter().flat_map(|draw| &draw.cases).filter_map(Case::pair);
-    let most = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
     let count = seen().count();
+    let greatest = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
+    let most = greatest * count as f64;
     if censored(draws) == 0 || count == 0 {
         return Vec::new();
     }

@@ -26,7 +26,8 @@ fn papers() -> usize {
 fn outcomes() -> &'static [(Scenario, Counts)] {
     static OUTCOMES: OnceLock<Vec<(Scenario, Counts)>> = OnceLock::new();
     OUTCOMES.get_or_init(|| {
-        let mut all = [universal::scenarios(), numbers::scenarios(), shares::scenarios()].into_iter().flatten();
+        let mut all =
+            [universal::scenarios(), numbers::scenarios(), shares::scenarios()].into_iter().flatten();
         let mut all: Vec<Scenario> = all.by_ref().collect();
         all.sort_by_key(|scenario| scenario.criterion);
         all.into_par_iter().map(|one| (one.run(papers()), one)).map(|(counts, one)| (one, counts)).collect()
@@ -42,9 +43,13 @@ fn no_criterion_errs_more_often_than_theory_allows() {
 #[test]
 fn every_criterion_is_tried_where_its_claim_is_true_and_where_it_is_false() {
     for entry in replan::analysis::criterion::REGISTRY {
-        let truths: Vec<&str> =
-            outcomes().iter().filter(|(one, _)| one.criterion == entry.name).map(|(one, _)| one.truth).collect();
-        for truth in ["true", "false", "false by a little", "underpowered", "fitted", "searched", "censored"] {
+        let truths: Vec<&str> = outcomes()
+            .iter()
+            .filter(|(one, _)| one.criterion == entry.name)
+            .map(|(one, _)| one.truth)
+            .collect();
+        for truth in ["true", "false", "false by a little", "underpowered", "fitted", "searched", "censored"]
+        {
             assert!(truths.contains(&truth), "{} is not tried {truth}: {truths:?}", entry.name);
         }
     }

@@ -132,12 +132,16 @@ impl<'a> OneDraw<'a> {
             }
             own.or((unended > 0).then_some(lost))
         };
-        let turned = [f64::INFINITY, f64::NEG_INFINITY].into_iter().any(|lost| {
+        let interval = |lost: f64| {
             let filled: Vec<f64> = drawn.iter().filter_map(|draw| number(draw, lost)).collect();
-            let known: Vec<f64> = filled.iter().copied().filter(|own| own.is_finite()).collect();
-            let found_then = predictive(&filled, LEVEL).zip(mean(&known));
-            found_then.is_some_and(|(interval, mean)| self.outcome(interval, mean) != found)
-        });
+            predictive(&filled, LEVEL)
+        };
+        let [Some(below), Some(above)] = [f64::NEG_INFINITY, f64::INFINITY].map(interval) else { return 0 };
+        let printed = self.printed.value();
+        // It may be ordinary if it lies between the two, and must be if it lies within both.
+        let may_hold = below.low <= printed && printed <= above.high;
+        let must_hold = below.contains(printed) && above.contains(printed);
+        let turned = if found == Outcome::Holds { !must_hold } else { may_hold };
         let unended = selection::unended(drawn);
         if turned && unended > 0 { unended } else { 0 }
     }
@@ -202,8 +206,9 @@ impl Criterion for OneDraw<'_> {
             )
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more draw", self.title());
-        let apart =
-            |draw: &&Draw<'_>| self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - self.printed.value()).abs());
+        let apart = |draw: &&Draw<'_>| {
+            self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - self.printed.value()).abs())
+        };
         let nearest = drawn.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
         let trial = nearest.and_then(|draw| Some(self.of.run(evidence)?.trial(draw.cases.first()?.row)));
         Found {

@@ -118,7 +118,7 @@ impl Row<'_> {
                 Cells::Statistics(statistics) => statistics.iter().map(|of| of.of(draw)).collect(),
                 Cells::Sweep(points) => {
                     points.iter().map(|point| share(draw, point, unended_solved)).collect()
-                },
+                }
             }
         };
         draws.iter().filter_map(of_draw).collect()
@@ -270,7 +270,10 @@ impl Criterion for RowOneDraw<'_> {
         };
         let unended: usize = drawn.iter().map(|draws| selection::unended(draws)).sum();
         let filled = (unended > 0).then(|| self.placed(&self.cells(&drawn, true))).flatten();
-        let is_turned = filled.is_some_and(|(.., filled)| filled != outcome);
+        // A level that passes the row's on the way could be its.
+        let is_turned = filled.is_some_and(|(_, other, _, filled)| {
+            filled != outcome || (level.difference < 0.0) != (other.difference < 0.0)
+        });
         let (share, n) = (place.as_far as f64 / place.draws as f64, place.draws);
         let ours = Estimate::bare(share, "share of our draws at least as far from the mean row", n);
         let first = drawn.first().and_then(|draws| draws.first()?.cases.first());

@@ -179,11 +179,13 @@ impl<'a> Counted<'a> {
         if !is_asked || self.settings.among.is_some() || selection::unended(draws) == 0 {
             return 0;
         }
-        let turned = [true, false].into_iter().any(|is_hit| {
+        let interval = |is_hit: bool| {
             let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw, Some(is_hit))).collect();
-            let interval = Share::of(&counts, self.plan).and_then(|share| share.interval);
-            interval.is_some_and(|interval| self.outcome(interval) != outcome)
-        });
+            Share::of(&counts, self.plan).and_then(|share| share.interval)
+        };
+        // All that the share may be: anything from the one interval to the other.
+        let widest = interval(false).zip(interval(true)).map(|(none, all)| Interval::new(none.low, all.high));
+        let turned = widest.is_some_and(|widest| self.outcome(widest) != outcome);
         if turned { selection::unended(draws) } else { 0 }
     }
 

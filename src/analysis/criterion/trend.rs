@@ -79,7 +79,8 @@ impl<'a> Trend<'a> {
         };
         let turned = [true, false].into_iter().any(|rising| {
             let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|c| number(c, rising)).collect();
-            let points: Vec<Vec<(f64, f64)>> = draws.iter().map(of_draw).filter(|p: &Vec<_>| !p.is_empty()).collect();
+            let points: Vec<Vec<(f64, f64)>> =
+                draws.iter().map(of_draw).filter(|p: &Vec<_>| !p.is_empty()).collect();
             pooled::slope(&points, self.plan).is_some_and(|found| self.outcome(found.interval) != outcome)
         });
         if turned { selection::unended(draws) } else { 0 }
@@ -122,7 +123,9 @@ impl Criterion for Trend<'_> {
             .map(|draw| draw.cases.iter().filter_map(|case| self.point(case)).collect())
             .filter(|points: &Vec<_>| !points.is_empty())
             .collect();
-        let Some(found) = pooled::slope(&points, self.plan) else { return Found::too_few(points.len(), FEWEST_DRAWS) };
+        let Some(found) = pooled::slope(&points, self.plan) else {
+            return Found::too_few(points.len(), FEWEST_DRAWS);
+        };
         let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();
         let (subject, unit) = match &self.of.against {

@@ -61,7 +61,9 @@ fn spent(stream: &mut Stream, pairs: &[(f64, f64)]) -> Records {
 const PAIRED: &str = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }\n";
 
 fn claim(criterion: &str, settings: &str) -> String {
-    format!("[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.{criterion}]\n{settings}")
+    format!(
+        "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.{criterion}]\n{settings}"
+    )
 }
 
 fn none() -> Bounds {
@@ -83,13 +85,7 @@ pub fn never_reproduced() -> Bounds {
 }
 
 /// A reduction that the paper prints as what its own maps gave: true is 20 %, the margin 10 points, `off` what was added.
-fn printed_reduction(
-    truth: &'static str,
-    draws: usize,
-    made: Made,
-    off: f64,
-    bounds: Bounds,
-) -> Scenario {
+fn printed_reduction(truth: &'static str, draws: usize, made: Made, off: f64, bounds: Bounds) -> Scenario {
     let world = move |stream: &mut Stream| {
         let printed = reduction(&paired(stream, draws, -20.0)) + off;
         let records = recorded(&paired(stream, draws, -20.0));
@@ -97,7 +93,9 @@ fn printed_reduction(
     };
     let about = match off {
         0.0 => format!("a reduction of 20 %, printed from {draws} other maps, margin 10; {draws} maps"),
-        off => format!("a reduction of 20 %, printed {off} more than {draws} other maps give, margin 10; {draws} maps"),
+        off => format!(
+            "a reduction of 20 %, printed {off} more than {draws} other maps give, margin 10; {draws} maps"
+        ),
     };
     let claim = claim("within", &format!("{PAIRED}statistic = \"reduction_percent\"\nmargin = 10.0\n"));
     Scenario { criterion: "within", truth, about, claim, made, world: Box::new(world), bounds }

@@ -4,12 +4,12 @@ use engine::planner::Value;
 use replan::analysis::claims::judge;
 use replan::analysis::class::Verdict;
 use replan::analysis::evidence::{Evidence, default_point};
+use replan::study::Inputs;
 use replan::study::key::{DrawKey, SweepKey, SweepValue, TrialKey};
 use replan::study::manifest::{MadeBy, Manifest};
 use replan::study::paper::Paper;
 use replan::study::record::{Row, Status, Timing};
 use replan::study::store::Records;
-use replan::study::Inputs;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -82,7 +82,9 @@ fn study(made: Made) -> String {
     let is_swept = matches!(made, Made::Swept | Made::SweptFitted | Made::SweptSearched);
     let settings = if is_swept { "" } else { "weight = 1, " };
     let contender = |label: &str| {
-        format!("[[contender]]\nlabel = \"{label}\"\nplanner = \"astar\"\nsettings = {{ {settings}ties = \"fifo\" }}\n")
+        format!(
+            "[[contender]]\nlabel = \"{label}\"\nplanner = \"astar\"\nsettings = {{ {settings}ties = \"fifo\" }}\n"
+        )
     };
     let mut text = format!(
         "paper = \"synthetic\"\nquestion = \"None.\"\nseed = 1\n{head}[budget]\nexpansions = 1_000\n[[problems]]\nlabel = \

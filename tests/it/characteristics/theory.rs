@@ -67,7 +67,9 @@ fn student_above(t: f64, degrees: f64) -> f64 {
 
 #[test]
 fn tails_are_those_of_the_tables() {
-    assert!((student_above(2.228, 10.0) - 0.025).abs() < 1e-4 && (student_above(2.571, 5.0) - 0.025).abs() < 1e-4);
+    assert!(
+        (student_above(2.228, 10.0) - 0.025).abs() < 1e-4 && (student_above(2.571, 5.0) - 0.025).abs() < 1e-4
+    );
     assert!((one_end(100_000) - 0.025).abs() < 1e-4 && (one_end(10) - 0.048).abs() < 1e-3, "{}", one_end(10));
     assert!((taken_for_ordinary(0.0) - 0.95).abs() < 1e-9 && taken_for_ordinary(1.0) < 0.84);
 }

@@ -13,8 +13,12 @@ const MANY: usize = 100;
 const FEW: usize = 5;
 
 /// The shares of trials that contradict a claim: none, many, few.
-const KINDS: [(&str, usize, f64); 4] =
-    [("true", MANY, 0.0), ("false", MANY, 0.3), ("false by a little", MANY, 0.01), ("underpowered", FEW, 0.3)];
+const KINDS: [(&str, usize, f64); 4] = [
+    ("true", MANY, 0.0),
+    ("false", MANY, 0.3),
+    ("false by a little", MANY, 0.01),
+    ("underpowered", FEW, 0.3),
+];
 
 pub fn scenarios() -> Vec<Scenario> {
     let every = [EQUALS, ON_EVERY].into_iter().flat_map(of_every);
@@ -44,7 +48,9 @@ const ON_EVERY: Every = Every {
 };
 
 fn claim(criterion: &str, settings: &str) -> String {
-    format!("[[claim]]\nid = \"{ASKED}\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.{criterion}]\n{settings}")
+    format!(
+        "[[claim]]\nid = \"{ASKED}\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.{criterion}]\n{settings}"
+    )
 }
 
 /// `draws` maps, on a share `wrong` of which A costs more than the optimum, which B finds; where the budget is spent, it
@@ -57,7 +63,8 @@ fn drawn(stream: &mut Stream, draws: usize, wrong: f64, is_spent: bool) -> Sampl
         let own = optimal * if is_wrong { 1.1 } else { 1.0 };
         sample.draw();
         let is_spent = is_spent && (is_wrong || index == 0);
-        for (label, end) in [("A", if is_spent { End::Spent } else { End::At(own) }), ("B", End::At(optimal))] {
+        for (label, end) in [("A", if is_spent { End::Spent } else { End::At(own) }), ("B", End::At(optimal))]
+        {
             sample.trial(label, end);
             sample.with("optimal_cost_cells", optimal);
         }
@@ -116,7 +123,10 @@ fn exists() -> Vec<Scenario> {
         Scenario { criterion: "exists", truth, about, claim, made, world, bounds }
     };
     let never = Bounds { false_for: Some(0.0), false_against: Some(0.0), ..never_reproduced() };
-    let missed = |draws: usize, share: f64| Bounds { right: Some(1.0 - libm::pow(1.0 - share, draws as f64)), ..never };
+    let missed = |draws: usize, share: f64| Bounds {
+        right: Some(1.0 - libm::pow(1.0 - share, draws as f64)),
+        ..never
+    };
     vec![
         scenario("true", MANY, 0.1, Made::Plainly, missed(MANY, 0.1)),
         scenario("false", MANY, 0.0, Made::Plainly, never),
@@ -130,7 +140,8 @@ fn exists() -> Vec<Scenario> {
 
 /// One cost on every map; what is printed has one decimal.
 fn prints_as() -> Vec<Scenario> {
-    let settings = "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\n";
+    let settings =
+        "of = { study = \"drawn\", problems = \"map\", contender = \"A\", metric = \"path_cost_cells\" }\n";
     let scenario = |truth, off: f64, made, bounds| {
         let is_spent = truth == "censored";
         let world = move |stream: &mut Stream| {
@@ -148,7 +159,8 @@ fn prints_as() -> Vec<Scenario> {
         let claim = claim("prints_as", settings).replacen("printed", "digits = \"rounded\"\nprinted", 1);
         Scenario { criterion: "prints_as", truth, about, claim, made, world: Box::new(world), bounds }
     };
-    let exact = Bounds { false_for: Some(0.0), false_against: Some(0.0), right: Some(1.0), ..Bounds::default() };
+    let exact =
+        Bounds { false_for: Some(0.0), false_against: Some(0.0), right: Some(1.0), ..Bounds::default() };
     vec![
         scenario("true", 0.0, Made::Plainly, exact),
         scenario("false", 10.0, Made::Plainly, exact),
