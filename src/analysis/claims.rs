@@ -195,6 +195,7 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         existential: found.existential,
         powerless: found.powerless,
         censored: found.censored > 0,
+        few: found.needs.is_some(),
         clock: of.is_clock().then(|| sessions(of, evidence)),
         without_premises: found.without_premises,
     };

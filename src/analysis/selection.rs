@@ -73,6 +73,12 @@ impl Case<'_> {
         }
     }
 
+    /// Whether some side did not come to an end: what it would have given is not known.
+    pub fn is_unended(&self) -> bool {
+        let is_cut = |row: &Row| matches!(row.status, Status::BudgetSpent | Status::Crashed);
+        is_cut(self.row) || self.base.is_some_and(is_cut)
+    }
+
     /// Whether both sides are solved, and one was not measured: the clock is read for some trials only.
     fn is_unmeasured(&self) -> bool {
         let solved = |row: &Row| row.status == Status::Solved;
@@ -225,19 +231,25 @@ pub fn censored(draws: &[Draw<'_>]) -> usize {
     draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_censored()).count()
 }
 
+/// Cases that did not come to an end on some side.
+pub fn unended(draws: &[Draw<'_>]) -> usize {
+    draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_unended()).count()
+}
+
 /// Both numbers of every case that has them, the other contender's first, by draw; draws without any are left out.
 pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
     let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(Case::pair).collect::<Vec<_>>();
     draws.iter().map(of_draw).filter(|pairs| !pairs.is_empty()).collect()
 }
 
-/// The pairs of every draw with its censored cases filled in by the largest difference seen: against the contender where it
-/// alone failed, for it where the other did, and where that is not known once one way and once the other. What is found
-/// every time does not hang on them. Nothing where nothing is censored.
+/// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
+/// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
+/// way and once the other. What is found every time does not hang on them. Nothing where nothing is censored.
 pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
     let seen = || draws.iter().flat_map(|draw| &draw.cases).filter_map(Case::pair);
-    let most = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
     let count = seen().count();
+    let greatest = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
+    let most = greatest * count as f64;
     if censored(draws) == 0 || count == 0 {
         return Vec::new();
     }
