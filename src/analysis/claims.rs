@@ -1,8 +1,10 @@
 //! Judges every claim of a paper, and which claims hold together.
 
 use super::class::{self, Caps, Sessions, Verdict};
-use super::criterion::{self, Context, Criterion, Found};
+use super::context::Context;
+use super::criterion::{self, Criterion};
 use super::evidence::{Evidence, default_point};
+use super::found::Found;
 use super::rule;
 use super::settle::settles;
 use super::together::{Explored, together};

@@ -62,7 +62,9 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
     let bench = Bench::new();
     for (what, name, part) in [
         ("planners", "astar", "ties: \"fifo\", \"lifo\" or \"larger_g\"; \"fifo\" if left out"),
-        ("checks", "table_cell", "sweep = \"samples=100\""),
+        ("criteria", "one_draw", "sweep = \"samples=100\""),
+        ("checks", "one_draw", "sweep = \"samples=100\""),
+        ("rules", "straight_line", "start = [22.0, 15.0]"),
         ("families", "random_cells", "blocked_share: a number (a share of 1); required"),
         ("tasks", "plan", "It has no settings."),
         ("prepared", "lattice", "free_cells"),
@@ -73,7 +75,7 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
         let before_example = said.split("Example").next().unwrap();
         assert!(before_example.lines().all(|line| line.chars().count() <= 80), "{said}");
     }
-    assert!(bench.done(&["list", "checks"]).lines().all(|line| line.chars().count() <= 80));
+    assert!(bench.done(&["list", "criteria"]).lines().all(|line| line.chars().count() <= 80));
     let said = bench.run(&["list", "planners", "astr"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
     assert!(said.err.contains("there is no planner `astr` (did you mean `astar`?)"), "{}", said.err);

@@ -194,9 +194,9 @@ pub const WRONG: &[Wrong] = &[
     wrong("room.map", "#", "x", "room.map.txt: line 3, column 4: found `x`; a cell is one of"),
     wrong(
         "paper",
-        "claim.check.attained",
-        "claim.check.obtained",
-        "claim `cost` asks for the check `obtained`, which does not exist (did you mean `attained`?); the checks are ",
+        "claim.check.exists",
+        "claim.check.exist",
+        "claim `cost`: there is no criterion `exist` (did you mean `exists`?); there are equals, exists, ",
     ),
     wrong(
         "paper",
@@ -218,8 +218,8 @@ pub const WRONG: &[Wrong] = &[
     ),
     wrong(
         "paper",
-        "lower = \"Two-sided\"",
-        "lower = \"Two\"",
+        "contender = \"Two-sided\"",
+        "contender = \"Two\"",
         "mini/paper.toml:38:9: study `draws` has no contender `Two` (did you mean `Two-sided`?); it has A*, Two-sided",
     ),
     wrong(

@@ -1,9 +1,12 @@
 //! Whether something holds on every case, or in every draw: one counterexample ends it.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::{Evidence, Run};
-use crate::analysis::selection::{self, Case, Draw, Selection, SelectionSpec, solved};
+use crate::analysis::found::Found;
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{self, plan};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
@@ -163,6 +166,18 @@ impl<'a> OnEvery<'a> {
     }
 }
 
+impl OnEvery<'_> {
+    /// The share of cases that speak for it.
+    fn share(&self, said: &[Vec<(Says, &Row)>]) -> Option<Estimate> {
+        let kept = |draw: &Vec<(Says, &Row)>| draw.iter().filter(|(says, _)| *says == Says::For).count();
+        let counts = said.iter().map(|draw| [kept(draw) as f64, draw.len() as f64]);
+        let counts: Vec<[f64; 2]> = counts.filter(|count| count[1] > 0.0).collect();
+        let (share, interval, how) = statistic::share(&counts, self.plan)?;
+        let what = format!("share of cases on which {}, {how}", self.claim());
+        Some(Estimate::new(share, interval, what, counts.len()))
+    }
+}
+
 impl Criterion for OnEvery<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let Some(run) = self.of.run(evidence) else { return Found::default() };
@@ -202,7 +217,7 @@ impl Criterion for OnEvery<'_> {
         let left = (undone > 0).then(|| format!("{undone} more cases have no number to compare"));
         Found {
             outcome: Some(outcome),
-            ours,
+            ours: self.share(&said).map(|ours| ours.of_cases(solved(&draws))),
             trial: shown.map(|(_, row)| run.trial(row)),
             because: std::iter::once(because).chain(left).collect(),
             units: "cases",

@@ -1,9 +1,12 @@
 //! A share with its interval: of trials solved or with a mark, of events, of draws on which something holds throughout.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::selection::{Case, Draw, Selection, SelectionSpec, solved};
+use crate::analysis::found::Found;
+use crate::analysis::selection::{Case, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{self, plan};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;

@@ -2,8 +2,8 @@
 
 use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use audit::bounds::{shortfall, straight_line, straight_line_between};
 use audit::neighbourhood;
 use audit::printed::{Digits, Printed};
