@@ -33,7 +33,7 @@ def of_finding(
     censored: bool = False,
     clock: bool = False,
 ) -> str:
-    """The class of what a criterion found; `clock`: it rests on a clock whose sessions are few or disagree."""
+    """The class of what a criterion found; `clock`: it rests on a clock with few or contrary sessions."""
     if censored or clock:
         return "undecided"
     plain = {HOLDS: "reproduced", SIGN: "direction_only", OPEN: "undecided", FAILS: "not_reproduced"}[outcome]
@@ -51,7 +51,7 @@ def combined(classes: Iterable[str], untestable: bool) -> str:
 
 
 def all_of(parts: list[str]) -> str:
-    """The class of a sentence that says all of its parts: against before open before for; of equals the weakest."""
+    """The class of a sentence that says all of its parts: against before open before for."""
     return _extreme(parts, min(map(SPEAKS.__getitem__, parts), default=0), max)
 
 

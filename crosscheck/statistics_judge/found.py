@@ -33,9 +33,15 @@ class Found:
     censored: frozenset[bool] = field(default_factory=lambda: frozenset([False]))
 
 
-def certain(outcome: str | None, estimate: Estimate | None = None, **rest: Any) -> Found:
+def certain(
+    outcome: str | None,
+    estimate: Estimate | None = None,
+    *,
+    existential: bool = False,
+    powerless: bool = False,
+) -> Found:
     """What nothing random moves."""
-    return Found(outcome, frozenset([outcome]), estimate, **rest)
+    return Found(outcome, frozenset([outcome]), estimate, existential, powerless)
 
 
 def too_few() -> Found:
@@ -59,6 +65,6 @@ class Asked:
     session: int
     seed: str
 
-    def cases(self, **other: Any) -> Cases:
+    def cases(self, **other: str) -> Cases:
         """The cases that it looks at."""
         return select(self.paper, {**self.settings["of"], **other}, self.session)

@@ -1,9 +1,9 @@
 """Intervals: exact ones, and bootstrap ones with what Monte-Carlo error allows another bootstrap to give.
 
-The ends of a percentile interval from B resamples are quantiles of B random numbers: order statistics, whose place
-in the distribution of resamples follows a beta distribution. Our own bootstrap of that distribution says, to its
-own binomial error, between which numbers such an end lies with all but a millionth of probability. No normal
-approximation and no share of the interval's width is assumed.
+The ends of a percentile interval from B resamples are quantiles of B random numbers: order statistics, whose
+place in the distribution of resamples follows a beta distribution. Our own bootstrap says, to its own
+binomial error, between which numbers such an end lies but for a probability of a millionth. No normal
+approximation is made, and no share of the interval's width assumed.
 """
 
 from collections.abc import Callable
@@ -63,7 +63,7 @@ def clopper_pearson(hits: int, trials: int) -> Interval:
 
 
 def predictive(draws: Reals) -> Interval | None:
-    """Order statistics between which one more draw lies; none where even the extremes do not reach the level."""
+    """Order statistics between which one more draw lies; none where the extremes do not reach the level."""
     outside = 0
     while 2 * (outside + 1) / (len(draws) + 1) <= 1 - LEVEL + 1e-12:
         outside += 1
@@ -124,7 +124,7 @@ def type7(ordered: Reals, share: float) -> float:
 
 def sums_by_unit(unit: Places, units: int, *numbers: Reals) -> list[Reals]:
     """The sum of numbers over the cases of each unit."""
-    return [np.bincount(unit, weights=of, minlength=units) for of in numbers]
+    return [np.bincount(unit, weights=of, minlength=units).astype(np.float64) for of in numbers]
 
 
 def ratio_of_sums(above: Reals, below: Reals) -> Callable[[Weights], Reals]:
@@ -196,7 +196,10 @@ def band(curves: Reals, seed: str) -> list[Interval]:
     found = []
     for middle, error in zip(mean, errors, strict=True):
         half = End(
-            multiplier.at * error, multiplier.least * error * (1 - apart), multiplier.most * error * (1 + apart)
+            multiplier.at * error,
+            multiplier.least * error * (1 - apart),
+            multiplier.most * error * (1 + apart),
         )
-        found.append((half.mapped(lambda h, m=middle: m - h), half.mapped(lambda h, m=middle: m + h)))
+        low = End(middle - half.at, middle - half.most, middle - half.least)
+        found.append((low, End(middle + half.at, middle + half.least, middle + half.most)))
     return found

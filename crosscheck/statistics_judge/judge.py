@@ -150,15 +150,15 @@ def compare(paper: Paper, claims: list[Claim]) -> Said:
         said.differ.append(f"{paper.id}: verdicts.toml has other claims than paper.toml, or in another order")
         return said
     known = [compare_findings(paper.id, claim, stored[claim.id], said) for claim in claims]
-    alone = {
-        claim.id: each(
-            lambda found, claim=claim: classes.combined(filter(None, found), claim.untestable), possible
-        )
-        for claim, possible in zip(claims, known, strict=True)
-    }
+    alone = {claim.id: whole(claim, possible) for claim, possible in zip(claims, known, strict=True)}
     for claim, possible in zip(claims, known, strict=True):
         compare_claim(paper.id, claim, stored[claim.id], (possible, alone), said)
     return said
+
+
+def whole(claim: Claim, possible: list[Classes]) -> Classes:
+    """The classes that a claim may have, from those of its findings."""
+    return each(lambda found: classes.combined(filter(None, found), claim.untestable), possible)
 
 
 def each(of: Callable[[list], str], possible: Iterable[Classes]) -> Classes:
@@ -203,8 +203,7 @@ def compare_claim(
         finding = stored["finding"][-1] if stored.get("finding") else {}
         compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("verdict"), of_parts, said)
         possible = [*possible, of_parts]
-    whole = each(lambda found: classes.combined(filter(None, found), claim.untestable), possible)
-    compare_class(f"{paper}: `{claim.id}`", stored["verdict"], whole, said)
+    compare_class(f"{paper}: `{claim.id}`", stored["verdict"], whole(claim, possible), said)
 
 
 def compare_class(where: str, stored: str | None, possible: Classes, said: Said) -> None:
@@ -222,7 +221,8 @@ def differences(own: Estimate | None, stored: dict[str, Any] | None, said: Said)
     """What differs between our number and the stored one."""
     if own is None or stored is None:
         if (own is None) != (stored is None):
-            yield f"verdicts.toml has {'no' if stored is None else 'a'} number; recomputed there is {'one' if own else 'none'}"
+            has, finds = ("no", "one") if stored is None else ("a", "none")
+            yield f"verdicts.toml has {has} number; recomputed there is {finds}"
         return
     if abs(own.value - stored["value"]) <= 1e-9 * max(abs(own.value), 1.0) or own.value == stored["value"]:
         said.estimates += 1
@@ -240,13 +240,15 @@ def interval_differences(own: Estimate, stored: list[float] | None, said: Said) 
     """What differs between our interval and the stored one."""
     if own.interval is None or stored is None:
         if (own.interval is None) != (stored is None):
-            yield f"its interval is {stored}; recomputed it is {own.interval and [end.at for end in own.interval]}"
+            ends = own.interval and [end.at for end in own.interval]
+            yield f"its interval is {stored}; recomputed it is {ends}"
         return
     if all(end.allows(number) for end, number in zip(own.interval, stored, strict=True)):
         said.intervals += 1
         return
     low, high = own.interval
     yield (
-        f"its interval is [{stored[0]!r}, {stored[1]!r}]; recomputed it is [{low.at!r}, {high.at!r}], and chance allows "
-        f"a low end in [{low.least!r}, {low.most!r}] and a high end in [{high.least!r}, {high.most!r}]"
+        f"its interval is [{stored[0]!r}, {stored[1]!r}]; recomputed it is [{low.at!r}, {high.at!r}], "
+        f"and chance allows a low end in [{low.least!r}, {low.most!r}] "
+        f"and a high end in [{high.least!r}, {high.most!r}]"
     )

@@ -1,6 +1,7 @@
 """Criteria that look for the least and for one that meets: exists and least_of."""
 
 import itertools
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,9 @@ from statistics_judge.records import Places, Reals
 from statistics_judge.selection import groups_of, labels, matched, posed
 from statistics_judge.sizes import printed
 
+# What leaves out some of a contender's trials.
+NARROWED = ("query", "sweep")
+
 
 def least_of(asked: Asked) -> Found:
     """Some contenders' medians over seeds, failures infinite, are below those of others on every problem."""
@@ -22,17 +26,17 @@ def least_of(asked: Asked) -> Found:
     compared = []
     for group in groups:
         for one, other in pairs:
-            sides = side(asked, group, one), side(asked, group, other)
-            if None not in sides:
-                compared.append(ratio(*sides))
+            low, high = side(asked, group, one), side(asked, group, other)
+            if low is not None and high is not None:
+                compared.append(ratio(low, high))
     estimate = None
     if compared:
         # Of equally large ones the last.
         worst = max(reversed(compared), key=lambda found: found.value)
         interval = worst.interval
         assert interval is not None
-        low, high = (end.mapped(lambda r: 100 * r) for end in interval)
-        known = None if np.isinf(low.least) or np.isinf(high.at) else (low, high)
+        from_, to = (end.mapped(lambda r: 100 * r) for end in interval)
+        known = None if np.isinf([from_.at, to.at]).any() else (from_, to)
         estimate = Estimate(100 * worst.value, worst.n, known)
     if len(compared) < len(pairs) * len(groups):
         return certain(OPEN, estimate)
@@ -50,15 +54,24 @@ def least_of(asked: Asked) -> Found:
     return Found(outcome(whole[0].at, whole[1].at), outcomes(outcome, whole), estimate)
 
 
-def greatest(ends: Any) -> End:
+def greatest(ends: Iterable[End]) -> End:
     """The greatest of several ends."""
     listed = list(ends)
     return End(*(max(getattr(end, of) for end in listed) for of in ("at", "least", "most")))
 
 
 def side(asked: Asked, group: str, contender: str) -> Estimate | None:
-    """The median of one contender on one problem; its interval over seeds, or over readings of the clock."""
+    """The median of one contender on one problem, computed once for all claims that compare it."""
     of = asked.settings["of"]
+    known = asked.paper.studies[of["study"]].known
+    key = (group, contender, asked.paper.metric(of["metric"]).name, asked.session, *map(of.get, NARROWED))
+    if key not in known:
+        known[key] = measured_side(asked, group, contender, of)
+    return known[key]
+
+
+def measured_side(asked: Asked, group: str, contender: str, of: dict[str, Any]) -> Estimate | None:
+    """The median over seeds, failures infinite; its interval over seeds, or over readings of the clock."""
     study, metric = asked.paper.studies[of["study"]], asked.paper.metric(of["metric"])
     rows = posed(study, group, contender, of)
     values = study.values(metric, asked.session)[rows]
@@ -70,7 +83,6 @@ def side(asked: Asked, group: str, contender: str) -> Estimate | None:
     units = values
     if metric.clock and len(values) == 1:
         units = np.array(study.repeats(int(rows[0]), metric, asked.session))
-    # One stream a side, whoever it is compared with.
     seed = f"{study.name} {group} {contender} {metric.name}"
     interval = bootstrap(median(np.arange(len(units)), units), len(units), seed, STORED_OF_MEDIANS)
     own = End.exact(float(values[0]))
@@ -111,8 +123,8 @@ def exists(asked: Asked) -> Found:
     for name in asked.settings.get("given", []):
         claim = asked.paper.claim(name)
         other, meets = seen(asked, claim["check"]["exists"]), printed(asked.paper, claim)
-        met = {problem for value, problem in zip(other[0], other[1], strict=True) if meets.agrees(value)}
-        eligible &= np.array([problem in met for problem in problems], dtype=bool)
+        there = {problem for value, problem in zip(other[0], other[1], strict=True) if meets.agrees(value)}
+        eligible &= np.array([problem in there for problem in problems], dtype=bool)
     values = values[eligible]
     met = [value for value in values if cell.agrees(value)]
     outcome = HOLDS if met else OPEN
@@ -123,7 +135,7 @@ def exists(asked: Asked) -> Found:
 
 
 def seen(asked: Asked, settings: dict[str, Any]) -> tuple[Reals, list[tuple], np.ndarray]:
-    """Every number that a claim is looked for among, the problem that it is on, and whether that was searched for."""
+    """Every number that a claim is looked for among, its problem, and whether that was searched for."""
     metric, against = asked.paper.metric(settings["metric"]), settings.get("against")
     values: list[Reals] = []
     problems: list[tuple] = []

@@ -14,7 +14,7 @@ class Printed:
     @property
     def number(self) -> Decimal:
         """The number that the digits say."""
-        return Decimal(self.text.replace("−", "-"))
+        return Decimal(self.text.replace("\N{MINUS SIGN}", "-"))
 
     @property
     def value(self) -> float:
@@ -36,7 +36,9 @@ class Printed:
             cut = ((number - unit, False), (number + unit, False))
         if self.digits == "truncated":
             return cut
-        return min(rounded[0], cut[0], key=lambda end: end[0]), max(rounded[1], cut[1], key=lambda end: end[0])
+        return min(rounded[0], cut[0], key=lambda end: end[0]), max(
+            rounded[1], cut[1], key=lambda end: end[0]
+        )
 
     def agrees(self, value: float) -> bool:
         """Whether a number prints so; within a billionth of half the last place of an end it is that end."""

@@ -71,6 +71,10 @@ class Study:
         """Remember where it is; nothing is read before it is asked for."""
         self.name, self.spec, self.runs = path.stem, spec, runs
         self.choices: dict[str, str] = {}
+        self._columns: dict[str, Reals] = {}
+        self._clocked: dict[int, Reals] = {}
+        # What many claims ask of one contender on one problem, and who asks.
+        self.known: dict[tuple, Any] = {}
 
     @property
     def readings(self) -> list[dict[str, Any]]:
@@ -106,7 +110,10 @@ class Study:
             return np.zeros(self.count, dtype=np.int64), [""]
         columns = [self.trials.sweep(f"sweep_{key}") for key in keys]
         return coded(
-            [",".join(f"{k}={v}" for k, v in zip(keys, row, strict=True)) for row in zip(*columns, strict=True)]
+            [
+                ",".join(f"{k}={v}" for k, v in zip(keys, row, strict=True))
+                for row in zip(*columns, strict=True)
+            ]
         )
 
     @property
@@ -126,7 +133,7 @@ class Study:
 
     @cached_property
     def case(self) -> Places:
-        """One number for what trials of several contenders share: draw, query, point of the sweeps and seed."""
+        """One number for what trials of contenders share: draw, query, point of the sweeps and seed."""
         query, sweep = self.query[0], self.sweep[0]
         case = self.draw
         for part in (query, sweep, self.repeat):
@@ -173,20 +180,18 @@ class Study:
             self._columns[name] = self.trials.numbers(name) if known else np.full(self.count, np.nan)
         return self._columns[name]
 
-    @cached_property
-    def _columns(self) -> dict[str, Reals]:
-        return {}
-
     def values(self, metric: Metric, session: int) -> Reals:
         """A metric of every trial; NaN where it was not measured."""
         if metric.status:
-            return np.isin(self.status, ["solved", "rejected"]) * metric.scale
+            return np.isin(self.status, ["solved", "rejected"]).astype(np.float64) * metric.scale
         if not metric.clock:
             return self.column(metric.column) * metric.scale
-        times = self.clock.get(session, {})
-        return np.array(
-            [np.median(times[key]) * metric.scale if key in times else np.nan for key in self._keys]
-        )
+        known = self._clocked.get(session)
+        if known is None:
+            times = self.clock.get(session, {})
+            medians = [float(np.median(times[key])) if key in times else np.nan for key in self._keys]
+            self._clocked[session] = known = np.array(medians, dtype=np.float64)
+        return known * metric.scale
 
     def repeats(self, row: int, metric: Metric, session: int) -> list[float]:
         """Every clock reading of a trial."""

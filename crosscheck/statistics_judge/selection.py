@@ -32,7 +32,9 @@ class Cases:
         names, self.unit = np.unique(self.unit, return_inverse=True)
         self.units = len(names)
         self.values = self.solved_values(self.own)
-        self.bases = self.solved_values(self.base) if self.base is not None else np.full(len(self.own), np.nan)
+        self.bases = (
+            self.solved_values(self.base) if self.base is not None else np.full(len(self.own), np.nan)
+        )
 
     def raw(self, metric: Metric) -> Reals:
         """A metric of every case, solved or not."""
@@ -139,22 +141,21 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
                 parts.append((index, *matched(study, rows, posed(study, group, against, of))))
     own = np.concatenate([rows for _, rows, _ in parts])
     base = None if against is None else np.concatenate([bases for _, _, bases in parts])
-    group = np.concatenate([np.full(len(rows), index) for index, rows, _ in parts])
+    places = np.concatenate([np.full(len(rows), index) for index, rows, _ in parts])
     draws, seeds = int(study.draw.max(initial=0)) + 1, int(study.repeat.max(initial=0)) + 1
-    unit = (group * draws + study.draw[own]) * seeds + study.repeat[own]
-    cases = Cases(study, metric, session, against, own, base, unit, group)
+    unit = (places * draws + study.draw[own]) * seeds + study.repeat[own]
+    cases = Cases(study, metric, session, against, own, base, unit, places)
     if not of.get("whole_draws", False):
         return cases
-    broken = np.bincount(cases.unit, weights=~(cases.own_solved & cases.base_solved), minlength=cases.units)
-    return cases.kept(broken[cases.unit] == 0)
+    unsolved = ~(cases.own_solved & cases.base_solved)
+    return cases.kept(~np.isin(cases.unit, cases.unit[unsolved]))
 
 
 def posed(study: Study, group: str, contender: str, of: dict[str, Any]) -> Places:
     """The trials of a contender that a selection looks at: those whose problem could be posed."""
     rows = study.rows(group, contender)
     kept = study.status[rows] != "invalid_problem"
-    for name, wanted in (("query", of.get("query")), ("sweep", of.get("sweep"))):
+    for wanted, (places, words) in ((of.get("query"), study.query), (of.get("sweep"), study.sweep)):
         if wanted is not None:
-            places, words = getattr(study, name)
             kept &= places[rows] == (words.index(wanted) if wanted in words else -1)
     return rows[kept]

@@ -5,7 +5,7 @@ import numpy as np
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
 from statistics_judge.found import Asked, Estimate, Found, certain, outcomes, too_few
 from statistics_judge.intervals import bootstrap, clopper_pearson, ratio_of_sums, sums_by_unit
-from statistics_judge.records import Flags, Reals
+from statistics_judge.records import Flags, Places, Reals
 from statistics_judge.selection import Cases
 
 # Numbers no farther apart are equal.
@@ -20,12 +20,9 @@ def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
         return None
     value = float(hits.sum() / chances.sum())
     if (chances == 1).all():
-        interval = clopper_pearson(int(hits.sum()), int(chances.sum()))
-    else:
-        interval = bootstrap(ratio_of_sums(hits, chances), len(hits), seed)
-        if interval is None:
-            return None
-    return Estimate(value, len(hits), interval)
+        return Estimate(value, len(hits), clopper_pearson(int(hits.sum()), int(chances.sum())))
+    interval = bootstrap(ratio_of_sums(hits, chances), len(hits), seed)
+    return interval and Estimate(value, len(hits), interval)
 
 
 def counted(cases: Cases, asked: Flags, hit: Flags, seed: str) -> Estimate | None:
@@ -52,9 +49,7 @@ def equals(asked: Asked) -> Found:
         truth, own, known = cases.bases, cases.values, cases.paired
     apart = np.abs(own - truth)
     same = apart <= asked.settings.get("within", 0.0) + 1e-9 * np.abs(truth)
-    estimate = with_cases(
-        counted(cases, known, same, asked.seed), (int(same[known].sum()), int(known.sum()))
-    )
+    estimate = with_cases(counted(cases, known, same, asked.seed), (int(same[known].sum()), int(known.sum())))
     if not known.any():
         return certain(OPEN, estimate)
     return certain(HOLDS if same[known].all() else FAILS, estimate)
@@ -99,8 +94,8 @@ def said(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:
     return np.where(value <= bound + EQUAL, 1.0, -1.0), returned & ~np.isnan(value)
 
 
-def higher_share(cases: Cases) -> tuple[Reals, Flags]:
-    """How each unit speaks at each point of the sweep of which share of queries is higher, and which unit it is."""
+def higher_share(cases: Cases) -> tuple[Reals, Places]:
+    """How each unit speaks at each point of the sweep of whose share is higher, and which unit it is."""
     points = cases.study.sweep[0][cases.own]
     places, at = np.unique(np.stack([cases.unit, points]), axis=1, return_inverse=True)
     gain = cases.own_solved.astype(float) - cases.base_solved.astype(float)
@@ -117,10 +112,9 @@ def share_within(asked: Asked) -> Found:
     hits, chances = sums_by_unit(cases.unit, cases.units, hits, chances)
     if settings["hits"] == "lower_throughout":
         hits, chances = ((hits == chances) & (chances > 0)).astype(float), (chances > 0).astype(float)
-    estimate = share(hits, chances, asked.seed)
+    estimate = with_cases(share(hits, chances, asked.seed), cases.solved_of_all())
     if estimate is None or estimate.interval is None:
         return too_few()
-    estimate = with_cases(estimate, cases.solved_of_all())
     if "accepted" not in settings:
         return certain(None, estimate)
     least, most = settings["accepted"]
@@ -150,7 +144,8 @@ def hits_of(asked: Asked, cases: Cases) -> tuple[Reals, Reals]:
     elif kind == "rejected":
         hit, known = status == "rejected", np.isin(status, ["solved", "rejected"])
     elif kind == "marked":
-        hit, known = np.all([of > 0 for of in columns], axis=0), ~np.isnan(columns).any(axis=0)
+        hit = (np.stack(columns) > 0).all(axis=0)
+        known = ~np.isnan(np.stack(columns)).any(axis=0)
     elif kind == "above":
         hit, known = cases.values > settings["bound"] + EQUAL, ~np.isnan(cases.values)
     elif kind in ("lower", "lower_throughout"):

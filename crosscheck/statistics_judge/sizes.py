@@ -37,7 +37,7 @@ def ratio(cases: Cases, bases: Reals, values: Reals, seed: str) -> tuple[float, 
 
 
 def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
-    """Both numbers of every case, with the censored ones as far to their side as the largest difference seen."""
+    """Both numbers of every case, the censored ones as far apart as the largest difference seen."""
     censored, paired = cases.censored, cases.paired
     if not censored.any() or not paired.any():
         return []
@@ -57,7 +57,9 @@ def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
     return found
 
 
-def turned(cases: Cases, asked: Asked, outcome: Outcome, of: Callable, main: Found) -> frozenset[bool]:
+def turned(
+    cases: Cases, asked: Asked, outcome: Outcome, of: Callable[[Interval], Interval], main: Found
+) -> frozenset[bool]:
     """Whether censored cases could turn the outcome; both where Monte-Carlo error leaves it open."""
     always, never = False, True
     for bases, values in filled(cases):
@@ -75,6 +77,11 @@ def reduction(ratio: Interval) -> Interval:
     """By how many per cent a ratio is below 1."""
     low, high = ratio
     return high.mapped(lambda r: 100 * (1 - r)), low.mapped(lambda r: 100 * (1 - r))
+
+
+def itself(ratio: Interval) -> Interval:
+    """The ratio."""
+    return ratio
 
 
 def change(ratio: Interval) -> Interval:
@@ -126,27 +133,19 @@ def along_sweep(asked: Asked, cases: Cases, is_higher: bool) -> Found:
     mean = drawn.mean(axis=0)
     intervals = band(drawn, asked.seed)
 
-    def outcome(ends: Callable[[End], float], other: Callable[[End], float]) -> str:
-        near = [ends(low) if is_higher else -other(high) for low, high in intervals]
-        far = [other(high) if is_higher else -ends(low) for low, high in intervals]
+    def outcome(of_low: str, of_high: str) -> str:
+        ends = [(getattr(low, of_low), getattr(high, of_high)) for low, high in intervals]
+        near = [low if is_higher else -high for low, high in ends]
+        far = [high if is_higher else -low for low, high in ends]
         if min(near) > 0:
             return HOLDS
         return FAILS if min(far) < 0 else SIGN if max(near) > 0 else OPEN
 
-    def at(end: End) -> float:
-        return end.at
-
-    def least(end: End) -> float:
-        return end.least
-
-    def most(end: End) -> float:
-        return end.most
-
     place = int(np.argmin(sign * mean))
     estimate = Estimate(float(mean[place]), len(drawn), intervals[place], cases.solved_of_all())
     # As wide, and as narrow, as the band can be.
-    possible = frozenset(outcome(*ends) for ends in ((at, at), (least, most), (most, least)))
-    return Found(outcome(at, at), possible, estimate)
+    possible = frozenset(outcome(*ends) for ends in (("at", "at"), ("least", "most"), ("most", "least")))
+    return Found(outcome("at", "at"), possible, estimate)
 
 
 def trend(asked: Asked) -> Found:
@@ -198,8 +197,7 @@ def within(asked: Asked) -> Found:
     main = Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
     if statistic not in ("ratio", "reduction_percent"):
         return main
-    mapped = reduction if statistic == "reduction_percent" else tuple
-    censored = turned(cases, asked, outcome, mapped, main)
+    censored = turned(cases, asked, outcome, reduction if statistic == "reduction_percent" else itself, main)
     return Found(main.outcome, main.possible, estimate, censored=censored)
 
 
@@ -235,7 +233,7 @@ def ratio_of_groups(cases: Cases, seed: str) -> tuple[float, Interval, int] | No
     """The median on the first group over that on the second; its interval from the ends of both."""
     if len(cases.own) == 0:
         return None
-    sides = []
+    sides: list[tuple[float, Interval]] = []
     for mask in (cases.group == cases.group[0], cases.group != cases.group[0]):
         names, unit = np.unique(cases.unit[mask], return_inverse=True)
         values = cases.values[mask]
