@@ -27,9 +27,8 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     for study in &paper.studies {
         for (index, id) in study.fitted_to.iter().enumerate() {
             if paper.claim(id).is_none() {
-                faults.add(
-                    study.document.error_at(&format!("fitted_to.{index}"), none_called("claim", id, ids())),
-                );
+                let message = format!("fitted_to: {}", none_called("claim", id, ids()));
+                faults.add(study.document.error_at(&format!("fitted_to.{index}"), message));
             }
         }
     }

@@ -8,7 +8,7 @@ use crate::study::Study;
 use crate::study::key::{DrawKey, SweepKey};
 use crate::study::name;
 use crate::study::record::{Row, Status};
-use base::settings::SettingsError;
+use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -89,8 +89,11 @@ impl<'a> Selection<'a> {
     pub fn new(context: &Context<'a>, of: &SelectionSpec) -> Result<Self, SettingsError> {
         let contenders = of.contender.listed();
         let named: Vec<&str> = contenders.iter().chain(&of.against).map(String::as_str).collect();
-        let study = context.study("of", &of.study, &named)?;
-        let groups = context.groups("of", study, &of.problems)?;
+        let study = context.study("of", &of.study, &[])?;
+        let mut faults = Faults::default();
+        faults.keep(context.study("of", &of.study, &named));
+        let groups = faults.keep(context.groups("of", study, &of.problems)).unwrap_or_default();
+        faults.done()?;
         let metric = of.metric.as_ref().map(|name| context.metric(name, study)).transpose()?;
         let sweep = of.sweep.as_ref().map(|text| {
             study.sweep_point(text).map(|point| point.key).ok_or_else(|| {

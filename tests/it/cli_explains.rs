@@ -10,7 +10,7 @@ fn ten_mistakes_in_different_tables_are_told_in_one_round_each_at_its_own_place(
     let edits = [
         ("paper", "title =", "titel =", "paper.toml:2:1: unknown key `titel` (did you mean `title`?)"),
         ("paper", "metric = \"path_cost_cells\"", "metrik = \"path_cost_cells\"", "unknown key `metrik`"),
-        ("paper", "on = \"average\"", "on = \"averige\"", "`on` is \"averige\" (did you mean `average`?)"),
+        ("paper", "is = \"lower\"", "is = \"lowr\"", "`is` is \"lowr\" (did you mean `lower`?)"),
         ("paper", "figures = 1\n", "figures = -1\n", "`figures` is -1"),
         ("draws", "seed = 7", "seed = 7.5", "draws.toml:3:8: `seed` is 7.5"),
         ("draws", "weight = 1,", "wheight = 1,", "unknown key `wheight` (did you mean `weight`?)"),

@@ -39,6 +39,8 @@ in = [{ study = "room", problems = ["room"] }]
 id = "nodes"
 at = "section 1"
 says = "two sides open fewer nodes"
+[claim.check.lower]
+is = "lower"
 [claim.check.lower.of]
 study = "draws"
 problems = "drawn"

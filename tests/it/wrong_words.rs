@@ -176,9 +176,9 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "id = \"fig1\"",
         "id = \"table1\"",
-        "mini/paper.toml:43:6: another figure or table of the paper is called `table1`",
+        "mini/paper.toml:44:6: another figure or table of the paper is called `table1`",
     ),
-    wrong("paper", "id = \"table1\"", "id = \"Table\"", "mini/paper.toml:43:6: the id `Table` names files"),
+    wrong("paper", "id = \"table1\"", "id = \"Table\"", "mini/paper.toml:44:6: the id `Table` names files"),
     wrong(
         "room",
         "settings = { problem = \"room\", contenders = [\"A*\"] }",
@@ -202,7 +202,7 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "metric = \"nodes\"",
         "metric = \"knots\"",
-        "mini/paper.toml:37:10: there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are ",
+        "mini/paper.toml:39:10: there is no metric `knots`, nor a reading that gives the name a meaning; the metrics are ",
     ),
     wrong(
         "paper",
@@ -214,13 +214,13 @@ pub const WRONG: &[Wrong] = &[
         "paper",
         "study = \"draws\"",
         "study = \"drawn\"",
-        "mini/paper.toml:35:9: there is no study `drawn` (did you mean `draws`?); there are draws, room",
+        "mini/paper.toml:37:9: there is no study `drawn` (did you mean `draws`?); there are draws, room",
     ),
     wrong(
         "paper",
         "contender = \"Two-sided\"",
         "contender = \"Two\"",
-        "mini/paper.toml:38:9: study `draws` has no contender `Two` (did you mean `Two-sided`?); it has A*, Two-sided",
+        "mini/paper.toml:40:13: study `draws` has no contender `Two` (did you mean `Two-sided`?); it has A*, Two-sided",
     ),
     wrong(
         "paper",

@@ -8,8 +8,7 @@ use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Case, Draw, Selection};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{self, plan};
-use crate::analysis::verdict::Estimate;
+use crate::analysis::statistic::{Share, plan};
 use crate::study::Study;
 use crate::study::record::{Row, Status};
 use base::settings::{Accepted, SettingsError};
@@ -138,9 +137,9 @@ impl Criterion for Equals<'_> {
         let cases = draws.iter().flat_map(|draw| &draw.cases);
         let refused = cases.filter(|case| case.row.status == Status::Rejected).count();
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
-        let ours = statistic::share(&counts, self.plan).map(|(share, interval, how)| {
-            let what = format!("share of trials on which {metric} is {truth}, {how}");
-            Estimate::new(share, interval, what, counts.len()).of_cases([same as usize, all as usize])
+        let ours = Share::of(&counts, self.plan).map(|share| {
+            let what = format!("trials on which {metric} is {truth}");
+            share.estimate(&what).of_cases([same as usize, all as usize])
         });
         let trial = wrong.map(|row| run.trial(row));
         Found { outcome: Some(outcome), ours, trial, because, units: "trials", ..Found::default() }

@@ -7,7 +7,7 @@ use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::found::Found;
 use crate::analysis::selection::{self, Case, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{self, plan};
+use crate::analysis::statistic::{Share, plan};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
 use crate::study::key::SweepKey;
@@ -171,10 +171,8 @@ impl OnEvery<'_> {
     fn share(&self, said: &[Vec<(Says, &Row)>]) -> Option<Estimate> {
         let kept = |draw: &Vec<(Says, &Row)>| draw.iter().filter(|(says, _)| *says == Says::For).count();
         let counts = said.iter().map(|draw| [kept(draw) as f64, draw.len() as f64]);
-        let counts: Vec<[f64; 2]> = counts.filter(|count| count[1] > 0.0).collect();
-        let (share, interval, how) = statistic::share(&counts, self.plan)?;
-        let what = format!("share of cases on which {}, {how}", self.claim());
-        Some(Estimate::new(share, interval, what, counts.len()))
+        let share = Share::of(&counts.collect::<Vec<_>>(), self.plan)?;
+        Some(share.estimate(&format!("cases on which {}", self.claim())))
     }
 }
 
@@ -195,17 +193,6 @@ impl Criterion for OnEvery<'_> {
         };
         let counterexample = all().find(|(says, _)| *says == Says::Against);
         let shown = counterexample.or_else(|| all().find(|(says, _)| *says == Says::Equal));
-        let counts: Vec<[f64; 2]> = said
-            .iter()
-            .map(|draw| {
-                [draw.iter().filter(|(says, _)| *says == Says::For).count() as f64, draw.len() as f64]
-            })
-            .filter(|count| count[1] > 0.0)
-            .collect();
-        let ours = statistic::share(&counts, self.plan).map(|(share, interval, how)| {
-            let what = format!("share of cases on which {}, {how}", self.claim());
-            Estimate::new(share, interval, what, counts.len()).of_cases(solved(&draws))
-        });
         let equally = if equal > 0 { format!(", equal on {equal}") } else { String::new() };
         let because = format!(
             "{}: {} on {kept} of {} cases{equally}, the contrary on {broken}",
