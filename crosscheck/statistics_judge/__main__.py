@@ -7,7 +7,7 @@ from multiprocessing import Pool
 from pathlib import Path
 
 from statistics_judge.judge import Said, compare, recomputed
-from statistics_judge.records import Metric, Paper
+from statistics_judge.records import Metric, Paper, toml
 
 # Something differs.
 DIFFERS = 3
@@ -33,7 +33,7 @@ def main() -> int:
 def answer(asked: tuple[Path, Path, list[Metric]]) -> tuple[str, Said]:
     """One paper."""
     paper = Paper(*asked)
-    return paper.id, compare(paper, recomputed(paper))
+    return paper.id, compare(paper, recomputed(paper), toml(paper.runs / "verdicts.toml"))
 
 
 def report(name: str, said: Said) -> None:

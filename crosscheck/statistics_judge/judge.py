@@ -7,7 +7,7 @@ from typing import Any
 
 from statistics_judge import classes, medians, printed_cells, shares, sizes
 from statistics_judge.found import Asked, Estimate, Found
-from statistics_judge.records import Paper, toml
+from statistics_judge.records import Paper
 from statistics_judge.selection import labels
 
 CRITERIA: dict[str, Callable[[Asked], Found]] = {
@@ -138,9 +138,8 @@ def lacks_sessions(stored: int, find: Callable[[int], Found]) -> bool:
     return len({find(session).outcome for session in range(1, stored + 1)}) > 1
 
 
-def compare(paper: Paper, claims: list[Claim]) -> Said:
+def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Said:
     """What verdicts.toml says, held against what was recomputed."""
-    verdicts = toml(paper.runs / "verdicts.toml")
     said = Said()
     if verdicts["reading"] != paper.choices:
         said.differ.append(f"{paper.id}: verdicts.toml was judged under other readings than the defaults")

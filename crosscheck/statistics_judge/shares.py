@@ -3,7 +3,7 @@
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
-from statistics_judge.found import Asked, Estimate, Found, certain, outcomes, too_few
+from statistics_judge.found import Asked, Estimate, Found, certain, outcomes
 from statistics_judge.intervals import bootstrap, clopper_pearson, ratio_of_sums, sums_by_unit
 from statistics_judge.records import Flags, Places, Reals
 from statistics_judge.selection import Cases
@@ -13,7 +13,7 @@ EQUAL = 1e-9
 
 
 def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
-    """A share by units with chances: exact where each has one, else by bootstrap over units."""
+    """A share by units with chances: exact where each has one, else by bootstrap over two units or more."""
     asked = chances > 0
     hits, chances = hits[asked], chances[asked]
     if not asked.any():
@@ -21,8 +21,7 @@ def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
     value = float(hits.sum() / chances.sum())
     if (chances == 1).all():
         return Estimate(value, len(hits), clopper_pearson(int(hits.sum()), int(chances.sum())))
-    interval = bootstrap(ratio_of_sums(hits, chances), len(hits), seed)
-    return interval and Estimate(value, len(hits), interval)
+    return Estimate(value, len(hits), bootstrap(ratio_of_sums(hits, chances), len(hits), seed))
 
 
 def counted(cases: Cases, asked: Flags, hit: Flags, seed: str) -> Estimate | None:
@@ -113,10 +112,10 @@ def share_within(asked: Asked) -> Found:
     if settings["hits"] == "lower_throughout":
         hits, chances = ((hits == chances) & (chances > 0)).astype(float), (chances > 0).astype(float)
     estimate = with_cases(share(hits, chances, asked.seed), cases.solved_of_all())
-    if estimate is None or estimate.interval is None:
-        return too_few()
     if "accepted" not in settings:
         return certain(None, estimate)
+    if estimate is None or estimate.interval is None:
+        return certain(OPEN, estimate)
     least, most = settings["accepted"]
 
     def outcome(low: float, high: float) -> str:
@@ -144,7 +143,7 @@ def hits_of(asked: Asked, cases: Cases) -> tuple[Reals, Reals]:
     elif kind == "rejected":
         hit, known = status == "rejected", np.isin(status, ["solved", "rejected"])
     elif kind == "marked":
-        hit = (np.stack(columns) > 0).all(axis=0)
+        hit = np.stack(columns).min(axis=0) > 0
         known = ~np.isnan(np.stack(columns)).any(axis=0)
     elif kind == "above":
         hit, known = cases.values > settings["bound"] + EQUAL, ~np.isnan(cases.values)
