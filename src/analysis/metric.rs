@@ -14,6 +14,17 @@ pub enum Better {
     Neither,
 }
 
+impl Better {
+    /// Its name, as other programs are told it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lower => "lower",
+            Self::Higher => "higher",
+            Self::Neither => "neither",
+        }
+    }
+}
+
 /// A metric: one column of trials, or the median clock reading of a timed trial.
 #[derive(Debug, PartialEq)]
 pub struct Metric {
