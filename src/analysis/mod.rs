@@ -9,8 +9,6 @@ pub mod claims;
 pub mod class;
 pub mod criterion;
 pub mod difference;
-pub mod draws;
-pub mod effect;
 pub mod evidence;
 pub mod inclusion;
 pub mod metric;
