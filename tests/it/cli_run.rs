@@ -171,6 +171,7 @@ fn a_figure_or_keep_added_later_gets_its_exhibits_and_another_timing_its_reading
     let kept = bench.tree(RUNS);
     assert!(part(&kept, "exhibits").len() > part(&before, "exhibits").len(), "no exhibit was kept");
     assert!(part(&kept, "trials") == part(&before, "trials"), "keeping exhibits changed rows");
+    assert!(part(&kept, "times") == part(&before, "times"), "keeping exhibits read the clock again");
     bench.edit("mini/draws.toml", "repeats = 2", "repeats = 40");
     bench.done(&["run", "./mini"]);
     assert!(
@@ -260,8 +261,8 @@ fn check_names_what_an_earlier_state_of_the_paper_left_behind() {
 #[test]
 fn a_figure_that_cannot_be_drawn_costs_that_figure_alone() {
     let bench = Bench::new();
-    let figure = "\n[[figure]]\nid = \"fig2\"\nkind = \"tidying\"\ncaption = \"Tidied.\"\n\
-                  settings = { problems = [\"room\"], contender = \"A*\" }\n";
+    let figure = "\n[[figure]]\nid = \"fig2\"\nkind = \"grid_search\"\ncaption = \"Tidied.\"\n\
+                  settings = { problems = [\"room\"], contenders = [\"A*\"], tidying = true }\n";
     let room = fs::read_to_string(bench.at("mini/room.toml")).unwrap();
     bench.write("mini/room.toml", (room + figure).as_bytes());
     let plots = "target/replan/mini/plots/mini";
