@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import comb
+from math import comb, isqrt
 
 from certificates.spans import Span, need, point
 
@@ -46,11 +46,15 @@ def check_gap(span: Span, step: Fraction, said: dict) -> None:
 
 def grim(spans: list[Span], given: dict, steps: list) -> None:
     """No multiple of the step is printed so, within the ends."""
-    need(integer(given["n"]) > 0, "n is not above 0")
-    span = spans[0].cut(fraction(given["least"]), fraction(given["most"]))
-    step = positive(given["step"])
+    n, grain = integer(given["n"]), positive(given["grain"])
+    need(n > 0 and isinstance(given["is_count"], bool), "n or is_count is wrong")
     need(len(spans) == 1 and len(steps) == 1, "one number and one step are needed")
-    if steps[0] == {"outside": True}:
+    # A count is the sum of the values, a share or mean their sum over n.
+    times, step = (n, grain) if given["is_count"] else (1, grain / n)
+    ends = [None if given[end] is None else fraction(given[end]) * times for end in ("least", "most")]
+    span = spans[0].cut(*ends)
+    if set(steps[0]) == {"outside"}:
+        need([fraction(end) for end in steps[0]["outside"]] == ends, f"the ends are {ends}")
         need(span.is_empty(), "the number is not outside of the ends")
     else:
         check_gap(span, step, steps[0])
@@ -88,8 +92,13 @@ def squares(n: int, total: int, least: int | None, most: int | None) -> tuple[in
     if (least is not None and base < least) or (most is not None and base + (rest > 0) > most):
         return 1, 0
     even = base**2 * (n - rest) + (base + 1) ** 2 * rest
-    if least is None or most is None:
+    if least is None and most is None:
         return even, None
+    # One end alone implies the other: all values but one stand at it.
+    least, most = (
+        total - (n - 1) * most if least is None else least,
+        total - (n - 1) * least if most is None else most,
+    )
     if least == most:
         return even, even
     high, between = divmod(total - n * least, most - least)
@@ -97,6 +106,45 @@ def squares(n: int, total: int, least: int | None, most: int | None) -> tuple[in
     if high < n:
         spread += (least + between) ** 2 + (n - high - 1) * least**2
     return even, spread
+
+
+def are_met(n: int, total: int, squared: int, ends: list[int | None]) -> bool:
+    """Whether n whole numbers between the ends have this total and sum of squares: all are searched."""
+    reach = isqrt(squared)
+    low = -reach if ends[0] is None else max(ends[0], -reach)
+    high = reach if ends[1] is None else min(ends[1], reach)
+    return search(n, total, squared, low, high, {})
+
+
+def search(n: int, total: int, squared: int, low: int, high: int, known: dict) -> bool:
+    """The same for numbers from low to high, the largest first."""
+    least, most = squares(n, total, low, high)
+    if squared < least or squared > most or (squared - total) % 2:
+        return False
+    if squared in (least, most):
+        return True
+    if n == 2:
+        apart = 2 * squared - total**2
+        return isqrt(apart) ** 2 == apart
+    if n == 4 and total % 2 == 0 and seven_shaped(squared - (total // 2) ** 2):
+        return False
+    at = (n, total, squared, high)
+    if at not in known:
+        need(len(known) < 200_000, "the search for values takes too long to verify")
+        # No value is further from the mean than this.
+        reach = isqrt((n * squared - total**2) * (n - 1))
+        first, last = min(high, (total + reach) // n), -(-total // n)
+        known[at] = any(
+            search(n - 1, total - x, squared - x * x, low, x, known) for x in range(first, last - 1, -1)
+        )
+    return known[at]
+
+
+def seven_shaped(c: int) -> bool:
+    """Whether a number has the form 4^k (8 m + 7), which no sum of three squares has (Legendre)."""
+    while c and c % 4 == 0:
+        c //= 4
+    return c % 8 == 7
 
 
 def grimmer(spans: list[Span], given: dict, steps: list) -> None:
@@ -122,7 +170,7 @@ def grimmer(spans: list[Span], given: dict, steps: list) -> None:
         None if ends[1] is None else int((ends[1] / grain) // 1),
     ]
     for total, said in zip(range(int(first), int(last) + 1), steps, strict=True):
-        need(set(said) == {"sum", "windows", "least", "most"}, "a step has other fields")
+        need(set(said) == {"sum", "windows", "least", "most", "not_met"}, "a step has other fields")
         need(integer(said["sum"]) == total, f"the total is {total}")
         windows = [variance.times(Fraction(d)).plus(point(Fraction(total**2, n))) for d in divisors]
         need(said["windows"] == [window.written() for window in windows], "the sums of squares are others")
@@ -131,11 +179,15 @@ def grimmer(spans: list[Span], given: dict, steps: list) -> None:
             (integer(said["least"]), integer(said["most"])) == (least, most),
             "the least or the most is another",
         )
+        plausible = set()
         for window in windows:
             low, high = window.integers()
             low = max(low, least)
             low += (low - total) % 2
-            need(low > (high if most is None else min(high, most)), f"a sum of squares fits: {low}")
+            plausible |= set(range(low, (high if most is None else min(high, most)) + 1, 2))
+        need(said["not_met"] == [str(q) for q in sorted(plausible)], "the sums of squares left are others")
+        for squared in plausible:
+            need(not are_met(n, total, squared, inner), f"a sum of squares is met: {squared}")
 
 
 def debit(spans: list[Span], given: dict, steps: list) -> None:
@@ -190,7 +242,7 @@ def interval(spans: list[Span], given: dict, steps: list) -> None:
 
 
 RULES = {
-    "grim": (grim, {"n", "step", "least", "most"}),
+    "grim": (grim, {"n", "grain", "is_count", "least", "most"}),
     "clock": (clock, {"step"}),
     "quantile": (quantile, {"n", "share", "grain", "rule"}),
     "grimmer": (grimmer, {"n", "grain", "least", "most", "divisors", "is_error"}),

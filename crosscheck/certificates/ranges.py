@@ -11,21 +11,27 @@ from certificates.spans import Span, need, point
 
 def order(spans: list[Span], given: dict, steps: list) -> None:
     """A number that may not be above another is."""
-    need(len(steps) == 1 and steps[0]["pair"] in given["not_above"], "the pair is not one that has an order")
-    low, high = steps[0]["pair"]
-    need(set(steps[0]) == {"pair"} and min(low, high) >= 0, "the pair is wrong")
+    low, high = given["pair"]
+    need(min(low, high) >= 0, "the pair is wrong")
+    # The share of values below each; none is the mean, which only the ends have an order with.
+    p, q = (fraction(rank) for rank in given["ranks"])
+    if p is None or q is None:
+        need(p == 0 or q == 1, "the mean has no order with that")
+    else:
+        need(0 <= p < q <= 1, "the pair is not one that has an order")
+    said = {"at_least": str(spans[low].low), "at_most": str(spans[high].high)}
+    need(steps == [said], f"the numbers are {said}")
     need(spans[low].low > spans[high].high, "the pair may stand in order")
 
 
 def sd_range(spans: list[Span], given: dict, steps: list) -> None:
     """The deviation is above the most, or below the least, that mean and range allow."""
-    n, factor = integer(given["n"]), positive(given["factor"])
-    need(given["divisor"] in ("sample", "any") and len(steps) == 1, "the divisor or the steps are wrong")
-    allowed = {Fraction(1), Fraction(2) if n is None else Fraction(n, n - 1)}
-    need(
-        factor in allowed and (given["divisor"] != "sample" or factor != 1),
-        "the factor is not n / (n - 1) or 1",
-    )
+    n, divisor = integer(given["n"]), given["divisor"]
+    need(divisor in ("sample", "population", "either"), "there is no such divisor")
+    need((n is None or n > 1) and len(steps) == 1, "n or the steps are wrong")
+    factor = Fraction(1)
+    if divisor != "population":
+        factor = Fraction(2) if n is None else Fraction(n, n - 1)
     ends = given["ends"]
     least, most = spans[2:] if ends is None else [point(fraction(end)) for end in ends]
     said = steps[0]
@@ -38,7 +44,7 @@ def sd_range(spans: list[Span], given: dict, steps: list) -> None:
     else:
         need(set(said) == {"squared_at_most", "least"} and ends is None and n is not None, "a step is wrong")
         spread = max(Fraction(0), most.low - least.high)
-        bound = spread**2 / (2 * (n - 1 if given["divisor"] == "sample" else n))
+        bound = spread**2 / (2 * (n - 1 if divisor == "sample" else n))
         high = spans[0].squared().high
         need(fraction(said["least"]) == bound, f"the least is {bound}")
         need(fraction(said["squared_at_most"]) == high and high < bound, "the deviation may be that large")
@@ -60,11 +66,9 @@ def sum_of_means(spans: list[Span], given: dict, steps: list) -> None:
 def total_over_mean(spans: list[Span], given: dict, steps: list) -> None:
     """The total over the mean is no whole number, or not the one given."""
     quotient = spans[0].times(positive(given["unit"])).over(spans[1])
-    need(
-        len(spans) == 2 and steps == [{"quotient": quotient.written()}],
-        f"the quotient is {quotient.written()}",
-    )
     n = integer(given["n"])
+    said = {"quotient": quotient.written(), "excludes": "every whole number" if n is None else str(n)}
+    need(len(spans) == 2 and steps == [said], f"the quotient is {said}")
     first, last = quotient.integers()
     need(first > last if n is None else not quotient.contains(Fraction(n)), "the quotient may be n")
 
@@ -75,7 +79,7 @@ def formed(names: set[str]) -> object:
     def rule(spans: list[Span], given: dict, steps: list) -> None:
         value, a, b = spans
         forms = given["forms"]
-        need(forms and set(forms) <= names and given["unit"] == "1", "the forms are wrong")
+        need(forms and set(forms) <= names, "the forms are wrong")
         need([step["form"] for step in steps] == forms, "the forms are not all looked at")
         for step in steps:
             span = form(step["form"], a, b)
@@ -101,24 +105,27 @@ def shares_sum(spans: list[Span], given: dict, steps: list) -> None:
     """The shares do not sum to the whole, or no counts of n do."""
     whole, n = positive(given["whole"]), integer(given["n"])
     need(len(steps) == 1 and len(spans) > 0, "one step is needed")
-    if set(steps[0]) == {"sum"}:
+    if set(steps[0]) == {"sum", "misses"}:
         total = point(Fraction(0))
         for span in spans:
             total = total.plus(span)
-        need(steps[0]["sum"] == total.written(), f"the sum is {total.written()}")
+        need(n is None and steps[0]["sum"] == total.written(), f"the sum is {total.written()}, without n")
+        need(steps[0]["misses"] == str(whole), f"the whole is {whole}")
         need(not total.contains(whole), "the sum may be the whole")
         return
     counts = [span.times(n / whole).integers() for span in spans]
     written = [[str(first), str(last)] for first, last in counts]
-    need(steps[0] == {"counts": written}, f"the counts are {written}")
+    need(steps[0] == {"counts": written, "of": [str(n), str(whole)]}, f"the counts are {written}")
     first, last = sum(first for first, _ in counts), sum(last for _, last in counts)
     need(any(a > b for a, b in counts) or n < first or n > last, "counts may sum to n")
 
 
 def expansions(spans: list[Span], given: dict, steps: list) -> None:
     """The count is outside of 0 to the number of free cells."""
-    need(len(spans) == 1 and steps == [{"outside": True}], "the step is wrong")
-    need(spans[0].cut(Fraction(0), Fraction(integer(given["free"]))).is_empty(), "the count is not outside")
+    free = integer(given["free"])
+    past = max(spans[0].low - free, -spans[0].high)
+    need(len(spans) == 1 and steps == [{"outside_by": str(past)}], f"the count is outside by {past}")
+    need(spans[0].cut(Fraction(0), Fraction(free)).is_empty(), "the count is not outside")
 
 
 def rises(spans: list[Span], given: dict, steps: list) -> None:
@@ -178,11 +185,18 @@ def lengths(span: Span, diagonal: Fraction | None, displacement: list[int] | Non
     return found
 
 
+def cells_apart(given: list) -> list[int]:
+    """Two whole numbers of cells."""
+    need(isinstance(given, list) and len(given) == 2 and None not in given, "a displacement has two numbers")
+    return [integer(cells) for cells in given]
+
+
 def lattice(spans: list[Span], given: dict, steps: list) -> None:
     """No straight and diagonal moves are as long: all are tried."""
     step, diagonal = positive(given["step"]), fraction(given["diagonal"])
     need(diagonal is None or diagonal > 0, "the diagonal is not above 0")
-    displacement = given["displacement"] and [integer(cells) for cells in given["displacement"]]
+    displacement = given["displacement"]
+    displacement = None if displacement is None else cells_apart(displacement)
     span = spans[0].times(1 / step)
     most = floor(max(span.high, Fraction(0)) / min(Fraction(1), diagonal or Fraction(1)) + 1)
     need(len(spans) == 1 and steps == [{"moves_at_most": str(most)}], f"there are at most {most} moves")
@@ -236,7 +250,7 @@ def turn_sums(straight: int, diagonal: int, displacement: list[int]) -> set[int]
 def turn_sum(spans: list[Span], given: dict, steps: list) -> None:
     """No 8-connected path of the length has the turn sum: all sums are enumerated."""
     turns, length = spans
-    displacement = [integer(cells) for cells in given["displacement"]]
+    displacement = cells_apart(given["displacement"])
     found = lengths(length, None, displacement)
     said = steps[0]
     need(len(steps) == 1 and set(said) == {"moves", "sums_deg"}, "a step has other fields")
@@ -249,16 +263,11 @@ def turn_sum(spans: list[Span], given: dict, steps: list) -> None:
 
 def ratio_label(spans: list[Span], given: dict, steps: list) -> None:
     """More problems have b at most A / R than there are below B."""
-    n, kinds = integer(given["n"]), given["kinds"]
-    need(n > 0 and len(kinds) == len(spans) and len(steps) == 1, "n, kinds or steps are wrong")
-    said = steps[0]
-    need(set(said) == {"quantiles", "bound", "at_least", "at_most"}, "a step has other fields")
-    r, a, b = said["quantiles"]
-    need(
-        min(r, a, b) >= 0 and [kinds[at][0] for at in (r, a, b)] == ["r", "a", "b"],
-        "the quantiles are of others",
-    )
-    p, q, s = (fraction(kinds[at][1]) for at in (r, a, b))
+    n = integer(given["n"])
+    # The quantile of each of the three that contradict each other: which number it is, and its share.
+    r, a, b = (given[name][0] for name in "rab")
+    p, q, s = (fraction(given[name][1]) for name in "rab")
+    need(n > 0 and len({r, a, b}) == 3 and min(r, a, b) >= 0, "n or the quantiles are wrong")
     need(all(0 <= share <= 1 for share in (p, q, s)), "a share is not from 0 to 1")
 
     def slack(share: Fraction) -> int:
@@ -268,24 +277,26 @@ def ratio_label(spans: list[Span], given: dict, steps: list) -> None:
     bound = spans[a].high / spans[r].low
     at_least = (n - n * p - slack(p)) + (n * q - slack(q)) - n
     at_most = n - 1 if s == 1 else n * s + slack(s)
-    expected = {"bound": str(bound), "at_least": str(at_least), "at_most": str(at_most)}
-    need({key: said[key] for key in expected} == expected, f"the counts are {expected}")
-    need(bound < spans[b].low and at_least > at_most, "the counts do not contradict each other")
+    below = spans[b].low
+    said = {"bound": bound, "below": below, "at_least": at_least, "at_most": at_most}
+    said = {name: str(number) for name, number in said.items()}
+    need(steps == [said], f"the counts are {said}")
+    need(bound < below and at_least > at_most, "the counts do not contradict each other")
 
 
 RULES = {
-    "order": (order, {"not_above"}),
-    "sd_range": (sd_range, {"factor", "n", "divisor", "ends"}),
+    "order": (order, {"pair", "ranks"}),
+    "sd_range": (sd_range, {"n", "divisor", "ends"}),
     "sum_of_means": (sum_of_means, {"cut"}),
     "total_over_mean": (total_over_mean, {"n", "unit"}),
-    "ratio": (formed({"a/b"}), {"forms", "unit"}),
-    "speedup": (formed({"a/b", "a/b-1"}), {"forms", "unit"}),
-    "reduction": (formed({"100(a-b)/a", "100(a-b)/b"}), {"forms", "unit"}),
+    "ratio": (formed({"a/b"}), {"forms"}),
+    "speedup": (formed({"a/b", "a/b-1"}), {"forms"}),
+    "reduction": (formed({"100(a-b)/a", "100(a-b)/b"}), {"forms"}),
     "shares_sum": (shares_sum, {"whole", "n"}),
     "expansions": (expansions, {"free"}),
     "rises": (rises, set()),
     "lattice": (lattice, {"step", "diagonal", "displacement"}),
     "path_bound": (path_bound, {"apart", "moves"}),
     "turn_sum": (turn_sum, {"displacement"}),
-    "ratio_label": (ratio_label, {"n", "kinds"}),
+    "ratio_label": (ratio_label, {"n", "r", "a", "b"}),
 }

@@ -1,8 +1,10 @@
 //! Judges every claim of a paper, and which claims hold together.
 
 use super::class::{self, Caps, Sessions, Verdict};
-use super::criterion::{self, Context, Criterion, Found};
+use super::context::Context;
+use super::criterion::{self, Criterion};
 use super::evidence::{Evidence, default_point};
+use super::found::Found;
 use super::rule;
 use super::settle::settles;
 use super::together::{Explored, together};
@@ -25,9 +27,8 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     for study in &paper.studies {
         for (index, id) in study.fitted_to.iter().enumerate() {
             if paper.claim(id).is_none() {
-                faults.add(
-                    study.document.error_at(&format!("fitted_to.{index}"), none_called("claim", id, ids())),
-                );
+                let message = format!("fitted_to: {}", none_called("claim", id, ids()));
+                faults.add(study.document.error_at(&format!("fitted_to.{index}"), message));
             }
         }
     }

@@ -7,13 +7,16 @@
 
 pub mod claims;
 pub mod class;
+pub mod context;
 pub mod criterion;
 pub mod difference;
 pub mod evidence;
+pub mod found;
 pub mod inclusion;
 pub mod metric;
 pub mod rule;
 pub mod selection;
+pub mod selection_spec;
 pub mod settle;
 pub mod statistic;
 pub mod together;

@@ -1,7 +1,7 @@
 //! What would settle a claim that is undecided: more draws, more sessions of the clock, or what the paper leaves out.
 
 use super::class::{Caps, SESSIONS, Sessions};
-use super::criterion::Found;
+use super::found::Found;
 use stats::proportion::units_for_margin;
 
 /// What would settle what was found, in a sentence.

@@ -3,6 +3,7 @@
 //! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
 
 use super::selection::{Case, Draw};
+use super::verdict::Estimate as VerdictEstimate;
 use crate::study::record::{Row, Status};
 use base::seed;
 use schemars::JsonSchema;
@@ -236,21 +237,40 @@ pub fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
     shares.filter_map(|share| Some([summary::quantile_type7(values, share)?, share])).collect()
 }
 
-/// A share of chances that are hit, with its interval: exact where every draw has one chance, else by bootstrap over draws.
-///
-/// `counts` has the hits and chances of each draw; none without chances.
-pub fn share(counts: &[[f64; 2]], plan: Resampling) -> Option<(f64, Interval, &'static str)> {
-    let sum = |of: usize| counts.iter().map(|count| count[of]).sum::<f64>();
-    let (hits, chances) = (sum(0), sum(1));
-    if chances <= 0.0 {
-        return None;
+/// A share of chances that are hit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// The share.
+    pub value: f64,
+    /// Its interval; none for a single draw of several chances.
+    pub interval: Option<Interval>,
+    /// How many draws it rests on.
+    pub draws: usize,
+}
+
+impl Share {
+    /// That of `counts`, the hits and chances of each draw; none without chances. The interval is exact where every draw
+    /// has one chance, else by bootstrap over draws.
+    pub fn of(counts: &[[f64; 2]], plan: Resampling) -> Option<Self> {
+        let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
+        let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        let interval = if counts.iter().all(|count| count[1] == 1.0) {
+            clopper_pearson(hits as usize, counts.len(), LEVEL)
+        } else {
+            pooled::ratio_of_sums(&counts, plan).map(|found| found.interval)
+        };
+        (chances > 0.0).then(|| Self { value: hits / chances, interval, draws: counts.len() })
     }
-    if counts.iter().all(|[_, chances]| *chances == 1.0) {
-        let interval = clopper_pearson(hits as usize, chances as usize, LEVEL)?;
-        return Some((hits / chances, interval, "exact 95 %"));
+
+    /// It as our number beside a printed one: the share of `what`.
+    pub fn estimate(&self, what: &str) -> VerdictEstimate {
+        match self.interval {
+            Some(interval) => {
+                VerdictEstimate::new(self.value, interval, format!("share of {what}, 95 %"), self.draws)
+            }
+            None => VerdictEstimate::bare(self.value, format!("share of {what}"), self.draws),
+        }
     }
-    let found = pooled::ratio_of_sums(counts, plan)?;
-    Some((found.value, found.interval, "bootstrap 95 % over draws"))
 }
 
 #[cfg(test)]
@@ -260,17 +280,17 @@ mod tests {
     #[test]
     fn a_share_of_single_chances_is_exact_and_draws_of_several_are_units() {
         let plan = plan(&["a test"]);
-        let (value, interval, how) = share(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], plan).unwrap();
-        assert_eq!((value, how), (0.75, "exact 95 %"));
-        assert!(
-            (interval.low - 0.1941).abs() < 1e-4 && (interval.high - 0.9937).abs() < 1e-4,
-            "{interval:?}"
-        );
+        let exact = Share::of(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], plan).unwrap();
+        let interval = exact.interval.unwrap();
+        assert_eq!((exact.value, exact.draws), (0.75, 4));
+        assert!((interval.low - 0.1941).abs() < 1e-4 && (interval.high - 0.9937).abs() < 1e-4, "{exact:?}");
         // Draws that agree within themselves: as uncertain as their number says, not as that of their queries.
         let draws: Vec<[f64; 2]> = (0..10).map(|i| [if i % 2 == 0 { 100.0 } else { 0.0 }, 100.0]).collect();
-        let (value, interval, _) = share(&draws, plan).unwrap();
-        assert!(value == 0.5 && interval.half_width() > 0.25, "{interval:?}");
-        assert!(share(&[[0.0, 0.0]], plan).is_none() && share(&[], plan).is_none());
+        let of_draws = Share::of(&draws, plan).unwrap();
+        assert!(of_draws.value == 0.5 && of_draws.interval.unwrap().half_width() > 0.25, "{of_draws:?}");
+        let single = Share::of(&[[3.0, 4.0]], plan).unwrap();
+        assert_eq!((single.value, single.interval), (0.75, None), "one draw has no interval");
+        assert!(Share::of(&[[0.0, 0.0]], plan).is_none() && Share::of(&[], plan).is_none());
     }
 
     #[test]

@@ -5,7 +5,8 @@
 //! of its problems. Every choice of problems is looked at.
 
 use super::class::{Polarity, Verdict};
-use super::criterion::{Attained, Context, EXISTS};
+use super::context::Context;
+use super::criterion::{Attained, EXISTS};
 use super::evidence::Evidence;
 use super::verdict::Together;
 use crate::study::paper::{Digits, Paper};

@@ -161,11 +161,14 @@ pub struct Verdicts {
     pub together: Vec<Together>,
 }
 
-/// Counts of verdicts in words, the same on the terminal and in the report.
+/// How many sentences and table rows there are of each class, in words: the same on the terminal and in the report. What
+/// is a part of a sentence or a cell of a row counts with it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Counts {
-    /// The claims and how many there are of each verdict; what must hold by a theorem is not among them.
+    /// How many there are, and of each class.
     pub classes: String,
+    /// How many parts and cells they have.
+    pub parts: Option<String>,
     /// How many must hold by a theorem, if any.
     pub asserted: Option<String>,
 }
@@ -201,44 +204,29 @@ impl Verdicts {
         toml::to_string(self).expect("verdicts are strings, numbers and tables of them")
     }
 
-    /// How many claims there are of each verdict.
+    /// How many sentences and table rows there are of each class.
     pub fn counts(&self) -> Counts {
+        let (parts, whole): (Vec<&Judged>, Vec<&Judged>) =
+            self.claims.iter().partition(|judged| judged.part_of.is_some());
         let (asserted, counted): (Vec<&Judged>, Vec<&Judged>) =
-            self.claims.iter().partition(|judged| judged.theorem.is_some());
+            whole.into_iter().partition(|judged| judged.theorem.is_some());
         let of = |verdict: &Verdict| counted.iter().filter(|judged| judged.verdict == *verdict).count();
         let found = Verdict::ALL.iter().map(|verdict| (of(verdict), verdict.name()));
         let found = found.filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}"));
-        let classes = format!("{} claims: {}", counted.len(), found.collect::<Vec<_>>().join(", "));
+        let classes =
+            format!("{} sentences and rows: {}", counted.len(), found.collect::<Vec<_>>().join(", "));
+        let parts = (!parts.is_empty()).then(|| {
+            format!("{} parts and cells have classes of their own and count with these", parts.len())
+        });
         let asserted = (!asserted.is_empty()).then(|| {
             let many = asserted.len();
             format!("{many} more must hold whatever was drawn; they are asserted and count for nothing")
         });
-        Counts { classes, asserted }
+        Counts { classes, parts, asserted }
     }
 
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Judged> {
         self.claims.iter().find(|judged| judged.claim == id)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_an_undecided_interval_around_a_limit_asks_for_more_units() {
-        let said = |verdict, [low, value, high]: [f64; 3]| {
-            let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 10));
-            let mut finding = Finding { verdict: Some(verdict), ours, ..Finding::of("share") };
-            finding.say_what_settles(&[0.5, 1.0], "trials");
-            finding.because
-        };
-        // Half a width of 1/4 against a distance of 1/8: four times as many.
-        let needed = "about 40 trials would settle a value of this size";
-        assert_eq!(said(Verdict::Undecided, [0.25, 0.375, 0.75]), [needed]);
-        assert!(said(Verdict::Undecided, [0.6, 0.7, 0.8]).is_empty(), "no limit lies within");
-        assert!(said(Verdict::Undecided, [0.4, 0.5, 0.6]).is_empty(), "no number would");
-        assert!(said(Verdict::Reproduced, [0.2, 0.4, 0.6]).is_empty());
     }
 }

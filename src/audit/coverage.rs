@@ -9,7 +9,9 @@ use std::collections::BTreeMap;
 /// Something for the author to look at.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark {
-    /// Line in the text, from 1; in the file of macros for [`Kind::Stale`] without a definition in the text.
+    /// Whether it stands in the file of macros, and not in the text.
+    pub in_macros: bool,
+    /// Line there, from 1.
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
@@ -126,7 +128,8 @@ pub fn macros(text: &str) -> BTreeMap<String, (String, usize)> {
     found
 }
 
-/// Everything in `text` that the author should look at, given the file of macros and, if there is a newer one, that.
+/// Everything in `text` that the author should look at, given the file of macros and, if it is known, what that file would be
+/// if it were made now.
 pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
     let given = macros(given);
     let truth = current.map(macros);
@@ -135,13 +138,14 @@ pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
         let now = truth.as_ref().and_then(|truth| truth.get(name)).map(|(now, _)| now.clone());
         if now.as_ref() != Some(value) {
             let kind = Kind::Stale { name: name.clone(), value: value.clone(), now };
-            remarks.push(Remark { line: *line, column: 1, kind });
+            remarks.push(Remark { in_macros: true, line: *line, column: 1, kind });
         }
     }
     let known = truth.as_ref().unwrap_or(&given);
     for (name, (value, line)) in macros(text) {
         if let Some((now, _)) = known.get(&name).filter(|(now, _)| *now != value) {
             remarks.push(Remark {
+                in_macros: false,
                 line,
                 column: 1,
                 kind: Kind::Stale { name, value, now: Some(now.clone()) },
@@ -154,7 +158,7 @@ pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
     }
     for (line, column, number) in numbers(text) {
         let macros = by_value.get(number.as_str()).cloned().unwrap_or_default();
-        remarks.push(Remark { line, column, kind: Kind::Typed { number, macros } });
+        remarks.push(Remark { in_macros: false, line, column, kind: Kind::Typed { number, macros } });
     }
     remarks
 }

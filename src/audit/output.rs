@@ -5,6 +5,7 @@ use super::input::Input;
 use super::meaning::{ITEMS, Kind};
 use super::reader;
 use super::report::{Class, Finding, Report};
+use super::table::Table;
 use super::witness::Witness;
 use serde_json::{Value, json};
 
@@ -71,7 +72,7 @@ pub fn guesses(source: &str, input: &Input) -> Vec<String> {
         let names: Vec<&str> = table
             .columns
             .iter()
-            .filter(|column| column.is_guessed && column.meaning.kind != Kind::Skip)
+            .filter(|column| column.written.is_none() && column.meaning.kind != Kind::Skip)
             .map(|column| column.name.as_str())
             .collect();
         let header = reader::stub(table).join(" | ");
@@ -86,8 +87,8 @@ pub fn guesses(source: &str, input: &Input) -> Vec<String> {
     guessed.collect()
 }
 
-/// The whole report.
-pub fn json(source: &str, report: &Report) -> Value {
+/// The whole report, with the header of every table of which a column was guessed.
+pub fn json(source: &str, input: &Input, report: &Report) -> Value {
     let findings: Vec<Value> = report.findings.iter().map(finding).collect();
     let checks: Vec<Value> = report
         .tally
@@ -103,7 +104,14 @@ pub fn json(source: &str, report: &Report) -> Value {
             })
         })
         .collect();
-    json!({ "source": source, "findings": findings, "checks": checks })
+    let is_guessed = |table: &&Table| table.columns.iter().any(|column| column.written.is_none());
+    let guessed = input
+        .tables
+        .iter()
+        .filter(is_guessed)
+        .map(|table| json!({ "line": table.line, "header": reader::stub(table) }));
+    let guessed: Vec<Value> = guessed.collect();
+    json!({ "source": source, "guessed": guessed, "findings": findings, "checks": checks })
 }
 
 fn finding(finding: &Finding) -> Value {
@@ -163,6 +171,9 @@ pub fn list() -> String {
     text
 }
 
+/// Checks of which what is possible is worth a line on the page of public tables.
+const POSSIBLE: [&str; 6] = ["clock", "grim", "lattice", "ratio_label", "reduction", "total_over_mean"];
+
 /// What is impossible or a signal, and what each check did, as a section of Markdown under `title`.
 pub fn section(title: &str, about: &str, report: &Report) -> String {
     let mut text = format!("## {title}\n\n{}\n\n", about.trim());
@@ -184,9 +195,7 @@ pub fn section(title: &str, about: &str, report: &Report) -> String {
         text += &format!(". Premises: {}.\n", finding.premises.join("; "));
     }
     let possible = report.findings.iter().filter(|finding| finding.class == Class::Possible);
-    for finding in possible
-        .filter(|finding| ["grim", "total_over_mean", "reduction", "ratio_label"].contains(&finding.check))
-    {
+    for finding in possible.filter(|finding| POSSIBLE.contains(&finding.check)) {
         text += &format!("- possible ({}): {}: {}.\n", finding.check, finding.name, finding.said);
     }
     text += "\nIn all:\n\n";

@@ -117,7 +117,7 @@ pub struct Tally {
 pub struct Options {
     /// Whether findings that are possible are kept.
     pub keeps_possible: bool,
-    /// Whether power is left out, which takes most of the time.
+    /// Whether power and mends are left out, which take most of the time.
     pub skips_power: bool,
     /// The search for data behind what is possible; none if it is not asked for.
     pub witness: Option<Budget>,
@@ -230,7 +230,8 @@ impl Run<'_> {
             _ => None,
         };
         let certificate = proof.map(|proof| super::certificate::of(check, test, prints, &proof));
-        let mend = (answer == Some(false)).then(|| self.mend(test, prints)).flatten();
+        let mend =
+            (answer == Some(false) && !self.options.skips_power).then(|| self.mend(test, prints)).flatten();
         self.report.findings.push(Finding {
             check,
             class,
@@ -354,6 +355,8 @@ fn listed(names: &[&str]) -> String {
 
 #[cfg(test)]
 mod pages;
+#[cfg(test)]
+mod power;
 #[cfg(test)]
 mod simulation;
 #[cfg(test)]

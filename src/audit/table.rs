@@ -64,8 +64,8 @@ pub struct Column {
     pub name: String,
     /// What it is.
     pub meaning: Meaning,
-    /// Whether [`meaning`](Self::meaning) was guessed.
-    pub is_guessed: bool,
+    /// The annotation that says so; none if it was guessed.
+    pub written: Option<String>,
 }
 
 /// A table.

@@ -132,7 +132,14 @@ pub fn extremes(n: u64, sum: i128, [least, most]: [Option<i128>; 2]) -> Option<(
     let square = |x: i128| x.checked_mul(x);
     let even =
         square(base)?.checked_mul(n - rest)?.checked_add(square(base.checked_add(1)?)?.checked_mul(rest)?)?;
-    let (Some(least), Some(most)) = (least, most) else { return Some((even, None)) };
+    // One end alone implies the other: all values but one stand at it.
+    let rest_at = |end: i128| sum.checked_sub(end.checked_mul(n - 1)?);
+    let [least, most] = match (least, most) {
+        (None, None) => return Some((even, None)),
+        (Some(least), None) => [least, rest_at(least)?],
+        (None, Some(most)) => [rest_at(most)?, most],
+        (Some(least), Some(most)) => [least, most],
+    };
     if least == most {
         return Some((even, Some(even)));
     }

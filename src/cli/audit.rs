@@ -1,6 +1,6 @@
 //! `replan audit`: is this table possible?
 
-use super::Failure;
+use super::{Failure, render};
 use ::audit::reader::{self, Format};
 use ::audit::report::{Options, Report};
 use ::audit::witness::Budget;
@@ -91,7 +91,7 @@ impl Audit {
             write_certificates(folder, &report)?;
         }
         if self.json {
-            say!("{:#}", output::json(&source, &report));
+            say!("{:#}", output::json(&source, &input, &report));
         } else {
             let findings = report.findings.iter().map(|finding| output::line(&source, finding));
             let lines = output::guesses(&source, &input).into_iter().chain(findings);
@@ -109,13 +109,21 @@ impl Audit {
     }
 }
 
-/// Tells what `text` holds that no macro backs.
+/// Tells what `text` holds that no macro backs, and which macros are not what the stored run gives now.
 fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
     let given = read(macros)?;
-    let current = current(&given, macros).map(|path| read(&path)).transpose()?;
+    let current = match paper(&given) {
+        Some(paper) => render::macros(paper)?,
+        None => None,
+    };
+    if current.is_none() {
+        let why = "its first line names no paper of this folder, so that stale values were not looked for";
+        eprintln!("replan: {}: {why}", macros.display());
+    }
     let remarks = coverage::coverage(&read(text)?, &given, current.as_deref());
     for remark in &remarks {
-        say!("{}:{remark}", text.display());
+        let file = if remark.in_macros { macros } else { text };
+        say!("{}:{remark}", file.display());
     }
     match remarks.len() {
         0 => Ok(()),
@@ -123,13 +131,9 @@ fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Where the macros come from, if they are a copy: the first line names the paper that they were made for.
-fn current(macros: &str, given: &Path) -> Option<PathBuf> {
-    let words = macros.lines().next()?.split_once("replan render ")?.1;
-    let paper = words.split_whitespace().next()?;
-    let path = Path::new("plots").join(paper).join("numbers.tex");
-    let differs = fs::canonicalize(&path).ok()? != fs::canonicalize(given).ok()?;
-    differs.then_some(path)
+/// The paper that macros were made for, which their first line names.
+fn paper(macros: &str) -> Option<&str> {
+    macros.lines().next()?.split_once("replan render ")?.1.split_whitespace().next()
 }
 
 fn write_certificates(folder: &Path, report: &Report) -> Result<(), Failure> {

@@ -31,9 +31,11 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
         let what = what.unwrap_or_default();
         text += &format!("{:<width$}  {printed:>9}  {ours:<wide$}  {verdict}{what}\n", judged.claim);
     }
-    let Counts { classes, asserted } = verdicts.counts();
+    let Counts { classes, parts, asserted } = verdicts.counts();
     text += &format!("{classes}\n");
-    text += &asserted.map_or_else(String::new, |asserted| format!("{asserted}\n"));
+    for more in parts.into_iter().chain(asserted) {
+        text += &format!("{more}\n");
+    }
     if verdicts.quick {
         text += "a quick run: few replicates, so these verdicts are not the study's\n";
     }

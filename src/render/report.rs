@@ -139,10 +139,10 @@ fn heading(text: &mut String, paper: &Paper, verdicts: &Verdicts) {
 }
 
 fn counts(text: &mut String, verdicts: &Verdicts) {
-    let Counts { classes, asserted } = verdicts.counts();
+    let Counts { classes, parts, asserted } = verdicts.counts();
     line!(text, "\n{classes}.");
-    if let Some(asserted) = asserted {
-        line!(text, "{asserted}.");
+    for more in parts.into_iter().chain(asserted) {
+        line!(text, "{more}.");
     }
 }
 
@@ -224,6 +224,12 @@ fn reason(text: &mut String, judged: &Judged) {
     if let Some(theorem) = &judged.theorem {
         line!(text, "- it must hold: {theorem}.");
     }
+    if let Some(whole) = &judged.part_of {
+        line!(text, "- it counts with `{whole}`.");
+    }
+    if let Some(why) = &judged.changed_after_run {
+        line!(text, "- changed after a run: {why}.");
+    }
     for finding in &judged.findings {
         if let [first, .., last] = &finding.because[..]
             && first.len() + last.len() > LONG
@@ -232,6 +238,9 @@ fn reason(text: &mut String, judged: &Judged) {
             finding.because.iter().for_each(|reason| line!(text, "  - {reason}"));
         } else {
             line!(text, "- {}: {}.{}", finding.criterion, finding.because.join("; "), aside(finding));
+        }
+        if let Some(settles) = &finding.settles {
+            line!(text, "  - what would settle it: {settles}");
         }
         for premise in &finding.premises {
             line!(text, "  - premise: {premise}");

@@ -31,6 +31,7 @@ fn a_possible_table_ends_with_0_and_shows_its_data_if_asked() {
     assert!(said.contains("data (all of them, 1 of 100000 steps): 84 × 2/5 of 250"), "{said}");
     let json = bench.done(&["audit", "t.md", "--json"]);
     assert!(json.contains("\"check\": \"grim\"") && json.contains("\"power\""), "{json}");
+    assert!(json.contains("\"guessed\"") && json.contains("planner [label]"), "{json}");
 }
 
 #[test]
@@ -58,6 +59,30 @@ fn a_number_that_no_macro_backs_ends_with_3() {
     assert_eq!(said.out, "paper.tex:1:9: 45 is typed by hand; macros of this value: \\nodes\n");
     bench.write("paper.tex", b"We open \\nodes{} nodes.\n");
     assert_eq!(bench.run(&call).code, Some(0));
+}
+
+#[test]
+fn a_macro_that_the_stored_run_does_not_give_is_stale() {
+    let home = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let bench = Bench::new();
+    let stored = std::fs::read_to_string(home.join("plots/movingai_sample/numbers.tex")).unwrap();
+    let line = stored.lines().position(|line| line.contains("Ours}{")).unwrap();
+    let value = stored.lines().nth(line).unwrap().split(['{', '}']).nth(3).unwrap().to_owned();
+    let wrong = stored.replacen(&format!("Ours}}{{{value}}}"), "Ours}{31415}", 1);
+    bench.write("copy.tex", wrong.as_bytes());
+    bench.write("paper.tex", b"No number.\n");
+    let (text, copy) = (bench.at("paper.tex"), bench.at("copy.tex"));
+    let called = |macros: &Path| {
+        let mut command = bench.command(&["audit", "--coverage"]);
+        command.arg(&text).arg("--macros").arg(macros).current_dir(home);
+        bench.said(&command.output().unwrap())
+    };
+    let said = called(&copy);
+    assert_eq!(said.code, Some(3), "{}", said.err);
+    let expected = format!("copy.tex:{}:1: ", line + 1);
+    assert!(said.out.contains(&expected) && said.out.contains("is 31415, but now it is"), "{}", said.out);
+    assert_eq!(said.out.lines().count(), 1);
+    assert_eq!(called(Path::new("plots/movingai_sample/numbers.tex")).code, Some(0));
 }
 
 #[test]

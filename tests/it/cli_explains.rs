@@ -10,7 +10,7 @@ fn ten_mistakes_in_different_tables_are_told_in_one_round_each_at_its_own_place(
     let edits = [
         ("paper", "title =", "titel =", "paper.toml:2:1: unknown key `titel` (did you mean `title`?)"),
         ("paper", "metric = \"path_cost_cells\"", "metrik = \"path_cost_cells\"", "unknown key `metrik`"),
-        ("paper", "on = \"average\"", "on = \"averige\"", "`on` is \"averige\" (did you mean `average`?)"),
+        ("paper", "is = \"lower\"", "is = \"lowr\"", "`is` is \"lowr\" (did you mean `lower`?)"),
         ("paper", "figures = 1\n", "figures = -1\n", "`figures` is -1"),
         ("draws", "seed = 7", "seed = 7.5", "draws.toml:3:8: `seed` is 7.5"),
         ("draws", "weight = 1,", "wheight = 1,", "unknown key `wheight` (did you mean `weight`?)"),
@@ -62,7 +62,9 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
     let bench = Bench::new();
     for (what, name, part) in [
         ("planners", "astar", "ties: \"fifo\", \"lifo\" or \"larger_g\"; \"fifo\" if left out"),
-        ("checks", "table_cell", "sweep = \"samples=100\""),
+        ("criteria", "one_draw", "sweep = \"samples=100\""),
+        ("checks", "one_draw", "sweep = \"samples=100\""),
+        ("rules", "straight_line", "start = [22.0, 15.0]"),
         ("families", "random_cells", "blocked_share: a number (a share of 1); required"),
         ("tasks", "plan", "It has no settings."),
         ("prepared", "lattice", "free_cells"),
@@ -73,7 +75,7 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
         let before_example = said.split("Example").next().unwrap();
         assert!(before_example.lines().all(|line| line.chars().count() <= 80), "{said}");
     }
-    assert!(bench.done(&["list", "checks"]).lines().all(|line| line.chars().count() <= 80));
+    assert!(bench.done(&["list", "criteria"]).lines().all(|line| line.chars().count() <= 80));
     let said = bench.run(&["list", "planners", "astr"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
     assert!(said.err.contains("there is no planner `astr` (did you mean `astar`?)"), "{}", said.err);

@@ -29,17 +29,17 @@ fn every_wrong_word_in_a_spec_is_told_with_its_place_and_what_is_accepted() {
 #[test]
 fn faults_of_several_claims_and_of_several_names_in_one_check_are_told_at_once() {
     let bench = Bench::new();
-    bench.edit("mini/paper.toml", "problems = [\"drawn\"]", "problems = [\"drown\", \"lost\"]");
-    bench.edit("mini/paper.toml", "lower = \"Two-sided\"", "lower = \"Two\"");
+    bench.edit("mini/paper.toml", "problems = \"drawn\"", "problems = [\"drown\", \"lost\"]");
+    bench.edit("mini/paper.toml", "contender = \"Two-sided\"", "contender = \"Two\"");
     bench.edit("mini/paper.toml", "contenders = [\"A*\"]", "contenders = [\"B*\"]");
     bench.edit("mini/room.toml", "searched = true", "searched = true\nfitted_to = [\"cost\", \"toll\"]");
     let said = bench.run(&["check", "./mini"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
     for fault in [
-        "mini/paper.toml:27:15: no study that is looked at has a contender `B*`",
-        "mini/paper.toml:36:13: study `draws` has no problem group `drown`",
-        "mini/paper.toml:36:22: study `draws` has no problem group `lost`",
-        "mini/paper.toml:38:9: study `draws` has no contender `Two`",
+        "mini/paper.toml:27:15: there is no contender `B*`",
+        "mini/paper.toml:38:13: study `draws` has no problem group `drown`",
+        "mini/paper.toml:38:22: study `draws` has no problem group `lost`",
+        "mini/paper.toml:40:13: study `draws` has no contender `Two`",
         "mini/room.toml:5:22: fitted_to: there is no claim `toll`",
     ] {
         assert!(said.err.contains(fault), "{fault}\nis said: {}", said.err);

@@ -1,8 +1,10 @@
 //! Everything registered documents itself: meanings, examples and schemas come from the types that read the files.
 
 use base::settings::describe::undocumented;
-use base::settings::{Document, Settings};
-use replan::analysis::check;
+use base::settings::{Document, Settings, SettingsError};
+use replan::analysis::context::Context;
+use replan::analysis::criterion;
+use replan::analysis::rule;
 use replan::cli::catalogue::{self, Item};
 use replan::cli::file_schema;
 use replan::render::figure;
@@ -19,7 +21,8 @@ fn everything() -> Vec<(&'static str, Vec<Item>)> {
         ("stage", catalogue::stages()),
         ("family", catalogue::families()),
         ("task", catalogue::tasks()),
-        ("check", catalogue::checks()),
+        ("criterion", catalogue::criteria()),
+        ("rule", catalogue::rules()),
         ("figure", catalogue::figures()),
         ("file", catalogue::files()),
     ]
@@ -79,20 +82,34 @@ fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
     }
 }
 
+/// Builds the example with some claim of a committed paper.
+fn builds_somewhere(
+    item: &Item,
+    papers: &[Paper],
+    build: &dyn Fn(&Context<'_>) -> Result<(), SettingsError>,
+) {
+    let settings = example(item);
+    let mut said = BTreeSet::new();
+    let builds = papers.iter().any(|paper| {
+        let point = ReadingChoice::new(&paper.readings(), &BTreeMap::new()).unwrap();
+        paper.claims.iter().any(|claim| {
+            let context = Context { claim, settings: &settings, paper, point: &point };
+            build(&context).map_err(|error| said.insert(error.to_string())).is_ok()
+        })
+    });
+    assert!(builds, "{}: {said:?}", item.name);
+}
+
 #[test]
-fn every_example_of_a_check_and_a_figure_builds_in_a_committed_paper() {
+fn every_example_of_a_criterion_a_rule_and_a_figure_builds_in_a_committed_paper() {
     let papers = committed_papers();
-    for item in catalogue::checks() {
-        let (entry, settings) = (check::find(item.name).unwrap(), example(&item));
-        let mut said = BTreeSet::new();
-        let builds = papers.iter().any(|paper| {
-            let point = ReadingChoice::new(&paper.readings(), &BTreeMap::new()).unwrap();
-            paper.claims.iter().any(|claim| {
-                let context = check::Context { claim, settings: &settings, paper, point: &point };
-                (entry.build)(&context).map_err(|error| said.insert(error.to_string())).is_ok()
-            })
-        });
-        assert!(builds, "{}: {said:?}", item.name);
+    for item in catalogue::criteria() {
+        let entry = criterion::find(item.name).unwrap();
+        builds_somewhere(&item, &papers, &|context| (entry.build)(context).map(|_| ()));
+    }
+    for item in catalogue::rules() {
+        let entry = rule::find(item.name).unwrap();
+        builds_somewhere(&item, &papers, &|context| (entry.build)(context).map(|_| ()));
     }
     for item in catalogue::figures() {
         let (entry, settings) = (figure::find(item.name).unwrap(), example(&item));

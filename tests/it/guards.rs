@@ -91,9 +91,13 @@ fn a_flipped_verdict_is_caught_by_judge_though_render_believes_it() {
 #[test]
 fn whatever_else_is_edited_in_stored_verdicts_is_caught_and_named() {
     for (from, to, said) in [
-        ("n = 60", "n = 61", "claim `lengths.astar`: reproduced as stored, but number of `oracle`: stored "),
-        ("60 of 60 trials", "61 of 61 trials", "but the reasons of `oracle` read otherwise"),
-        ("check = \"oracle\"", "check = \"share\"", "but check: stored \"share\", judged \"oracle\""),
+        ("n = 60", "n = 61", "claim `lengths.astar`: reproduced as stored, but number of `equals`: stored "),
+        ("on 60 of 60 trials", "on 61 of 61 trials", "but the reasons of `equals` read otherwise"),
+        (
+            "criterion = \"equals\"",
+            "criterion = \"share\"",
+            "but criterion: stored \"share\", judged \"equals\"",
+        ),
         (
             "says = \"A*",
             "says = \"B*",

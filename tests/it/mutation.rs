@@ -4,6 +4,7 @@
 //! and figures; a paper with its studies as they are; a robot, scene or map through a study that uses it. The case ends
 //! well or with an error that names a file and a place in it. `REPLAN_MUTATIONS` sets how many cases there are.
 
+mod audited;
 mod damage;
 mod stored;
 mod subject;
@@ -51,7 +52,7 @@ fn is_located(message: &str) -> bool {
     if first.contains(".parquet") || first.contains("manifest.toml") || first.contains("verdicts.toml") {
         return true;
     }
-    let endings = [".toml", ".txt", ".map", ".scen"];
+    let endings = [".toml", ".txt", ".map", ".scen", ".csv", ".md"];
     let is_file =
         |ending: &str| first.match_indices(ending).any(|(at, _)| is_place(&first[at + ending.len()..]));
     endings.into_iter().any(is_file)

@@ -30,7 +30,7 @@ id = "cost"
 at = "Table 1, A*, cost"
 printed = "7.83"
 unit = "cells"
-[claim.check.attained]
+[claim.check.exists]
 metric = "path_cost_cells"
 contenders = ["A*"]
 in = [{ study = "room", problems = ["room"] }]
@@ -39,13 +39,14 @@ in = [{ study = "room", problems = ["room"] }]
 id = "nodes"
 at = "section 1"
 says = "two sides open fewer nodes"
-[claim.check.ordering]
+[claim.check.lower]
+is = "lower"
+[claim.check.lower.of]
 study = "draws"
-problems = ["drawn"]
+problems = "drawn"
 metric = "nodes"
-lower = "Two-sided"
-higher = "A*"
-on = "average"
+contender = "Two-sided"
+against = "A*"
 
 [[table]]
 id = "table1"

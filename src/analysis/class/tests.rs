@@ -112,66 +112,43 @@ fn nothing_raises_a_class_and_nothing_turns_its_sign() {
     }
 }
 
+/// What a cap makes of what holds, of what holds in sign alone, and of what fails.
+const CAPPED: [(Caps, [Verdict; 3]); 10] = {
+    use Verdict::{Attainable, DirectionOnly, Fitted, NotReproduced, Reproduced, Undecided};
+    const NONE: Caps = Caps {
+        searched: false,
+        fitted: false,
+        existential: false,
+        powerless: false,
+        censored: false,
+        clock: None,
+        without_premises: false,
+    };
+    const OPEN: [Verdict; 3] = [Undecided; 3];
+    [
+        (NONE, [Reproduced, DirectionOnly, NotReproduced]),
+        (Caps { searched: true, ..NONE }, [Attainable, DirectionOnly, NotReproduced]),
+        (Caps { existential: true, ..NONE }, [Attainable, DirectionOnly, NotReproduced]),
+        (Caps { fitted: true, ..NONE }, [Fitted, DirectionOnly, NotReproduced]),
+        (Caps { fitted: true, searched: true, ..NONE }, [Attainable, DirectionOnly, NotReproduced]),
+        (Caps { powerless: true, ..NONE }, [Undecided, Undecided, NotReproduced]),
+        (Caps { censored: true, ..NONE }, OPEN),
+        (Caps { clock: Some(Sessions::TooFew), ..NONE }, OPEN),
+        (Caps { clock: Some(Sessions::Disagree), ..NONE }, OPEN),
+        (Caps { clock: Some(Sessions::Agree), ..NONE }, [Reproduced, DirectionOnly, NotReproduced]),
+    ]
+};
+
 #[test]
 fn each_cap_does_what_it_says() {
-    let found = |outcome, caps| of_finding(outcome, caps).unwrap();
-    let none = Caps::default;
-    let agree = Some(Sessions::Agree);
-    for (caps, holds, sign, fails) in [
-        (none(), Verdict::Reproduced, Verdict::DirectionOnly, Verdict::NotReproduced),
-        (
-            Caps { searched: true, ..none() },
-            Verdict::Attainable,
-            Verdict::DirectionOnly,
-            Verdict::NotReproduced,
-        ),
-        (
-            Caps { existential: true, ..none() },
-            Verdict::Attainable,
-            Verdict::DirectionOnly,
-            Verdict::NotReproduced,
-        ),
-        (Caps { fitted: true, ..none() }, Verdict::Fitted, Verdict::DirectionOnly, Verdict::NotReproduced),
-        (
-            Caps { fitted: true, searched: true, ..none() },
-            Verdict::Attainable,
-            Verdict::DirectionOnly,
-            Verdict::NotReproduced,
-        ),
-        (Caps { powerless: true, ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::NotReproduced),
-        (Caps { censored: true, ..none() }, Verdict::Undecided, Verdict::Undecided, Verdict::Undecided),
-        (
-            Caps { clock: Some(Sessions::TooFew), ..none() },
-            Verdict::Undecided,
-            Verdict::Undecided,
-            Verdict::Undecided,
-        ),
-        (
-            Caps { clock: Some(Sessions::Disagree), ..none() },
-            Verdict::Undecided,
-            Verdict::Undecided,
-            Verdict::Undecided,
-        ),
-        (
-            Caps { clock: agree, ..none() },
-            Verdict::Reproduced,
-            Verdict::DirectionOnly,
-            Verdict::NotReproduced,
-        ),
-    ] {
-        assert_eq!(
-            [Outcome::Holds, Outcome::SignOnly, Outcome::Fails].map(|outcome| found(outcome, caps)),
-            [holds, sign, fails],
-            "{caps:?}"
-        );
-        assert_eq!(found(Outcome::Open, caps), Verdict::Undecided, "{caps:?}");
-        assert_eq!(
-            found(Outcome::Proved, caps),
-            Verdict::Impossible,
-            "no measurement lowers a proof: {caps:?}"
-        );
+    for (caps, expected) in CAPPED {
+        let found = |outcome| of_finding(outcome, caps).unwrap();
+        let measured = [Outcome::Holds, Outcome::SignOnly, Outcome::Fails].map(found);
+        assert_eq!(measured, expected, "{caps:?}");
+        assert_eq!(found(Outcome::Open), Verdict::Undecided, "{caps:?}");
+        assert_eq!(found(Outcome::Proved), Verdict::Impossible, "no measurement lowers a proof: {caps:?}");
     }
-    let elsewhere = Caps { without_premises: true, ..none() };
+    let elsewhere = Caps { without_premises: true, ..Caps::default() };
     assert_eq!(of_finding(Outcome::Proved, elsewhere), None, "a proof counts where its premises hold");
 }
 

@@ -1,12 +1,14 @@
 //! Whether a number is, on every trial, what an oracle says, or what another contender finds.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
-use crate::analysis::evidence::Evidence;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::{Evidence, Run};
+use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Selection, SelectionSpec};
-use crate::analysis::statistic::{self, plan};
-use crate::analysis::verdict::Estimate;
+use crate::analysis::selection::{Case, Draw, Selection};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{Share, plan};
 use crate::study::Study;
 use crate::study::record::{Row, Status};
 use base::settings::{Accepted, SettingsError};
@@ -63,60 +65,81 @@ impl<'a> Equals<'a> {
     }
 }
 
+/// What all trials say.
+#[derive(Default)]
+struct Tally<'e> {
+    /// Trials that are the same, and trials, by draw.
+    counts: Vec<[f64; 2]>,
+    /// The farthest apart.
+    worst: f64,
+    /// The sums of the metric and of the truth.
+    sums: [f64; 2],
+    /// The first trial that is not the same.
+    wrong: Option<&'e Row>,
+}
+
+impl Equals<'_> {
+    /// The truth and the number of one case; nothing if it is not asked.
+    fn pair(&self, run: &Run<'_>, case: &Case<'_>) -> Option<(f64, f64)> {
+        let Some(truth) = self.truth else { return case.pair() };
+        // What was not measured is as wrong as what is far off, unless the truth is unknown too.
+        let own = run.value(case.row, self.metric).unwrap_or(f64::INFINITY);
+        Some((run.value(case.row, truth)?, own))
+    }
+
+    fn tally<'e>(&self, run: &Run<'_>, draws: &[Draw<'e>]) -> Tally<'e> {
+        let mut all = Tally::default();
+        for draw in draws {
+            let mut count = [0.0; 2];
+            for case in &draw.cases {
+                let Some((truth, own)) = self.pair(run, case) else { continue };
+                let apart = (own - truth).abs();
+                let is_same = apart <= self.within + SAME * truth.abs();
+                count = [count[0] + f64::from(u8::from(is_same)), count[1] + 1.0];
+                all.worst = all.worst.max(apart);
+                all.sums = [all.sums[0] + own, all.sums[1] + truth];
+                all.wrong = all.wrong.or((!is_same).then_some(case.row));
+            }
+            if count[1] > 0.0 {
+                all.counts.push(count);
+            }
+        }
+        all
+    }
+
+    /// What the metric is held against.
+    fn truth_said(&self) -> String {
+        let other = || format!("that of {}", self.of.against.as_deref().unwrap_or_default());
+        self.truth.map_or_else(other, |truth| truth.label.to_lowercase())
+    }
+}
+
 impl Criterion for Equals<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let Some(run) = self.of.run(evidence) else { return Found::default() };
         let draws = self.of.draws(evidence);
-        let (mut counts, mut worst, mut sums, mut wrong): (Vec<[f64; 2]>, f64, [f64; 2], Option<&Row>) =
-            (Vec::new(), 0.0, [0.0; 2], None);
-        for draw in &draws {
-            let mut count = [0.0; 2];
-            for case in &draw.cases {
-                let pair = match self.truth {
-                    None => case.pair(),
-                    // What was not measured is as wrong as what is far off, unless the truth is unknown too.
-                    Some(truth) => run
-                        .value(case.row, truth)
-                        .map(|truth| (truth, run.value(case.row, self.metric).unwrap_or(f64::INFINITY))),
-                };
-                let Some((truth, own)) = pair else { continue };
-                let apart = (own - truth).abs();
-                let is_same = apart <= self.within + SAME * truth.abs();
-                count = [count[0] + f64::from(u8::from(is_same)), count[1] + 1.0];
-                worst = worst.max(apart);
-                sums = [sums[0] + own, sums[1] + truth];
-                if !is_same {
-                    wrong = wrong.or(Some(case.row));
-                }
-            }
-            counts.push(count);
-        }
-        let total = counts.iter().fold([0.0, 0.0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
-        let outcome = match total {
-            [_, 0.0] => Outcome::Open,
-            [same, all] if same == all => Outcome::Holds,
-            _ => Outcome::Fails,
+        let Tally { counts, worst, sums, wrong } = self.tally(run, &draws);
+        let [same, all] = counts.iter().fold([0.0, 0.0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
+        let outcome = match (all > 0.0, same == all) {
+            (false, _) => Outcome::Open,
+            (true, true) => Outcome::Holds,
+            (true, false) => Outcome::Fails,
         };
-        let what = self.truth.map_or_else(
-            || format!("that of {}", self.of.against.as_deref().unwrap_or_default()),
-            |truth| truth.label.to_lowercase(),
-        );
-        let metric = self.metric.label.to_lowercase();
-        let refused =
-            draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.row.status == Status::Rejected);
-        let mut because = vec![format!(
-            "{}: {metric} is {what} on {} of {} trials; they are {worst:.4} apart at most, and {:+.2} % on the whole",
-            self.of.said(),
-            total[0],
-            total[1],
-            100.0 * (sums[0] / sums[1] - 1.0)
-        )];
-        let refused = refused.count();
+        let (metric, truth) = (self.metric.label.to_lowercase(), self.truth_said());
+        let whole = 100.0 * (sums[0] / sums[1] - 1.0);
+        let apart = if whole.is_finite() {
+            format!("; they are {worst:.4} apart at most, and {whole:+.2} % on the whole")
+        } else {
+            String::new()
+        };
+        let mut because =
+            vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.said())];
+        let cases = draws.iter().flat_map(|draw| &draw.cases);
+        let refused = cases.filter(|case| case.row.status == Status::Rejected).count();
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
-        let counts: Vec<[f64; 2]> = counts.into_iter().filter(|count| count[1] > 0.0).collect();
-        let ours = statistic::share(&counts, self.plan).map(|(share, interval, how)| {
-            let what = format!("share of trials on which {metric} is {what}, {how}");
-            Estimate::new(share, interval, what, counts.len()).of_cases(total.map(|count| count as usize))
+        let ours = Share::of(&counts, self.plan).map(|share| {
+            let what = format!("trials on which {metric} is {truth}");
+            share.estimate(&what).of_cases([same as usize, all as usize])
         });
         let trial = wrong.map(|row| run.trial(row));
         Found { outcome: Some(outcome), ours, trial, because, units: "trials", ..Found::default() }

@@ -1,10 +1,12 @@
 //! Whether the printed number is met exactly by any stored trial, alone or together with other printed numbers.
 
-use super::{CONTENDER_KEYS, Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::{CONTENDER_KEYS, Context};
 use crate::analysis::evidence::{Evidence, Pair, Run};
+use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::Labels;
+use crate::analysis::selection_spec::Labels;
 use crate::analysis::verdict::Estimate;
 use crate::study::record::Row;
 use crate::study::{Reading, ReadingChoice, Study};

@@ -3,12 +3,15 @@
 //! Each comparison is a ratio of two medians with an interval; the largest ratio decides. Where it is asked for, what
 //! follows from one contender's steps including another's is stated and held against the runs, not estimated from them.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::{Evidence, Run};
+use crate::analysis::found::Found;
 use crate::analysis::inclusion::Inclusion;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Selection, SelectionSpec};
+use crate::analysis::selection::Selection;
+use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::LEVEL;
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
@@ -41,9 +44,9 @@ struct Settings {
     /// The trials that are looked at: study, problems and metric.
     of: SelectionSpec,
     /// Contenders each of which is claimed to be below every one of `higher`.
-    lower: crate::analysis::selection::Labels,
+    lower: crate::analysis::selection_spec::Labels,
     /// Those that they are compared with.
-    higher: crate::analysis::selection::Labels,
+    higher: crate::analysis::selection_spec::Labels,
     /// By how many per cent at least.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 99.9))]

@@ -1,9 +1,12 @@
 //! Whether one contender is lower (or higher) than another: sign and size over draws, or all along a sweep at once.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::selection::{self, Case, Draw, Selection, SelectionSpec, solved};
+use crate::analysis::found::Found;
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{OfAll, plan};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
@@ -144,20 +147,11 @@ impl<'a> Lower<'a> {
             return Found::too_few(curves.len(), 2);
         };
         let points = self.of.study.sweep_points();
-        let toward = |b: &Interval| if self.way == Way::Higher { (b.low, b.high) } else { (-b.high, -b.low) };
         let at = |index: usize| name::sweep(&points[index].key);
-        let signed = |index: usize| toward(&Interval::new(mean[index], mean[index])).0;
+        let sign = if self.way == Way::Higher { 1.0 } else { -1.0 };
+        let signed = |index: usize| sign * mean[index];
         let least = (0..mean.len()).min_by(|a, b| signed(*a).total_cmp(&signed(*b))).unwrap_or(0);
-        let beyond = band.iter().filter(|b| toward(b).0 > 0.0).count();
-        let outcome = if beyond == band.len() {
-            Outcome::Holds
-        } else if band.iter().any(|b| toward(b).1 < 0.0) {
-            Outcome::Fails
-        } else if beyond > 0 {
-            Outcome::SignOnly
-        } else {
-            Outcome::Open
-        };
+        let (outcome, beyond) = all_along(self.way, &band);
         let because = format!(
             "{}: the mean share of solved queries differs by {:.1} points (band {:.1} to {:.1}) at {}, where it is least on the claim's \
              side; the simultaneous 95 % band over {} draws is on that side at {beyond} of {} points",
@@ -182,6 +176,22 @@ impl<'a> Lower<'a> {
             ..Found::default()
         }
     }
+}
+
+/// What a simultaneous band says, and at how many points it lies on the claim's side.
+fn all_along(way: Way, band: &[Interval]) -> (Outcome, usize) {
+    let toward = |b: &Interval| if way == Way::Higher { (b.low, b.high) } else { (-b.high, -b.low) };
+    let beyond = band.iter().filter(|b| toward(b).0 > 0.0).count();
+    let outcome = if beyond == band.len() {
+        Outcome::Holds
+    } else if band.iter().any(|b| toward(b).1 < 0.0) {
+        Outcome::Fails
+    } else if beyond > 0 {
+        Outcome::SignOnly
+    } else {
+        Outcome::Open
+    };
+    (outcome, beyond)
 }
 
 /// What the interval of a change in per cent says of a claim that it goes one way, by so much at least.

@@ -1,10 +1,13 @@
 //! Whether something holds on every case, or in every draw: one counterexample ends it.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::{Evidence, Run};
-use crate::analysis::selection::{self, Case, Draw, Selection, SelectionSpec, solved};
-use crate::analysis::statistic::{self, plan};
+use crate::analysis::found::Found;
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{Share, plan};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
 use crate::study::key::SweepKey;
@@ -163,6 +166,16 @@ impl<'a> OnEvery<'a> {
     }
 }
 
+impl OnEvery<'_> {
+    /// The share of cases that speak for it.
+    fn share(&self, said: &[Vec<(Says, &Row)>]) -> Option<Estimate> {
+        let kept = |draw: &Vec<(Says, &Row)>| draw.iter().filter(|(says, _)| *says == Says::For).count();
+        let counts = said.iter().map(|draw| [kept(draw) as f64, draw.len() as f64]);
+        let share = Share::of(&counts.collect::<Vec<_>>(), self.plan)?;
+        Some(share.estimate(&format!("cases on which {}", self.claim())))
+    }
+}
+
 impl Criterion for OnEvery<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let Some(run) = self.of.run(evidence) else { return Found::default() };
@@ -180,17 +193,6 @@ impl Criterion for OnEvery<'_> {
         };
         let counterexample = all().find(|(says, _)| *says == Says::Against);
         let shown = counterexample.or_else(|| all().find(|(says, _)| *says == Says::Equal));
-        let counts: Vec<[f64; 2]> = said
-            .iter()
-            .map(|draw| {
-                [draw.iter().filter(|(says, _)| *says == Says::For).count() as f64, draw.len() as f64]
-            })
-            .filter(|count| count[1] > 0.0)
-            .collect();
-        let ours = statistic::share(&counts, self.plan).map(|(share, interval, how)| {
-            let what = format!("share of cases on which {}, {how}", self.claim());
-            Estimate::new(share, interval, what, counts.len()).of_cases(solved(&draws))
-        });
         let equally = if equal > 0 { format!(", equal on {equal}") } else { String::new() };
         let because = format!(
             "{}: {} on {kept} of {} cases{equally}, the contrary on {broken}",
@@ -202,7 +204,7 @@ impl Criterion for OnEvery<'_> {
         let left = (undone > 0).then(|| format!("{undone} more cases have no number to compare"));
         Found {
             outcome: Some(outcome),
-            ours,
+            ours: self.share(&said).map(|ours| ours.of_cases(solved(&draws))),
             trial: shown.map(|(_, row)| run.trial(row)),
             because: std::iter::once(because).chain(left).collect(),
             units: "cases",

@@ -1,9 +1,12 @@
 //! Whether a printed number could be that of one more of our draws: a printed cell is one draw, not a mean.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::selection::{Draw, Selection, SelectionSpec, solved};
+use crate::analysis::found::Found;
+use crate::analysis::selection::{Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{LEVEL, OfDraw};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;

@@ -1,10 +1,13 @@
 //! Whether a number that was measured prints as the paper's.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Selection, SelectionSpec, solved};
+use crate::analysis::selection::{Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
 use audit::printed::{Digits, Printed};

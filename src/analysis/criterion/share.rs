@@ -1,11 +1,13 @@
 //! A share with its interval: of trials solved or with a mark, of events, of draws on which something holds throughout.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::selection::{Case, Draw, Selection, SelectionSpec, solved};
-use crate::analysis::statistic::{self, plan};
-use crate::analysis::verdict::Estimate;
+use crate::analysis::found::Found;
+use crate::analysis::selection::{Case, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{Share, plan};
 use crate::study::Study;
 use crate::study::column;
 use crate::study::record::{Row, Status};
@@ -26,7 +28,7 @@ of = { study = "postures", problems = ["C1", "C2"], contender = "A*" }
 hits = "solved"
 accepted = [0.995, 1.0]
 "#,
-    build: |context| Ok(Box::new(Share::new(context)?)),
+    build: |context| Ok(Box::new(Counted::new(context)?)),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -85,13 +87,13 @@ impl Hits {
     }
 }
 
-struct Share<'a> {
+struct Counted<'a> {
     of: Selection<'a>,
     settings: Settings,
     plan: Resampling,
 }
 
-impl<'a> Share<'a> {
+impl<'a> Counted<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
         let of = Selection::new(context, &settings.of)?;
@@ -188,38 +190,45 @@ impl<'a> Share<'a> {
     }
 }
 
-impl Criterion for Share<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let draws = self.of.draws(evidence);
-        let counts: Vec<[f64; 2]> =
-            draws.iter().map(|draw| self.of_draw(draw)).filter(|count| count[1] > 0.0).collect();
-        let counted = self.settings.hits.said();
-        let Some((share, interval, how)) = statistic::share(&counts, self.plan) else {
-            return Found::open(format!("{}: nothing has {counted}", self.of.said()));
+impl Counted<'_> {
+    /// What is counted, in words.
+    fn said(&self) -> String {
+        let named = match self.settings.bound {
+            Some(bound) => {
+                format!("{} {bound}", self.of.metric.map_or("", |metric| metric.label).to_lowercase())
+            }
+            None => self.settings.columns.join(" and "),
         };
-        let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
-        let mut named = self.settings.columns.join(" and ");
-        if let Some(bound) = self.settings.bound {
-            named = format!("{} {bound}", self.of.metric.map_or("", |metric| metric.label).to_lowercase());
-        }
-        let named = if named.is_empty() { String::new() } else { format!(" ({named})") };
-        let [low, high] = [interval.low, interval.high].map(|end| 100.0 * end);
+        let hits = self.settings.hits.said();
+        if named.is_empty() { hits.to_owned() } else { format!("{hits} ({named})") }
+    }
+
+    fn because(&self, share: &Share, [hits, chances]: [f64; 2]) -> String {
+        let [low, high] = share.interval.map_or([f64::NAN; 2], |i| [100.0 * i.low, 100.0 * i.high]);
+        let interval =
+            if low.is_nan() { String::new() } else { format!(" (95 % interval {low:.2} to {high:.2})") };
         let accepted = self.settings.accepted.map_or_else(String::new, |[least, most]| {
             format!("; accepted {} to {} %", 100.0 * least, 100.0 * most)
         });
-        let because = format!(
-            "{}: {counted}{named} {} of {}, {:.2} % ({low:.2} to {high:.2} %, {how}){accepted}",
-            self.of.said(),
-            total[0],
-            total[1],
-            100.0 * share,
-        );
-        let what = format!("share of {counted}{named}, {how}");
+        let (who, what, percent) = (self.of.said(), self.said(), 100.0 * share.value);
+        format!("{who}: {what} {hits} of {chances}, {percent:.2} %{interval}{accepted}")
+    }
+}
+
+impl Criterion for Counted<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let draws = self.of.draws(evidence);
+        let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw)).collect();
+        let Some(share) = Share::of(&counts, self.plan) else {
+            let because = format!("{}: nothing to count {} among", self.of.said(), self.said());
+            return Found { outcome: self.settings.accepted.map(|_| Outcome::Open), ..Found::open(because) };
+        };
+        let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         Found {
-            outcome: self.outcome(interval),
-            ours: Some(Estimate::new(share, interval, what, counts.len()).of_cases(solved(&draws))),
-            trial: self.shown(evidence, &draws, share),
-            because: vec![because],
+            outcome: share.interval.map_or(Some(Outcome::Open), |interval| self.outcome(interval)),
+            ours: Some(share.estimate(&self.said()).of_cases(solved(&draws))),
+            trial: self.shown(evidence, &draws, share.value),
+            because: vec![self.because(&share, total)],
             limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
             units: "draws",
             ..Found::default()

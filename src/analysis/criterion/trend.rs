@@ -1,10 +1,13 @@
 //! Whether a metric, or a saving, grows along a column.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Case, Selection, SelectionSpec, solved};
+use crate::analysis::selection::{Case, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::plan;
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
@@ -13,6 +16,7 @@ use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
+use stats::interval::Interval;
 use stats::{pooled, summary};
 use std::collections::BTreeMap;
 
@@ -66,6 +70,17 @@ impl<'a> Trend<'a> {
         Some((case.row.value(&self.over)?, number?))
     }
 
+    fn outcome(&self, slope: Interval) -> Outcome {
+        let (against, along) = if self.rising { (slope.high, slope.low) } else { (-slope.low, -slope.high) };
+        if along > 0.0 {
+            Outcome::Holds
+        } else if against < 0.0 {
+            Outcome::Fails
+        } else {
+            Outcome::Open
+        }
+    }
+
     /// Medians in the lower, middle and upper third of the column, beside the slope: a slope alone may be one outlier's.
     fn medians(points: &[(f64, f64)]) -> String {
         let places: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
@@ -88,15 +103,7 @@ impl Criterion for Trend<'_> {
             .filter(|points: &Vec<_>| !points.is_empty())
             .collect();
         let Some(found) = pooled::slope(&points, self.plan) else { return Found::too_few(points.len(), 2) };
-        let claimed = if self.rising { 1.0 } else { -1.0 };
-        let (one, other) = (claimed * found.interval.low, claimed * found.interval.high);
-        let outcome = if one.min(other) > 0.0 {
-            Outcome::Holds
-        } else if one.max(other) < 0.0 {
-            Outcome::Fails
-        } else {
-            Outcome::Open
-        };
+        let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();
         let (subject, unit) = match &self.of.against {
             Some(_) => (format!("saving in {metric}"), "points"),

@@ -1,10 +1,13 @@
 //! Whether the interval of a statistic lies within a margin about the printed number, or within accepted bounds.
 
-use super::{Context, Criterion, Entry, Found};
+use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{self, Draw, Selection, SelectionSpec, solved};
+use crate::analysis::selection::{self, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{OfAll, plan};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;

@@ -2,8 +2,8 @@
 //! machine stays untestable; this says what can be said of its digits.
 
 use super::{Entry, Rule};
-use crate::analysis::criterion::Found;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use audit::clock::Tick;
 use audit::printed::{Digits, Printed};
 use base::settings::Accepted;

@@ -1,9 +1,10 @@
 //! Whether a printed number of nodes is at most what A* can open or close on any map.
 
-use super::{Context, Entry, Rule};
+use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use audit::fvalues::{CountBound, astar_count_bound};
 use audit::lattice::Octile;
 use audit::printed::{Digits, Printed};

@@ -1,9 +1,10 @@
 //! Whether one path can have both the printed length and the printed turn sum.
 
-use super::{Context, Entry, Rule};
+use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use audit::neighbourhood;
 use audit::printed::Printed;
 use audit::turns::{Convention, Polyline, TurnQuery};

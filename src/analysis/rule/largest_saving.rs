@@ -2,8 +2,8 @@
 
 use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use audit::bounds::{largest_saving_percent, straight_line};
 use audit::lattice::{Octile, Step, lengths_printing};
 use audit::printed::{Digits, Printed};

@@ -2,8 +2,8 @@
 
 use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use audit::lattice::{Octile, Step, lengths_printing, nearest_lengths};
 use audit::printed::{Digits, Printed};
 use audit::with_an_end_moved;

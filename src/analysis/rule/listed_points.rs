@@ -1,10 +1,11 @@
 //! Whether each row of a printed table lists as many points as the text says; the points must be those that a study uses.
 
-use super::{Context, Entry, Rule};
+use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::selection::Labels;
+use crate::analysis::found::Found;
+use crate::analysis::selection_spec::Labels;
 use crate::study::paper::TableRow;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;

@@ -19,8 +19,9 @@ mod sight_bound;
 mod straight_line;
 mod turn_needs_length;
 
-use super::criterion::{Context, Found};
+use super::context::Context;
 use super::evidence::Evidence;
+use super::found::Found;
 use base::settings::{Accepted, SettingsError};
 
 /// A rule with its settings.
@@ -65,16 +66,4 @@ pub static REGISTRY: &[&Entry] = &[
 /// The rule called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
     REGISTRY.iter().copied().find(|entry| entry.name == name)
-}
-
-/// Refuses a grid or a length that a search for polylines would not come to the end of.
-fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(), SettingsError> {
-    let (key, message) = if !size.iter().all(|side| (1..=200).contains(side)) {
-        ("size", format!("size is {size:?}; 1 to 200 columns and rows are accepted"))
-    } else if !(0.0..=200.0).contains(&longest) {
-        ("longest", format!("longest is {longest}; 0 to 200 cells are accepted"))
-    } else {
-        return Ok(());
-    };
-    Err(context.settings.error_at(key, message))
 }

@@ -2,10 +2,11 @@
 
 use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
 use crate::analysis::evidence::Evidence;
-use audit::percent::Reduction;
-use audit::printed::{Digits, Printed};
+use crate::analysis::found::Found;
+use audit::exact::{Exact, Print, Span, decimal};
+use audit::form::Form;
+use audit::printed::Printed;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -23,10 +24,18 @@ after = "t1.improved.time"
         let settings: Settings = context.settings.read()?;
         let (before, digits) = context.printed_of(&settings.before)?;
         let (after, _) = context.printed_of(&settings.after)?;
-        let reduction =
-            Reduction::between(before, after, digits).map_err(|e| context.settings.error(e.to_string()))?;
-        let printed = context.printed()?;
-        Ok(Box::new(Percentage { reduction, before, after, printed, digits: context.digits() }))
+        let cells = [before, after].map(|printed| Print { printed, digits });
+        let [from, to] = cells.map(Print::span);
+        let [exact_from, exact_to] = cells.map(|cell| Span::point(cell.value()));
+        let spans = Form::OfFirst.span(&exact_from, &exact_to).zip(Form::OfFirst.span(&from, &to));
+        let (exact, possible) = spans.filter(|_| after.units() >= 0).ok_or_else(|| {
+            context.settings.error(format!(
+                "a reduction from {before} to {after} has no meaning: the first must be positive and the second not \
+                 negative, whatever their digits stand for"
+            ))
+        })?;
+        let printed = Print { printed: context.printed()?, digits: context.digits() };
+        Ok(Box::new(Percentage { as_printed: exact.low, possible, before, after, printed }))
     },
 };
 
@@ -40,25 +49,28 @@ struct Settings {
 }
 
 struct Percentage {
-    reduction: Reduction,
+    /// Per cent, of the cells exactly as printed.
+    as_printed: Exact,
+    /// Per cent, over everything that the cells' digits can stand for.
+    possible: Span,
     before: Printed,
     after: Printed,
-    printed: Printed,
-    digits: Digits,
+    printed: Print,
 }
 
 impl Rule for Percentage {
     fn find(&self, _evidence: &Evidence<'_>) -> Found {
         let cells = format!("({} − {}) / {}", self.before, self.after, self.before);
-        let computed = format!("{cells} = {:.3} %", self.reduction.as_printed);
-        let possible = self.reduction.possible;
-        let range = format!("the cells' digits allow {:.2} to {:.2} %", possible.low, possible.high);
-        let (found, outcome) = if self.reduction.gives(self.printed, self.digits) {
-            (format!("which prints as {}; {range}", self.printed), None)
-        } else if self.reduction.allows(self.printed, self.digits) {
-            (format!("{} needs digits that the cells do not show; {range}", self.printed), None)
+        let computed = format!("{cells} = {} %", decimal(self.as_printed, 3));
+        let [low, high] = [self.possible.low, self.possible.high].map(|end| decimal(end, 2));
+        let range = format!("the cells' digits allow {low} to {high} %");
+        let (span, printed) = (self.printed.span(), self.printed.printed);
+        let (found, outcome) = if span.contains(self.as_printed) {
+            (format!("which prints as {printed}; {range}"), None)
+        } else if self.possible.meets(&span) {
+            (format!("{printed} needs digits that the cells do not show; {range}"), None)
         } else {
-            (format!("{} is outside; {range}", self.printed), Some(Outcome::Proved))
+            (format!("{printed} is outside; {range}"), Some(Outcome::Proved))
         };
         Found {
             outcome,

@@ -2,8 +2,8 @@
 
 use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use crate::analysis::verdict::Estimate;
 use audit::bounds::straight_line;
 use audit::printed::{Digits, Printed};

@@ -5,8 +5,8 @@
 
 use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;

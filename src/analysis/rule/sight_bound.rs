@@ -1,9 +1,10 @@
 //! Whether a printed length, or a saving, is possible for a straightened path, given the cost of A*'s.
 
-use super::{Context, Entry, Rule};
+use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use audit::lattice::{Octile, octile_distance};
 use audit::printed::{Digits, Printed};
 use audit::sight::shortest_seen;

@@ -2,11 +2,11 @@
 
 use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
 use crate::analysis::evidence::Evidence;
-use audit::bounds::{shortfall, straight_line, straight_line_between};
+use crate::analysis::found::Found;
+use audit::bounds::{Moves, against, apart, straight_line, straight_line_between};
+use audit::exact::{Exact, Print, parse};
 use audit::neighbourhood;
-use audit::printed::{Digits, Printed};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -22,7 +22,15 @@ goal = [26.0, 28.0]
 ",
     build: |context| {
         let settings: Settings = context.settings.read()?;
-        Ok(Box::new(StraightLine { settings, printed: context.printed()?, digits: context.digits() }))
+        let exact = |key: &str, point: [f64; 2]| {
+            let read = |at: f64| parse(&at.to_string());
+            let message = format!("`{key}` is {point:?}; two coordinates of up to 15 digits are accepted");
+            read(point[0]).zip(read(point[1])).ok_or_else(|| context.settings.error_at(key, message))
+        };
+        let (from, to) = (exact("start", settings.start)?, exact("goal", settings.goal)?);
+        let apart = apart(from.into(), to.into());
+        let print = Print { printed: context.printed()?, digits: context.digits() };
+        Ok(Box::new(StraightLine { settings, apart, print }))
     },
 };
 
@@ -39,21 +47,23 @@ struct Settings {
 
 struct StraightLine {
     settings: Settings,
-    printed: Printed,
-    digits: Digits,
+    apart: [Exact; 2],
+    print: Print,
 }
 
 impl Rule for StraightLine {
     fn find(&self, _evidence: &Evidence<'_>) -> Found {
         let Settings { start, goal, size } = self.settings;
         let least = straight_line(start, goal);
-        let short = shortfall(self.printed.interval(self.digits), least);
+        let (printed, longest) = (self.print.printed, self.print.printed.interval(self.print.digits).high);
+        let is_short = against(self.print, self.apart, Moves::Any).is_some_and(|(order, _)| order.is_lt());
+        let short = is_short.then_some(least - longest);
         let line = format!("the straight line from {start:?} to {goal:?} is {least:.4} long");
         let found = match short {
             Some(by) => {
-                format!("{} is shorter by at least {by:.4}, whatever its digits stand for", self.printed)
+                format!("{printed} is shorter by at least {by:.4}, whatever its digits stand for")
             }
-            None => format!("{} is not shorter", self.printed),
+            None => format!("{printed} is not shorter"),
         };
         let mut because = vec![line, found];
         if let (Some(size), Some(_)) = (size, short) {

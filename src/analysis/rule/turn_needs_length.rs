@@ -1,9 +1,10 @@
 //! How long a path must be to have a printed turn sum, and whether that leaves room under another printed length.
 
-use super::{Context, Entry, Rule};
+use super::{Entry, Rule};
 use crate::analysis::class::Outcome;
-use crate::analysis::criterion::Found;
+use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
 use audit::neighbourhood;
 use audit::printed::Printed;
 use audit::turns::{Convention, TurnQuery};

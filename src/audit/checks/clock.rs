@@ -2,6 +2,7 @@
 
 use super::arguments::{digits, each_number, gap, multiple};
 use super::{Entry, FromRelation, Proof, Test};
+use crate::clock::ticks;
 use crate::exact::{Exact, Print, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Kind;
@@ -15,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     about: "is a single time a whole number of the clock's ticks?",
     example: "time [tick=1/64] = 0.020",
     premises: "each number is one reading of a clock with that tick, not a mean",
-    source: "multiples of a rational; the same as crate::clock",
+    source: "multiples of a rational (crate::clock)",
     tests,
     relation: Some(FromRelation { keys: &["value", "tick"], build }),
 };
@@ -49,15 +50,15 @@ impl Test for Clock {
     }
 
     fn is_possible(&self, prints: &[Print]) -> Option<bool> {
-        prints[0].span().has_multiple_of(self.tick)
+        let (first, last) = ticks(prints[0], self.tick)?;
+        Some(first <= last)
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
         let printed = prints[0].printed;
-        let Some(ticks) = prints[0].span().times(self.tick.recip()) else {
+        let Some((first, last)) = ticks(prints[0], self.tick) else {
             return format!("{printed} was not checked");
         };
-        let (first, last) = ticks.integers();
         let tick = self.tick;
         if is_possible {
             return format!("{printed} is printed by {first} ticks of {tick}");

@@ -2,7 +2,7 @@
 
 use super::arguments::{count, digits, each_number, up_to_twice};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact::{Exact, Print, whole};
+use crate::exact::{Exact, Print, mul, spelled, sub, whole};
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
@@ -68,7 +68,10 @@ impl Test for Expansions {
         up_to_twice(self.numbers[0].print)
     }
 
-    fn proof(&self, _prints: &[Print]) -> Option<Proof> {
-        Some(Proof { given: json!({ "free": self.free.to_string() }), steps: json!([{ "outside": true }]) })
+    fn proof(&self, prints: &[Print]) -> Option<Proof> {
+        let span = prints[0].span();
+        let past = sub(span.low, count(self.free))?.max(mul(span.high, whole(-1))?);
+        let given = json!({ "free": self.free.to_string() });
+        Some(Proof { given, steps: json!([{ "outside_by": spelled(past) }]) })
     }
 }

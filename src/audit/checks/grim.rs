@@ -28,7 +28,13 @@ struct Grim {
     step: Exact,
     /// … that many values are behind it …
     n: u64,
+    /// … each a multiple of this …
+    grain: Exact,
+    /// … of which the sum is printed, or else the mean …
+    is_count: bool,
     /// … and they lie between these ends.
+    value_ends: [Option<Exact>; 2],
+    /// What is printed lies between these.
     ends: [Option<Exact>; 2],
     values: String,
 }
@@ -45,8 +51,10 @@ fn of_sample(sample: &Sample) -> Option<Grim> {
     let (n, grain) = (sample.n?, sample.grain?);
     let number = sample.get(Statistic::Mean)?.clone();
     let (step, factor) = if sample.is_count { (grain, count(n)) } else { (div(grain, count(n))?, whole(1)) };
-    let ends = [sample.least, sample.most].map(|end| end.and_then(|end| mul(end, factor)));
-    Some(Grim { numbers: [number], step, n, ends, values: sample.values() })
+    let value_ends = [sample.least, sample.most];
+    let ends = value_ends.map(|end| end.and_then(|end| mul(end, factor)));
+    let (numbers, is_count, values) = ([number], sample.is_count, sample.values());
+    Some(Grim { numbers, step, n, grain, is_count, value_ends, ends, values })
 }
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
@@ -60,7 +68,8 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
         None => [relation.exact("least")?, relation.exact("most")?],
     };
     let values = format!("{n} values, each a multiple of {grain}");
-    Ok(Box::new(Grim { numbers: [relation.number("value", input)?], step, n, ends, values }))
+    let numbers = [relation.number("value", input)?];
+    Ok(Box::new(Grim { numbers, step, n, grain, is_count: false, value_ends: ends, ends, values }))
 }
 
 impl Grim {
@@ -118,9 +127,16 @@ impl Test for Grim {
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
         let span = self.span(prints[0]);
         let end = |end: Option<Exact>| end.map(spelled);
-        let given = json!({ "n": self.n.to_string(), "step": spelled(self.step), "least": end(self.ends[0]), "most": end(self.ends[1]) });
-        let steps =
-            if span.is_empty() { json!([{ "outside": true }]) } else { json!([gap(&span, self.step)?]) };
+        let given = json!({
+            "n": self.n.to_string(),
+            "grain": spelled(self.grain),
+            "is_count": self.is_count,
+            "least": end(self.value_ends[0]),
+            "most": end(self.value_ends[1]),
+        });
+        let [least, most] = self.ends;
+        let outside = || json!([{ "outside": [end(least), end(most)] }]);
+        let steps = if span.is_empty() { outside() } else { json!([gap(&span, self.step)?]) };
         Some(Proof { given, steps })
     }
 

@@ -6,12 +6,14 @@ use crate::exact;
 use crate::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
+use crate::reach::{Asked, is_met};
 use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
 use crate::witness::{Budget, Moments, Witness, counted, extremes};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -19,7 +21,7 @@ pub static ENTRY: Entry = Entry {
     about: "can n values of a grain have the printed mean and the printed deviation at once?",
     example: "time [mean, integers, n=10] = 3.5 with time [sd] = 0.01",
     premises: "mean and deviation are of the same n values; each is a multiple of the grain; the deviation divides by n - 1 or n",
-    source: "Anaya, The GRIMMER test, PeerJ Preprints 4:e2400v1 (2016); Allard, Analytic-GRIMMER (2018)",
+    source: "Anaya, The GRIMMER test, PeerJ Preprints 4:e2400v1 (2016); Allard, Analytic-GRIMMER (2018); exact by crate::reach",
     tests,
     relation: Some(FromRelation {
         keys: &["mean", "sd", "se", "n", "grain", "least", "most", "divisor"],
@@ -42,6 +44,12 @@ pub(super) struct Moment {
 
 /// Sums of values that are looked through one by one.
 const SUMS: i128 = 2000;
+
+/// Steps that the search for values with one mean and deviation may take.
+const STEPS: u64 = 5000;
+
+/// Sums of squares that a certificate may list for one sum and one way to divide.
+const GAPS: i128 = 500;
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     input.each_sample(&mut |sample| {
@@ -92,7 +100,9 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
 
 /// What the sum of squares has to be for one sum of values, all in grains.
 struct Squares {
+    n: u64,
     sum: i128,
+    ends: [Option<i128>; 2],
     /// By each way to divide.
     windows: Vec<Span>,
     least: i128,
@@ -100,8 +110,8 @@ struct Squares {
 }
 
 impl Squares {
-    /// The sums of squares that meet every condition, by way to divide: first and last of the right parity.
-    fn fitting(&self) -> impl Iterator<Item = (i128, i128)> + '_ {
+    /// The sums of squares that have the parity and lie between the extremes, by way to divide: first and last.
+    fn plausible(&self) -> impl Iterator<Item = (i128, i128)> + '_ {
         self.windows.iter().filter_map(|window| {
             let (first, last) = window.integers();
             let first = first.max(self.least);
@@ -109,6 +119,32 @@ impl Squares {
             let last = self.most.map_or(last, |most| last.min(most));
             (first <= last).then_some((first, last))
         })
+    }
+
+    /// Whether values have one of them; none if `steps` do not suffice.
+    fn is_met(&self, steps: &mut u64) -> Option<bool> {
+        let mut is_decided = true;
+        for (first, last) in self.plausible() {
+            for squares in (first..=last).step_by(2) {
+                let asked = Asked { n: self.n, sum: self.sum, squares, ends: self.ends };
+                match is_met(asked, steps) {
+                    Some(true) => return Some(true),
+                    Some(false) => *steps = steps.saturating_sub(1),
+                    None => is_decided = false,
+                }
+                if *steps == 0 {
+                    return None;
+                }
+            }
+        }
+        is_decided.then_some(false)
+    }
+
+    /// The plausible ones, of which none is met, for the proof; none if they are too many to write down.
+    fn gaps(&self) -> Option<BTreeSet<i128>> {
+        let all: Vec<(i128, i128)> = self.plausible().collect();
+        let is_short = all.iter().all(|(first, last)| last - first < 2 * GAPS);
+        is_short.then(|| all.iter().flat_map(|(first, last)| (*first..=*last).step_by(2)).collect())
     }
 }
 
@@ -135,6 +171,7 @@ impl Moment {
         let variance = spread.span().squared()?.times(div(factor, mul(self.grain, self.grain)?)?)?;
         let grains = |end: Option<Exact>| end.and_then(|end| div(end, self.grain));
         let ends = [grains(self.ends[0]).map(ceil), grains(self.ends[1]).map(floor)];
+        let n = self.n;
         let mut all = Vec::new();
         for sum in first..=last {
             let centre = div(whole(sum.checked_mul(sum)?), count(self.n))?;
@@ -145,7 +182,7 @@ impl Moment {
             // A divisor of 0 (one value, n − 1) says nothing of the squares.
             let windows = windows.collect::<Option<Vec<_>>>()?;
             let (least, most) = extremes(self.n, sum, ends)?;
-            all.push(Squares { sum, windows, least, most });
+            all.push(Squares { n, sum, ends, windows, least, most });
         }
         Some(all)
     }
@@ -164,13 +201,14 @@ impl Moment {
         [prints[0], prints[1]]
     }
 
-    fn step(squares: &Squares) -> Value {
-        json!({
+    fn step(squares: &Squares) -> Option<Value> {
+        Some(json!({
             "sum": squares.sum.to_string(),
             "windows": squares.windows.iter().map(exact::span).collect::<Vec<_>>(),
             "least": squares.least.to_string(),
             "most": squares.most.map(|most| most.to_string()),
-        })
+            "not_met": squares.gaps()?.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        }))
     }
 }
 
@@ -184,14 +222,16 @@ impl Test for Moment {
             return if self.divisors().is_empty() { None } else { Some(false) };
         }
         let all = self.squares(Self::both(prints))?;
-        Some(all.iter().any(|squares| squares.fitting().next().is_some()))
+        let mut steps = STEPS;
+        let met: Vec<Option<bool>> = all.iter().map(|squares| squares.is_met(&mut steps)).collect();
+        if met.contains(&Some(true)) { Some(true) } else { (!met.contains(&None)).then_some(false) }
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
         let [spread, mean] = Self::both(prints).map(|print| print.printed);
         let what = if self.is_error { "standard error" } else { "standard deviation" };
         if is_possible {
-            return format!("{mean} with {what} {spread} is not excluded for {}", self.values);
+            return format!("{mean} with {what} {spread} is what {} can have", self.values);
         }
         let mut said = format!("{} have no mean {mean} with {what} {spread}", self.values);
         if let Some(least) = self.least_deviation(prints[1]) {
@@ -228,7 +268,8 @@ impl Test for Moment {
             "divisors": self.divisors().iter().map(ToString::to_string).collect::<Vec<_>>(),
             "is_error": self.is_error,
         });
-        Some(Proof { given, steps: all.iter().map(Self::step).collect() })
+        let steps = all.iter().map(Self::step).collect::<Option<Vec<_>>>()?;
+        Some(Proof { given, steps: Value::Array(steps) })
     }
 
     fn witness(&self, prints: &[Print], budget: &mut Budget) -> Option<Witness> {
@@ -241,7 +282,7 @@ impl Test for Moment {
         let most = budget.most;
         let mut is_all = true;
         for squares in &all {
-            for (first, last) in squares.fitting() {
+            for (first, last) in squares.plausible() {
                 for sum in (first..=last).step_by(2) {
                     let moments = self.moments(squares.sum, sum);
                     is_all &= moments.search(budget, &mut |vector| {

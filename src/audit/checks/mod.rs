@@ -11,6 +11,7 @@ use super::table::{Fault, Quoted};
 use super::witness::{Budget, Witness};
 use serde_json::Value;
 
+mod any_angle_turns;
 pub mod arguments;
 mod bold;
 mod clock;
@@ -115,6 +116,7 @@ pub struct Entry {
 
 /// Every check, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
+    &any_angle_turns::ENTRY,
     &bold::ENTRY,
     &clock::ENTRY,
     &debit::ENTRY,

@@ -2,7 +2,7 @@
 
 use super::arguments::digits;
 use super::{Entry, Proof, Test};
-use crate::exact::Print;
+use crate::exact::{Exact, Print, spelled};
 use crate::input::Input;
 use crate::relation::Named as _;
 use crate::sample::Sample;
@@ -25,6 +25,8 @@ struct Order {
     numbers: Vec<Quoted>,
     /// Pairs of which the first may not be above the second.
     pairs: Vec<[usize; 2]>,
+    /// The share of values below each; none for the mean.
+    ranks: Vec<Option<Exact>>,
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
@@ -49,8 +51,11 @@ fn of_sample(sample: &Sample) -> Option<Order> {
     let all = indices.clone().flat_map(|i| indices.clone().map(move |j| [i, j]));
     let mut pairs: Vec<[usize; 2]> = all.filter(|[i, j]| known[*i].0 < known[*j].0).collect();
     let mut numbers: Vec<Quoted> = known.iter().map(|(_, number)| number.clone()).collect();
+    let mut ranks: Vec<Option<Exact>> =
+        known.iter().map(|(rank, _)| Some(Exact::new(i128::from(*rank), 10_000))).collect();
     if let Some(mean) = sample.get(Statistic::Mean) {
         let at = numbers.len();
+        ranks.push(None);
         numbers.push(mean.clone());
         for (index, (rank, _)) in known.iter().enumerate() {
             match rank {
@@ -60,7 +65,7 @@ fn of_sample(sample: &Sample) -> Option<Order> {
             }
         }
     }
-    (!pairs.is_empty()).then_some(Order { numbers, pairs })
+    (!pairs.is_empty()).then_some(Order { numbers, pairs, ranks })
 }
 
 impl Order {
@@ -93,7 +98,10 @@ impl Test for Order {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let pairs: Vec<_> = self.pairs.iter().map(|pair| json!(pair)).collect();
-        Some(Proof { given: json!({ "not_above": pairs }), steps: json!([{ "pair": self.broken(prints)? }]) })
+        let pair = self.broken(prints)?;
+        let given = json!({ "pair": pair, "ranks": pair.map(|at| self.ranks[at].map(spelled)) });
+        let [low, high] = pair.map(|at| prints[at].span());
+        let steps = json!([{ "at_least": spelled(low.low), "at_most": spelled(high.high) }]);
+        Some(Proof { given, steps })
     }
 }

@@ -2,14 +2,14 @@
 
 use super::arguments::{digits, shown};
 use super::{Entry, FromRelation, Proof, Test};
-use crate::exact::{Exact, Print, add, mul, spelled, sub, whole};
+use crate::bounds::{Moves, against, apart};
+use crate::exact::{Exact, Print, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
 use crate::statistic::Statistic;
 use crate::table::{Column, Fault, Quoted};
 use serde_json::json;
-use std::cmp::Ordering;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -21,24 +21,6 @@ pub static ENTRY: Entry = Entry {
     tests,
     relation: Some(FromRelation { keys: &["value", "from", "to", "moves"], build }),
 };
-
-/// Which moves there are.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Moves {
-    Any,
-    Eight,
-    Four,
-}
-
-impl Moves {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Any => "any",
-            Self::Eight => "eight",
-            Self::Four => "four",
-        }
-    }
-}
 
 struct PathBound {
     numbers: [Quoted; 1],
@@ -68,10 +50,6 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
     });
 }
 
-fn apart(from: [Exact; 2], to: [Exact; 2]) -> [Exact; 2] {
-    [0, 1].map(|at| if to[at] > from[at] { to[at] - from[at] } else { from[at] - to[at] })
-}
-
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     let missing = || relation.fault("`from` and `to` are needed, points \"X:Y\"");
     let from = relation.point("from")?.ok_or_else(missing)?;
@@ -84,36 +62,17 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     Ok(Box::new(PathBound { numbers: [relation.number("value", input)?], apart: apart(from, to), moves }))
 }
 
-impl PathBound {
-    /// How the longest value printed compares with the bound `a + √b`; with a and b.
-    fn against(&self, print: Print) -> Option<(Ordering, [Exact; 2])> {
-        let high = print.span().high;
-        let [dx, dy] = self.apart;
-        let [a, b] = match self.moves {
-            Moves::Any => [whole(0), add(mul(dx, dx)?, mul(dy, dy)?)?],
-            Moves::Four => [add(dx, dy)?, whole(0)],
-            Moves::Eight => {
-                let (short, long) = (dx.min(dy), dx.max(dy));
-                [sub(long, short)?, mul(whole(2), mul(short, short)?)?]
-            }
-        };
-        let rest = sub(high, a)?;
-        let order = if rest < whole(0) { Ordering::Less } else { mul(rest, rest)?.cmp(&b) };
-        Some((order, [a, b]))
-    }
-}
-
 impl Test for PathBound {
     fn numbers(&self) -> &[Quoted] {
         &self.numbers
     }
 
     fn is_possible(&self, prints: &[Print]) -> Option<bool> {
-        Some(self.against(prints[0])?.0.is_ge())
+        Some(against(prints[0], self.apart, self.moves)?.0.is_ge())
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
-        let bound = self.against(prints[0]).map_or(f64::NAN, |(_, [a, b])| {
+        let bound = against(prints[0], self.apart, self.moves).map_or(f64::NAN, |(_, [a, b])| {
             let float = |value: Exact| *value.numer() as f64 / *value.denom() as f64;
             float(a) + float(b).sqrt()
         });
@@ -140,7 +99,7 @@ impl Test for PathBound {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let (_, [a, b]) = self.against(prints[0])?;
+        let (_, [a, b]) = against(prints[0], self.apart, self.moves)?;
         let given = json!({ "apart": self.apart.map(spelled), "moves": self.moves.name() });
         Some(Proof { given, steps: json!([{ "plus": spelled(a), "root_of": spelled(b) }]) })
     }

@@ -3,7 +3,8 @@
 use super::arguments::{digits, shown_span};
 use super::{Entry, FromRelation, Proof, Test};
 use crate::exact;
-use crate::exact::{Print, Span, add, mul, spelled, whole};
+use crate::exact::{Print, Span};
+use crate::form::Form;
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
@@ -20,53 +21,6 @@ pub static ENTRY: Entry = Entry {
     tests,
     relation: Some(FromRelation { keys: &["value", "of", "over"], build }),
 };
-
-/// What a printed number says of two cells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Form {
-    /// `a / b`.
-    Quotient,
-    /// `a / b`, as "2 times as fast".
-    Times,
-    /// `a / b − 1`, as "once faster".
-    TimesMore,
-    /// `100 (a − b) / a` per cent.
-    OfFirst,
-    /// `100 (a − b) / b` per cent.
-    OfSecond,
-}
-
-impl Form {
-    /// Its name in certificates.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Quotient | Self::Times => "a/b",
-            Self::TimesMore => "a/b-1",
-            Self::OfFirst => "100(a-b)/a",
-            Self::OfSecond => "100(a-b)/b",
-        }
-    }
-
-    /// What the cells allow it to be.
-    pub(super) fn span(self, a: &Span, b: &Span) -> Option<Span> {
-        let minus = |quotient: Span, by: i128| quotient.plus(&Span::point(whole(-by)));
-        match self {
-            Self::Quotient | Self::Times => a.not_negative().over(b),
-            Self::TimesMore => minus(a.not_negative().over(b)?, 1),
-            Self::OfSecond => minus(a.not_negative().over(b)?, 1)?.times(whole(100)),
-            Self::OfFirst => {
-                let left = b.not_negative().over(a)?.times(whole(100))?;
-                let from = |end| add(whole(100), mul(end, whole(-1))?);
-                Some(Span {
-                    low: from(left.high)?,
-                    low_closed: left.high_closed,
-                    high: from(left.low)?,
-                    high_closed: left.low_closed,
-                })
-            }
-        }
-    }
-}
 
 /// A printed number that is one of some forms of two cells.
 pub(super) struct Formed {
@@ -137,9 +91,6 @@ impl Test for Formed {
         let step = |(form, span): &(Form, Span)| json!({ "form": form.name(), "span": exact::span(span) });
         let steps: Vec<Value> = self.allowed(prints)?.iter().map(step).collect();
         let forms: Vec<&str> = self.forms.iter().map(|form| form.name()).collect();
-        Some(Proof {
-            given: json!({ "forms": forms, "unit": spelled(whole(1)) }),
-            steps: Value::Array(steps),
-        })
+        Some(Proof { given: json!({ "forms": forms }), steps: Value::Array(steps) })
     }
 }

@@ -8,7 +8,7 @@ use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
 use crate::table::{Fault, Quoted};
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -184,13 +184,12 @@ impl Test for RatioLabel {
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
         let Search::Found(found) = self.contradiction(prints, [0, 1, 2])? else { return None };
-        let letters = ["r", "a", "b"];
-        let kinds = self.kinds.iter().map(|(which, share)| json!([letters[*which], spelled(*share)]));
-        let kinds: Vec<Value> = kinds.collect();
-        let given = json!({ "n": self.n.to_string(), "kinds": kinds });
+        let quantile = |at: usize| json!([at, spelled(self.kinds[at].1)]);
+        let [r, a, b] = found.at.map(quantile);
+        let given = json!({ "n": self.n.to_string(), "r": r, "a": a, "b": b });
         let steps = json!([{
-            "quantiles": found.at,
             "bound": spelled(found.bound),
+            "below": spelled(prints[found.at[2]].span().low),
             "at_least": spelled(found.at_least),
             "at_most": spelled(found.at_most),
         }]);

@@ -1,7 +1,8 @@
 //! Whether a printed percentage reduction is that of two printed cells.
 
-use super::ratio::{Form, Formed};
+use super::ratio::Formed;
 use super::{Entry, FromRelation, Test, none};
+use crate::form::Form;
 use crate::input::Input;
 use crate::relation::Relation;
 use crate::table::Fault;

@@ -127,9 +127,12 @@ impl Test for SdRange {
         let squared = prints[0].span().squared()?;
         let most = self.most(prints)?;
         let given = json!({
-            "factor": spelled(self.factor()?),
             "n": self.n.map(|n| n.to_string()),
-            "divisor": if self.divisor == Divisor::Sample { "sample" } else { "any" },
+            "divisor": match self.divisor {
+                Divisor::Sample => "sample",
+                Divisor::Population => "population",
+                Divisor::Either => "either",
+            },
             "ends": self.ends.map(|ends| ends.map(spelled)),
         });
         let steps = if squared.low > most {

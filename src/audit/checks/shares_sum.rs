@@ -113,13 +113,15 @@ impl Test for SharesSum {
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let given = json!({ "whole": spelled(self.all), "n": self.n.map(|n| n.to_string()) });
+        let given = |n: Option<u64>| json!({ "whole": spelled(self.all), "n": n.map(|n| n.to_string()) });
         let sum = Self::sum(prints)?;
         if !sum.contains(self.all) {
-            return Some(Proof { given, steps: json!([{ "sum": exact::span(&sum) }]) });
+            let steps = json!([{ "sum": exact::span(&sum), "misses": spelled(self.all) }]);
+            return Some(Proof { given: given(None), steps });
         }
         let ends = |(first, last): (i128, i128)| json!([first.to_string(), last.to_string()]);
         let counts: Vec<_> = self.counts(prints)?.into_iter().map(ends).collect();
-        Some(Proof { given, steps: json!([{ "counts": counts }]) })
+        let of = [self.n.map(|n| n.to_string()), Some(spelled(self.all))];
+        Some(Proof { given: given(self.n), steps: json!([{ "counts": counts, "of": of }]) })
     }
 }

@@ -93,6 +93,8 @@ impl Test for TotalOverMean {
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
         let given = json!({ "n": self.n.map(|n| n.to_string()), "unit": spelled(self.unit) });
-        Some(Proof { given, steps: json!([{ "quotient": exact::span(&self.quotient(prints)?) }]) })
+        let excluded = self.n.map_or_else(|| "every whole number".to_owned(), |n| n.to_string());
+        let quotient = exact::span(&self.quotient(prints)?);
+        Some(Proof { given, steps: json!([{ "quotient": quotient, "excludes": excluded }]) })
     }
 }

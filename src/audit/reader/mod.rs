@@ -4,6 +4,7 @@
 //! stay strings, since trailing zeros count.
 
 mod cells;
+mod counts;
 mod csv;
 mod guess;
 mod markdown;
@@ -125,6 +126,9 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
         });
         rows.push(cells.collect());
     }
+    if faults.is_empty() {
+        counts::check(&columns, &rows, faults);
+    }
     Some(Table { name: raw.name, line: raw.line, columns, rows })
 }
 
@@ -133,12 +137,13 @@ fn column(raw: &Raw, index: usize, header: &str) -> Result<Column, String> {
     let plain = cells::plain(header).0;
     if let Some((name, annotation)) = plain.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
         let meaning = Meaning::parse(annotation)?;
-        return Ok(Column { name: name.trim().to_owned(), meaning, is_guessed: false });
+        let written = Some(annotation.trim().to_owned());
+        return Ok(Column { name: name.trim().to_owned(), meaning, written });
     }
     let texts = raw.rows.iter().filter_map(|(_, texts)| texts.get(index).map(String::as_str));
     let annotation = guess::annotation(&plain, &texts.take(1000).collect::<Vec<_>>());
     let meaning = Meaning::parse(&annotation).unwrap_or_default();
-    Ok(Column { name: plain.trim().to_owned(), meaning, is_guessed: true })
+    Ok(Column { name: plain.trim().to_owned(), meaning, written: None })
 }
 
 /// Every column that an annotation names must be there.
@@ -183,7 +188,8 @@ pub fn stub(table: &Table) -> Vec<String> {
         table.rows.iter().take(1000).filter_map(move |row| row.get(index).map(|cell| cell.text.as_str()))
     };
     let header = texts.iter().enumerate().map(|(index, name)| {
-        let annotation = guess::annotation(name, &column_texts(index).collect::<Vec<_>>());
+        let guessed = || guess::annotation(name, &column_texts(index).collect::<Vec<_>>());
+        let annotation = table.columns[index].written.clone().unwrap_or_else(guessed);
         format!("{name} [{annotation}]").trim_start().to_owned()
     });
     header.collect()

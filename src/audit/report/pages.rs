@@ -30,7 +30,7 @@ fn is_writing() -> bool {
 #[test]
 fn the_page_of_public_tables_says_what_the_audit_finds() {
     let mut page = PREAMBLE.to_owned();
-    for name in ["vamp", "curobo", "rdt", "zhang"] {
+    for name in ["vamp", "curobo", "rdt", "zhang", "fu2018", "planar"] {
         let (about, report) = audited(&format!("{name}.toml"));
         page += &crate::output::section(&format!("[{name}.toml](audit/{name}.toml)"), &about, &report);
     }
@@ -50,11 +50,14 @@ fn the_certificates_that_python_verifies_are_those_of_the_examples() {
     let (_, report) = audited("examples.toml");
     let proved = report.findings.iter().filter_map(|finding| Some((finding, finding.certificate.as_ref()?)));
     let mut names = Vec::new();
+    if is_writing() {
+        fs::remove_dir_all(&folder).unwrap();
+        fs::create_dir_all(&folder).unwrap();
+    }
     for (index, (finding, certificate)) in proved.enumerate() {
         let name = format!("{:02}_{}.json", index + 1, finding.check);
         let text = format!("{certificate:#}\n");
         if is_writing() {
-            fs::create_dir_all(&folder).unwrap();
             fs::write(folder.join(&name), &text).unwrap();
         }
         assert!(
@@ -65,4 +68,18 @@ fn the_certificates_that_python_verifies_are_those_of_the_examples() {
     }
     let stored = fs::read_dir(&folder).unwrap().count();
     assert_eq!(stored, names.len(), "{names:?}");
+}
+
+#[test]
+fn the_page_on_checks_has_every_check_with_its_example_premises_mathematics_and_source() {
+    let page = fs::read_to_string(root().join("docs/AUDIT.md")).unwrap();
+    let sections: Vec<&str> = page.split("\n### ").skip(1).collect();
+    assert_eq!(sections.len(), REGISTRY.len());
+    for (section, entry) in sections.into_iter().zip(REGISTRY) {
+        let Entry { name, about, example, premises, source, .. } = entry;
+        let head =
+            format!("{name}\n\n{about}\n\n- refuses: `{example}`\n- premises: {premises}\n- mathematics: ");
+        assert!(section.starts_with(&head), "docs/AUDIT.md should have\n### {head}");
+        assert!(section.contains(&format!("\n- source: {source}\n")), "{name}: {source}");
+    }
 }

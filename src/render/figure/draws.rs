@@ -3,7 +3,8 @@
 //! What is drawn stands in each claim's check `one_draw`.
 
 use super::{Entry, Kind, Scene, asked_claim, printed_value};
-use crate::analysis::criterion::{self, Context};
+use crate::analysis::context::Context;
+use crate::analysis::criterion;
 use crate::analysis::statistic::{cumulative, quantile};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
