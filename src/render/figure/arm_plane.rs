@@ -140,8 +140,7 @@ impl ArmPlane {
             for station in spread(&stations, self.stations) {
                 let joints = vec![[0.0, 0.0], [station[2], station[3]], [station[4], station[5]]];
                 panel.add(Line::through(joints.clone(), Stroke::solid(GREY, 1.4)).labelled("arm"));
-                let (marker, label) = (Marker::Circle, String::new());
-                panel.add(Points { points: joints[..2].to_vec(), marker, radius_pt: 1.6, color: INK, label });
+                panel.add(Points::of(joints[..2].to_vec(), Marker::Circle, 1.6, INK));
             }
         }
         if !self.paths {
@@ -151,7 +150,7 @@ impl ArmPlane {
         let ends = [("start", Marker::Circle, path.first()), ("goal", Marker::Diamond, path.last())];
         for (label, marker, at) in ends {
             let points = at.into_iter().copied().collect();
-            panel.add(Points { points, marker, radius_pt: 3.0, color: GREEN, label: label.to_owned() });
+            panel.add(Points::of(points, marker, 3.0, GREEN).labelled(label));
         }
         let stroke = series_stroke(ask::place(scene, &row.key.contender));
         panel.add(Line::through(path, stroke).labelled(row.key.contender.to_string()));
@@ -208,7 +207,7 @@ fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> C
 /// An obstacle; its outline alone where zones show what lies in it.
 fn obstacle(outline: &Exhibit, is_filled: bool) -> Shape {
     Shape {
-        corners: outline.values.chunks(2).map(|point| [point[0], point[1]]).collect(),
+        corners: ask::points(outline),
         fill: is_filled.then(|| Fill::sheer(BLUE.mixed(BLACK, 0.3), 0.45)),
         stroke: Some(Stroke::solid(INK, 0.7)),
         label: "obstacle".to_owned(),
@@ -236,8 +235,7 @@ fn posture(name: &str, station: &[f64], all: &[&[f64]]) -> Result<Panel, RenderE
     for (text, at, color, to_right) in
         [("base", [0.0, 0.0], INK, true), ("elbow", elbow, INK, bends_right), ("tip", tip, GREEN, true)]
     {
-        let (marker, label) = (Marker::Circle, String::new());
-        panel.add(Points { points: vec![at], marker, radius_pt: 3.0, color, label });
+        panel.add(Points::of(vec![at], Marker::Circle, 3.0, color));
         let (align, shift) = if to_right { (Align::Start, 6.0) } else { (Align::End, -6.0) };
         let set = Type::of(TextSize::TICK).aligned(align, Stand::Centre);
         panel.add(Note { at, shift_pt: [shift, 0.0], text: text.to_owned(), set });
