@@ -32,6 +32,7 @@ pub struct Selection<'a> {
 }
 
 /// One trial, and the trial that it is held against.
+#[derive(Clone, Copy)]
 pub struct Case<'e> {
     /// The trial.
     pub row: &'e Row,
@@ -87,6 +88,13 @@ impl Case<'_> {
 }
 
 impl<'a> Selection<'a> {
+    /// All trials of `contenders` on `groups` of `study`.
+    pub fn of(study: &'a Study, groups: &[String], contenders: &[String]) -> Self {
+        let (groups, contenders) = (groups.to_vec(), contenders.to_vec());
+        let (against, metric, query, sweep, whole_draws) = (None, None, None, None, false);
+        Self { study, groups, contenders, against, metric, query, sweep, whole_draws }
+    }
+
     /// The selection `of`, of which every name is looked up.
     ///
     /// # Errors
@@ -211,11 +219,34 @@ impl<'a> Selection<'a> {
 }
 
 impl Draw<'_> {
+    /// What it holds of one contender.
+    #[must_use]
+    pub fn by(&self, contender: &str) -> Self {
+        let is_own = |case: &&Case<'_>| *case.row.key.contender == *contender;
+        Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
+    }
+
+    /// The numbers of its cases.
+    pub fn values(&self) -> Vec<f64> {
+        self.cases.iter().filter_map(|case| case.value).collect()
+    }
+
     /// Whether all that is compared is solved on it.
     pub fn is_whole(&self) -> bool {
         let solved = |row: &Row| row.status == Status::Solved;
         self.cases.iter().all(|case| solved(case.row) && case.base.is_none_or(solved))
     }
+}
+
+/// How many queries of a problem group can be posed on its first draw, and how many it has.
+pub fn posed(run: &Run<'_>, group: &str) -> [usize; 2] {
+    let mut queries: BTreeMap<&str, bool> = BTreeMap::new();
+    for contender in &run.study.contenders {
+        for row in run.rows(group, &contender.label).iter().filter(|row| row.draw() == 0) {
+            *queries.entry(row.query()).or_default() |= row.status != Status::InvalidProblem;
+        }
+    }
+    [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
 }
 
 /// Of all cases those that are solved by everyone who is compared, and all.
