@@ -1,16 +1,15 @@
 //! Which trials a criterion, a figure or a table looks at: resolved once, then asked of the runs under any reading.
 
 use super::context::Context;
-use super::evidence::{Evidence, Run};
+use super::evidence::{Cases, Evidence, Run};
 use super::metric::{Better, Metric};
 use super::selection_spec::SelectionSpec;
 use crate::study::Study;
-use crate::study::key::{DrawKey, SweepKey};
+use crate::study::key::SweepKey;
 use crate::study::name;
 use crate::study::record::{Row, Status};
 use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// A selection whose every name was found.
 pub struct Selection<'a> {
@@ -33,6 +32,7 @@ pub struct Selection<'a> {
 }
 
 /// One trial, and the trial that it is held against.
+#[derive(Clone, Copy)]
 pub struct Case<'e> {
     /// The trial.
     pub row: &'e Row,
@@ -88,6 +88,13 @@ impl Case<'_> {
 }
 
 impl<'a> Selection<'a> {
+    /// All trials of `contenders` on `groups` of `study`.
+    pub fn of(study: &'a Study, groups: &[String], contenders: &[String]) -> Self {
+        let (groups, contenders) = (groups.to_vec(), contenders.to_vec());
+        let (against, metric, query, sweep, whole_draws) = (None, None, None, None, false);
+        Self { study, groups, contenders, against, metric, query, sweep, whole_draws }
+    }
+
     /// The selection `of`, of which every name is looked up.
     ///
     /// # Errors
@@ -161,34 +168,26 @@ impl<'a> Selection<'a> {
     pub fn draws<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Draw<'e>> {
         let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
         let mut draws: Vec<Draw<'e>> = Vec::new();
+        let reader = self.metric.map(|metric| run.reader(metric));
+        let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| row.status == Status::Solved)?);
         for group in &self.groups {
-            let bases: BTreeMap<_, &Row> = self.against.as_ref().map_or_else(BTreeMap::new, |against| {
-                self.rows(run, group, against).into_iter().map(|row| (row.case(), row)).collect()
-            });
-            let mut places: BTreeMap<(&Arc<DrawKey>, u32), usize> = BTreeMap::new();
-            for contender in &self.contenders {
-                for row in self.rows(run, group, contender) {
-                    let base = bases.get(&row.case()).copied();
-                    if self.against.is_some() && base.is_none() {
-                        continue;
-                    }
-                    let unit = (&row.key.on, row.key.repeat);
-                    let place = *places.entry(unit).or_insert(draws.len());
-                    if place == draws.len() {
-                        draws.push(Draw { group: &row.key.on.group, cases: Vec::new() });
-                    }
-                    draws[place].cases.push(self.case(run, row, base));
+            let bases = self.against.as_ref().map(|against| Cases::of(self.rows(run, group, against)));
+            let mut places: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+            for row in self.contenders.iter().flat_map(|contender| self.rows(run, group, contender)) {
+                let base = bases.as_ref().and_then(|bases| bases.same(row));
+                if self.against.is_some() && base.is_none() {
+                    continue;
                 }
+                let place = *places.entry((row.draw(), row.key.repeat)).or_insert(draws.len());
+                if place == draws.len() {
+                    draws.push(Draw { group: &row.key.on.group, cases: Vec::new() });
+                }
+                let case = Case { row, base, value: value(Some(row)), base_value: value(base) };
+                draws[place].cases.push(case);
             }
         }
         draws.retain(|draw| !self.whole_draws || draw.is_whole());
         draws
-    }
-
-    fn case<'e>(&self, run: &Run<'_>, row: &'e Row, base: Option<&'e Row>) -> Case<'e> {
-        let solved = |row: &&Row| row.status == Status::Solved;
-        let value = |row: Option<&Row>| run.value(row.filter(solved)?, self.metric?);
-        Case { row, base, value: value(Some(row)), base_value: value(base) }
     }
 
     /// The trials of `contender` in one group that are looked at.
@@ -220,11 +219,34 @@ impl<'a> Selection<'a> {
 }
 
 impl Draw<'_> {
+    /// What it holds of one contender.
+    #[must_use]
+    pub fn by(&self, contender: &str) -> Self {
+        let is_own = |case: &&Case<'_>| *case.row.key.contender == *contender;
+        Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
+    }
+
+    /// The numbers of its cases.
+    pub fn values(&self) -> Vec<f64> {
+        self.cases.iter().filter_map(|case| case.value).collect()
+    }
+
     /// Whether all that is compared is solved on it.
     pub fn is_whole(&self) -> bool {
         let solved = |row: &Row| row.status == Status::Solved;
         self.cases.iter().all(|case| solved(case.row) && case.base.is_none_or(solved))
     }
+}
+
+/// How many queries of a problem group can be posed on its first draw, and how many it has.
+pub fn posed(run: &Run<'_>, group: &str) -> [usize; 2] {
+    let mut queries: BTreeMap<&str, bool> = BTreeMap::new();
+    for contender in &run.study.contenders {
+        for row in run.rows(group, &contender.label).iter().filter(|row| row.draw() == 0) {
+            *queries.entry(row.query()).or_default() |= row.status != Status::InvalidProblem;
+        }
+    }
+    [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
 }
 
 /// Of all cases those that are solved by everyone who is compared, and all.

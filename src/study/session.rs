@@ -5,7 +5,7 @@ use super::lock::Lock;
 use super::manifest::Manifest;
 use super::name::Names;
 use super::reading::ReadingChoice;
-use super::record::{Batch, Row, Status};
+use super::record::{Batch, Row, Status, Timing};
 use super::reuse::{self, Before, Reusable, moved};
 use super::runner::{BuiltStudy, Progress};
 use super::store::{Columns, Journal, Records, Staged, remove_temporaries, stage_records};
@@ -139,7 +139,20 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let journal = Mutex::new(journal);
     let pool = pool(options.threads);
     let batch = pool.install(|| built.run(done, &found.parts, &journal, options.stop, options.progress))?;
-    let times = built.time(options.stop, options.progress)?;
+    let is_kept = |(before, old): &&(Manifest, Records)| {
+        units == 0
+            && counts.reused == units
+            && manifest.readings == before.readings
+            && is_timed_as(study, &old.times)
+    };
+    let kept = stored.as_ref().filter(is_kept);
+    let times = match kept {
+        Some((before, old)) => {
+            manifest.sessions.clone_from(&before.sessions);
+            old.times.clone()
+        }
+        None => built.time(options.stop, options.progress)?,
+    };
     let records = Records { batch, times };
     write(study, folder, &mut manifest, &records)?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
@@ -148,6 +161,18 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         report.moved = moved(&report.manifest, before, &old.batch, &records.batch, built.names());
     }
     Ok(report)
+}
+
+/// Whether the clock was read for as many draws, repeats and seeds as `study` asks for: readings are then as good as new ones
+/// where no trial ran again, whatever else of the spec has changed.
+fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
+    let Some(timing) = study.timing else { return times.is_empty() };
+    let most = |of: fn(&Timing) -> u32| times.iter().map(|time| of(time) + 1).max().unwrap_or(0);
+    let draws = study.groups.iter().map(|group| group.replicates).max().unwrap_or(0);
+    let seeds = study.contenders.iter().map(|contender| contender.repeats).max().unwrap_or(0);
+    most(|time| time.trial.on.draw) == timing.problems.min(draws)
+        && most(|time| time.clock_repeat) == timing.repeats
+        && most(|time| time.trial.repeat) == timing.seeds.unwrap_or(1).min(seeds)
 }
 
 /// Puts records and manifest in their places, the manifest last: it says which records are whole.

@@ -146,7 +146,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "contenders = [\"A*\"]",
         "contenders = [\"B*\"]",
-        "mini/room.toml:27:46: no contender is called `B*`; they are A*",
+        "mini/room.toml:27:49: no contender is called `B*`; they are A*",
     ),
     wrong(
         "room",

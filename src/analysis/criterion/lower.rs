@@ -46,10 +46,10 @@ struct Settings {
 #[derive(Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Way {
-    /// Lower.
+    /// Its numbers are below the other's; it solves less.
     #[default]
     Lower,
-    /// Higher.
+    /// Its numbers are above the other's; it solves more.
     Higher,
 }
 
