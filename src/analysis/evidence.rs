@@ -1,6 +1,8 @@
 //! The records that claims are judged by, ready to be asked.
 
 use super::metric::{self, Metric};
+use super::polylines::Polylines;
+use crate::study::column;
 use crate::study::key::{DrawKey, Owner, ReadingKey, SweepKey, Text, TrialKey};
 use crate::study::manifest::Manifest;
 use crate::study::name::Names;
@@ -8,14 +10,14 @@ use crate::study::paper::Paper;
 use crate::study::record::{PreparedRow, Row, Status};
 use crate::study::store::{Records, read_records};
 use crate::study::{ReadingChoice, Study, StudyError};
-use audit::turns::{Polyline, TurnQuery, shortest_polyline};
+use audit::turns::{Polyline, TurnQuery};
 use base::hash::sha256;
-use engine::planner::Exhibit;
+use engine::planner::{Exhibit, Value};
 use rayon::prelude::*;
 use stats::summary;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::Arc;
 
 /// A paper with the stored runs of its studies.
 pub struct Evidence<'a> {
@@ -26,9 +28,6 @@ pub struct Evidence<'a> {
     runs: BTreeMap<&'a str, Run<'a>>,
     polylines: Arc<Polylines>,
 }
-
-/// What was found for each query of [`Evidence::shortest_polyline`], by the query in words.
-type Polylines = Mutex<BTreeMap<String, Arc<OnceLock<Option<Polyline>>>>>;
 
 /// The stored run of one study, as seen under one reading.
 pub struct Run<'a> {
@@ -50,7 +49,7 @@ struct Index {
     /// How records are named.
     names: Names,
     /// Rows by reading, group and contender, in the order of records.
-    rows: BTreeMap<ReadingKey, BTreeMap<Text, BTreeMap<Text, Vec<usize>>>>,
+    rows: BTreeMap<ReadingKey, Groups>,
     /// Prepared objects by what names them.
     prepared: BTreeMap<Arc<DrawKey>, usize>,
     /// Exhibits by their owners.
@@ -58,6 +57,9 @@ struct Index {
     /// The clock readings of each timed trial by session, from 1; those of several are never pooled.
     readings_ns: Vec<BTreeMap<TrialKey, Vec<f64>>>,
 }
+
+/// Rows by group and contender.
+type Groups = BTreeMap<Text, BTreeMap<Text, Vec<usize>>>;
 
 /// Trials of two contenders on one problem.
 pub struct Pair<'a> {
@@ -108,16 +110,39 @@ impl<'a> Evidence<'a> {
         Ok(Self { paper, point, runs, polylines: Arc::default() })
     }
 
-    /// [`shortest_polyline`], searched once however many checks ask under however many readings.
+    /// Runs of the studies of `paper` that were not read from a folder, to be judged under the reading `point`: what the
+    /// records of each study depend on, and the records, by the study's name. Studies that are not named have no run.
+    pub fn of(
+        paper: &'a Paper,
+        point: ReadingChoice,
+        mut stored: BTreeMap<String, (Manifest, Records)>,
+    ) -> Self {
+        let run = |study: &'a Study| {
+            let (manifest, records) = stored.remove(&study.name)?;
+            Some((study.name.as_str(), Run::of(study, &point, manifest, records)))
+        };
+        let runs = paper.studies.iter().filter_map(run).collect();
+        Self { paper, point, runs, polylines: Arc::default() }
+    }
+
+    /// [`shortest_polyline`](audit::turns::shortest_polyline), searched once however many rules ask under however many
+    /// readings.
     ///
     /// # Panics
     /// As that function.
     pub fn shortest_polyline(&self, query: &TurnQuery) -> Option<Polyline> {
-        let of = |known: &mut BTreeMap<_, Arc<OnceLock<_>>>| {
-            known.entry(format!("{query:?}")).or_default().clone()
-        };
-        let found = of(&mut self.polylines.lock().expect("no thread panics while it holds the lock"));
-        found.get_or_init(|| shortest_polyline(query)).clone()
+        self.polylines.shortest(query)
+    }
+
+    /// It, with polylines that an earlier command found and kept in `file`.
+    #[must_use]
+    pub fn remembering(self, file: &Path) -> Self {
+        Self { polylines: Arc::new(Polylines::kept_in(file)), ..self }
+    }
+
+    /// Keeps the polylines that were found for a later command.
+    pub fn keep_polylines(&self) {
+        self.polylines.keep();
     }
 
     /// The same records, to be judged under another reading.
@@ -167,10 +192,14 @@ impl<'a> Run<'a> {
             return Err(StudyError::stored(path, reason));
         }
         let records = read_records(folder, &study.name, &manifest.files)?;
+        Ok(Self::of(study, point, manifest, records))
+    }
+
+    fn of(study: &'a Study, point: &ReadingChoice, manifest: Manifest, records: Records) -> Self {
         let index = Arc::new(Index::of(study.names(), &records));
         let reading = point.for_trials(&study.readings).key(&study.readings);
         let (manifest, records) = (Arc::new(manifest), Arc::new(records));
-        Ok(Self { study, manifest, records, reading, session: 1, index })
+        Self { study, manifest, records, reading, session: 1, index }
     }
 
     fn under(&self, point: &ReadingChoice) -> Self {
@@ -200,14 +229,22 @@ impl<'a> Run<'a> {
 
     /// What `metric` is for `row`; `None` if it was not measured.
     pub fn value(&self, row: &Row, metric: &Metric) -> Option<f64> {
-        let raw = if metric.is_clock() {
-            self.times(row).and_then(|times| summary::median(times))
-        } else if metric.is_status() {
-            Some(f64::from(u8::from(matches!(row.status, Status::Solved | Status::Rejected))))
-        } else {
-            row.value(metric.column)
-        };
-        raw.map(|value| value * metric.scale)
+        self.reader(metric)(row)
+    }
+
+    /// [`value`](Self::value) for many rows: where the metric stands is looked up once.
+    pub fn reader<'r>(&'r self, metric: &'r Metric) -> impl Fn(&Row) -> Option<f64> + 'r {
+        let place = column::place(metric.column);
+        move |row| {
+            let raw = if metric.is_clock() {
+                self.times(row).and_then(|times| summary::median(times))
+            } else if metric.is_status() {
+                Some(f64::from(u8::from(matches!(row.status, Status::Solved | Status::Rejected))))
+            } else {
+                row.values.at(place?).map(Value::as_f64)
+            };
+            raw.map(|value| value * metric.scale)
+        }
     }
 
     /// Every clock reading of `row` in the unit of `metric`; none if it was not timed or `metric` is not of the clock.
@@ -252,13 +289,9 @@ impl<'a> Run<'a> {
             return solved.map(|row| Pair { base: row, other: row }).collect();
         }
         let solved = |row: &&Row| row.status == Status::Solved;
-        let bases: BTreeMap<_, &Row> =
-            self.rows(group, base).into_iter().filter(solved).map(|row| (row.case(), row)).collect();
-        self.rows(group, other)
-            .into_iter()
-            .filter(solved)
-            .filter_map(|other| Some(Pair { base: bases.get(&other.case())?, other }))
-            .collect()
+        let bases = Cases::of(self.rows(group, base).into_iter().filter(solved));
+        let others = self.rows(group, other).into_iter().filter(solved);
+        others.filter_map(|other| Some(Pair { base: bases.same(other)?, other })).collect()
     }
 
     /// `metric` of `contender` on every problem of `group` that it solved or, with `against`, the reduction in per
@@ -296,6 +329,29 @@ impl<'a> Run<'a> {
     /// The exhibit called `name` of a trial or prepared object.
     pub fn exhibit(&self, of: impl Into<Owner>, name: &str) -> Option<&Exhibit> {
         self.exhibits(of).find(|exhibit| exhibit.name == name)
+    }
+}
+
+/// Trials of one contender on one problem group, to be found by what they have in common with another contender's.
+pub struct Cases<'r>(BTreeMap<u32, Vec<&'r Row>>);
+
+impl<'r> Cases<'r> {
+    /// These trials.
+    pub fn of(rows: impl IntoIterator<Item = &'r Row>) -> Self {
+        let mut draws: BTreeMap<u32, Vec<&Row>> = BTreeMap::new();
+        for row in rows {
+            draws.entry(row.draw()).or_default().push(row);
+        }
+        Self(draws)
+    }
+
+    /// The trial of the same draw, query, point of the sweeps and repeat as `row`.
+    pub fn same(&self, row: &Row) -> Option<&'r Row> {
+        let of_draw = self.0.get(&row.draw())?;
+        of_draw.iter().copied().find(|own| {
+            let (one, other) = (&own.key, &row.key);
+            one.repeat == other.repeat && one.query == other.query && one.sweep.is_same(&other.sweep)
+        })
     }
 }
 

@@ -14,6 +14,17 @@ pub enum Better {
     Neither,
 }
 
+impl Better {
+    /// Its name, as other programs are told it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lower => "lower",
+            Self::Higher => "higher",
+            Self::Neither => "neither",
+        }
+    }
+}
+
 /// A metric: one column of trials, or the median clock reading of a timed trial.
 #[derive(Debug, PartialEq)]
 pub struct Metric {
@@ -48,8 +59,8 @@ pub static METRICS: &[Metric] = &[
     metric("connected", "Start and goal connected", "", Better::Neither),
     metric("cut_in_cm", "Cut-in depth", "cm", Better::Lower),
     metric("expansions", "Expansions", "", Better::Lower),
-    metric("generated", "Generated successors", "", Better::Lower),
     Metric { column: STATUS, ..metric("found", "Path found", "", Better::Higher) },
+    metric("generated", "Generated successors", "", Better::Lower),
     metric("goal_links", "Neighbours of the goal", "", Better::Neither),
     metric("hit_share_percent", "Targets met", "%", Better::Neither),
     metric("hops", "Hops", "", Better::Lower),

@@ -14,6 +14,7 @@ pub mod evidence;
 pub mod found;
 pub mod inclusion;
 pub mod metric;
+mod polylines;
 pub mod rule;
 pub mod selection;
 pub mod selection_spec;

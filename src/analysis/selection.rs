@@ -1,16 +1,15 @@
 //! Which trials a criterion, a figure or a table looks at: resolved once, then asked of the runs under any reading.
 
 use super::context::Context;
-use super::evidence::{Evidence, Run};
+use super::evidence::{Cases, Evidence, Run};
 use super::metric::{Better, Metric};
 use super::selection_spec::SelectionSpec;
 use crate::study::Study;
-use crate::study::key::{DrawKey, SweepKey};
+use crate::study::key::SweepKey;
 use crate::study::name;
 use crate::study::record::{Row, Status};
 use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// A selection whose every name was found.
 pub struct Selection<'a> {
@@ -73,6 +72,12 @@ impl Case<'_> {
             }
             None => self.value.is_none() && !no_path(self.row) && !self.is_unmeasured(),
         }
+    }
+
+    /// Whether some side did not come to an end: what it would have given is not known.
+    pub fn is_unended(&self) -> bool {
+        let is_cut = |row: &Row| matches!(row.status, Status::BudgetSpent | Status::Crashed);
+        is_cut(self.row) || self.base.is_some_and(is_cut)
     }
 
     /// Whether both sides are solved, and one was not measured: the clock is read for some trials only.
@@ -163,34 +168,26 @@ impl<'a> Selection<'a> {
     pub fn draws<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Draw<'e>> {
         let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
         let mut draws: Vec<Draw<'e>> = Vec::new();
+        let reader = self.metric.map(|metric| run.reader(metric));
+        let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| row.status == Status::Solved)?);
         for group in &self.groups {
-            let bases: BTreeMap<_, &Row> = self.against.as_ref().map_or_else(BTreeMap::new, |against| {
-                self.rows(run, group, against).into_iter().map(|row| (row.case(), row)).collect()
-            });
-            let mut places: BTreeMap<(&Arc<DrawKey>, u32), usize> = BTreeMap::new();
-            for contender in &self.contenders {
-                for row in self.rows(run, group, contender) {
-                    let base = bases.get(&row.case()).copied();
-                    if self.against.is_some() && base.is_none() {
-                        continue;
-                    }
-                    let unit = (&row.key.on, row.key.repeat);
-                    let place = *places.entry(unit).or_insert(draws.len());
-                    if place == draws.len() {
-                        draws.push(Draw { group: &row.key.on.group, cases: Vec::new() });
-                    }
-                    draws[place].cases.push(self.case(run, row, base));
+            let bases = self.against.as_ref().map(|against| Cases::of(self.rows(run, group, against)));
+            let mut places: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+            for row in self.contenders.iter().flat_map(|contender| self.rows(run, group, contender)) {
+                let base = bases.as_ref().and_then(|bases| bases.same(row));
+                if self.against.is_some() && base.is_none() {
+                    continue;
                 }
+                let place = *places.entry((row.draw(), row.key.repeat)).or_insert(draws.len());
+                if place == draws.len() {
+                    draws.push(Draw { group: &row.key.on.group, cases: Vec::new() });
+                }
+                let case = Case { row, base, value: value(Some(row)), base_value: value(base) };
+                draws[place].cases.push(case);
             }
         }
         draws.retain(|draw| !self.whole_draws || draw.is_whole());
         draws
-    }
-
-    fn case<'e>(&self, run: &Run<'_>, row: &'e Row, base: Option<&'e Row>) -> Case<'e> {
-        let solved = |row: &&Row| row.status == Status::Solved;
-        let value = |row: Option<&Row>| run.value(row.filter(solved)?, self.metric?);
-        Case { row, base, value: value(Some(row)), base_value: value(base) }
     }
 
     /// The trials of `contender` in one group that are looked at.
@@ -265,19 +262,25 @@ pub fn censored(draws: &[Draw<'_>]) -> usize {
     draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_censored()).count()
 }
 
+/// Cases that did not come to an end on some side.
+pub fn unended(draws: &[Draw<'_>]) -> usize {
+    draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_unended()).count()
+}
+
 /// Both numbers of every case that has them, the other contender's first, by draw; draws without any are left out.
 pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
     let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(Case::pair).collect::<Vec<_>>();
     draws.iter().map(of_draw).filter(|pairs| !pairs.is_empty()).collect()
 }
 
-/// The pairs of every draw with its censored cases filled in by the largest difference seen: against the contender where it
-/// alone failed, for it where the other did, and where that is not known once one way and once the other. What is found
-/// every time does not hang on them. Nothing where nothing is censored.
+/// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
+/// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
+/// way and once the other. What is found every time does not hang on them. Nothing where nothing is censored.
 pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
     let seen = || draws.iter().flat_map(|draw| &draw.cases).filter_map(Case::pair);
-    let most = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
     let count = seen().count();
+    let greatest = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
+    let most = greatest * count as f64;
     if censored(draws) == 0 || count == 0 {
         return Vec::new();
     }

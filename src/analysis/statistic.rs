@@ -20,6 +20,15 @@ use std::collections::BTreeMap;
 /// Level of every interval.
 pub const LEVEL: f64 = 0.95;
 
+/// Fewest draws of which a bootstrap interval decides anything: one end of the percentile interval of a mean of normal draws
+/// then lies on the wrong side of the truth with a probability of 4.8 %, in place of 2.5 %; of 5 draws it is 7.7 %.
+pub const FEWEST_DRAWS: usize = 10;
+
+/// The draws that are needed, where there are fewer.
+pub fn needs(draws: usize) -> Option<usize> {
+    (draws < FEWEST_DRAWS).then_some(FEWEST_DRAWS)
+}
+
 /// A bootstrap as every verdict makes it, with the stream of draws that belongs to `names`.
 pub fn plan(names: &[&str]) -> Resampling {
     Resampling { resamples: 2000, level: LEVEL, seed: seed::derive(0, names) }

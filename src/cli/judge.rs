@@ -12,6 +12,7 @@ use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
 use std::fs;
+use std::path::Path;
 
 /// Judges a paper's claims again.
 #[derive(Args)]
@@ -45,7 +46,7 @@ impl Judge {
 /// Judges again and refuses stored verdicts that are not what comes out, to the byte.
 fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Failure> {
     let (stored, path) = (Verdicts::read(&places.runs)?, Verdicts::path(&places.runs));
-    let now = judged(paper, point, places)?;
+    let now = claims::judge(&read(paper, point, places)?)?;
     let mut found = differences(&stored, &now);
     if found.is_empty() && fs::read(&path)? != now.text().as_bytes() {
         found.push("the same verdicts in other words than `replan judge` writes".to_owned());
@@ -60,13 +61,18 @@ fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Fai
 
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
 pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
-    let verdicts = judged(paper, point, places)?;
+    let evidence = read(paper, point, places)?.remembering(Path::new(POLYLINES));
+    let verdicts = claims::judge(&evidence)?;
+    evidence.keep_polylines();
     verdicts.write(&places.runs)?;
     Ok(verdicts)
 }
 
-/// The verdicts on `paper` under `point` by its stored run.
-fn judged(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
+/// Where polylines that were searched for are kept; a check searches for its own.
+const POLYLINES: &str = "target/replan/cache/polylines.json";
+
+/// The stored run of `paper`, to be judged under `point`.
+fn read<'a>(paper: &'a Paper, point: ReadingChoice, places: &Places) -> Result<Evidence<'a>, Failure> {
     doing(&format!("{}: judging {} claims", paper.id, paper.claims.len()));
-    Ok(claims::judge(&Evidence::read(paper, point, &places.runs)?)?)
+    Ok(Evidence::read(paper, point, &places.runs)?)
 }

@@ -135,6 +135,11 @@ impl SweepKey {
         &self.0
     }
 
+    /// Whether it is the same point; that of most trials is shared, and found out at once.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self == other
+    }
+
     /// The value of the sweep over the setting `key`.
     pub fn value(&self, key: &str) -> Option<&SweepValue> {
         self.0.iter().find(|(name, _)| **name == *key).map(|(_, value)| value)

@@ -2,6 +2,7 @@
 
 use super::checked::Study;
 use super::contender::SweepPoint;
+use super::defaults::defaults;
 use super::error::StudyError;
 use super::key::{ReadingKey, Text};
 use super::name;
@@ -39,6 +40,9 @@ pub struct Manifest {
     pub claims: String,
     /// One hash of everything below that trials depend on.
     pub depends: String,
+    /// What the spec leaves out, and the value that holds there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub defaults: Vec<String>,
     /// The program and the machine.
     pub made_by: MadeBy,
     /// SHA-256 of every input file.
@@ -120,6 +124,7 @@ impl Manifest {
             spec: sha256(study.document.text().as_bytes()),
             claims,
             depends,
+            defaults: defaults(study),
             sessions: study.timing.iter().map(|_| Session::of(&made_by)).collect(),
             made_by,
             inputs,
@@ -360,38 +365,4 @@ fn note(hashes: &mut Hashes, label: &str, text: &str, reading: usize) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn outputs_of_runs_leave_a_tree_clean_and_any_other_change_does_not() {
-        let folder = tempfile::tempdir().unwrap();
-        let git = |arguments: &[&str]| {
-            let name = ["-c", "user.name=n", "-c", "user.email=e"];
-            let mut command = Command::new("git");
-            let done = command.current_dir(folder.path()).args(name).args(arguments).output().unwrap();
-            assert!(done.status.success(), "{arguments:?}: {done:?}");
-        };
-        let write = |name: &str| {
-            let path = folder.path().join(name);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, name).unwrap();
-        };
-        let clean = || MadeBy::found(folder.path()).clean;
-        git(&["init", "--quiet"]);
-        write("spec.toml");
-        git(&["add", "."]);
-        git(&["commit", "--quiet", "-m", "first"]);
-        assert_eq!(clean(), Some(true));
-        for output in ["data/runs/p/s.manifest.toml", "plots/p/fig1.svg", "paper_repro.md"] {
-            write(output);
-            assert_eq!(clean(), Some(true), "{output}");
-        }
-        assert_eq!(MadeBy::found(&folder.path().join("data/runs")).clean, Some(true), "seen from below");
-        write("data/robots/r.toml");
-        assert_eq!(clean(), Some(false));
-        fs::remove_dir_all(folder.path().join("data/robots")).unwrap();
-        fs::write(folder.path().join("spec.toml"), "changed").unwrap();
-        assert_eq!(clean(), Some(false));
-    }
-}
+mod tests;

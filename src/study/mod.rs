@@ -31,6 +31,7 @@ pub mod files;
 pub mod task;
 
 mod checked;
+mod defaults;
 pub mod lock;
 pub mod paper;
 pub mod store;

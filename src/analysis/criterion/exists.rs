@@ -215,12 +215,13 @@ impl<'a> Attained<'a> {
         reading: &Arc<str>,
     ) -> Vec<Seen<'e>> {
         let base = self.against.as_deref().unwrap_or(contender);
+        let number = run.reader(self.metric);
         let value = |pair: &Pair<'_>| {
-            let other = run.value(pair.other, self.metric)?;
+            let other = number(pair.other)?;
             if self.against.is_none() {
                 return Some(other);
             }
-            let base = run.value(pair.base, self.metric)?;
+            let base = number(pair.base)?;
             (base > 0.0).then(|| 100.0 * (base - other) / base)
         };
         let pairs = run.pairs(group, base, contender);

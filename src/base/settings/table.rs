@@ -15,6 +15,8 @@ use toml::de::DeValue;
 pub struct Settings {
     table: Table,
     origin: Origin,
+    /// Keys that were not written and stand in the table by their defaults.
+    filled: Vec<String>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -33,18 +35,18 @@ impl Settings {
     /// The settings that stand in `document` as `table`.
     pub fn written(document: &Arc<Document>, table: &Spanned<Table>) -> Self {
         let origin = Origin::Written { document: document.clone(), span: table.span() };
-        Self { table: table.get_ref().clone(), origin }
+        Self { table: table.get_ref().clone(), origin, filled: Vec::new() }
     }
 
     /// The empty settings of `whose`, which stands at `span` of `document` without a table.
     pub fn absent(document: &Arc<Document>, span: Range<usize>, whose: impl Into<String>) -> Self {
         let origin = Origin::Absent { document: document.clone(), span, whose: whose.into() };
-        Self { table: Table::new(), origin }
+        Self { table: Table::new(), origin, filled: Vec::new() }
     }
 
     /// Settings that no file holds; `origin` says where they come from.
     pub fn composed(origin: impl Into<String>, table: Table) -> Self {
-        Self { table, origin: Origin::Composed(origin.into()) }
+        Self { table, origin: Origin::Composed(origin.into()), filled: Vec::new() }
     }
 
     /// The table itself.
@@ -61,7 +63,7 @@ impl Settings {
         let mut table = self.table.clone();
         table.extend(over.iter().map(|(key, value)| (key.clone(), value.clone())));
         let origin = Origin::Overlaid { under: Box::new(self.clone()), by: origin.to_owned() };
-        Self { table, origin }
+        Self { table, origin, filled: self.filled.clone() }
     }
 
     /// These settings with the values that hold where they leave a key out, so that a record of them says all that moved a
@@ -71,9 +73,17 @@ impl Settings {
     #[must_use]
     pub fn completed(mut self, accepted: Accepted) -> Self {
         for (key, value) in defaults(&accepted.schema()) {
-            self.table.entry(key).or_insert(value);
+            if !self.table.contains_key(&key) {
+                self.filled.push(key.clone());
+                self.table.insert(key, value);
+            }
         }
         self
+    }
+
+    /// The keys that were left out, and the values that hold there.
+    pub fn filled(&self) -> impl Iterator<Item = (&str, &toml::Value)> {
+        self.filled.iter().filter_map(|key| Some((key.as_str(), self.table.get(key)?)))
     }
 
     /// The settings as a `T`, held against the schema of `T` first.
