@@ -140,10 +140,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let pool = pool(options.threads);
     let batch = pool.install(|| built.run(done, &found.parts, &journal, options.stop, options.progress))?;
     let is_kept = |(before, old): &&(Manifest, Records)| {
-        units == 0
-            && counts.reused == units
-            && manifest.readings == before.readings
-            && is_timed_as(study, &old.times)
+        counts.reused == units && manifest.readings == before.readings && is_timed_as(study, &old.times)
     };
     let kept = stored.as_ref().filter(is_kept);
     let times = match kept {
