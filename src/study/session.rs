@@ -119,9 +119,8 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let (journal, mut done) = Journal::open(&journal_path(folder, &study.name), &manifest.depends)?;
     let (resumed, units) = (done.len(), built.units().len());
     let Before { stored, why } = Before::read(folder, &manifest);
-    if let Some((before, records)) =
-        stored.as_ref().filter(|(before, _)| !options.fresh && manifest.is_as(before))
-    {
+    let is_current = |(before, _): &&(Manifest, Records)| !options.fresh && manifest.is_as(before);
+    if let Some((before, records)) = stored.as_ref().filter(is_current) {
         journal.remove()?;
         let counts = Counts { resumed, units, reused: units, kept: 0 };
         return Ok(Report::new(before.clone(), &counts, &records.batch, built.names(), why));
@@ -136,28 +135,34 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         manifest.claims.clone_from(&before.claims);
     }
     done = found.units.into_iter().chain(done).collect();
-    let journal = Mutex::new(journal);
-    let pool = pool(options.threads);
+    let (journal, pool) = (Mutex::new(journal), pool(options.threads));
     let batch = pool.install(|| built.run(done, &found.parts, &journal, options.stop, options.progress))?;
-    let is_kept = |(before, old): &&(Manifest, Records)| {
-        counts.reused == units && manifest.readings == before.readings && is_timed_as(study, &old.times)
-    };
-    let kept = stored.as_ref().filter(is_kept);
-    let times = match kept {
-        Some((before, old)) => {
-            manifest.sessions.clone_from(&before.sessions);
-            old.times.clone()
-        }
+    let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
+        Some(times) => times,
         None => built.time(options.stop, options.progress)?,
     };
     let records = Records { batch, times };
     write(study, folder, &mut manifest, &records)?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
     let mut report = Report::new(manifest, &counts, &records.batch, built.names(), why);
-    if let Some((before, old)) = &stored {
-        report.moved = moved(&report.manifest, before, &old.batch, &records.batch, built.names());
-    }
+    report.moved = stored.as_ref().map_or_else(Default::default, |(before, old)| {
+        moved(&report.manifest, before, &old.batch, &records.batch, built.names())
+    });
     Ok(report)
+}
+
+/// The stored readings of the clock, with their sessions, if no trial ran again and they are as many as are asked for.
+fn kept_times(
+    study: &Study,
+    stored: Option<&(Manifest, Records)>,
+    manifest: &mut Manifest,
+    none_ran: bool,
+) -> Option<Vec<Timing>> {
+    let (before, old) = stored.filter(|(before, old)| {
+        none_ran && manifest.readings == before.readings && is_timed_as(study, &old.times)
+    })?;
+    manifest.sessions.clone_from(&before.sessions);
+    Some(old.times.clone())
 }
 
 /// Whether the clock was read for as many draws, repeats and seeds as `study` asks for: readings are then as good as new ones

@@ -181,9 +181,9 @@ pub const WRONG: &[Wrong] = &[
     wrong("paper", "id = \"table1\"", "id = \"Table\"", "mini/paper.toml:44:6: the id `Table` names files"),
     wrong(
         "room",
-        "settings = { problem = \"room\", contenders = [\"A*\"] }",
+        "settings = { problems = [\"room\"], contenders = [\"A*\"] }",
         "",
-        "mini/room.toml:23:6: figure `fig1` has no settings: missing key `problem` (",
+        "mini/room.toml:23:6: figure `fig1` has no settings: missing key `problems` (",
     ),
     wrong(
         "room",

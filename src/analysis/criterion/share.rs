@@ -201,13 +201,19 @@ impl<'a> Counted<'a> {
         })
     }
 
-    /// A trial of the minority: what speaks against the greater share.
+    /// A trial of what there is too little or too much of or, where the share is accepted, of the rarer kind.
     fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>], share: f64) -> Option<String> {
-        let mut cases = draws.iter().flat_map(|draw| &draw.cases);
-        let is_rare = |case: &&Case<'_>| {
-            self.counts(case).is_some_and(|[hits, chances]| (hits < chances) == (share > 0.5))
+        let is_miss_shown = match self.settings.accepted {
+            Some([low, _]) if share < low => true,
+            Some([_, high]) if share > high => false,
+            _ => share > 0.5,
         };
-        Some(self.of.run(evidence)?.trial(cases.find(is_rare)?.row))
+        let counted = || draws.iter().flat_map(|draw| &draw.cases).filter(|case| self.counts(case).is_some());
+        let is_shown = |case: &&Case<'_>| {
+            self.counts(case).is_some_and(|[hits, chances]| (hits < chances) == is_miss_shown)
+        };
+        let case = counted().find(is_shown).or_else(|| counted().next())?;
+        Some(self.of.run(evidence)?.trial(case.row))
     }
 }
 

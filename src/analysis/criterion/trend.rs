@@ -102,6 +102,12 @@ impl<'a> Trend<'a> {
         }
     }
 
+    /// The points of each draw that has any.
+    fn points(&self, draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
+        let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|case| self.point(case)).collect();
+        draws.iter().map(of_draw).filter(|points: &Vec<_>| !points.is_empty()).collect()
+    }
+
     /// Medians in the lower, middle and upper third of the column, beside the slope: a slope alone may be one outlier's.
     fn medians(points: &[(f64, f64)]) -> String {
         let places: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
@@ -118,11 +124,7 @@ impl<'a> Trend<'a> {
 impl Criterion for Trend<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
-        let points: Vec<Vec<(f64, f64)>> = draws
-            .iter()
-            .map(|draw| draw.cases.iter().filter_map(|case| self.point(case)).collect())
-            .filter(|points: &Vec<_>| !points.is_empty())
-            .collect();
+        let points = self.points(&draws);
         let Some(found) = pooled::slope(&points, self.plan) else {
             return Found::too_few(points.len(), FEWEST_DRAWS);
         };
@@ -148,9 +150,7 @@ impl Criterion for Trend<'_> {
         let against = draws.iter().flat_map(|draw| &draw.cases).find(|case| self.point(case).is_some());
         Found {
             outcome: Some(outcome),
-            ours: Some(
-                Estimate::new(found.value, found.interval, what, found.units).of_cases(solved(&draws)),
-            ),
+            ours: Some(Estimate::of(found, what).of_cases(solved(&draws))),
             trial: against.and_then(|case| Some(self.of.run(evidence)?.trial(case.row))),
             because: vec![because],
             limits: vec![0.0],
