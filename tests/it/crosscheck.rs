@@ -329,7 +329,8 @@ fn answers_that_were_never_asked_for_are_wrong_input_and_nothing_is_written() {
 fn the_judge_of_statistics_is_told_metrics_and_papers_and_its_word_is_the_exit_code() {
     let bench = bench();
     bench.write("crosscheck/requirements.txt", b"scipy==1.17.1\n");
-    let ask = || bench.run(&["crosscheck", "./judged", "--statistics", "--out", "out", "--python", "./python"]);
+    let ask =
+        || bench.run(&["crosscheck", "./judged", "--statistics", "--out", "out", "--python", "./python"]);
     // A Python whose judge ends as it is told.
     let script = |code: u8| {
         let body = format!(
@@ -348,7 +349,9 @@ fn the_judge_of_statistics_is_told_metrics_and_papers_and_its_word_is_the_exit_c
     let said = ask();
     assert!(said.code == Some(2) && said.err.contains("no verdicts"), "{}", said.err);
     bench.write("out/data/runs/judged/verdicts.toml", b"");
-    for (ends, expected, message) in [(0, 0, ""), (3, 3, "differ from verdicts.toml"), (1, 1, "the judge ended")] {
+    for (ends, expected, message) in
+        [(0, 0, ""), (3, 3, "differ from verdicts.toml"), (1, 1, "the judge ended")]
+    {
         script(ends);
         let said = ask();
         assert_eq!(said.code, Some(expected), "{}{}", said.out, said.err);
