@@ -1,4 +1,4 @@
-//! Criteria that hold an interval of means, medians, ratios or slopes against a number: within, lower, trend, least_of.
+//! Criteria that hold an interval of means, medians, ratios or slopes against a number: within, lower, trend, `least_of`.
 
 use super::scenario::{Bounds, Scenario, World};
 use super::synthetic::{End, Made, Sample};

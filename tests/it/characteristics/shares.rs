@@ -1,4 +1,4 @@
-//! Criteria of shares and of single draws: share, one_draw, row_one_draw, and lower along a sweep.
+//! Criteria of shares and of single draws: share, `one_draw`, `row_one_draw`, and lower along a sweep.
 
 use super::numbers::{never_firm, never_reproduced};
 use super::scenario::{Bounds, Scenario, World};

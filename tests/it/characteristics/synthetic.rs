@@ -5,7 +5,7 @@ use replan::analysis::claims::judge;
 use replan::analysis::class::Verdict;
 use replan::analysis::evidence::{Evidence, default_point};
 use replan::study::Inputs;
-use replan::study::key::{DrawKey, SweepKey, SweepValue, TrialKey};
+use replan::study::key::{DrawKey, ReadingKey, SweepKey, SweepValue, TrialKey};
 use replan::study::manifest::{MadeBy, Manifest};
 use replan::study::paper::Paper;
 use replan::study::record::{Row, Status, Timing};
@@ -109,9 +109,11 @@ fn manifest() -> Manifest {
         quick: false,
         seed: 1,
         axes: Vec::new(),
+        defaults: Vec::new(),
         readings: vec![Vec::new()],
         spec: String::new(),
         claims: String::new(),
+        defaults: Vec::new(),
         depends: String::new(),
         made_by: MadeBy::default(),
         inputs: BTreeMap::new(),
@@ -144,7 +146,7 @@ impl Sample {
     /// Begins the next draw.
     pub fn draw(&mut self) {
         let draw = self.on.as_ref().map_or(0, |on| on.draw + 1);
-        let key = DrawKey { group: "map".into(), draw, reading: Default::default() };
+        let key = DrawKey { group: "map".into(), draw, reading: ReadingKey::default() };
         self.on = Some(Arc::new(key));
     }
 

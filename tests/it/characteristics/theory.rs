@@ -56,10 +56,10 @@ fn normal_density(z: f64) -> f64 {
 
 /// P(T > t) of Student's t with `degrees` of freedom, t ≥ 0: the density integrated by Simpson's rule from 0 to t.
 fn student_above(t: f64, degrees: f64) -> f64 {
-    let log_scale = libm::lgamma((degrees + 1.0) / 2.0)
+    let log_scale = libm::lgamma(f64::midpoint(degrees, 1.0))
         - libm::lgamma(degrees / 2.0)
         - libm::log(degrees * std::f64::consts::PI) / 2.0;
-    let density = |x: f64| libm::exp(log_scale - (degrees + 1.0) / 2.0 * libm::log1p(x * x / degrees));
+    let density = |x: f64| libm::exp(log_scale - f64::midpoint(degrees, 1.0) * libm::log1p(x * x / degrees));
     let step = t / 1000.0;
     let sum: f64 = (1..1000).map(|i| density(f64::from(i) * step) * if i % 2 == 1 { 4.0 } else { 2.0 }).sum();
     0.5 - (density(0.0) + sum + density(t)) * step / 3.0

@@ -1,4 +1,4 @@
-//! Criteria that ask of every trial, or of any: equals, exists, on_every, prints_as.
+//! Criteria that ask of every trial, or of any: equals, exists, `on_every`, `prints_as`.
 
 use super::numbers::{never_firm, never_reproduced};
 use super::scenario::{Bounds, Scenario, World};
