@@ -85,7 +85,9 @@ impl Kind for GridSearch {
         }
         let height = if self.moments.is_empty() { 215.0 } else { 150.0 };
         let mut sheet = Sheet::new(Width::Double, panels.len(), height);
-        panels.into_iter().for_each(|panel| sheet.add(panel));
+        for panel in panels {
+            sheet.add(panel);
+        }
         Ok(sheet)
     }
 }

@@ -101,7 +101,7 @@ impl Intervals {
         let sweep = ask::sweep(settings, study, &read.sweep)?;
         let all = study.contenders.iter().map(|contender| contender.label.clone());
         let contenders = if read.contenders.is_empty() { all.collect() } else { read.contenders.clone() };
-        Ok(Self { contenders, sweep, panels, read })
+        Ok(Self { read, contenders, sweep, panels })
     }
 
     /// Whether each problem group is a row; else each contender is.

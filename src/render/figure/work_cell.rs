@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, Shown, ask};
 use crate::analysis::metric;
-use crate::analysis::selection::Selection;
+use crate::analysis::selection::{Case, Selection};
 use crate::analysis::statistic::median;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
@@ -195,10 +195,10 @@ impl WorkCell {
         let metric = metric::find("path_length_mm");
         let all = ask::trials(scene.run, &self.problems, self.contenders.last()?);
         let (against, query) = (self.contenders.first().cloned(), Some(self.query.clone()));
-        let draws = Selection { metric, against, query, ..all }.draws(scene.evidence);
+        let draws = Selection { against, metric, query, ..all }.draws(scene.evidence);
         let cases = || draws.iter().flat_map(|draw| &draw.cases);
         let own = cases().find(|case| case.row.draw() == draw)?.saving_percent()?;
-        let all: Vec<f64> = cases().filter_map(|case| case.saving_percent()).collect();
+        let all: Vec<f64> = cases().filter_map(Case::saving_percent).collect();
         let below = all.iter().filter(|saving| **saving < own).count();
         Some(format!(
             "saving {own:.1} %: {below} of {} roadmaps save less, the median saves {:.1} %",
