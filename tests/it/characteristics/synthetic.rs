@@ -113,7 +113,6 @@ fn manifest() -> Manifest {
         readings: vec![Vec::new()],
         spec: String::new(),
         claims: String::new(),
-        defaults: Vec::new(),
         depends: String::new(),
         made_by: MadeBy::default(),
         inputs: BTreeMap::new(),
