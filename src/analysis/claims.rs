@@ -1,6 +1,6 @@
 //! Judges every claim of a paper, and which claims hold together.
 
-use super::class::{self, Caps, Sessions, Verdict};
+use super::class::{self, Caps, Polarity, Sessions, Verdict};
 use super::context::Context;
 use super::criterion::{self, Criterion};
 use super::evidence::{Evidence, default_point};
@@ -195,6 +195,7 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         existential: found.existential,
         powerless: found.powerless,
         censored: found.censored > 0,
+        few: found.needs.is_some(),
         clock: of.is_clock().then(|| sessions(of, evidence)),
         without_premises: found.without_premises,
     };
@@ -234,6 +235,15 @@ fn explore(
     found.into_iter().collect()
 }
 
+/// What would settle a sentence whose parts leave it open.
+fn parts_settle(parts: &Parts, verdicts: &[Verdict]) -> String {
+    let speaks = |wanted| verdicts.iter().any(|verdict| verdict.polarity() == wanted);
+    if matches!(parts, Parts::MeansOneOf(_)) && speaks(Polarity::For) && speaks(Polarity::Against) {
+        return "which of its parts is meant: the paper does not say, and they speak both ways".to_owned();
+    }
+    "what settles its parts".to_owned()
+}
+
 /// Sentences of parts and rows of cells take their class from theirs.
 fn with_parts(paper: &Paper, mut judged: Vec<Judged>) -> Vec<Judged> {
     let alone: BTreeMap<String, Verdict> =
@@ -260,7 +270,7 @@ fn with_parts(paper: &Paper, mut judged: Vec<Judged>) -> Vec<Judged> {
             criterion: name.to_owned(),
             verdict: Some(verdict),
             because,
-            settles: (verdict == Verdict::Undecided).then(|| "what settles its parts".to_owned()),
+            settles: (verdict == Verdict::Undecided).then(|| parts_settle(&claim.parts, &verdicts)),
             ..Finding::default()
         });
         let found = judged.findings.iter().filter(|finding| finding.criterion != "none");

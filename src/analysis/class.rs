@@ -117,6 +117,8 @@ pub struct Caps {
     pub powerless: bool,
     /// Trials without a result could turn it.
     pub censored: bool,
+    /// There are fewer draws than it takes to say anything.
+    pub few: bool,
     /// It rests on our own clock, and what its sessions say of it.
     pub clock: Option<Sessions>,
     /// The reading is none under which the premises of the proof hold.
@@ -154,7 +156,7 @@ pub fn of_finding(outcome: Outcome, caps: Caps) -> Option<Verdict> {
     };
     let no_clock = matches!(caps.clock, Some(Sessions::TooFew | Sessions::Disagree));
     let is_hollow = caps.powerless && measured.polarity() == Polarity::For;
-    Some(if caps.censored || no_clock || is_hollow { Verdict::Undecided } else { measured })
+    Some(if caps.censored || caps.few || no_clock || is_hollow { Verdict::Undecided } else { measured })
 }
 
 /// The class of a claim from those of its findings, and whether the paper leaves out what it would take.

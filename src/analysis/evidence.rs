@@ -110,6 +110,21 @@ impl<'a> Evidence<'a> {
         Ok(Self { paper, point, runs, polylines: Arc::default() })
     }
 
+    /// Runs of the studies of `paper` that were not read from a folder, to be judged under the reading `point`: what the
+    /// records of each study depend on, and the records, by the study's name. Studies that are not named have no run.
+    pub fn of(
+        paper: &'a Paper,
+        point: ReadingChoice,
+        mut stored: BTreeMap<String, (Manifest, Records)>,
+    ) -> Self {
+        let run = |study: &'a Study| {
+            let (manifest, records) = stored.remove(&study.name)?;
+            Some((study.name.as_str(), Run::of(study, &point, manifest, records)))
+        };
+        let runs = paper.studies.iter().filter_map(run).collect();
+        Self { paper, point, runs, polylines: Arc::default() }
+    }
+
     /// [`shortest_polyline`](audit::turns::shortest_polyline), searched once however many rules ask under however many
     /// readings.
     ///
@@ -177,10 +192,14 @@ impl<'a> Run<'a> {
             return Err(StudyError::stored(path, reason));
         }
         let records = read_records(folder, &study.name, &manifest.files)?;
+        Ok(Self::of(study, point, manifest, records))
+    }
+
+    fn of(study: &'a Study, point: &ReadingChoice, manifest: Manifest, records: Records) -> Self {
         let index = Arc::new(Index::of(study.names(), &records));
         let reading = point.for_trials(&study.readings).key(&study.readings);
         let (manifest, records) = (Arc::new(manifest), Arc::new(records));
-        Ok(Self { study, manifest, records, reading, session: 1, index })
+        Self { study, manifest, records, reading, session: 1, index }
     }
 
     fn under(&self, point: &ReadingChoice) -> Self {

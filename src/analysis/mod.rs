@@ -10,8 +10,6 @@ pub mod class;
 pub mod context;
 pub mod criterion;
 pub mod difference;
-pub mod draws;
-pub mod effect;
 pub mod evidence;
 pub mod found;
 pub mod inclusion;

@@ -32,6 +32,7 @@ pub struct Selection<'a> {
 }
 
 /// One trial, and the trial that it is held against.
+#[derive(Clone, Copy)]
 pub struct Case<'e> {
     /// The trial.
     pub row: &'e Row,
@@ -73,6 +74,12 @@ impl Case<'_> {
         }
     }
 
+    /// Whether some side did not come to an end: what it would have given is not known.
+    pub fn is_unended(&self) -> bool {
+        let is_cut = |row: &Row| matches!(row.status, Status::BudgetSpent | Status::Crashed);
+        is_cut(self.row) || self.base.is_some_and(is_cut)
+    }
+
     /// Whether both sides are solved, and one was not measured: the clock is read for some trials only.
     fn is_unmeasured(&self) -> bool {
         let solved = |row: &Row| row.status == Status::Solved;
@@ -81,6 +88,13 @@ impl Case<'_> {
 }
 
 impl<'a> Selection<'a> {
+    /// All trials of `contenders` on `groups` of `study`.
+    pub fn of(study: &'a Study, groups: &[String], contenders: &[String]) -> Self {
+        let (groups, contenders) = (groups.to_vec(), contenders.to_vec());
+        let (against, metric, query, sweep, whole_draws) = (None, None, None, None, false);
+        Self { study, groups, contenders, against, metric, query, sweep, whole_draws }
+    }
+
     /// The selection `of`, of which every name is looked up.
     ///
     /// # Errors
@@ -155,9 +169,7 @@ impl<'a> Selection<'a> {
         let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
         let mut draws: Vec<Draw<'e>> = Vec::new();
         let reader = self.metric.map(|metric| run.reader(metric));
-        let value = |row: Option<&Row>| {
-            reader.as_ref()?(row.filter(|row| row.status == Status::Solved)?)
-        };
+        let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| row.status == Status::Solved)?);
         for group in &self.groups {
             let bases = self.against.as_ref().map(|against| Cases::of(self.rows(run, group, against)));
             let mut places: BTreeMap<(u32, u32), usize> = BTreeMap::new();
@@ -207,11 +219,34 @@ impl<'a> Selection<'a> {
 }
 
 impl Draw<'_> {
+    /// What it holds of one contender.
+    #[must_use]
+    pub fn by(&self, contender: &str) -> Self {
+        let is_own = |case: &&Case<'_>| *case.row.key.contender == *contender;
+        Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
+    }
+
+    /// The numbers of its cases.
+    pub fn values(&self) -> Vec<f64> {
+        self.cases.iter().filter_map(|case| case.value).collect()
+    }
+
     /// Whether all that is compared is solved on it.
     pub fn is_whole(&self) -> bool {
         let solved = |row: &Row| row.status == Status::Solved;
         self.cases.iter().all(|case| solved(case.row) && case.base.is_none_or(solved))
     }
+}
+
+/// How many queries of a problem group can be posed on its first draw, and how many it has.
+pub fn posed(run: &Run<'_>, group: &str) -> [usize; 2] {
+    let mut queries: BTreeMap<&str, bool> = BTreeMap::new();
+    for contender in &run.study.contenders {
+        for row in run.rows(group, &contender.label).iter().filter(|row| row.draw() == 0) {
+            *queries.entry(row.query()).or_default() |= row.status != Status::InvalidProblem;
+        }
+    }
+    [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
 }
 
 /// Of all cases those that are solved by everyone who is compared, and all.
@@ -227,19 +262,25 @@ pub fn censored(draws: &[Draw<'_>]) -> usize {
     draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_censored()).count()
 }
 
+/// Cases that did not come to an end on some side.
+pub fn unended(draws: &[Draw<'_>]) -> usize {
+    draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_unended()).count()
+}
+
 /// Both numbers of every case that has them, the other contender's first, by draw; draws without any are left out.
 pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
     let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(Case::pair).collect::<Vec<_>>();
     draws.iter().map(of_draw).filter(|pairs| !pairs.is_empty()).collect()
 }
 
-/// The pairs of every draw with its censored cases filled in by the largest difference seen: against the contender where it
-/// alone failed, for it where the other did, and where that is not known once one way and once the other. What is found
-/// every time does not hang on them. Nothing where nothing is censored.
+/// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
+/// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
+/// way and once the other. What is found every time does not hang on them. Nothing where nothing is censored.
 pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
     let seen = || draws.iter().flat_map(|draw| &draw.cases).filter_map(Case::pair);
-    let most = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
     let count = seen().count();
+    let greatest = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
+    let most = greatest * count as f64;
     if censored(draws) == 0 || count == 0 {
         return Vec::new();
     }

@@ -32,6 +32,11 @@ impl Estimate {
         Self { value, interval: Some([interval.low, interval.high]), what: what.into(), n, solved: None }
     }
 
+    /// A number that was estimated over draws.
+    pub fn of(found: stats::bootstrap::Estimate, what: impl Into<String>) -> Self {
+        Self::new(found.value, found.interval, what, found.units)
+    }
+
     /// A number without an interval.
     pub fn bare(value: f64, what: impl Into<String>, n: usize) -> Self {
         Self { value, interval: None, what: what.into(), n, solved: None }

@@ -4,11 +4,11 @@ use super::RenderError;
 use super::latex::{Cell, Column, Table};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::{self, Metric};
+use crate::analysis::statistic;
 use crate::study::paper::Paper;
 use crate::study::paper::results::{CellSpec, ResultsSpec, Show};
 use crate::study::record::{Row, Status};
 use base::settings::{Faults, SettingsError};
-use stats::summary;
 use std::fmt::Write as _;
 
 /// Every metric of every table of results exists, and its study produces it.
@@ -83,7 +83,7 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
         (false, _) => Some(f64::INFINITY),
     };
     let values: Vec<f64> = rows.iter().filter_map(value).collect();
-    let quantile = |share: f64| summary::quantile_type7(&values, share);
+    let quantile = |share: f64| statistic::quantile(&values, share);
     let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     let found = match cell.show {
         Show::Median => quantile(0.5).map(number),
@@ -93,7 +93,7 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
             .into_iter()
             .collect::<Option<Vec<f64>>>()
             .map(|q| format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))),
-        Show::Percent => summary::mean(&finite).map(|share| number(100.0 * share)),
+        Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
         Show::Solved => (!rows.is_empty()).then(|| {
             let count = rows.iter().filter(|row| solved(row)).count();
             number(100.0 * count as f64 / rows.len() as f64)
@@ -101,7 +101,7 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
         Show::Failed => {
             let failed: Vec<f64> =
                 rows.iter().filter(|row| !solved(row)).filter_map(|row| run.value(row, metric)).collect();
-            summary::median(&failed).map(number)
+            statistic::median(&failed).map(number)
         }
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
     };

@@ -5,7 +5,7 @@ use super::lock::Lock;
 use super::manifest::Manifest;
 use super::name::Names;
 use super::reading::ReadingChoice;
-use super::record::{Batch, Row, Status};
+use super::record::{Batch, Row, Status, Timing};
 use super::reuse::{self, Before, Reusable, moved};
 use super::runner::{BuiltStudy, Progress};
 use super::store::{Columns, Journal, Records, Staged, remove_temporaries, stage_records};
@@ -119,9 +119,8 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let (journal, mut done) = Journal::open(&journal_path(folder, &study.name), &manifest.depends)?;
     let (resumed, units) = (done.len(), built.units().len());
     let Before { stored, why } = Before::read(folder, &manifest);
-    if let Some((before, records)) =
-        stored.as_ref().filter(|(before, _)| !options.fresh && manifest.is_as(before))
-    {
+    let is_current = |(before, _): &&(Manifest, Records)| !options.fresh && manifest.is_as(before);
+    if let Some((before, records)) = stored.as_ref().filter(is_current) {
         journal.remove()?;
         let counts = Counts { resumed, units, reused: units, kept: 0 };
         return Ok(Report::new(before.clone(), &counts, &records.batch, built.names(), why));
@@ -136,18 +135,46 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         manifest.claims.clone_from(&before.claims);
     }
     done = found.units.into_iter().chain(done).collect();
-    let journal = Mutex::new(journal);
-    let pool = pool(options.threads);
+    let (journal, pool) = (Mutex::new(journal), pool(options.threads));
     let batch = pool.install(|| built.run(done, &found.parts, &journal, options.stop, options.progress))?;
-    let times = built.time(options.stop, options.progress)?;
+    let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
+        Some(times) => times,
+        None => built.time(options.stop, options.progress)?,
+    };
     let records = Records { batch, times };
     write(study, folder, &mut manifest, &records)?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
     let mut report = Report::new(manifest, &counts, &records.batch, built.names(), why);
-    if let Some((before, old)) = &stored {
-        report.moved = moved(&report.manifest, before, &old.batch, &records.batch, built.names());
-    }
+    report.moved = stored.as_ref().map_or_else(Default::default, |(before, old)| {
+        moved(&report.manifest, before, &old.batch, &records.batch, built.names())
+    });
     Ok(report)
+}
+
+/// The stored readings of the clock, with their sessions, if no trial ran again and they are as many as are asked for.
+fn kept_times(
+    study: &Study,
+    stored: Option<&(Manifest, Records)>,
+    manifest: &mut Manifest,
+    none_ran: bool,
+) -> Option<Vec<Timing>> {
+    let (before, old) = stored.filter(|(before, old)| {
+        none_ran && manifest.readings == before.readings && is_timed_as(study, &old.times)
+    })?;
+    manifest.sessions.clone_from(&before.sessions);
+    Some(old.times.clone())
+}
+
+/// Whether the clock was read for as many draws, repeats and seeds as `study` asks for: readings are then as good as new ones
+/// where no trial ran again, whatever else of the spec has changed.
+fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
+    let Some(timing) = study.timing else { return times.is_empty() };
+    let most = |of: fn(&Timing) -> u32| times.iter().map(|time| of(time) + 1).max().unwrap_or(0);
+    let draws = study.groups.iter().map(|group| group.replicates).max().unwrap_or(0);
+    let seeds = study.contenders.iter().map(|contender| contender.repeats).max().unwrap_or(0);
+    most(|time| time.trial.on.draw) == timing.problems.min(draws)
+        && most(|time| time.clock_repeat) == timing.repeats
+        && most(|time| time.trial.repeat) == timing.seeds.unwrap_or(1).min(seeds)
 }
 
 /// Puts records and manifest in their places, the manifest last: it says which records are whole.

@@ -35,7 +35,7 @@ fn a_paper_of_the_project_is_found_by_name_and_writes_the_committed_places() {
     assert!(bench.done(&["check"]).starts_with("mini: 2 studies"));
     assert!(bench.done(&["check", "experiments/mini/draws.toml"]).starts_with("mini: 2 studies"));
     let listed = bench.done(&["list"]);
-    for name in ["  mini ", "  mini/draws ", "  mini/corners ", "  astar ", "  grid_search ", "  ordering "] {
+    for name in ["  mini ", "  mini/draws ", "  mini/corners ", "  astar ", "  grid_search ", "  lower "] {
         assert!(listed.contains(name), "{name}\n{listed}");
     }
 }

@@ -180,6 +180,18 @@ fn a_figure_or_keep_added_later_gets_its_exhibits_and_another_timing_its_reading
 }
 
 #[test]
+fn a_question_in_other_words_keeps_the_clock_readings() {
+    let bench = Bench::new();
+    bench.done(&["run", "./mini"]);
+    let read = |name: &str| fs::read(bench.at(&format!("{RUNS}/draws.{name}"))).unwrap();
+    let (times, manifest) = (read("times.parquet"), read("manifest.toml"));
+    bench.edit("mini/draws.toml", "Which side opens more?", "Who opens more?");
+    bench.done(&["run", "./mini"]);
+    assert!(read("manifest.toml") != manifest, "the manifest names the former spec");
+    assert!(read("times.parquet") == times, "the clock was read again though no trial was");
+}
+
+#[test]
 fn help_has_examples_and_nothing_is_coloured_in_a_pipe() {
     let bench = Bench::new();
     let help = bench.done(&["--help"]);
@@ -260,8 +272,8 @@ fn check_names_what_an_earlier_state_of_the_paper_left_behind() {
 #[test]
 fn a_figure_that_cannot_be_drawn_costs_that_figure_alone() {
     let bench = Bench::new();
-    let figure = "\n[[figure]]\nid = \"fig2\"\nkind = \"tidying\"\ncaption = \"Tidied.\"\n\
-                  settings = { problems = [\"room\"], contender = \"A*\" }\n";
+    let figure = "\n[[figure]]\nid = \"fig2\"\nkind = \"grid_search\"\ncaption = \"Tidied.\"\n\
+                  settings = { problems = [\"room\"], contenders = [\"A*\"], tidying = true }\n";
     let room = fs::read_to_string(bench.at("mini/room.toml")).unwrap();
     bench.write("mini/room.toml", (room + figure).as_bytes());
     let plots = "target/replan/mini/plots/mini";

@@ -186,7 +186,7 @@ fn ctrl_c_while_figures_are_drawn_ends_with_130_and_leaves_the_older_ones() {
     assert_eq!(said.code, Some(130), "{}", said.err);
     assert!(said.err.contains("interrupted"), "{}", said.err);
     assert!(
-        said.out.contains("2 claims: "),
+        said.out.contains("2 sentences and rows: "),
         "the verdicts are printed before figures are drawn: {}",
         said.out
     );

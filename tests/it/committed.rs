@@ -1,5 +1,8 @@
 //! What is committed beside the code: stored runs, plots and the report.
 
+use replan::analysis::class::Verdict;
+use replan::analysis::criterion;
+use replan::analysis::verdict::Verdicts;
 use replan::study::manifest::Manifest;
 use replan::study::store::read_records;
 use std::collections::BTreeSet;
@@ -70,4 +73,29 @@ fn stored_trials_under_a_reading_and_single_variants_are_found_by_their_names() 
         let out = String::from_utf8(said.stdout).unwrap();
         assert!(said.status.success() && out.ends_with("equals the stored row\n"), "{trial}: {out}");
     }
+}
+
+#[test]
+fn what_speaks_against_a_claim_names_a_trial_and_what_leaves_it_open_says_what_would_settle_it() {
+    let runs = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs");
+    let mut against = 0;
+    for folder in fs::read_dir(runs).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_dir())
+    {
+        for judged in Verdicts::read(&folder).unwrap().claims {
+            for finding in &judged.findings {
+                let is_measured = criterion::find(&finding.criterion).is_some();
+                match finding.verdict {
+                    Some(Verdict::NotReproduced | Verdict::DirectionOnly) if is_measured => {
+                        assert!(finding.trial.is_some(), "{}: {}", judged.claim, finding.criterion);
+                        against += 1;
+                    }
+                    Some(Verdict::Undecided) => {
+                        assert!(finding.settles.is_some(), "{}: {}", judged.claim, finding.criterion);
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+    assert!(against > 40, "only {against} findings speak against claims");
 }

@@ -3,6 +3,7 @@
 mod arm;
 mod audit;
 mod cell_threads;
+mod characteristics;
 mod circles;
 mod cli_explains;
 mod cli_input;

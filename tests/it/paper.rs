@@ -133,7 +133,7 @@ id = "fig1"
 kind = "grid_search"
 caption = "A search in a room."
 shows = [{ problems = "room", replicates = 1 }]
-settings = { problem = "room", contenders = ["A*"] }
+settings = { problems = ["room"], contenders = ["A*"] }
 "#;
 
 const MAP: &str = "; a room with a wall\n.......\n...#...\n...#...\n...#...\n";

@@ -146,7 +146,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "contenders = [\"A*\"]",
         "contenders = [\"B*\"]",
-        "mini/room.toml:27:46: no contender is called `B*`; they are A*",
+        "mini/room.toml:27:49: no contender is called `B*`; they are A*",
     ),
     wrong(
         "room",
@@ -181,9 +181,9 @@ pub const WRONG: &[Wrong] = &[
     wrong("paper", "id = \"table1\"", "id = \"Table\"", "mini/paper.toml:44:6: the id `Table` names files"),
     wrong(
         "room",
-        "settings = { problem = \"room\", contenders = [\"A*\"] }",
+        "settings = { problems = [\"room\"], contenders = [\"A*\"] }",
         "",
-        "mini/room.toml:23:6: figure `fig1` has no settings: missing key `problem` (",
+        "mini/room.toml:23:6: figure `fig1` has no settings: missing key `problems` (",
     ),
     wrong(
         "room",

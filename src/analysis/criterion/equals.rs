@@ -76,6 +76,8 @@ struct Tally<'e> {
     sums: [f64; 2],
     /// The first trial that is not the same.
     wrong: Option<&'e Row>,
+    /// Trials without an end and without a number, which could be either.
+    unended: usize,
 }
 
 impl Equals<'_> {
@@ -92,7 +94,10 @@ impl Equals<'_> {
         for draw in draws {
             let mut count = [0.0; 2];
             for case in &draw.cases {
-                let Some((truth, own)) = self.pair(run, case) else { continue };
+                let pair = self.pair(run, case);
+                let is_known = pair.is_some_and(|(_, own)| own.is_finite());
+                all.unended += usize::from(!is_known && case.is_unended());
+                let Some((truth, own)) = pair else { continue };
                 let apart = (own - truth).abs();
                 let is_same = apart <= self.within + SAME * truth.abs();
                 count = [count[0] + f64::from(u8::from(is_same)), count[1] + 1.0];
@@ -118,13 +123,15 @@ impl Criterion for Equals<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let Some(run) = self.of.run(evidence) else { return Found::default() };
         let draws = self.of.draws(evidence);
-        let Tally { counts, worst, sums, wrong } = self.tally(run, &draws);
+        let Tally { counts, worst, sums, wrong, unended } = self.tally(run, &draws);
         let [same, all] = counts.iter().fold([0.0, 0.0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
         let outcome = match (all > 0.0, same == all) {
             (false, _) => Outcome::Open,
             (true, true) => Outcome::Holds,
             (true, false) => Outcome::Fails,
         };
+        // That something is wrong hangs on them only if nothing else is.
+        let is_turned = outcome == Outcome::Holds || all - same <= unended as f64;
         let (metric, truth) = (self.metric.label.to_lowercase(), self.truth_said());
         let whole = 100.0 * (sums[0] / sums[1] - 1.0);
         let apart = if whole.is_finite() {
@@ -142,7 +149,15 @@ impl Criterion for Equals<'_> {
             share.estimate(&what).of_cases([same as usize, all as usize])
         });
         let trial = wrong.map(|row| run.trial(row));
-        Found { outcome: Some(outcome), ours, trial, because, units: "trials", ..Found::default() }
+        Found {
+            outcome: Some(outcome),
+            ours,
+            trial,
+            because,
+            units: "trials",
+            censored: if is_turned { unended } else { 0 },
+            ..Found::default()
+        }
     }
 
     fn studies(&self) -> Vec<&Study> {

@@ -7,7 +7,7 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
 use crate::analysis::selection::{self, Case, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{OfAll, plan};
+use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, needs, plan};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
 use crate::study::name;
@@ -46,10 +46,10 @@ struct Settings {
 #[derive(Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Way {
-    /// Lower.
+    /// Its numbers are below the other's; it solves less.
     #[default]
     Lower,
-    /// Higher.
+    /// Its numbers are above the other's; it solves more.
     Higher,
 }
 
@@ -89,7 +89,7 @@ impl<'a> Lower<'a> {
         let draws = self.of.draws(evidence);
         let pairs = selection::pairs(&draws);
         let Some((value, interval, units)) = self.change(&pairs) else {
-            return Found::too_few(pairs.len(), 2);
+            return Found::too_few(pairs.len(), FEWEST_DRAWS);
         };
         let outcome = self.outcome(interval);
         let all: Vec<&(f64, f64)> = pairs.iter().flatten().collect();
@@ -118,6 +118,7 @@ impl<'a> Lower<'a> {
             because: vec![because],
             limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
             units: "draws",
+            needs: needs(units),
             censored: if is_turned { selection::censored(&draws) } else { 0 },
             ..Found::default()
         }
@@ -144,7 +145,7 @@ impl<'a> Lower<'a> {
         let draws = self.of.draws(evidence);
         let curves = self.curves(&draws);
         let Some(Band { mean, band, .. }) = sup_t(&curves, self.plan) else {
-            return Found::too_few(curves.len(), 2);
+            return Found::too_few(curves.len(), FEWEST_DRAWS);
         };
         let points = self.of.study.sweep_points();
         let at = |index: usize| name::sweep(&points[index].key);
@@ -173,6 +174,7 @@ impl<'a> Lower<'a> {
             because: vec![because],
             limits: vec![0.0],
             units: "draws",
+            needs: needs(curves.len()),
             ..Found::default()
         }
     }

@@ -155,6 +155,11 @@ impl<'a> OnEvery<'a> {
         draws.iter().map(of_draw).collect()
     }
 
+    /// How many cases did not come to an end; that a case is not solved is itself an answer where that is what is asked.
+    fn unended(&self, draws: &[Draw<'_>]) -> usize {
+        if matches!(self.that, That::Solved | That::HigherShare) { 0 } else { selection::unended(draws) }
+    }
+
     fn said_by<'e>(&self, run: &Run<'_>, draws: &'e [Draw<'e>]) -> Vec<Vec<(Says, &'e Row)>> {
         if self.that == That::HigherShare {
             return Self::shares(draws);
@@ -208,6 +213,7 @@ impl Criterion for OnEvery<'_> {
             trial: shown.map(|(_, row)| run.trial(row)),
             because: std::iter::once(because).chain(left).collect(),
             units: "cases",
+            censored: if outcome == Outcome::Fails { 0 } else { self.unended(&draws) },
             ..Found::default()
         }
     }

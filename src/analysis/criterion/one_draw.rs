@@ -5,7 +5,7 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{Draw, Selection, solved};
+use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{LEVEL, OfDraw};
 use crate::analysis::verdict::Estimate;
@@ -14,6 +14,7 @@ use audit::printed::{Digits, Printed};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::interval::Interval;
 use stats::proportion::{Rank, predictive};
 use stats::summary::{mean, median};
 
@@ -109,6 +110,42 @@ impl<'a> OneDraw<'a> {
         }
     }
 
+    /// What the interval of one more draw says, of draws with this mean.
+    fn outcome(&self, interval: Interval, mean: f64) -> Outcome {
+        let printed = self.printed.value();
+        match interval.contains(printed) {
+            true => Outcome::Holds,
+            // Both are savings, or both are losses.
+            false if self.of.against.is_some() && mean * printed > 0.0 => Outcome::SignOnly,
+            false => Outcome::Fails,
+        }
+    }
+
+    /// How many cases without an end could turn what was found: draws without a number are taken to lie above all others,
+    /// then below; where solved queries are counted, they are counted as solved.
+    fn censored(&self, drawn: &[Draw<'_>], found: Outcome) -> usize {
+        let number = |draw: &Draw<'_>, lost: f64| {
+            let unended = draw.cases.iter().filter(|case| case.is_unended()).count();
+            let own = self.statistic.of(draw);
+            if self.statistic == OfDraw::SolvedPercent && lost > 0.0 {
+                return own.map(|own| own + 100.0 * unended as f64 / draw.cases.len() as f64);
+            }
+            own.or((unended > 0).then_some(lost))
+        };
+        let interval = |lost: f64| {
+            let filled: Vec<f64> = drawn.iter().filter_map(|draw| number(draw, lost)).collect();
+            predictive(&filled, LEVEL)
+        };
+        let [Some(below), Some(above)] = [f64::NEG_INFINITY, f64::INFINITY].map(interval) else { return 0 };
+        let printed = self.printed.value();
+        // It may be ordinary if it lies between the two, and must be if it lies within both.
+        let may_hold = below.low <= printed && printed <= above.high;
+        let must_hold = below.contains(printed) && above.contains(printed);
+        let turned = if found == Outcome::Holds { !must_hold } else { may_hold };
+        let unended = selection::unended(drawn);
+        if turned && unended > 0 { unended } else { 0 }
+    }
+
     fn values(&self, evidence: &Evidence<'_>, drawn: &[Draw<'_>]) -> Draws {
         let twin = |value: f64| {
             if self.printed.agrees(value, self.digits) { self.printed.value() } else { value }
@@ -158,14 +195,7 @@ impl Criterion for OneDraw<'_> {
         let (Some(interval), Some(mean)) = (predictive(&draws.values, LEVEL), mean(&draws.values)) else {
             return Found { premises: self.premises.clone(), ..Found::too_few(draws.values.len(), 39) };
         };
-        let printed = self.printed.value();
-        let is_saving = self.of.against.is_some();
-        let outcome = match interval.contains(printed) {
-            true => Outcome::Holds,
-            // Both are savings, or both are losses.
-            false if is_saving && mean * printed > 0.0 => Outcome::SignOnly,
-            false => Outcome::Fails,
-        };
+        let outcome = self.outcome(interval, mean);
         let powerless =
             self.statistic == OfDraw::SolvedPercent && interval.high - interval.low >= NO_POWER_POINTS;
         let mut because = vec![said(&draws, &self.printed)];
@@ -176,8 +206,9 @@ impl Criterion for OneDraw<'_> {
             )
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more draw", self.title());
-        let apart =
-            |draw: &&Draw<'_>| self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - printed).abs());
+        let apart = |draw: &&Draw<'_>| {
+            self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - self.printed.value()).abs())
+        };
         let nearest = drawn.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
         let trial = nearest.and_then(|draw| Some(self.of.run(evidence)?.trial(draw.cases.first()?.row)));
         Found {
@@ -187,6 +218,7 @@ impl Criterion for OneDraw<'_> {
             because,
             premises: self.premises.clone(),
             powerless,
+            censored: self.censored(&drawn, outcome),
             units: "draws",
             ..Found::default()
         }

@@ -6,7 +6,7 @@ use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Selection, solved};
+use crate::analysis::selection::{self, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
@@ -81,6 +81,7 @@ impl Criterion for PrintsAs<'_> {
             outcome: Some(outcome),
             ours: Some(ours.of_cases(solved(&draws))),
             trial,
+            censored: if outcome == Outcome::Holds { selection::unended(&draws) } else { 0 },
             because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.printed)],
             ..Found::default()
         }

@@ -5,7 +5,7 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{Draw, Selection, solved};
+use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::OfDraw;
 use crate::analysis::verdict::Estimate;
@@ -112,11 +112,13 @@ impl<'a> RowOneDraw<'a> {
 
 impl Row<'_> {
     /// The numbers of each cell, one a draw; draws that lack one are left out of all.
-    fn values(&self, draws: &[Draw<'_>]) -> Vec<Vec<f64>> {
+    fn values(&self, draws: &[Draw<'_>], unended_solved: bool) -> Vec<Vec<f64>> {
         let of_draw = |draw: &Draw<'_>| -> Option<Vec<f64>> {
             match &self.cells {
                 Cells::Statistics(statistics) => statistics.iter().map(|of| of.of(draw)).collect(),
-                Cells::Sweep(points) => points.iter().map(|point| share(draw, point)).collect(),
+                Cells::Sweep(points) => {
+                    points.iter().map(|point| share(draw, point, unended_solved)).collect()
+                }
             }
         };
         draws.iter().filter_map(of_draw).collect()
@@ -124,10 +126,11 @@ impl Row<'_> {
 }
 
 /// The share of a draw's queries that are solved at one point of the sweep, in per cent.
-fn share(draw: &Draw<'_>, point: &SweepPoint) -> Option<f64> {
+fn share(draw: &Draw<'_>, point: &SweepPoint, unended_solved: bool) -> Option<f64> {
     let at = draw.cases.iter().filter(|case| case.row.key.sweep == point.key);
     let (solved, all) = at.fold((0, 0), |(solved, all), case| {
-        (solved + u32::from(case.row.status == crate::study::record::Status::Solved), all + 1)
+        let is_solved = case.row.status == crate::study::record::Status::Solved;
+        (solved + u32::from(is_solved || unended_solved && case.is_unended()), all + 1)
     });
     (all > 0).then(|| 100.0 * f64::from(solved) / f64::from(all))
 }
@@ -209,13 +212,27 @@ impl Level {
 
 impl RowOneDraw<'_> {
     /// The numbers of all cells of all rows, one list a cell.
-    fn cells(&self, drawn: &[Vec<Draw<'_>>]) -> Vec<Vec<f64>> {
+    fn cells(&self, drawn: &[Vec<Draw<'_>>], unended_solved: bool) -> Vec<Vec<f64>> {
         let of_row = |(row, draws): (&Row<'_>, &Vec<Draw<'_>>)| {
-            let values = row.values(draws);
+            let values = row.values(draws, unended_solved);
             let width = values.first().map_or(0, Vec::len);
             (0..width).map(|cell| values.iter().map(|draw| draw[cell]).collect()).collect::<Vec<Vec<f64>>>()
         };
         self.rows.iter().zip(drawn).flat_map(of_row).collect()
+    }
+
+    /// Where the printed row stands, in shape and in level, its rank among our draws and itself, and what that says.
+    fn placed(&self, cells: &[Vec<f64>]) -> Option<(Place, Level, f64, Outcome)> {
+        let place = place(&self.printed, cells).filter(|_| cells.len() == self.printed.len())?;
+        let level = Level::of(&self.printed, cells)?;
+        let rank = (place.as_far + 1) as f64 / (place.draws + 1) as f64;
+        let is_ordinary = rank.min(level.rank.p_two_sided()) >= self.refused_below;
+        Some((place, level, rank, if is_ordinary { Outcome::Holds } else { Outcome::Fails }))
+    }
+
+    /// Fewest draws of which either test can refuse any row: the least two-sided rank is 2 / (n + 1).
+    fn fewest(&self) -> usize {
+        (2.0 / self.refused_below).floor() as usize
     }
 
     fn because(&self, place: &Place, level: &Level, rank: f64, cells: &[Vec<f64>]) -> Vec<String> {
@@ -247,26 +264,28 @@ impl RowOneDraw<'_> {
 impl Criterion for RowOneDraw<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let drawn: Vec<Vec<Draw<'_>>> = self.rows.iter().map(|row| row.of.draws(evidence)).collect();
-        let cells = self.cells(&drawn);
-        let wide = cells.len() == self.printed.len();
-        let (Some(place), Some(level)) =
-            (place(&self.printed, &cells), Level::of(&self.printed, &cells).filter(|_| wide))
-        else {
-            return Found::too_few(cells.iter().map(Vec::len).min().unwrap_or(0), 3);
+        let cells = self.cells(&drawn, false);
+        let Some((place, level, rank, outcome)) = self.placed(&cells) else {
+            return Found::too_few(cells.iter().map(Vec::len).min().unwrap_or(0), self.fewest());
         };
-        // Among our draws and the row itself.
-        let rank = (place.as_far + 1) as f64 / (place.draws + 1) as f64;
-        let is_ordinary = rank.min(level.rank.p_two_sided()) >= self.refused_below;
+        let unended: usize = drawn.iter().map(|draws| selection::unended(draws)).sum();
+        let filled = (unended > 0).then(|| self.placed(&self.cells(&drawn, true))).flatten();
+        // A level that passes the row's on the way could be its.
+        let is_turned = filled.is_some_and(|(_, other, _, filled)| {
+            filled != outcome || (level.difference < 0.0) != (other.difference < 0.0)
+        });
         let (share, n) = (place.as_far as f64 / place.draws as f64, place.draws);
         let ours = Estimate::bare(share, "share of our draws at least as far from the mean row", n);
         let first = drawn.first().and_then(|draws| draws.first()?.cases.first());
         let trial = first.and_then(|case| Some(self.rows[0].of.run(evidence)?.trial(case.row)));
         Found {
-            outcome: Some(if is_ordinary { Outcome::Holds } else { Outcome::Fails }),
+            outcome: Some(outcome),
+            censored: if is_turned { unended } else { 0 },
             ours: Some(ours.of_cases(solved(&drawn[0]))),
             trial,
             because: self.because(&place, &level, rank, &cells),
             units: "draws",
+            needs: Some(self.fewest()).filter(|fewest| n < *fewest),
             ..Found::default()
         }
     }

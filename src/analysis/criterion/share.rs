@@ -5,9 +5,9 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{Case, Draw, Selection, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, plan};
+use crate::analysis::statistic::{Share, needs, plan};
 use crate::study::Study;
 use crate::study::column;
 use crate::study::record::{Row, Status};
@@ -158,14 +158,35 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// Hits and chances of one draw.
-    fn of_draw(&self, draw: &Draw<'_>) -> [f64; 2] {
-        let counts = draw.cases.iter().filter_map(|case| self.counts(case));
+    /// Hits and chances of one draw; its cases without an end as what they are, or all as hits or as misses.
+    fn of_draw(&self, draw: &Draw<'_>, unended: Option<bool>) -> [f64; 2] {
+        let of_case = |case: &Case<'_>| match unended.filter(|_| case.is_unended()) {
+            Some(is_hit) => Some([f64::from(u8::from(is_hit)), 1.0]),
+            None => self.counts(case),
+        };
+        let counts = draw.cases.iter().filter_map(of_case);
         let [hits, chances] = counts.fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         if self.settings.hits == Hits::LowerThroughout && chances > 0.0 {
             return [f64::from(u8::from(hits == chances)), 1.0];
         }
         [hits, chances]
+    }
+
+    /// How many cases without an end could turn what was found: all are counted as hits, then all as misses. They are no
+    /// answer where marks or events are counted, or trials of one status alone are asked.
+    fn censored(&self, draws: &[Draw<'_>], outcome: Option<Outcome>) -> usize {
+        let is_asked = !matches!(self.settings.hits, Hits::Marked | Hits::Events);
+        if !is_asked || self.settings.among.is_some() || selection::unended(draws) == 0 {
+            return 0;
+        }
+        let interval = |is_hit: bool| {
+            let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw, Some(is_hit))).collect();
+            Share::of(&counts, self.plan).and_then(|share| share.interval)
+        };
+        // All that the share may be: anything from the one interval to the other.
+        let widest = interval(false).zip(interval(true)).map(|(none, all)| Interval::new(none.low, all.high));
+        let turned = widest.is_some_and(|widest| self.outcome(widest) != outcome);
+        if turned { selection::unended(draws) } else { 0 }
     }
 
     fn outcome(&self, interval: Interval) -> Option<Outcome> {
@@ -180,13 +201,19 @@ impl<'a> Counted<'a> {
         })
     }
 
-    /// A trial of the minority: what speaks against the greater share.
+    /// A trial of what there is too little or too much of or, where the share is accepted, of the rarer kind.
     fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>], share: f64) -> Option<String> {
-        let mut cases = draws.iter().flat_map(|draw| &draw.cases);
-        let is_rare = |case: &&Case<'_>| {
-            self.counts(case).is_some_and(|[hits, chances]| (hits < chances) == (share > 0.5))
+        let is_miss_shown = match self.settings.accepted {
+            Some([low, _]) if share < low => true,
+            Some([_, high]) if share > high => false,
+            _ => share > 0.5,
         };
-        Some(self.of.run(evidence)?.trial(cases.find(is_rare)?.row))
+        let counted = || draws.iter().flat_map(|draw| &draw.cases).filter(|case| self.counts(case).is_some());
+        let is_shown = |case: &&Case<'_>| {
+            self.counts(case).is_some_and(|[hits, chances]| (hits < chances) == is_miss_shown)
+        };
+        let case = counted().find(is_shown).or_else(|| counted().next())?;
+        Some(self.of.run(evidence)?.trial(case.row))
     }
 }
 
@@ -218,19 +245,23 @@ impl Counted<'_> {
 impl Criterion for Counted<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
-        let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw)).collect();
+        let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw, None)).collect();
         let Some(share) = Share::of(&counts, self.plan) else {
             let because = format!("{}: nothing to count {} among", self.of.said(), self.said());
             return Found { outcome: self.settings.accepted.map(|_| Outcome::Open), ..Found::open(because) };
         };
         let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        let outcome = share.interval.map_or(Some(Outcome::Open), |interval| self.outcome(interval));
+        let is_exact = counts.iter().all(|[_, chances]| *chances <= 1.0);
         Found {
-            outcome: share.interval.map_or(Some(Outcome::Open), |interval| self.outcome(interval)),
+            outcome,
             ours: Some(share.estimate(&self.said()).of_cases(solved(&draws))),
             trial: self.shown(evidence, &draws, share.value),
             because: vec![self.because(&share, total)],
             limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
             units: "draws",
+            censored: self.censored(&draws, outcome),
+            needs: needs(share.draws).filter(|_| !is_exact),
             ..Found::default()
         }
     }

@@ -6,9 +6,9 @@ use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Case, Selection, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::plan;
+use crate::analysis::statistic::{FEWEST_DRAWS, needs, plan};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
 use crate::study::column;
@@ -65,6 +65,27 @@ impl<'a> Trend<'a> {
         Ok(Self { of, metric, over: settings.over, rising: settings.rising, plan })
     }
 
+    /// How many cases without an end could turn what was found: each is given the least number seen or the greatest one,
+    /// whichever goes against a slope that rises, then against one that falls.
+    fn censored(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
+        let seen: Vec<(f64, f64)> =
+            draws.iter().flat_map(|draw| &draw.cases).filter_map(|case| self.point(case)).collect();
+        let middle = summary::mean(&seen.iter().map(|(x, _)| *x).collect::<Vec<_>>());
+        let ends = [f64::min as fn(_, _) -> _, f64::max].map(|of| seen.iter().map(|(_, y)| *y).reduce(of));
+        let (Some(middle), [Some(least), Some(most)]) = (middle, ends) else { return 0 };
+        let number = |case: &Case<'_>, rising: bool| {
+            let place = case.row.value(&self.over).filter(|_| case.is_unended());
+            self.point(case).or_else(|| place.map(|x| (x, if (x > middle) == rising { most } else { least })))
+        };
+        let turned = [true, false].into_iter().any(|rising| {
+            let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|c| number(c, rising)).collect();
+            let points: Vec<Vec<(f64, f64)>> =
+                draws.iter().map(of_draw).filter(|p: &Vec<_>| !p.is_empty()).collect();
+            pooled::slope(&points, self.plan).is_some_and(|found| self.outcome(found.interval) != outcome)
+        });
+        if turned { selection::unended(draws) } else { 0 }
+    }
+
     fn point(&self, case: &Case<'_>) -> Option<(f64, f64)> {
         let number = if case.base.is_some() { case.saving_percent() } else { case.value };
         Some((case.row.value(&self.over)?, number?))
@@ -79,6 +100,12 @@ impl<'a> Trend<'a> {
         } else {
             Outcome::Open
         }
+    }
+
+    /// The points of each draw that has any.
+    fn points(&self, draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
+        let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|case| self.point(case)).collect();
+        draws.iter().map(of_draw).filter(|points: &Vec<_>| !points.is_empty()).collect()
     }
 
     /// Medians in the lower, middle and upper third of the column, beside the slope: a slope alone may be one outlier's.
@@ -97,12 +124,10 @@ impl<'a> Trend<'a> {
 impl Criterion for Trend<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
-        let points: Vec<Vec<(f64, f64)>> = draws
-            .iter()
-            .map(|draw| draw.cases.iter().filter_map(|case| self.point(case)).collect())
-            .filter(|points: &Vec<_>| !points.is_empty())
-            .collect();
-        let Some(found) = pooled::slope(&points, self.plan) else { return Found::too_few(points.len(), 2) };
+        let points = self.points(&draws);
+        let Some(found) = pooled::slope(&points, self.plan) else {
+            return Found::too_few(points.len(), FEWEST_DRAWS);
+        };
         let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();
         let (subject, unit) = match &self.of.against {
@@ -125,13 +150,13 @@ impl Criterion for Trend<'_> {
         let against = draws.iter().flat_map(|draw| &draw.cases).find(|case| self.point(case).is_some());
         Found {
             outcome: Some(outcome),
-            ours: Some(
-                Estimate::new(found.value, found.interval, what, found.units).of_cases(solved(&draws)),
-            ),
+            ours: Some(Estimate::of(found, what).of_cases(solved(&draws))),
             trial: against.and_then(|case| Some(self.of.run(evidence)?.trial(case.row))),
             because: vec![because],
             limits: vec![0.0],
             units: "draws",
+            censored: self.censored(&draws, outcome),
+            needs: needs(found.units),
             ..Found::default()
         }
     }

@@ -8,7 +8,7 @@ use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{OfAll, plan};
+use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, needs, plan};
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
 use base::settings::{Accepted, SettingsError};
@@ -111,6 +111,12 @@ impl<'a> Within<'a> {
         if is_same_side { Outcome::SignOnly } else { Outcome::Fails }
     }
 
+    /// Two groups of one draw each give numbers, not intervals.
+    fn needs(&self, draws: usize, units: usize) -> Option<usize> {
+        let is_exact = self.statistic == OfAll::RatioOfGroups && draws == 2;
+        needs(units).filter(|_| !is_exact)
+    }
+
     fn estimated(&self, draws: &[Draw<'_>]) -> Option<Estimated> {
         self.statistic.of(draws, self.plan)
     }
@@ -132,7 +138,7 @@ impl Criterion for Within<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
         let Some(found) = self.estimated(&draws).filter(|found| found.interval.low.is_finite()) else {
-            return Found::too_few(draws.len(), 2);
+            return Found::too_few(draws.len(), FEWEST_DRAWS);
         };
         let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();
@@ -158,6 +164,7 @@ impl Criterion for Within<'_> {
             limits: vec![self.accepted.low, self.accepted.high],
             units: "draws",
             censored: self.censored(&draws, outcome),
+            needs: self.needs(draws.len(), found.units),
             ..Found::default()
         }
     }

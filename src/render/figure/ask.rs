@@ -1,13 +1,17 @@
 //! What several kinds of figure ask of a study and of its stored run.
 
 use super::Scene;
+use crate::analysis::evidence::Run;
+use crate::analysis::metric::{self, Metric};
+use crate::analysis::selection::Selection;
+use crate::analysis::statistic::OfDraw;
 use crate::render::RenderError;
 use crate::study::Study;
 use crate::study::key::{DrawKey, Owner, SweepKey};
 use crate::study::name;
 use crate::study::paper::Paper;
 use crate::study::record::Row;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Settings, SettingsError, none_called};
 use engine::planner::Exhibit;
 use std::sync::Arc;
 
@@ -19,6 +23,54 @@ pub(super) fn known(
     contenders: &[String],
 ) -> Result<(), SettingsError> {
     super::check_labels(settings, study, contenders, problems)
+}
+
+/// The metric called `name`.
+pub(super) fn metric(settings: &Settings, name: &str) -> Result<&'static Metric, SettingsError> {
+    let missing = || none_called("metric", name, metric::METRICS.iter().map(|metric| metric.name));
+    metric::find(name).ok_or_else(|| settings.error_about("", &["metric", "x", "y"], name, missing()))
+}
+
+/// The same, which trials of `study` must have.
+pub(super) fn produced(
+    settings: &Settings,
+    study: &Study,
+    name: &str,
+) -> Result<&'static Metric, SettingsError> {
+    let metric = metric(settings, name)?;
+    if metric.is_produced(&study.columns()) {
+        return Ok(metric);
+    }
+    let message = format!("study `{}` does not produce the metric `{name}`", study.name);
+    Err(settings.error_about("", &["metric", "x", "y"], name, message))
+}
+
+/// The shares of queries, in per cent, that `contender` solves on each draw of `problems` at one point of the sweeps.
+pub(super) fn solved_percents(
+    scene: &Scene<'_>,
+    run: &Run<'_>,
+    problems: &str,
+    contender: &str,
+    at: &SweepKey,
+) -> Vec<f64> {
+    let all = trials(run, problems, contender);
+    let draws = Selection { sweep: Some(at.clone()), ..all }.draws(scene.evidence);
+    draws.iter().filter_map(|draw| OfDraw::SolvedPercent.of(draw)).collect()
+}
+
+/// All trials of one contender on one problem group.
+pub(super) fn trials<'s>(run: &Run<'s>, problems: &str, contender: &str) -> Selection<'s> {
+    Selection::of(run.study, &[problems.to_owned()], &[contender.to_owned()])
+}
+
+/// A value of a trial as titles show it.
+pub(super) fn number(row: &Row, column: &str, decimals: usize) -> String {
+    row.value(column).map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
+}
+
+/// The points of an exhibit of coordinates, the two that begin each of its rows.
+pub(super) fn points(exhibit: &Exhibit) -> Vec<[f64; 2]> {
+    exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1]]).collect()
 }
 
 /// The point of the sweeps that people write as `text`.
@@ -104,6 +156,21 @@ pub(super) fn trial<'s>(
     wanted.next().ok_or_else(|| RenderError::NotStored {
         what: format!("a trial of `{contender}` on draw {replicate} of `{problems}`"),
     })
+}
+
+/// The first trial of `contender` on `problems`, at one point of the sweeps if one is asked for.
+///
+/// # Errors
+/// [`RenderError::NotStored`] if there is none.
+pub(super) fn trial_at<'s>(
+    scene: &Scene<'s>,
+    problems: &str,
+    at: Option<&SweepKey>,
+    contender: &str,
+) -> Result<&'s Row, RenderError> {
+    let mut rows = scene.run.rows(problems, contender).into_iter();
+    let missing = || RenderError::NotStored { what: format!("a trial of `{contender}` on `{problems}`") };
+    rows.find(|row| at.is_none_or(|sweep| row.key.sweep == *sweep)).ok_or_else(missing)
 }
 
 /// The first draw on which every contender has a trial with the exhibit `name` for the query called `of_query`.

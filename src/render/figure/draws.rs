@@ -5,6 +5,7 @@
 use super::{Entry, Kind, Scene, asked_claim, printed_value};
 use crate::analysis::context::Context;
 use crate::analysis::criterion;
+use crate::analysis::statistic::{cumulative, quantile};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rules::Rules;
@@ -13,7 +14,6 @@ use crate::render::style::{INK, Stroke, Width, series_stroke};
 use base::settings::{Accepted, Settings};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::summary::quantile_type7;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -89,7 +89,7 @@ impl Asked {
         let sets = criterion::draws(&context, scene.evidence)?;
         let printed = printed_value(scene.evidence, &spec.claim);
         // The outermost hundredth on either side would squeeze all the rest.
-        let ends = sets.iter().flat_map(|set| [0.01, 0.99].map(|share| quantile_type7(&set.values, share)));
+        let ends = sets.iter().flat_map(|set| [0.01, 0.99].map(|share| quantile(&set.values, share)));
         let x = Axis::over(&spec.axis, ends.flatten().chain(printed));
         let mut panel = Panel::new(&spec.title, x, Axis::linear("share of maps", 0.0, 1.0)?);
         for (index, set) in sets.iter().enumerate() {
@@ -101,10 +101,4 @@ impl Asked {
         }
         Ok(panel)
     }
-}
-
-/// Quantiles at every half per cent: as good as every step to the eye, and a tenth of the bytes.
-fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
-    let shares = (0..=200).map(|step| f64::from(step) / 200.0);
-    shares.filter_map(|share| Some([quantile_type7(values, share)?, share])).collect()
 }

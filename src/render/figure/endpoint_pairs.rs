@@ -95,14 +95,11 @@ fn panel(title: &str, first: usize, series: &[(&String, Pairs)]) -> Result<Panel
     }
     for (place, (label, pairs)) in series.iter().enumerate() {
         let index = first + place;
-        panel.add(Points {
-            points: pairs.iter().flatten().copied().collect(),
-            marker: series_marker(index),
-            // Series may share points: the first ones are larger and show behind the last.
-            radius_pt: 2.0 + 0.9 * (series.len() - 1 - place) as f64,
-            color: series_color(index),
-            label: format!("{label} ({})", pairs.len()),
-        });
+        let points = pairs.iter().flatten().copied().collect();
+        // Series may share points: the first ones are larger and show behind the last.
+        let radius_pt = 2.0 + 0.9 * (series.len() - 1 - place) as f64;
+        let points = Points::of(points, series_marker(index), radius_pt, series_color(index));
+        panel.add(points.labelled(format!("{label} ({})", pairs.len())));
     }
     Ok(panel)
 }

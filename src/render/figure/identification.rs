@@ -1,8 +1,8 @@
 //! Which value of a sweep gives the printed shares, for several studies: what the printed numbers identify, and what not.
 
 use super::{Entry, Kind, Scene, ask};
-use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Run;
+use crate::analysis::statistic::{curves_of_draws, distance_of_draws, mean_of_draws, plan};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -10,11 +10,9 @@ use crate::render::style::{Dash, Fill, GREY, Stroke, Width, series_color, series
 use crate::study::contender::SweepPoint;
 use crate::study::key::{SweepValue, Text};
 use crate::study::{Study, name};
-use base::seed;
 use base::settings::{Accepted, Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::{self, Resampling};
 use std::collections::BTreeSet;
 
 /// The registry's entry.
@@ -122,27 +120,20 @@ fn others(settings: &Settings, study: &Study, written: &[String]) -> Result<Vec<
     written.iter().enumerate().map(find).collect()
 }
 
-/// The root of the mean square of the differences of a mean curve from the printed cells.
-fn row_distance(draws: &[&Vec<f64>], printed: &[f64]) -> Option<f64> {
-    let mean = |cell: usize| draws.iter().map(|draw| draw[cell]).sum::<f64>() / draws.len() as f64;
-    let squares = printed.iter().enumerate().map(|(cell, value)| (mean(cell) - value).powi(2));
-    (!draws.is_empty()).then(|| (squares.sum::<f64>() / printed.len() as f64).sqrt())
-}
-
 /// A point of a curve: the swept value, and the mean share with its interval.
 type Point = [f64; 4];
 
 impl Identification {
-    fn curve(&self, run: &Run<'_>, other: &Other) -> Vec<Point> {
+    fn curve(&self, scene: &Scene<'_>, run: &Run<'_>, other: &Other) -> Vec<Point> {
         let Some(group) = run.study.groups.first() else { return Vec::new() };
         let mut points = Vec::new();
         for point in run.study.sweep_points() {
             let value = point.key.value(&self.read.sweep).and_then(SweepValue::as_f64);
             let value = value.filter(|_| point.key.value(&other.0) == Some(&other.1));
             let Some(value) = value else { continue };
-            let draws = solved_percents(run, &group.label, &self.read.contender, &point.key);
-            let seed = seed::derive(0, &["identification", &run.study.name, &name::sweep(&point.key)]);
-            if let Some(found) = bootstrap::mean(&draws, Resampling { resamples: 1000, level: 0.95, seed }) {
+            let draws = ask::solved_percents(scene, run, &group.label, &self.read.contender, &point.key);
+            let plan = plan(&[&run.study.name, &name::sweep(&point.key)]);
+            if let Some(found) = mean_of_draws(&draws, plan) {
                 points.push([value, found.value, found.interval.low, found.interval.high]);
             }
         }
@@ -152,7 +143,7 @@ impl Identification {
 
 impl Identification {
     /// How far the mean curve along the row is from the printed one, at each value of the sweep along the axis.
-    fn distances(&self, run: &Run<'_>) -> Vec<Point> {
+    fn distances(&self, scene: &Scene<'_>, run: &Run<'_>) -> Vec<Point> {
         let Some(group) = run.study.groups.first() else { return Vec::new() };
         let Some(sweep) = run.study.sweeps.iter().find(|sweep| sweep.key == self.read.sweep) else {
             return Vec::new();
@@ -167,17 +158,13 @@ impl Identification {
                     point.key.value(&self.read.sweep) == Some(&value) && point.key.value(along) == Some(cell)
                 };
                 sweep_points.iter().find(is_own).map_or_else(Vec::new, |point| {
-                    solved_percents(run, &group.label, &self.read.contender, &point.key)
+                    ask::solved_percents(scene, run, &group.label, &self.read.contender, &point.key)
                 })
             };
             let cells: Vec<Vec<f64>> = self.row.iter().map(cell).collect();
             let at = format!("{}={value}", self.read.sweep);
-            let count = cells.iter().map(Vec::len).min().unwrap_or(0);
-            let draws: Vec<Vec<f64>> =
-                (0..count).map(|d| cells.iter().map(|cell| cell[d]).collect()).collect();
-            let seed = seed::derive(0, &["identification", "row", &run.study.name, &at]);
-            let plan = Resampling { resamples: 1000, level: 0.95, seed };
-            let found = bootstrap::percentile(&draws, |draws| row_distance(draws, &printed), plan);
+            let plan = plan(&["row", &run.study.name, &at]);
+            let found = distance_of_draws(&curves_of_draws(&cells), &printed, plan);
             if let (Some(at), Some(found)) = (value.as_f64(), found) {
                 points.push([at, found.value, found.interval.low, found.interval.high]);
             }
@@ -204,7 +191,7 @@ impl Kind for Identification {
         let runs: Vec<&Run<'_>> =
             self.read.studies.iter().filter_map(|name| scene.evidence.run(name)).collect();
         for (other, printed) in self.others.iter().zip(&self.printed) {
-            let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.curve(run, other)).collect();
+            let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.curve(scene, run, other)).collect();
             let x = Axis::over(&self.read.axis, curves.iter().flatten().map(|point| point[0]));
             let [low, high] = x.ends();
             let mut panel = Panel::new(
@@ -218,7 +205,7 @@ impl Kind for Identification {
             sheet.add(panel);
         }
         if !self.row.is_empty() {
-            let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.distances(run)).collect();
+            let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.distances(scene, run)).collect();
             let x = Axis::over(&self.read.axis, curves.iter().flatten().map(|point| point[0]));
             let top = curves.iter().flatten().map(|point| point[3]).fold(1.0, f64::max);
             let y = Axis::linear("distance from the printed row (points)", 0.0, top * 1.05)?;

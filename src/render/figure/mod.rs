@@ -3,34 +3,22 @@
 //! A kind turns stored records and exhibits into a [`Sheet`]; it runs no trial and draws no statistics of its own.
 
 mod arm_plane;
-mod arm_poses;
-mod arm_postures;
 mod ask;
-mod cell_paths;
-mod cell_poses;
 mod draws;
 mod endpoint_pairs;
 mod grid_search;
 mod identification;
-mod joint_curves;
-mod length_against_work;
+mod intervals;
 mod motion_curves;
 mod neighbourhoods;
 mod paired_boxes;
 mod plane_search;
-mod polyhedra_paths;
-mod polyhedra_scene;
-mod reductions;
+mod polyhedra;
 mod rejections;
-mod row_draws;
 mod saving_over;
-mod search_flow;
-mod share_bars;
-mod success_bands;
 mod sweep_curves;
-mod tidying;
-mod tip_path_joints;
 mod tradeoff;
+mod work_cell;
 
 use super::RenderError;
 use super::chart::Sheet;
@@ -123,32 +111,21 @@ pub struct Entry {
 /// Every kind, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
-    &arm_poses::ENTRY,
-    &arm_postures::ENTRY,
-    &cell_paths::ENTRY,
-    &cell_poses::ENTRY,
     &draws::ENTRY,
     &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,
     &identification::ENTRY,
-    &joint_curves::ENTRY,
-    &length_against_work::ENTRY,
+    &intervals::ENTRY,
     &motion_curves::ENTRY,
     &neighbourhoods::ENTRY,
     &paired_boxes::ENTRY,
     &plane_search::ENTRY,
-    &polyhedra_paths::ENTRY,
-    &reductions::ENTRY,
+    &polyhedra::ENTRY,
     &rejections::ENTRY,
-    &row_draws::ENTRY,
     &saving_over::ENTRY,
-    &search_flow::ENTRY,
-    &share_bars::ENTRY,
-    &success_bands::ENTRY,
     &sweep_curves::ENTRY,
-    &tidying::ENTRY,
-    &tip_path_joints::ENTRY,
     &tradeoff::ENTRY,
+    &work_cell::ENTRY,
 ];
 
 /// How the keys of settings start that name contenders.

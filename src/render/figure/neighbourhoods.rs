@@ -58,10 +58,9 @@ impl Kind for Neighbourhoods {
 }
 
 fn panel(row: &Row, region: &Exhibit, drawn: Option<&Exhibit>) -> Result<Panel, RenderError> {
-    let steps = |exhibit: &Exhibit| exhibit.values.chunks(2).map(|s| [s[0], s[1]]).collect::<Vec<_>>();
     let reach = region.values.iter().copied().fold(1.0, f64::max) + 0.6;
     let axis = |label: &str| Axis::linear(label, -reach, reach).map(Axis::whole);
-    let (tried, all) = (steps(drawn.unwrap_or(region)), steps(region));
+    let (tried, all) = (ask::points(drawn.unwrap_or(region)), ask::points(region));
     let title = format!("{}: {} of {}", row.key.contender, tried.len(), all.len());
     let mut panel =
         Panel::new(title, axis("x (steps)")?, axis("y (steps)")?).trimmed(Trim::Grid).with_equal_scales();
@@ -69,7 +68,7 @@ fn panel(row: &Row, region: &Exhibit, drawn: Option<&Exhibit>) -> Result<Panel, 
         panel.add(Line::through(vec![[0.0, 0.0], step], Stroke::solid(BLUE.mixed(WHITE, 0.5), 0.6)));
     }
     let mut points = |points: Vec<[f64; 2]>, color, radius_pt, label: &str| {
-        panel.add(Points { points, marker: Marker::Circle, radius_pt, color, label: label.to_owned() });
+        panel.add(Points::of(points, Marker::Circle, radius_pt, color).labelled(label));
     };
     if drawn.is_some() {
         let left = all.into_iter().filter(|step| !tried.contains(step)).collect();

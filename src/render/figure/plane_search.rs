@@ -9,7 +9,6 @@ use crate::render::style::{
 };
 use crate::study::record::Row;
 use base::settings::Accepted;
-use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -65,10 +64,6 @@ struct PanelOf {
     bare: bool,
 }
 
-fn points(exhibit: &Exhibit) -> Vec<[f64; 2]> {
-    exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1]]).collect()
-}
-
 impl Kind for PlaneSearch {
     fn shown(&self) -> Vec<Shown<'_>> {
         let shown = self.panels.iter().map(|panel| {
@@ -83,7 +78,7 @@ impl Kind for PlaneSearch {
         for of in &self.panels {
             let mut panel = self.map(scene, &of.title)?;
             let row = ask::trial(scene, &self.problems, self.draw, None, &of.contender)?;
-            let path = points(ask::exhibit(scene, &row.key, "path")?);
+            let path = ask::points(ask::exhibit(scene, &row.key, "path")?);
             if !of.bare {
                 match of.straightened {
                     Some(kept) => straightened(&mut panel, scene, row, &path, kept)?,
@@ -112,13 +107,9 @@ impl PlaneSearch {
             let corners = obstacle.iter().map(|c| [c[1], c[2]]).collect();
             panel.add(Shape { corners, fill, stroke: None, label: "obstacle".to_owned() });
         }
-        panel.add(Points {
-            points: points(ask::exhibit(scene, draw, "samples")?),
-            marker: Marker::Circle,
-            radius_pt: 1.2,
-            color: GREY.mixed(WHITE, 0.35),
-            label: "sample".to_owned(),
-        });
+        let samples = ask::points(ask::exhibit(scene, draw, "samples")?);
+        let samples = Points::of(samples, Marker::Circle, 1.2, GREY.mixed(WHITE, 0.35));
+        panel.add(samples.labelled("sample"));
         Ok(panel)
     }
 
@@ -130,7 +121,7 @@ impl PlaneSearch {
         path: &[[f64; 2]],
         of: &PanelOf,
     ) -> Result<(), RenderError> {
-        let closed = points(ask::exhibit(scene, &row.key, "closed")?);
+        let closed = ask::points(ask::exhibit(scene, &row.key, "closed")?);
         let all = of.searches.is_none();
         let shown = of.searches.unwrap_or(closed.len()).min(closed.len());
         let Some(goal) = path.last() else { return Ok(()) };
@@ -153,13 +144,7 @@ impl PlaneSearch {
         for (number, at) in picked.iter().enumerate() {
             panel.add(Note::beside(*at, (number + 1).to_string()));
         }
-        panel.add(Points {
-            points: picked,
-            marker: Marker::Circle,
-            radius_pt: 2.6,
-            color: SKY,
-            label: "searched".to_owned(),
-        });
+        panel.add(Points::of(picked, Marker::Circle, 2.6, SKY).labelled("searched"));
         Ok(())
     }
 }
@@ -181,28 +166,15 @@ fn straightened(
     path: &[[f64; 2]],
     kept: usize,
 ) -> Result<(), RenderError> {
-    let raw = points(ask::exhibit(scene, &row.key, "raw_path")?);
+    let raw = ask::points(ask::exhibit(scene, &row.key, "raw_path")?);
     let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
     panel.add(Line::through(raw.clone(), stroke).labelled("path as searched"));
     let inner = raw[1..raw.len() - 1].to_vec();
-    panel.add(Points {
-        points: inner,
-        marker: Marker::Circle,
-        radius_pt: 2.4,
-        color: SKY,
-        label: "searched".to_owned(),
-    });
+    panel.add(Points::of(inner, Marker::Circle, 2.4, SKY).labelled("searched"));
     let shown = path[..kept.min(path.len())].to_vec();
     if kept > 0 {
         panel.add(Line::through(shown.clone(), Stroke::solid(BLACK, 1.5)).labelled("straightened"));
-        let label = "retained".to_owned();
-        panel.add(Points {
-            points: shown,
-            marker: Marker::Diamond,
-            radius_pt: 2.8,
-            color: VERMILLION,
-            label,
-        });
+        panel.add(Points::of(shown, Marker::Diamond, 2.8, VERMILLION).labelled("retained"));
     }
     Ok(())
 }
@@ -211,6 +183,6 @@ fn ends(panel: &mut Panel, path: &[[f64; 2]]) {
     let ends = [("start", GREEN, path.first()), ("goal", ORANGE, path.last())];
     for (label, color, at) in ends {
         let points = at.into_iter().copied().collect();
-        panel.add(Points { points, marker: Marker::Square, radius_pt: 3.4, color, label: label.to_owned() });
+        panel.add(Points::of(points, Marker::Square, 3.4, color).labelled(label));
     }
 }

@@ -1,6 +1,7 @@
 //! What became of the pairs that roadmaps tried: shares by reason, mean over draws.
 
 use super::{Entry, Kind, Scene, ask};
+use crate::analysis::statistic::mean;
 use crate::render::RenderError;
 use crate::render::canvas::{Align, Stand, Type};
 use crate::render::chart::marks::Note;
@@ -86,7 +87,7 @@ impl Rejections {
             let mut bars = Vec::new();
             for (place, (column, _)) in named.iter().enumerate() {
                 let shares: Vec<f64> = rows.iter().filter_map(|row| share(row, column)).collect();
-                let mean = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
+                let mean = mean(&shares).unwrap_or(0.0);
                 let left = place as f64 - 0.4 + index as f64 * width;
                 bars.push([left, left + width, mean]);
                 let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Base);

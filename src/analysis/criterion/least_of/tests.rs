@@ -3,7 +3,16 @@ use super::*;
 fn compared(ends: [f64; 2]) -> Compared {
     let ratio = ends[0].midpoint(ends[1]);
     let (name, medians) = ("a".to_owned(), [ratio, 1.0]);
-    Compared { name, trial: None, medians, ratio, ends, n: 20, inclusion: Inclusion::Open, keeps: true }
+    Compared {
+        name,
+        trial: None,
+        medians,
+        ratio,
+        ends,
+        trials: [20, 20],
+        inclusion: Inclusion::Open,
+        keeps: true,
+    }
 }
 
 #[test]
