@@ -3,7 +3,7 @@
 use super::class::{self, Caps, Polarity, Sessions, Verdict};
 use super::context::Context;
 use super::criterion::{self, Criterion};
-use super::evidence::{Evidence, default_point};
+use super::evidence::{Evidence, Run, default_point};
 use super::found::Found;
 use super::rule;
 use super::settle::settles;
@@ -204,8 +204,7 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
 
 /// What the stored sessions of the clock say, each judged by itself.
 fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> Sessions {
-    let stored =
-        of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(|run| run.sessions()).min();
+    let stored = of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(Run::sessions).min();
     let count = stored.unwrap_or(0);
     if count < class::SESSIONS {
         return Sessions::TooFew;

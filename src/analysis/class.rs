@@ -106,6 +106,10 @@ impl Outcome {
 
 /// How the trials behind a finding came about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a cap by itself, and any of them may hold beside any other"
+)]
 pub struct Caps {
     /// Their inputs were searched for.
     pub searched: bool,

@@ -41,6 +41,9 @@ impl From<paper::Digits> for Digits {
 
 impl<'a> Context<'a> {
     /// The claim's printed number.
+    ///
+    /// # Errors
+    /// The claim prints no number.
     pub fn printed(&self) -> Result<Printed, SettingsError> {
         let missing = || format!("claim `{}` prints no number, which is needed here", self.claim.id);
         let text = self.claim.printed.as_ref().ok_or_else(|| self.settings.error(missing()))?;
@@ -48,6 +51,9 @@ impl<'a> Context<'a> {
     }
 
     /// The printed number of another claim.
+    ///
+    /// # Errors
+    /// There is no such claim, or it prints no number.
     pub fn printed_of(&self, id: &str) -> Result<(Printed, Digits), SettingsError> {
         let other = self.claim_called(id)?;
         let context = Context { claim: other, ..*self };
@@ -55,6 +61,9 @@ impl<'a> Context<'a> {
     }
 
     /// The claim called `id`.
+    ///
+    /// # Errors
+    /// There is no such claim.
     pub fn claim_called(&self, id: &str) -> Result<&'a Claim, SettingsError> {
         self.paper.claim(id).ok_or_else(|| {
             let known = self.paper.claims.iter().map(|claim| claim.id.as_str());
@@ -69,6 +78,9 @@ impl<'a> Context<'a> {
     }
 
     /// The study called `name`, which must have the contenders named; `within` is the part of the settings that names them.
+    ///
+    /// # Errors
+    /// There is no such study, or it lacks a contender.
     pub fn study(&self, within: &str, name: &str, contenders: &[&str]) -> Result<&'a Study, SettingsError> {
         let study = self.paper.study(name).ok_or_else(|| {
             let known = self.paper.studies.iter().map(|study| study.name.as_str());
@@ -100,6 +112,9 @@ impl<'a> Context<'a> {
 
     /// The problem groups of `study` that `labels` name, in their order; `within` is the part of the settings that names
     /// them.
+    ///
+    /// # Errors
+    /// The study has no such group; there is no label.
     pub fn groups(&self, within: &str, study: &Study, labels: &Labels) -> Result<Vec<String>, SettingsError> {
         let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
         let (mut groups, mut faults) = (Vec::new(), Faults::default());
@@ -122,6 +137,9 @@ impl<'a> Context<'a> {
     }
 
     /// The metric that `name` stands for under the reading.
+    ///
+    /// # Errors
+    /// There is no such metric.
     pub fn known_metric(&self, name: &str) -> Result<&'static Metric, SettingsError> {
         metric::find(self.point.metric(name)).ok_or_else(|| {
             let known: Vec<&str> = metric::METRICS.iter().map(|metric| metric.name).collect();
@@ -135,6 +153,9 @@ impl<'a> Context<'a> {
     }
 
     /// The metric that `name` stands for under the reading; `study` must produce it.
+    ///
+    /// # Errors
+    /// There is no such metric, or the study does not produce it.
     pub fn metric(&self, name: &str, study: &Study) -> Result<&'static Metric, SettingsError> {
         let metric = self.known_metric(name)?;
         let columns = study.columns();
@@ -158,6 +179,9 @@ impl<'a> Context<'a> {
     }
 
     /// An error unless `low..high` rises and lies in `least..most`.
+    ///
+    /// # Errors
+    /// They do not.
     pub fn rising(
         &self,
         key: &str,

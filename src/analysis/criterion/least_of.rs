@@ -112,9 +112,11 @@ impl<'a> LeastOf<'a> {
         let metric = of.metric(context)?;
         let with = |low: &String| higher.iter().map(|high| (low.clone(), high.clone())).collect::<Vec<_>>();
         let pairs: Vec<(String, String)> = lower.iter().flat_map(with).collect();
-        let said = |(low, high): &(String, String)| match settings.by_inclusion {
-            true => Inclusion::of(of.study, context.point, low, high),
-            false => Ok(Inclusion::Open),
+        let said = |(low, high): &(String, String)| {
+            if !settings.by_inclusion {
+                return Ok(Inclusion::Open);
+            }
+            Inclusion::of(of.study, context.point, low, high)
         };
         let inclusions = pairs.iter().map(said).collect::<Result<_, _>>()?;
         let seed = seed::derive(0, &context.seed_names());
@@ -157,7 +159,7 @@ impl<'a> LeastOf<'a> {
             let values = self.values(run, problem, contender);
             if let Some(median) = median(&values) {
                 let interval = self.interval(&self.units(run, problem, contender));
-                sides.insert(contender.as_str(), Side { interval, values, median });
+                sides.insert(contender.as_str(), Side { values, median, interval });
             }
         }
         sides

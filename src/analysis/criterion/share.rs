@@ -251,7 +251,8 @@ impl Criterion for Counted<'_> {
             return Found { outcome: self.settings.accepted.map(|_| Outcome::Open), ..Found::open(because) };
         };
         let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
-        let outcome = share.interval.map_or(Some(Outcome::Open), |interval| self.outcome(interval));
+        let undecided = self.settings.accepted.map(|_| Outcome::Open);
+        let outcome = share.interval.map_or(undecided, |interval| self.outcome(interval));
         let is_exact = counts.iter().all(|[_, chances]| *chances <= 1.0);
         Found {
             outcome,
