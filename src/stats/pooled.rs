@@ -7,11 +7,12 @@ use super::summary;
 ///
 /// None below two draws, or where the second sum is not positive.
 pub fn ratio_of_sums(draws: &[[f64; 2]], plan: Resampling) -> Option<Estimate> {
-    let ratio = |draws: &[&[f64; 2]]| {
-        let (above, below) = draws.iter().fold((0.0, 0.0), |sum, [a, b]| (sum.0 + a, sum.1 + b));
+    let ratio = |picks: &[usize]| {
+        let sum = |sum: (f64, f64), pick: &usize| (sum.0 + draws[*pick][0], sum.1 + draws[*pick][1]);
+        let (above, below) = picks.iter().fold((0.0, 0.0), sum);
         (below > 0.0).then(|| above / below)
     };
-    bootstrap::percentile(draws, ratio, plan)
+    bootstrap::of_indices(draws.len(), &ratio, plan)
 }
 
 /// The median of all numbers of all draws; failures may be infinite. None below two draws.

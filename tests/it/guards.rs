@@ -91,7 +91,11 @@ fn a_flipped_verdict_is_caught_by_judge_though_render_believes_it() {
 #[test]
 fn whatever_else_is_edited_in_stored_verdicts_is_caught_and_named() {
     for (from, to, said) in [
-        ("n = 60", "n = 61", "claim `lengths.astar`: reproduced as stored, but number of `equals`: stored "),
+        (
+            "value = 1.0",
+            "value = 0.5",
+            "claim `lengths.astar`: reproduced as stored, but number of `equals`: stored ",
+        ),
         ("on 60 of 60 trials", "on 61 of 61 trials", "but the reasons of `equals` read otherwise"),
         (
             "criterion = \"equals\"",
@@ -183,7 +187,7 @@ fn each_exit_code_means_what_the_help_says() {
     assert_eq!(code(&["judge", "movingai_sample"]), 0);
     assert_eq!(code(&["judge", "no_such_paper"]), 2);
     assert_eq!(code(&["judge", "--no-such-flag"]), 2);
-    bench.edit(&format!("{RUNS}/verdicts.toml"), "n = 60", "n = 61");
+    bench.edit(&format!("{RUNS}/verdicts.toml"), "value = 1.0", "value = 0.5");
     assert_eq!(code(&["judge", "movingai_sample", "--check"]), 3);
     bench.write("in_the_way", b"");
     assert_eq!(code(&["repro", "movingai_sample", "--out", "in_the_way/below"]), 1);

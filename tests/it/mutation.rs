@@ -113,9 +113,9 @@ fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
         ),
         (
             "fu2018/paper.toml",
-            "least = \"length.least\"\ngreatest = \"length.greatest\"",
-            "least = \"length.greatest\"\ngreatest = \"length.least\"",
-            "the other way round is accepted",
+            "refused_below = 0.05",
+            "refused_below = 5",
+            "`refused_below` is 5; a number from 0 to 1 is",
         ),
     ] {
         let index = subject.find(file);
