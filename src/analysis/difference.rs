@@ -69,8 +69,20 @@ fn of_finding(stored: &Finding, now: &Finding) -> Option<String> {
     let check = &now.criterion;
     unlike("criterion", &stored.criterion, check)
         .or_else(|| unlike(&format!("class of `{check}`"), &stored.verdict, &now.verdict))
-        .or_else(|| unlike(&format!("number of `{check}`"), &stored.ours, &now.ours))
+        .or_else(|| unlike(&format!("number of `{check}`"), &number(stored), &number(now)))
         .or_else(|| (stored != now).then(|| format!("the reasons of `{check}` read otherwise")))
+}
+
+/// Our number as people read it, with all of its digits.
+fn number(of: &Finding) -> String {
+    of.ours.as_ref().map_or_else(
+        || "none".to_owned(),
+        |ours| {
+            let interval = ours.interval.map_or_else(String::new, |[low, high]| format!(" [{low}, {high}]"));
+            let solved = ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
+            format!("{}{interval} (n = {}{solved}; {})", ours.value, ours.n, ours.what)
+        },
+    )
 }
 
 fn unlike<T: PartialEq + Debug>(what: &str, stored: &T, now: &T) -> Option<String> {

@@ -218,8 +218,8 @@ impl Verdicts {
         let of = |verdict: &Verdict| counted.iter().filter(|judged| judged.verdict == *verdict).count();
         let found = Verdict::ALL.iter().map(|verdict| (of(verdict), verdict.name()));
         let found = found.filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}"));
-        let classes =
-            format!("{} sentences and rows: {}", counted.len(), found.collect::<Vec<_>>().join(", "));
+        let what = if counted.len() == 1 { "sentence or row" } else { "sentences and rows" };
+        let classes = format!("{} {what}: {}", counted.len(), found.collect::<Vec<_>>().join(", "));
         let parts = (!parts.is_empty()).then(|| {
             format!("{} parts and cells have classes of their own and count with these", parts.len())
         });

@@ -50,7 +50,7 @@ const EXAMPLES: &str = "Examples:
   replan repro zhang --trial witness/w1/a-star
   replan render zhang --check        are the committed plots and tables what the stored run gives?
   replan list planners               what contenders can name
-  replan list checks table_cell      what one check can be told, with an example";
+  replan list criteria one_draw      what one criterion can be told, with an example";
 
 #[derive(Subcommand)]
 enum Command {
@@ -70,7 +70,7 @@ enum Command {
     Audit(audit::Audit),
     /// Write a JSON Schema of every kind of TOML file, for editors
     Schema(schema::Schema),
-    /// List papers, studies, planners, tasks, checks, metrics, figure kinds, readings and more
+    /// List papers, studies, planners, tasks, criteria, rules, metrics, figure kinds, readings and more
     List(list::List),
 }
 

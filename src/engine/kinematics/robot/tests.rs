@@ -71,7 +71,7 @@ const REFUSALS: &[(&str, &str, &str)] = &[
     (
         "name = \"motoman_up6\"\n",
         "name = \"motoman_up6\"\nconvention = \"craig\"\n",
-        "unknown variant `craig`, expected `distal` or `modified`",
+        "`convention` is \"craig\"; \"distal\" or \"modified\" is accepted",
     ),
     (
         "\"spherical_wrist\"",
