@@ -79,7 +79,8 @@ fn number(of: &Finding) -> String {
         || "none".to_owned(),
         |ours| {
             let interval = ours.interval.map_or_else(String::new, |[low, high]| format!(" [{low}, {high}]"));
-            let solved = ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
+            let solved =
+                ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
             format!("{}{interval} (n = {}{solved}; {})", ours.value, ours.n, ours.what)
         },
     )

@@ -117,22 +117,41 @@ pub fn each(index: usize, table: &Table, give: &mut dyn FnMut(&Sample)) {
     }
 }
 
-/// Samples whose statistics stand below each other.
+/// Samples whose statistics stand below each other: rows that are named alike in the columns that hold no numbers, up to
+/// the row in which a statistic stands a second time.
 fn down_rows(index: usize, table: &Table, statistics: usize, give: &mut dyn FnMut(&Sample)) {
-    let named: Vec<(usize, Statistic)> = (0..table.rows.len())
-        .filter_map(|row| Some((row, Statistic::named(&table.rows[row].get(statistics)?.text)?)))
-        .collect();
-    for (at, column) in table.columns.iter().enumerate() {
-        if at == statistics || matches!(column.meaning.kind, Kind::Skip) {
-            continue;
+    let is_name = |at: &usize| *at != statistics && table.columns[*at].meaning.kind == Kind::Skip;
+    let names: Vec<usize> = (0..table.columns.len()).filter(is_name).collect();
+    let label = |row: usize| -> Vec<&str> {
+        names.iter().filter_map(|at| Some(table.rows[row].get(*at)?.text.as_str())).collect()
+    };
+    let mut groups: Vec<Vec<(usize, Statistic)>> = Vec::new();
+    for row in 0..table.rows.len() {
+        let cell = table.rows[row].get(statistics);
+        let Some(statistic) = cell.and_then(|cell| Statistic::named(&cell.text)) else { continue };
+        let is_more = |group: &&mut Vec<(usize, Statistic)>| {
+            group.iter().all(|(_, known)| *known != statistic)
+                && group.first().is_none_or(|(first, _)| label(*first) == label(row))
+        };
+        match groups.last_mut().filter(is_more) {
+            Some(group) => group.push((row, statistic)),
+            None => groups.push(vec![(row, statistic)]),
         }
-        let numbers =
-            named.iter().filter_map(|&(row, statistic)| Some((statistic, quoted(index, table, row, at)?)));
-        let numbers: Vec<_> = numbers.collect();
-        if !numbers.is_empty() {
-            let mut sample = of_meaning(&column.name, &column.meaning, number(&column.meaning), numbers);
-            sample.path = format!("{}/{}", table.name, column.name);
-            give(&sample);
+    }
+    for named in &groups {
+        for (at, column) in table.columns.iter().enumerate() {
+            if at == statistics || matches!(column.meaning.kind, Kind::Skip) {
+                continue;
+            }
+            let numbers: Vec<_> = named
+                .iter()
+                .filter_map(|&(row, statistic)| Some((statistic, quoted(index, table, row, at)?)))
+                .collect();
+            if !numbers.is_empty() {
+                let mut sample = of_meaning(&column.name, &column.meaning, number(&column.meaning), numbers);
+                sample.path = format!("{}/{}", table.name, column.name);
+                give(&sample);
+            }
         }
     }
 }
@@ -156,7 +175,9 @@ fn in_row(index: usize, table: &Table, row: usize, give: &mut dyn FnMut(&Sample)
             ..number.clone()
         });
         let spread = meaning.spread.zip(spread);
-        match groups.iter_mut().find(|(known, ..)| *known == key) {
+        // A statistic that stands a second time is of another sample.
+        let last = groups.iter_mut().rev().find(|(known, ..)| *known == key);
+        match last.filter(|(.., numbers)| numbers.iter().all(|(known, _)| *known != statistic)) {
             Some((_, known, numbers)) => {
                 // What the mean's column says of the values holds for the others too.
                 if statistic == Statistic::Mean || known.n.is_none() {

@@ -109,6 +109,17 @@ impl Audit {
     }
 }
 
+/// The files that `text` includes by `\\input` or `\\include`, but for the macros that replan writes.
+fn included(text: &str) -> Vec<String> {
+    let lines = text.lines().map(|line| line.split('%').next().unwrap_or_default());
+    let parts = lines.flat_map(|line| line.split('\\').skip(1));
+    let named = parts.filter_map(|part| {
+        let inside = part.strip_prefix("input{").or_else(|| part.strip_prefix("include{"))?;
+        Some(inside.split('}').next()?.to_owned())
+    });
+    named.filter(|name| !name.trim_end_matches(".tex").ends_with("numbers")).collect()
+}
+
 /// Tells what `text` holds that no macro backs, and which macros are not what the stored run gives now.
 fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
     let given = read(macros)?;
@@ -120,12 +131,17 @@ fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
         let why = "its first line names no paper of this folder, so that stale values were not looked for";
         eprintln!("replan: {}: {why}", macros.display());
     }
-    let remarks = coverage::coverage(&read(text)?, &given, current.as_deref());
+    let written = read(text)?;
+    let unread = included(&written);
+    for file in &unread {
+        say!("{}: `{file}` is included and was not read; ask about it by itself", text.display());
+    }
+    let remarks = coverage::coverage(&written, &given, current.as_deref());
     for remark in &remarks {
         let file = if remark.in_macros { macros } else { text };
         say!("{}:{remark}", file.display());
     }
-    match remarks.len() {
+    match remarks.len() + unread.len() {
         0 => Ok(()),
         found => Err(Failure::stale(format!("{}: {found} numbers or macros to look at", text.display()))),
     }

@@ -11,7 +11,9 @@ pub fn defaults(study: &Study) -> Vec<String> {
     if spec.get("quick").is_none_or(|quick| quick.get("replicates").is_none()) {
         all.push(format!("quick: replicates = {}", study.quick.replicates));
     }
-    for (table, what, key) in [("problems", "problem group", "replicates"), ("contender", "contender", "repeats")] {
+    for (table, what, key) in
+        [("problems", "problem group", "replicates"), ("contender", "contender", "repeats")]
+    {
         let entries = spec.get(table).and_then(Value::as_array).into_iter().flatten();
         let without = entries.filter(|entry| entry.get(key).is_none());
         let label = |entry: &Value| Some(entry.get("label")?.as_str()?.to_owned());

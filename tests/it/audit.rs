@@ -35,6 +35,35 @@ fn a_possible_table_ends_with_0_and_shows_its_data_if_asked() {
 }
 
 #[test]
+fn samples_of_other_methods_are_not_taken_for_one() {
+    let bench = Bench::new();
+    for possible in [
+        "planner,stat,time\nA,min,1\nA,mean,2.00\nA,max,3\nB,min,9\nB,mean,10.00\nB,max,11\n",
+        "stat,time\nmin,1\nmean,2.00\nmax,3\nmin,9\nmean,10.00\nmax,11\n",
+        "p,time [min],time [max],time [min],time [max]\nx,1,3,9,11\n",
+    ] {
+        bench.write("t.csv", possible.as_bytes());
+        assert_eq!(bench.run(&["audit", "t.csv"]).code, Some(0), "{possible}");
+    }
+    let second = "p,a [mean],a [min],a [mean],a [min]\nx,2.0,1,5.0,7\n";
+    bench.write("t.csv", second.as_bytes());
+    assert_eq!(bench.run(&["audit", "t.csv"]).code, Some(3), "the second sample is not looked at");
+    let quotients = "| p | time [mean, n=2] | it [mean, n=2] | r [mean, n=2, ratio=time/it] |\n|-|-|-|-|\n| x | 5.00 | 2.00 | 2.00 |\n";
+    bench.write("t.md", quotients.as_bytes());
+    assert_eq!(bench.run(&["audit", "t.md"]).code, Some(0), "times 1, 9 and 1, 3 iterations");
+}
+
+#[test]
+fn a_text_that_includes_others_says_that_they_were_not_read() {
+    let bench = Bench::new();
+    bench.write("numbers.tex", b"\\newcommand{\\nodes}{45}\n");
+    bench.write("paper.tex", b"\\input{numbers}\nWe open \\nodes{} nodes.\n\\input{sections/two}\n");
+    let said = bench.run(&["audit", "--coverage", "paper.tex", "--macros", "numbers.tex"]);
+    assert_eq!(said.code, Some(3), "{}", said.err);
+    assert_eq!(said.out, "paper.tex: `sections/two` is included and was not read; ask about it by itself\n");
+}
+
+#[test]
 fn standard_input_is_read_and_wrong_input_ends_with_2() {
     let bench = Bench::new();
     let mut child = bench.command(&["audit", "-"]).stdin(Stdio::piped()).spawn().unwrap();

@@ -45,7 +45,9 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
 }
 
 fn in_row(index: usize, table: &Table, row: usize, at: usize) -> Option<Formed> {
-    let [a, b] = table.columns[at].meaning.ratio.as_ref()?;
+    let meaning = &table.columns[at].meaning;
+    // A mean, or an extreme, of quotients is not the quotient of the means.
+    let [a, b] = meaning.ratio.as_ref().filter(|_| !matches!(meaning.kind, Kind::Of(_)))?;
     let cell = |at| quoted(index, table, row, at);
     let numbers = [cell(at)?, cell(table.column(a)?)?, cell(table.column(b)?)?];
     Some(Formed { numbers, forms: vec![Form::Quotient], premise: ENTRY.premises })
