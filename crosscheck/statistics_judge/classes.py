@@ -31,10 +31,11 @@ def of_finding(
     existential: bool = False,
     powerless: bool = False,
     censored: bool = False,
+    few: bool = False,
     clock: bool = False,
 ) -> str:
     """The class of what a criterion found; `clock`: it rests on a clock with few or contrary sessions."""
-    if censored or clock:
+    if censored or few or clock:
         return "undecided"
     plain = {HOLDS: "reproduced", SIGN: "direction_only", OPEN: "undecided", FAILS: "not_reproduced"}[outcome]
     if plain == "reproduced" and (searched or existential):

@@ -111,11 +111,22 @@ def of_criterion(
             existential=found.existential,
             powerless=found.powerless,
             censored=censored,
+            few=is_few(name, settings, found),
             clock=bool(clock),
         )
         for outcome, censored in itertools.product(found.possible, found.censored)
     )
     return Recomputed(name, possible, found.estimate)
+
+
+# A bootstrap over fewer draws says nothing firm.
+FEWEST_DRAWS = 10
+
+
+def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
+    """Whether a bootstrap interval over draws rests on too few of them."""
+    resampled = name in ("lower", "trend", "within") and settings.get("statistic") != "ratio_of_groups"
+    return resampled and found.estimate is not None and found.estimate.n < FEWEST_DRAWS
 
 
 def studies_of(settings: dict[str, Any]) -> list[str]:
