@@ -87,7 +87,8 @@ impl Rejections {
             let mut bars = Vec::new();
             for (place, (column, _)) in named.iter().enumerate() {
                 let shares: Vec<f64> = rows.iter().filter_map(|row| share(row, column)).collect();
-                let mean = mean(&shares).unwrap_or(0.0);
+                // Where nothing was counted there is no share, and no bar.
+                let Some(mean) = mean(&shares) else { continue };
                 let left = place as f64 - 0.4 + index as f64 * width;
                 bars.push([left, left + width, mean]);
                 let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Base);
