@@ -139,4 +139,4 @@ pub enum RenderError {
 }
 
 #[cfg(test)]
-mod demo;
+mod tests;

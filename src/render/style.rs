@@ -75,24 +75,6 @@ impl Rgb {
     }
 }
 
-/// Position `share` in `[0, 1]` of a sequential scale from light to dark blue, monotone in grey.
-///
-/// # Source
-/// Stops of the 9-class `YlGnBu` scheme of `ColorBrewer` (Brewer, 2003), which is safe for colour blindness.
-pub fn sequential(share: f64) -> Rgb {
-    const STOPS: [Rgb; 6] = [
-        Rgb([255, 255, 217]),
-        Rgb([199, 233, 180]),
-        Rgb([127, 205, 187]),
-        Rgb([65, 182, 196]),
-        Rgb([34, 94, 168]),
-        Rgb([8, 29, 88]),
-    ];
-    let at = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
-    let low = (at.floor() as usize).min(STOPS.len() - 2);
-    STOPS[low].mixed(STOPS[low + 1], at - low as f64)
-}
-
 /// How a line is broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
@@ -293,12 +275,6 @@ mod tests {
         for (index, one) in all.iter().enumerate() {
             assert!(!all[..index].contains(one), "series {index} repeats {one:?}");
         }
-    }
-
-    #[test]
-    fn the_sequential_scale_darkens_all_the_way() {
-        let greys: Vec<f64> = (0..=50).map(|step| sequential(f64::from(step) / 50.0).luminance()).collect();
-        assert!(greys.windows(2).all(|pair| pair[0] > pair[1]), "{greys:?}");
     }
 
     #[test]

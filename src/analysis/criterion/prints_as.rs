@@ -10,10 +10,11 @@ use crate::analysis::selection::{self, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
-use audit::printed::{Digits, Printed};
+use audit::exact::Print;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::interval::Interval;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -36,8 +37,7 @@ struct Settings {
 struct PrintsAs<'a> {
     of: Selection<'a>,
     metric: &'static Metric,
-    printed: Printed,
-    digits: Digits,
+    print: Print,
 }
 
 impl<'a> PrintsAs<'a> {
@@ -46,7 +46,7 @@ impl<'a> PrintsAs<'a> {
         let of = Selection::new(context, &settings.of)?;
         of.contender(context)?;
         let metric = of.metric(context)?;
-        Ok(Self { metric, of, printed: context.printed()?, digits: context.digits() })
+        Ok(Self { metric, of, print: context.print()? })
     }
 }
 
@@ -61,15 +61,10 @@ impl Criterion for PrintsAs<'_> {
         else {
             return Found::open(format!("{who}: {metric} was not measured"));
         };
-        let agree = [low, high].map(|value| self.printed.agrees(value, self.digits));
+        let agree = [low, high].map(|value| self.print.agrees(value));
         let outcome = match agree {
             [true, true] => Outcome::Holds,
-            [false, false]
-                if self.printed.interval(self.digits).low > high
-                    || self.printed.interval(self.digits).high < low =>
-            {
-                Outcome::Fails
-            }
+            [false, false] if !self.print.interval().meets(Interval::new(low, high)) => Outcome::Fails,
             _ => Outcome::Open,
         };
         let verb = if agree == [true, true] { "prints as" } else { "does not print as" };
@@ -82,7 +77,7 @@ impl Criterion for PrintsAs<'_> {
             ours: Some(ours.of_cases(solved(&draws))),
             trial,
             censored: if outcome == Outcome::Holds { selection::unended(&draws) } else { 0 },
-            because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.printed)],
+            because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.print.printed)],
             ..Found::default()
         }
     }

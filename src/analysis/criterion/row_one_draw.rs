@@ -11,7 +11,6 @@ use crate::analysis::statistic::OfDraw;
 use crate::analysis::verdict::Estimate;
 use crate::study::Study;
 use crate::study::contender::SweepPoint;
-use audit::printed::Printed;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -98,14 +97,13 @@ impl<'a> RowOneDraw<'a> {
                 return Err(context.settings.error_at(&format!("rows.{index}.claims"), message));
             }
             for id in &row.claims {
-                printed.push(context.printed_of(id)?.0);
+                printed.push(context.print_of(id)?.printed.value());
             }
             rows.push(Row { of, cells });
         }
         if rows.is_empty() {
             return Err(context.settings.error_at("rows", "at least one row is needed"));
         }
-        let printed = printed.iter().map(|cell: &Printed| cell.value()).collect();
         Ok(Self { rows, printed, refused_below: settings.refused_below })
     }
 }

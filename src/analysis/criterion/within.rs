@@ -76,9 +76,9 @@ impl<'a> Within<'a> {
             (Some(margin), None) => {
                 let printed = match &settings.printed_ratio {
                     Some([above, below]) => {
-                        context.printed_of(above)?.0.value() / context.printed_of(below)?.0.value()
+                        context.print_of(above)?.printed.value() / context.print_of(below)?.printed.value()
                     }
-                    None => context.printed()?.value(),
+                    None => context.print()?.printed.value(),
                 };
                 (Interval::new(printed - margin, printed + margin), Some(printed))
             }

@@ -12,8 +12,6 @@ pub enum Swatch {
     Point(Marker, Rgb),
     /// A filled box, perhaps with an edge.
     Area(Fill, Option<Stroke>),
-    /// A filled box with a line through it: a band and its centre.
-    Band(Fill, Stroke),
 }
 
 /// One entry of the legend.
@@ -89,10 +87,6 @@ fn swatch(canvas: &mut Canvas, swatch: &Swatch, [x, y]: [f64; 2]) {
         }
         Swatch::Point(marker, color) => canvas.marker(middle, *marker, 2.4, *color),
         Swatch::Area(fill, stroke) => canvas.rect(area, Some(*fill), stroke.as_ref()),
-        Swatch::Band(fill, stroke) => {
-            canvas.rect(Rect { x, y: y - 3.5, w: SWATCH_PT, h: 7.0 }, Some(*fill), None);
-            canvas.polyline(&ends, stroke);
-        }
     }
 }
 

@@ -27,18 +27,6 @@ impl Line {
         Self { points, stroke, marker: None, label: String::new() }
     }
 
-    /// The share of `values` that is at most x, as steps; values that are infinite never count as reached.
-    pub fn ecdf(values: &[f64], stroke: Stroke) -> Self {
-        let mut sorted: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
-        sorted.sort_by(f64::total_cmp);
-        let mut points = Vec::new();
-        for (index, &value) in sorted.iter().enumerate().filter(|(_, value)| value.is_finite()) {
-            points.push([value, index as f64 / sorted.len() as f64]);
-            points.push([value, (index + 1) as f64 / sorted.len() as f64]);
-        }
-        Self::through(points, stroke)
-    }
-
     /// The same with an entry in the legend.
     #[must_use]
     pub fn labelled(self, label: impl Into<String>) -> Self {

@@ -5,7 +5,7 @@ use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Axis, Key, Panel, Sheet, Swatch, Trim};
-use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark, Vec3};
+use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark, Vec3, box_corners};
 use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, ORANGE, PURPLE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
@@ -288,10 +288,9 @@ fn bodies(vertices: &[Vec3], faces: Vec<Vec<usize>>) -> Vec<(Vec<Vec3>, Vec<Vec<
 
 /// The twelve edges of a box.
 fn edges(low: Vec3, high: Vec3) -> Vec<[Vec3; 2]> {
-    let corner =
-        |index: usize| [0, 1, 2].map(|axis| if index >> axis & 1 == 0 { low[axis] } else { high[axis] });
-    let pairs = (0..8).flat_map(|index| (0..3).map(move |axis| (index, index | 1 << axis)));
-    pairs.filter(|(from, to)| from != to).map(|(from, to)| [corner(from), corner(to)]).collect()
+    let corners = box_corners(low, high);
+    let pairs = (0..8).flat_map(|index| (0..3).map(move |axis| [index, index | 1 << axis]));
+    pairs.filter(|[from, to]| from != to).map(|ends| ends.map(|index| corners[index])).collect()
 }
 
 /// A panel that shows `scene`.

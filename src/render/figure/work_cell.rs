@@ -83,13 +83,8 @@ fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderErr
         [[-450.0, -1000.0, 0.0], [1450.0, -1000.0, 0.0], [1450.0, 1000.0, 0.0], [-450.0, 1000.0, 0.0]];
     solids.sheet(floor.to_vec(), Paint { outlined: true, ..Paint::solid(GREY.mixed(WHITE, 0.82)) });
     for corners in boxes.values.chunks(boxes.width) {
-        let vertices = corners.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        solids.polyhedron(
-            vertices,
-            faces.iter().map(|face| face.to_vec()).collect(),
-            Paint::solid(obstacle()),
-        );
+        let corners = corners.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
+        solids.cuboid(corners, Paint::solid(obstacle()));
     }
     let rounds = ask::exhibit(scene, draw, "rounds")?;
     add_capsules(&mut solids, rounds, Paint::solid(obstacle()));
