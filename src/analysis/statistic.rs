@@ -2,9 +2,9 @@
 //!
 //! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
 
-use super::selection::{Case, Draw};
+use super::selection::{Case, Draw, by_draw, cases};
 use super::verdict::Estimate as VerdictEstimate;
-use crate::study::record::{Row, Status};
+use crate::study::record::Row;
 use base::seed;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -63,8 +63,7 @@ impl OfDraw {
     /// The number that `draw` gives, of the metric or, with another contender, of what is saved against it in per cent.
     pub fn of(self, draw: &Draw<'_>) -> Option<f64> {
         if self == Self::SolvedPercent {
-            let solved = draw.cases.iter().filter(|case| case.row.status == Status::Solved).count();
-            return (!draw.cases.is_empty()).then(|| 100.0 * solved as f64 / draw.cases.len() as f64);
+            return draw.percent(|case| case.row.is_solved());
         }
         let number = |case: &Case<'_>| if case.base.is_some() { case.saving_percent() } else { case.value };
         let numbers: Vec<f64> = draw.cases.iter().filter_map(number).collect();
@@ -132,8 +131,10 @@ impl OfAll {
         if self == Self::RatioOfGroups {
             return of_groups(draws, plan);
         }
-        let values: Vec<Vec<f64>> = draws.iter().map(|draw| self.values(draw)).collect();
-        let values: Vec<Vec<f64>> = values.into_iter().filter(|values| !values.is_empty()).collect();
+        let values = by_draw(draws, |case| match (self, case.value) {
+            (Self::Median, None) if !case.row.is_solved() => Some(f64::INFINITY),
+            (_, value) => value,
+        });
         let sums = || values.iter().map(|draw| [draw.iter().sum(), draw.len() as f64]).collect::<Vec<_>>();
         match self {
             Self::Median => pooled::median(&values, plan),
@@ -155,14 +156,6 @@ impl OfAll {
         let interval = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
         Some(Estimate { value: percent(ratio.value), interval, ..ratio })
     }
-
-    fn values(self, draw: &Draw<'_>) -> Vec<f64> {
-        let value = |case: &Case<'_>| match (self, case.value) {
-            (Self::Median, None) if case.row.status != Status::Solved => Some(f64::INFINITY),
-            (_, value) => value,
-        };
-        draw.cases.iter().filter_map(value).collect()
-    }
 }
 
 /// The median on the first group over that on the second, the interval from the ends of both; of a single draw the number
@@ -171,8 +164,7 @@ fn of_groups(draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
     let first = draws.first()?.group;
     let side = |is_first: bool| {
         let own = draws.iter().filter(|draw| (draw.group == first) == is_first);
-        let values: Vec<Vec<f64>> =
-            own.map(|draw| draw.cases.iter().filter_map(|case| case.value).collect()).collect();
+        let values: Vec<Vec<f64>> = own.map(Draw::values).collect();
         let median = summary::median(&values.concat())?;
         let found = pooled::median(&values, plan);
         Some((median, found.map_or(Interval::new(median, median), |found| found.interval)))
@@ -211,12 +203,11 @@ pub fn curves_of_draws(cells: &[Vec<f64>]) -> Vec<Vec<f64>> {
 /// By how many points the share solved of a draw's queries differs between two selections; queries that cannot be posed in
 /// either are left out of both.
 pub fn differences_percent([base, other]: [&[Draw<'_>]; 2]) -> Vec<f64> {
-    let solved = |row: &Row| f64::from(u8::from(row.status == Status::Solved));
+    let solved = |row: &Row| f64::from(u8::from(row.is_solved()));
     let case = |row: &Row| (row.draw(), row.key.repeat, row.query().to_owned());
-    let cases = |of: usize| [base, other][of].iter().flat_map(|draw| &draw.cases);
-    let bases: BTreeMap<_, f64> = cases(0).map(|own| (case(own.row), solved(own.row))).collect();
+    let bases: BTreeMap<_, f64> = cases(base).map(|own| (case(own.row), solved(own.row))).collect();
     let mut draws: BTreeMap<(u32, u32), Vec<f64>> = BTreeMap::new();
-    for own in cases(1) {
+    for own in cases(other) {
         if let Some(base) = bases.get(&case(own.row)) {
             let unit = (own.row.draw(), own.row.key.repeat);
             draws.entry(unit).or_default().push(100.0 * (solved(own.row) - base));

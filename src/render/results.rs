@@ -7,7 +7,7 @@ use crate::analysis::metric::{self, Metric};
 use crate::analysis::statistic;
 use crate::study::paper::Paper;
 use crate::study::paper::results::{CellSpec, ResultsSpec, Show};
-use crate::study::record::{Row, Status};
+use crate::study::record::Row;
 use base::settings::{Faults, SettingsError};
 use std::fmt::Write as _;
 
@@ -75,9 +75,8 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
     let number = |value: f64| {
         if value.is_finite() { format!("{value:.*}", cell.decimals) } else { "∞".to_owned() }
     };
-    let solved = |row: &Row| row.status == Status::Solved;
     // What the clock did not read has not failed.
-    let value = |row: &&Row| match (solved(row), run.value(row, metric)) {
+    let value = |row: &&Row| match (row.is_solved(), run.value(row, metric)) {
         (true, value) => value,
         (false, None) if metric.is_clock() => None,
         (false, _) => Some(f64::INFINITY),
@@ -95,12 +94,12 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
             .map(|q| format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))),
         Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
         Show::Solved => (!rows.is_empty()).then(|| {
-            let count = rows.iter().filter(|row| solved(row)).count();
+            let count = rows.iter().filter(|row| row.is_solved()).count();
             number(100.0 * count as f64 / rows.len() as f64)
         }),
         Show::Failed => {
             let failed: Vec<f64> =
-                rows.iter().filter(|row| !solved(row)).filter_map(|row| run.value(row, metric)).collect();
+                rows.iter().filter(|row| !row.is_solved()).filter_map(|row| run.value(row, metric)).collect();
             statistic::median(&failed).map(number)
         }
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),

@@ -71,6 +71,19 @@ fn between(low: f64, high: f64, place: f64) -> f64 {
     if low == high { low } else { low + (high - low) * (place - place.floor()) }
 }
 
+/// Medians of the second numbers where the first lies in the lower, middle and upper third of its sample; thirds that hold
+/// nothing are left out.
+pub fn medians_by_thirds(points: &[(f64, f64)]) -> Vec<f64> {
+    let places: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
+    let cuts: Vec<f64> =
+        [1.0, 2.0].into_iter().filter_map(|third| quantile_type7(&places, third / 3.0)).collect();
+    let mut thirds = [Vec::new(), Vec::new(), Vec::new()];
+    for (x, y) in points {
+        thirds[cuts.iter().filter(|cut| x > cut).count()].push(*y);
+    }
+    thirds.iter().filter_map(|numbers| median(numbers)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,7 +9,6 @@ use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{LEVEL, OfDraw};
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
 use audit::exact::Print;
 use audit::printed::Printed;
 use base::settings::{Accepted, SettingsError};
@@ -210,7 +209,7 @@ impl Criterion for OneDraw<'_> {
             self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - self.print.printed.value()).abs())
         };
         let nearest = drawn.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        let trial = nearest.and_then(|draw| Some(self.of.run(evidence)?.trial(draw.cases.first()?.row)));
+        let trial = self.of.trial(evidence, nearest.and_then(|draw| draw.cases.first()));
         Found {
             outcome: Some(outcome),
             ours: Some(Estimate::new(mean, interval, what, draws.values.len()).of_cases(solved(&drawn))),
@@ -224,11 +223,7 @@ impl Criterion for OneDraw<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }

@@ -10,7 +10,6 @@ use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, needs, plan};
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -169,12 +168,8 @@ impl Criterion for Within<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }
 

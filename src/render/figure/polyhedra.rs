@@ -148,10 +148,10 @@ impl Polyhedra {
         let rows = |contender: &String| scene.run.rows(&self.read.problem, contender).into_iter();
         let (first, others) = self.read.contenders.split_first()?;
         let fails = |replicate: u32, other: &String| {
-            rows(other).any(|row| row.draw() == replicate && row.status != Status::Solved)
+            rows(other).any(|row| row.draw() == replicate && !row.is_solved())
         };
         let is_chosen = |row: &&Row| {
-            row.status == Status::Solved
+            row.is_solved()
                 && scene.run.exhibit(&row.key, "rods").is_some()
                 && others.iter().all(|other| fails(row.draw(), other))
         };

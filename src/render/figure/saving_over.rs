@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::Selection;
+use crate::analysis::selection::{Case, Selection, by_draw};
 use crate::analysis::statistic::means_along;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
@@ -85,9 +85,7 @@ impl SavingOver {
         let all = ask::trials(scene.run, group, &self.settings.contender);
         let against = Some(self.settings.against.clone());
         let draws = Selection { against, metric: Some(self.metric), ..all }.draws(scene.evidence);
-        let cases = draws.iter().flat_map(|draw| &draw.cases);
-        cases
-            .filter_map(|case| Some([case.row.value(&self.settings.over)?, case.saving_percent()?]))
-            .collect()
+        let point = |case: &Case<'_>| Some([case.row.value(&self.settings.over)?, case.saving_percent()?]);
+        by_draw(&draws, point).concat()
     }
 }

@@ -9,7 +9,7 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{BLACK, SERIES, Stroke, WHITE, Width, series_color, series_marker};
-use crate::study::record::{Row, Status};
+use crate::study::record::Row;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -109,8 +109,8 @@ impl Ready {
     /// Every trial, and the medians of each contender, failures at infinity.
     fn trials(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Result<Panel, RenderError> {
         let both = |row: &Row| {
-            let solved = row.status == Status::Solved;
-            let value = |metric| if solved { scene.run.value(row, metric) } else { Some(f64::INFINITY) };
+            let value =
+                |metric| if row.is_solved() { scene.run.value(row, metric) } else { Some(f64::INFINITY) };
             Some([value(self.metrics[0])?, value(self.metrics[1])?])
         };
         let of = |label: &String| -> Vec<[f64; 2]> {

@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, Shown, ask};
 use crate::analysis::metric;
-use crate::analysis::selection::{Case, Selection};
+use crate::analysis::selection::{Case, Selection, by_draw, cases};
 use crate::analysis::statistic::median;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
@@ -191,9 +191,8 @@ impl WorkCell {
         let all = ask::trials(scene.run, &self.problems, self.contenders.last()?);
         let (against, query) = (self.contenders.first().cloned(), Some(self.query.clone()));
         let draws = Selection { against, metric, query, ..all }.draws(scene.evidence);
-        let cases = || draws.iter().flat_map(|draw| &draw.cases);
-        let own = cases().find(|case| case.row.draw() == draw)?.saving_percent()?;
-        let all: Vec<f64> = cases().filter_map(Case::saving_percent).collect();
+        let own = cases(&draws).find(|case| case.row.draw() == draw)?.saving_percent()?;
+        let all = by_draw(&draws, Case::saving_percent).concat();
         let below = all.iter().filter(|saving| **saving < own).count();
         Some(format!(
             "saving {own:.1} %: {below} of {} roadmaps save less, the median saves {:.1} %",
