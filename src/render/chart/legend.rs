@@ -23,6 +23,18 @@ pub struct Key {
     pub label: String,
 }
 
+impl Key {
+    /// A line.
+    pub fn line(label: &str, stroke: Stroke) -> Self {
+        Self { swatch: Swatch::Line(stroke, None), label: label.to_owned() }
+    }
+
+    /// An entry with this label, if there is one.
+    pub(super) fn labelled(label: &str, swatch: Swatch) -> Vec<Self> {
+        if label.is_empty() { Vec::new() } else { vec![Self { swatch, label: label.to_owned() }] }
+    }
+}
+
 const SWATCH_PT: f64 = 20.0;
 const GAP_PT: f64 = 4.0;
 const APART_PT: f64 = 12.0;

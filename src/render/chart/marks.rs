@@ -60,15 +60,11 @@ impl Mark for Line {
     }
 
     fn keys(&self) -> Vec<Key> {
-        labelled(
+        Key::labelled(
             &self.label,
             Swatch::Line(self.stroke, self.marker.map(|marker| (marker, self.stroke.color))),
         )
     }
-}
-
-fn labelled(label: &str, swatch: Swatch) -> Vec<Key> {
-    if label.is_empty() { Vec::new() } else { vec![Key { swatch, label: label.to_owned() }] }
 }
 
 /// A filled strip between two curves over the same abscissae.
@@ -91,7 +87,7 @@ impl Mark for Band {
     }
 
     fn keys(&self) -> Vec<Key> {
-        labelled(&self.label, Swatch::Area(self.fill, None))
+        Key::labelled(&self.label, Swatch::Area(self.fill, None))
     }
 }
 
@@ -143,7 +139,7 @@ impl Mark for Points {
     }
 
     fn keys(&self) -> Vec<Key> {
-        labelled(&self.label, Swatch::Point(self.marker, self.color))
+        Key::labelled(&self.label, Swatch::Point(self.marker, self.color))
     }
 }
 
@@ -171,7 +167,7 @@ impl Mark for Shape {
             (None, Some(stroke)) => Swatch::Line(stroke, None),
             (None, None) => return Vec::new(),
         };
-        labelled(&self.label, swatch)
+        Key::labelled(&self.label, swatch)
     }
 }
 

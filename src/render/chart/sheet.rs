@@ -75,6 +75,20 @@ impl Sheet {
         self.panels.push(panel);
     }
 
+    /// The same with `panels` in the next places.
+    ///
+    /// # Errors
+    /// That of the first panel that cannot be made.
+    pub fn with(
+        mut self,
+        panels: impl IntoIterator<Item = Result<Panel, RenderError>>,
+    ) -> Result<Self, RenderError> {
+        for panel in panels {
+            self.add(panel?);
+        }
+        Ok(self)
+    }
+
     /// Draws everything.
     ///
     /// # Errors
@@ -281,21 +295,12 @@ impl Panel {
         let Room { edge, right, top, base } = Room::of(view.frame, left, foot);
         let place = |hundredths: f64| hundredths / 100.0;
         let middle = |from: f64, to: f64| place(from + ((to - from) / 2.0).floor());
-        let (beside, below) = (place(edge - hundredths(left)), place(base + hundredths(foot)));
         let upright = Type { turn_deg: -90.0, ..LABEL.aligned(Align::Middle, Stand::Below) };
-        caption(canvas, [beside, middle(top, base)], view.y.label(), &upright);
-        caption(
-            canvas,
-            [middle(edge, right), below],
-            view.x.label(),
-            &LABEL.aligned(Align::Middle, Stand::Base),
-        );
+        caption(canvas, [place(edge - hundredths(left)), middle(top, base)], view.y.label(), &upright);
+        let below = [middle(edge, right), place(base + hundredths(foot))];
+        caption(canvas, below, view.x.label(), &LABEL.aligned(Align::Middle, Stand::Base));
         // The last hundredth on the right and at the foot is the frame's.
         let (across, up) = ([edge, right - 1.0], [base - 1.0, top]);
-        let named = |ticks: &[Tick], axis: &Axis, ends: [f64; 2]| -> Vec<(f64, String)> {
-            let named = ticks.iter().filter(|tick| !tick.label.is_empty());
-            named.map(|tick| (axis.place(tick.at, ends), tick.label.clone())).collect()
-        };
         let (xs_named, ys_named) = (named(xs, &view.x, across), named(ys, &view.y, up));
         let ([from, to], [foot, head]) = (across.map(place), up.map(place));
         if self.trim == Trim::Grid {
@@ -314,11 +319,17 @@ impl Panel {
         canvas.polyline(&[[from, base], [to, base]], &ink);
         let level = self.x.fits(xs, view.frame.w);
         for (x, label) in &xs_named {
-            let label = if level { label } else { "" };
+            let label = if level { *label } else { "" };
             caption(canvas, [*x, base + LABEL_PT], label, &TICK.aligned(Align::Middle, Stand::Below));
             canvas.polyline(&[[*x, base], [*x, base + TICK_PT]], &ink);
         }
     }
+}
+
+/// Where the ticks with a label stand on `axis` between `ends`, and what they say.
+fn named<'t>(ticks: &'t [Tick], axis: &Axis, ends: [f64; 2]) -> Vec<(f64, &'t str)> {
+    let named = ticks.iter().filter(|tick| !tick.label.is_empty());
+    named.map(|tick| (axis.place(tick.at, ends), tick.label.as_str())).collect()
 }
 
 /// Edges of a plot in hundredths of a point.

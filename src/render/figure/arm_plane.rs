@@ -32,7 +32,7 @@ panels = [
     build: |settings, study, _paper| {
         let read: ArmPlane = settings.read()?;
         for panel in &read.panels {
-            ask::known(settings, study, std::slice::from_ref(&panel.problem), &panel.contenders)?;
+            ask::known(settings, study, [&panel.problem], &panel.contenders)?;
         }
         Ok(Box::new(read))
     },
@@ -87,12 +87,12 @@ impl Kind for ArmPlane {
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let columns = if self.postures { 2 } else { self.panels.len().min(2) };
-        let mut sheet = Sheet::new(Width::Double, columns, PLOT_PT);
-        for panel in self.panels.iter().filter(|_| !self.postures) {
-            sheet.add(self.panel(scene, panel)?);
+        if !self.postures {
+            let panels = self.panels.iter().map(|panel| self.panel(scene, panel));
+            return Sheet::new(Width::Double, self.panels.len().min(2), PLOT_PT).with(panels);
         }
-        for panel in self.panels.iter().filter(|_| self.postures) {
+        let mut sheet = Sheet::new(Width::Double, 2, PLOT_PT);
+        for panel in &self.panels {
             let both = ask::exhibit(scene, ask::draw(scene, &panel.problem, 0)?, "branches")?;
             let stations: Vec<&[f64]> = both.values.chunks(both.width).collect();
             for (name, station) in [("elbow down", stations[1]), ("elbow up", stations[0])] {
@@ -147,11 +147,7 @@ impl ArmPlane {
             return;
         }
         let path: Vec<[f64; 2]> = stations.iter().map(|station| [station[4], station[5]]).collect();
-        let ends = [("start", Marker::Circle, path.first()), ("goal", Marker::Diamond, path.last())];
-        for (label, marker, at) in ends {
-            let points = at.into_iter().copied().collect();
-            panel.add(Points::of(points, marker, 3.0, GREEN).labelled(label));
-        }
+        ask::add_ends(panel, &path, 3.0, [(Marker::Circle, GREEN), (Marker::Diamond, GREEN)]);
         let stroke = series_stroke(ask::place(scene, &row.key.contender));
         panel.add(Line::through(path, stroke).labelled(row.key.contender.to_string()));
     }

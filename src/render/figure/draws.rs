@@ -73,11 +73,8 @@ struct Asked {
 
 impl Kind for Asked {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, self.read.columns, PLOT_PT);
-        for panel in &self.read.panels {
-            sheet.add(self.panel(scene, panel)?);
-        }
-        Ok(sheet)
+        let panels = self.read.panels.iter().map(|panel| self.panel(scene, panel));
+        Sheet::new(Width::Double, self.read.columns, PLOT_PT).with(panels)
     }
 }
 

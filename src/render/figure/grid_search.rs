@@ -1,7 +1,7 @@
 //! Searches on grid maps: opened cells of each side at the end or at moments before, raw and tidied path, refused lines of
 //! sight.
 
-use super::{Entry, Kind, Scene, Shown, ask, check_labels};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::legend::{Key, cell_key};
 use crate::render::chart::marks::{Cells, Line, Points};
@@ -27,7 +27,7 @@ contenders = ["A*", "Improved A*"]
 "#,
     build: |settings, study, _paper| {
         let read: GridSearch = settings.read()?;
-        check_labels(settings, study, &read.contenders, &read.problems)?;
+        ask::known(settings, study, &read.problems, &read.contenders)?;
         if read.moments.iter().any(|share| !(0.0..=1.0).contains(share)) {
             let message = "shares of opened cells from 0 to 1 are accepted, one a panel";
             return Err(settings.error_at("moments", message));
@@ -73,22 +73,15 @@ impl Kind for GridSearch {
         for problem in &self.problems {
             for contender in &self.contenders {
                 let map = Map::of(scene, ask::trial(scene, problem, 0, None, contender)?)?;
-                for share in &self.moments {
-                    panels.push(map.moment(*share)?);
-                }
                 match (&self.moments[..], self.tidying) {
-                    ([], true) => panels.push(map.tidied(problem)?),
-                    ([], false) => panels.push(map.searched()?),
-                    _ => {}
+                    ([], true) => panels.push(map.tidied(problem)),
+                    ([], false) => panels.push(map.searched()),
+                    (moments, _) => panels.extend(moments.iter().map(|share| map.moment(*share))),
                 }
             }
         }
         let height = if self.moments.is_empty() { 215.0 } else { 150.0 };
-        let mut sheet = Sheet::new(Width::Double, panels.len(), height);
-        for panel in panels {
-            sheet.add(panel);
-        }
-        Ok(sheet)
+        Sheet::new(Width::Double, panels.len(), height).with(panels)
     }
 }
 
@@ -144,7 +137,7 @@ impl<'a> Map<'a> {
         }
         if let Some(path) = self.exhibit("path") {
             panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
-            add_ends(&mut panel, &centres(path));
+            ask::add_ends(&mut panel, &centres(path), 3.2, ENDS);
         }
         Ok(panel)
     }
@@ -171,7 +164,7 @@ impl<'a> Map<'a> {
                 panel.add(Points::of(met, Marker::Square, 3.0, PURPLE).labelled("where the sides met"));
             }
         }
-        add_ends(&mut panel, &path);
+        ask::add_ends(&mut panel, &path, 3.2, ENDS);
         Ok(panel)
     }
 
@@ -196,7 +189,7 @@ impl<'a> Map<'a> {
         panel.add(Points::of(bent, Marker::Circle, 1.8, BLUE).labelled("its bends"));
         let kept = Line::through(path.clone(), Stroke::solid(VERMILLION, 1.6)).marked(Marker::Square);
         panel.add(kept.labelled("after deletion"));
-        add_ends(&mut panel, &path);
+        ask::add_ends(&mut panel, &path, 3.2, ENDS);
         Ok(panel)
     }
 
@@ -239,14 +232,8 @@ fn window(title: String, [x, y]: [[f64; 2]; 2]) -> Result<Panel, RenderError> {
     Ok(Panel::new(title, x, y).trimmed(Trim::Frame).with_equal_scales())
 }
 
-/// Markers on the first and the last of `points`.
-fn add_ends(panel: &mut Panel, points: &[[f64; 2]]) {
-    for (label, marker, at) in
-        [("start", Marker::Circle, points.first()), ("goal", Marker::Diamond, points.last())]
-    {
-        panel.add(Points::of(at.into_iter().copied().collect(), marker, 3.2, GREEN).labelled(label));
-    }
-}
+/// How the ends of paths are marked.
+const ENDS: [(Marker, Rgb); 2] = [(Marker::Circle, GREEN), (Marker::Diamond, GREEN)];
 
 /// A cell (x, y) is drawn as the unit square from (x, y) to (x + 1, y + 1), as the paper places its points.
 fn centres(path: &Exhibit) -> Vec<[f64; 2]> {

@@ -31,7 +31,7 @@ studies = ["identify_full", "identify_front", "identify_branch", "identify_poses
 "#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
-        ask::known(settings, study, &[], std::slice::from_ref(&read.contender))?;
+        ask::known(settings, study, [], [&read.contender])?;
         if let Some(missing) = read.studies.iter().find(|name| paper.study(name).is_none()) {
             let known = paper.studies.iter().map(|study| study.name.as_str());
             let message = none_called("study", missing, known);

@@ -91,8 +91,7 @@ impl Intervals {
                 panel.metric.as_ref().map(|name| ask::produced(settings, study, name)).transpose()?;
             let (group, contender) =
                 if metric.is_some() { (&None, &panel.against) } else { (&panel.against, &None) };
-            let groups: Vec<String> = panel.problems.iter().chain(group).cloned().collect();
-            ask::known(settings, study, &groups, contender.as_slice())?;
+            ask::known(settings, study, panel.problems.iter().chain(group), contender)?;
             let printed =
                 ask::all_printed(settings, paper, &format!("panels.{index}.printed"), &panel.printed)?;
             panels.push(What { metric, printed });
@@ -212,11 +211,8 @@ impl Kind for Intervals {
         let names = self.names(scene);
         let row_pt = if self.is_by_group() { 6.0 + 5.0 * self.contenders.len() as f64 } else { 13.0 };
         let height = (names.len() as f64 * row_pt).max(60.0);
-        let mut sheet = Sheet::new(Width::Double, self.columns(), height).level();
-        for index in 0..self.panels.len() {
-            sheet.add(self.panel(scene, index, &names)?);
-        }
-        Ok(sheet)
+        let panels = (0..self.panels.len()).map(|index| self.panel(scene, index, &names));
+        Sheet::new(Width::Double, self.columns(), height).level().with(panels)
     }
 
     fn table(&self, scene: &Scene<'_>, label: &str, caption: &str) -> Result<Option<Table>, RenderError> {

@@ -128,32 +128,6 @@ pub static REGISTRY: &[&Entry] = &[
     &work_cell::ENTRY,
 ];
 
-/// How the keys of settings start that name contenders.
-const CONTENDER_KEYS: [&str; 3] = ["contender", "against", "rows"];
-
-/// Refuses contenders and problem groups that `study` does not have.
-fn check_labels<'a>(
-    settings: &Settings,
-    study: &Study,
-    contenders: impl IntoIterator<Item = &'a String>,
-    problems: impl IntoIterator<Item = &'a String>,
-) -> Result<(), SettingsError> {
-    let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
-    let mut faults = Faults::default();
-    for label in contenders.into_iter().filter(|label| !known.contains(&label.as_str())) {
-        let hint = did_you_mean(label, known.iter().copied());
-        let message = format!("no contender is called `{label}`{hint}; they are {}", known.join(", "));
-        faults.add(settings.error_about("", &CONTENDER_KEYS, label, message));
-    }
-    let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-    for label in problems.into_iter().filter(|label| !groups.contains(&label.as_str())) {
-        let hint = did_you_mean(label, groups.iter().copied());
-        let message = format!("no problem group is called `{label}`{hint}; they are {}", groups.join(", "));
-        faults.add(settings.error_about("", &["problem"], label, message));
-    }
-    faults.done()
-}
-
 /// The claim called `id`, whose criterion `name` says what is to be shown.
 fn asked_claim<'p>(
     settings: &Settings,

@@ -30,7 +30,7 @@ savings = ["length.least", "length.greatest"]
 "#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
-        ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
+        ask::known(settings, study, [&read.problems], &read.contenders)?;
         let metric = ask::metric(settings, &read.metric)?;
         let printed = ask::all_printed(settings, paper, "savings", read.savings.iter().flatten())?;
         let sweep = ask::sweep(settings, study, &read.sweep)?;

@@ -27,7 +27,7 @@ over = "obstacles"
 "#,
     build: |settings, study, _paper| {
         let read: Settings = settings.read()?;
-        super::check_labels(settings, study, [&read.contender, &read.against], &read.problems)?;
+        ask::known(settings, study, &read.problems, [&read.contender, &read.against])?;
         let metric = ask::metric(settings, &read.metric)?;
         let column = column::find(&read.over)
             .ok_or_else(|| settings.error_at("over", format!("there is no column `{}`", read.over)))?;

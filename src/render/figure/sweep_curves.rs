@@ -81,8 +81,7 @@ const DRAWN: usize = 60;
 impl SweepCurves {
     fn new(settings: &Settings, study: &Study, paper: &Paper) -> Result<Self, SettingsError> {
         let read: Read = settings.read()?;
-        let contenders: Vec<String> = read.rows.iter().map(|row| row.contender.clone()).collect();
-        ask::known(settings, study, std::slice::from_ref(&read.problems), &contenders)?;
+        ask::known(settings, study, [&read.problems], read.rows.iter().map(|row| &row.contender))?;
         let metrics =
             read.metrics.iter().map(|name| ask::metric(settings, name)).collect::<Result<_, _>>()?;
         if study.sweeps.len() > 1 {
@@ -206,25 +205,17 @@ impl Kind for SweepCurves {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         if !self.metrics.is_empty() {
             let note = "A trial that spent its budget shows what it spent.";
-            let mut sheet = Sheet::new(Width::Double, self.metrics.len(), 165.0).noted(note);
-            for metric in &self.metrics {
-                sheet.add(self.metric(scene, metric)?);
-            }
-            return Ok(sheet);
+            let sheet = Sheet::new(Width::Double, self.metrics.len(), 165.0).noted(note);
+            return sheet.with(self.metrics.iter().map(|metric| self.metric(scene, metric)));
         }
         if self.read.single_draws {
-            let mut sheet = Sheet::new(Width::Double, self.rows.len(), 170.0);
-            for row in &self.rows {
-                sheet.add(self.single_draws(scene, row)?);
-            }
-            return Ok(sheet);
+            let panels = self.rows.iter().map(|row| self.single_draws(scene, row));
+            return Sheet::new(Width::Double, self.rows.len(), 170.0).with(panels);
         }
         let mut panel = self.panel("")?;
         for (place, row) in self.rows.iter().enumerate() {
             self.add_band(scene, &mut panel, row, place)?;
         }
-        let mut sheet = Sheet::new(Width::Double, 1, 210.0);
-        sheet.add(panel);
-        Ok(sheet)
+        Sheet::new(Width::Double, 1, 210.0).with([Ok(panel)])
     }
 }

@@ -6,7 +6,7 @@ use crate::analysis::selection::{Case, Selection, by_draw, cases};
 use crate::analysis::statistic::median;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
-use crate::render::chart::{Axis, Key, Panel, Sheet, Trim};
+use crate::render::chart::{Key, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{Dash, GREY, Rgb, Stroke, WHITE, Width, YELLOW, series_color};
@@ -29,7 +29,7 @@ at_once = 3
 "#,
     build: |settings, study, _paper| {
         let read: WorkCell = settings.read()?;
-        ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
+        ask::known(settings, study, [&read.problems], &read.contenders)?;
         if read.poses.is_empty() == read.contenders.is_empty() {
             return Err(settings.error("either poses or contenders are accepted"));
         }
@@ -98,13 +98,10 @@ fn add_capsules(solids: &mut Solids, capsules: &Exhibit, paint: Paint) {
     }
 }
 
-/// A panel that shows `solids`.
-fn panel(title: &str, solids: Solids, camera: Camera, keys: Vec<Key>) -> Result<Panel, RenderError> {
-    let unused = || Axis::linear("", 0.0, 1.0);
-    let mut panel = Panel::new(title, unused()?, unused()?).trimmed(Trim::Bare);
+/// A panel that shows `scene`.
+fn panel(title: &str, scene: Solids, camera: Camera, keys: Vec<Key>) -> Panel {
     let bar = Some(ScaleBar { length: 500.0, label: "500 mm".to_owned() });
-    panel.add(SceneMark { scene: solids, camera, bar, keys });
-    Ok(panel)
+    SceneMark { scene, camera, bar, keys }.panel(title)
 }
 
 impl WorkCell {
@@ -129,7 +126,7 @@ impl WorkCell {
                     }
                     keys.push(cell_key(format!("robot at {name}"), color));
                 }
-                sheet.add(panel(title, solids, camera, keys)?);
+                sheet.add(panel(title, solids, camera, keys));
             }
         }
         Ok(sheet)
@@ -142,12 +139,9 @@ impl WorkCell {
         if let Some(rank) = self.rank(scene, replicate) {
             sheet = sheet.titled(rank);
         }
-        for view in 0..VIEWS.len() {
-            for index in 0..self.contenders.len() {
-                sheet.add(self.way(scene, replicate, index, view)?);
-            }
-        }
-        Ok(sheet)
+        let all =
+            (0..VIEWS.len()).flat_map(|view| (0..self.contenders.len()).map(move |index| (view, index)));
+        sheet.with(all.map(|(view, index)| self.way(scene, replicate, index, view)))
     }
 
     fn way(
@@ -182,7 +176,7 @@ impl WorkCell {
         } else {
             format!("the same {seen}")
         };
-        panel(&title, solids, camera, Vec::new())
+        Ok(panel(&title, solids, camera, Vec::new()))
     }
 
     /// What the picked draw's saving is among those of all draws, in words.

@@ -3,7 +3,7 @@
 use super::order::{Item, Look, back_to_front};
 use super::{Camera, Scene, Vec3, dot, sub};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
-use crate::render::chart::{Key, Mark, View};
+use crate::render::chart::{Axis, Key, Mark, Panel, Trim, View};
 use crate::render::style::{BLUE, Fill, GREEN, HAIR_PT, INK, Rgb, Stroke, TextSize, VERMILLION};
 
 /// A bar that shows how long a length looks.
@@ -69,6 +69,14 @@ impl Lens {
 }
 
 impl SceneMark {
+    /// It alone on a panel without axes.
+    pub fn panel(self, title: impl Into<String>) -> Panel {
+        let bare = || Axis::over("", []);
+        let mut panel = Panel::new(title, bare(), bare()).trimmed(Trim::Bare);
+        panel.add(self);
+        panel
+    }
+
     /// Everything to draw, back to front.
     pub(super) fn items(&self) -> Vec<Item> {
         let mut items = Vec::new();
