@@ -230,7 +230,8 @@ impl Verdicts {
         let asserted = whole.iter().filter(|judged| judged.theorem.is_some()).count();
         let tally = self.tally();
         let found = tally[1..].iter().zip(Verdict::ALL).filter(|(count, _)| **count > 0);
-        let found: Vec<String> = found.map(|(count, verdict)| format!("{count} {}", verdict.name())).collect();
+        let found: Vec<String> =
+            found.map(|(count, verdict)| format!("{count} {}", verdict.name())).collect();
         let what = if tally[0] == 1 { "sentence or row" } else { "sentences and rows" };
         let classes = format!("{} {what}: {}", tally[0], found.join(", "));
         let parts = (!parts.is_empty()).then(|| {

@@ -41,7 +41,10 @@ impl Render {
         check_report(&paper, &places)?;
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         let drawn = draw(&paper, &places, self.only.as_deref(), stop);
-        let drawn = drawn.map_err(|failure| if self.only.is_some() { failure } else { unread(&paper, &places, failure) })?;
+        let drawn =
+            drawn.map_err(
+                |failure| if self.only.is_some() { failure } else { unread(&paper, &places, failure) },
+            )?;
         put(&paper, &places, &drawn, stop)?;
         say!("{} files are in {}", drawn.outputs.files.len(), places.plots.display());
         all_drawn(&drawn.outputs)

@@ -218,8 +218,10 @@ pub fn chapter(
 ) -> Result<(Chapter, Output), RenderError> {
     let above = path.parent().unwrap_or(Path::new(""));
     let plots = folder.strip_prefix(above).unwrap_or(folder);
-    let back = "../".repeat(plots.components().count()) + &path.file_name().unwrap_or_default().to_string_lossy();
-    let plots = plots.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
+    let back =
+        "../".repeat(plots.components().count()) + &path.file_name().unwrap_or_default().to_string_lossy();
+    let plots =
+        plots.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
     let page = Page { evidence, verdicts, plots, undrawn, beside: beside(folder) };
     let details = Output { name: "details.md".to_owned(), bytes: page.details(&back).into_bytes() };
     Ok((page.chapter()?, details))

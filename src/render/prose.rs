@@ -83,7 +83,8 @@ pub fn wrapped(first: &str, text: &str, indent: usize, columns: usize) -> String
 
 fn begins_a_block(word: &str) -> bool {
     let number = word.trim_end_matches(['.', ')']);
-    matches!(word, "-" | "+" | "*" | ">") || word.starts_with(['#', '=', '>'])
+    matches!(word, "-" | "+" | "*" | ">")
+        || word.starts_with(['#', '=', '>'])
         || number.len() < word.len() && number.bytes().all(|byte| byte.is_ascii_digit())
 }
 

@@ -8,7 +8,7 @@ pub use chapter::{Chapter, Page, unread};
 
 use super::prose::{markdown, wrapped};
 use crate::analysis::class::Verdict;
-use crate::analysis::verdict::Judged;
+use crate::analysis::verdict::{Judged, Verdicts};
 use crate::study::StudyError;
 use crate::study::store::write_whole;
 use std::fs;
@@ -30,7 +30,7 @@ pub(super) const COLUMNS: usize = 120;
 const OPENING: &str = "# What the papers claim and what we found
 
 `replan repro PAPER` writes a paper's chapter and its line in the table, `replan render PAPER --check` says whether both are
-current; what stands between markers is not edited by hand. What the classes mean: [README](README.md#verdicts).
+current; what stands between markers is not edited by hand. The project's README says what the classes mean.
 ";
 
 /// The name of the overview among the chapters: it sorts before the name of any paper.
@@ -117,6 +117,26 @@ pub fn anchor(name: &str) -> String {
 /// A place that links lead to.
 fn place(name: &str) -> String {
     format!("<a id=\"{}\"></a>", anchor(name))
+}
+
+/// `text` as Markdown, in which claims of `verdicts` that are named as code lead to their evidence in the file `details`.
+fn linked(text: &str, verdicts: &Verdicts, details: &str) -> String {
+    let safe = markdown(text);
+    let pieces: Vec<&str> = safe.split('`').collect();
+    if pieces.len() % 2 == 0 {
+        return safe;
+    }
+    let piece = |(at, piece): (usize, &&str)| match (at % 2, verdicts.claim(piece)) {
+        (0, _) => (*piece).to_owned(),
+        (_, Some(judged)) => link(judged, &format!("`{piece}`"), details),
+        (_, None) => format!("`{piece}`"),
+    };
+    pieces.iter().enumerate().map(piece).collect()
+}
+
+/// A link from `words` to the evidence of a claim in the file `details`.
+fn link(judged: &Judged, words: &str, details: &str) -> String {
+    format!("[{words}]({details}#{})", anchor(&judged.claim))
 }
 
 /// A paragraph, its text shown as it is.

@@ -59,7 +59,11 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
     let label = format!("{}:{}", paper.id, table.id);
     let mut latex = Table::new(label, &table.caption, &columns);
     let line = |first: &str, second: &str, cells: &[String]| {
-        [first, second].into_iter().chain(cells.iter().map(String::as_str)).map(Cell::from).collect::<Vec<_>>()
+        [first, second]
+            .into_iter()
+            .chain(cells.iter().map(String::as_str))
+            .map(Cell::from)
+            .collect::<Vec<_>>()
     };
     latex.head(line("", "", &table.columns));
     for row in &table.rows {
@@ -69,8 +73,11 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
         };
         latex.row(line(&row.label, "printed", &beside.printed));
         latex.row(line("", "ours", &beside.ours));
-        let classes: Vec<String> =
-            beside.classes.iter().map(|judged| judged.map_or_else(dash, |j| j.outcome().to_owned())).collect();
+        let classes: Vec<String> = beside
+            .classes
+            .iter()
+            .map(|judged| judged.map_or_else(dash, |j| j.outcome().to_owned()))
+            .collect();
         let mut classes = line("", "verdict", &classes);
         for (cell, judged) in classes.iter_mut().skip(2).zip(&beside.classes) {
             let jointly = table.jointly.iter().filter(|together| {
@@ -120,7 +127,8 @@ pub fn markdown(
             }
             Some(Beside { printed, ours, classes }) => {
                 let cells = printed.iter().zip(&ours).zip(&classes);
-                let cells = cells.flat_map(|((printed, ours), judged)| [safe(printed), safe(ours), class(judged)]);
+                let cells =
+                    cells.flat_map(|((printed, ours), judged)| [safe(printed), safe(ours), class(judged)]);
                 lines.push(std::iter::once(label).chain(cells).collect());
             }
         }
@@ -129,7 +137,8 @@ pub fn markdown(
         line("", "", escaped(&table.columns))
     } else {
         let columns = escaped(&table.columns).into_iter();
-        let columns = columns.flat_map(|name| [format!("{name}: printed"), "ours".to_owned(), "class".to_owned()]);
+        let columns =
+            columns.flat_map(|name| [format!("{name}: printed"), "ours".to_owned(), "class".to_owned()]);
         std::iter::once(String::new()).chain(columns).collect()
     };
     let rule = vec!["---".to_owned(); head.len()];

@@ -1,10 +1,11 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
-use super::{Undrawn, begin_of_line, item, paragraph, place, said};
+use super::details::SECTIONS;
+use super::{COLUMNS, Undrawn, begin_of_line, item, link, linked, paragraph, place, said};
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::{Judged, Verdicts};
-use crate::render::prose::{markdown, prose};
+use crate::render::prose::{markdown, prose, wrapped};
 use crate::render::tables::{self, short};
 use crate::render::{RenderError, results, state};
 use crate::study::paper::{CLAIMS, FIGURES, Paper};
@@ -46,8 +47,11 @@ pub fn unread(paper: &Paper, why: &str) -> Chapter {
 fn heading(paper: &Paper) -> String {
     let source = &paper.source;
     let mut text = format!("## {} {}\n\n", markdown(&paper.id), place(&paper.id));
-    let about: Vec<&str> =
-        [Some(&source.title), source.authors.as_ref(), source.published.as_ref()].into_iter().flatten().map(String::as_str).collect();
+    let about: Vec<&str> = [Some(&source.title), source.authors.as_ref(), source.published.as_ref()]
+        .into_iter()
+        .flatten()
+        .map(String::as_str)
+        .collect();
     text += &paragraph(&about.join(". "));
     text
 }
@@ -66,7 +70,7 @@ impl Page<'_> {
             text.insert_str(text.find('\n').unwrap_or(0) + 1, &state);
         }
         // Findings were written on the study's own run; of any other they may be false.
-        let found = |text: &String| markdown(&prose(text, verdicts));
+        let found = |text: &String| linked(&prose(text, verdicts), verdicts, &self.details_file());
         if state.is_empty() {
             text.extend(paper.report.findings.iter().map(|finding| item(0, &found(finding))));
             text += "\n";
@@ -85,10 +89,11 @@ impl Page<'_> {
 
     /// The paper's tables that hold claims, and those of our results that the chapter shows.
     fn tables(&self, text: &mut String) -> Result<(), RenderError> {
-        let (paper, link) = (self.evidence.paper, |judged: &Judged| self.class(judged));
+        let (paper, details) = (self.evidence.paper, self.details_file());
+        let class = |judged: &Judged| link(judged, judged.outcome(), &details);
         for table in paper.tables.iter().filter(|table| table.rows.iter().any(|row| !row.claims.is_empty())) {
             *text += &paragraph(&table.caption);
-            *text += &tables::markdown(self.evidence, table, self.verdicts, link)?;
+            *text += &tables::markdown(self.evidence, table, self.verdicts, class)?;
             let ours = table.ours.as_ref().map(|ours| &ours.note);
             let notes: Vec<&str> = table.notes.iter().chain(ours).map(String::as_str).collect();
             *text += "\n";
@@ -134,13 +139,8 @@ impl Page<'_> {
         image + &paragraph(&caption)
     }
 
-    /// The class of a claim as a link to its evidence, named at the end of the chapter.
-    fn class(&self, judged: &Judged) -> String {
-        format!("[{}][{}]", judged.outcome(), self.label(judged))
-    }
-
-    fn label(&self, judged: &Judged) -> String {
-        format!("{} {}", self.evidence.paper.id, judged.claim)
+    fn details_file(&self) -> String {
+        format!("{}/details.md", self.plots)
     }
 
     fn claims(&self, text: &mut String) {
@@ -152,37 +152,35 @@ impl Page<'_> {
         };
         shown.truncate(CLAIMS);
         *text += "| claim | in the paper | ours | class |\n|---|---|---|---|\n";
+        let details = self.details_file();
         for judged in &shown {
-            let ours = judged.ours().map_or_else(|| "–".to_owned(), |ours| {
-                format!("{} ({}; n = {})", short(ours), markdown(&ours.what), ours.n)
-            });
+            let ours = judged.ours().map_or_else(
+                || "–".to_owned(),
+                |ours| format!("{} ({}; n = {})", short(ours), markdown(&ours.what), ours.n),
+            );
             let readings = judged.across_readings().map_or_else(String::new, |words| format!(" ({words})"));
-            let (claim, class) = (&judged.claim, self.class(judged));
-            let said = markdown(&format!("{}: {}", judged.at, said(judged)));
-            *text += &format!("| `{claim}` | {said} | {ours} | {class}{} |\n", markdown(&readings));
+            let claim = link(judged, &format!("`{}`", judged.claim), &details);
+            let (said, class) = (markdown(&format!("{}: {}", judged.at, said(judged))), judged.outcome());
+            *text += &format!("| {claim} | {said} | {ours} | {class}{} |\n", markdown(&readings));
         }
-        let details = format!("{}/details.md", self.plots);
-        *text += &format!(
-            "\n{} More: [evidence of all {} claims]({details}), [what holds together]({details}#together), \
-             [readings]({details}#readings), [ledger]({details}#ledger), [studies]({details}#studies)",
-            self.counts(),
-            verdicts.claims.len()
-        );
+        let all = verdicts.claims.len();
+        let mut more = format!("{} More: [evidence of all {all} claims]({details})", self.counts());
+        for (name, to) in SECTIONS.iter().skip(1) {
+            more += &format!(", [{}]({details}#{to})", name.to_lowercase());
+        }
         for file in &self.beside {
-            *text += &format!(", [{}]({}/{file})", file.trim_end_matches(".md"), self.plots);
+            more += &format!(", [{}]({}/{file})", file.trim_end_matches(".md"), self.plots);
         }
-        *text += ".\n\n";
-        let linked = paper.tables.iter().flat_map(|table| &table.rows).flat_map(|row| &row.claims);
-        let linked = linked.filter_map(|id| verdicts.claim(id.get_ref())).chain(shown.iter().copied());
-        let targets: BTreeSet<String> = linked
-            .map(|judged| format!("[{}]: {details}#{}\n", self.label(judged), super::anchor(&judged.claim)))
-            .collect();
-        text.extend(targets);
+        *text += &format!("\n{}.\n", wrapped("", &more, 0, COLUMNS));
     }
 
     fn counts(&self) -> String {
         let counts = self.verdicts.counts();
         let more = counts.parts.into_iter().chain(counts.asserted);
-        std::iter::once(counts.classes).chain(more).map(|said| format!("{said}.")).collect::<Vec<_>>().join(" ")
+        std::iter::once(counts.classes)
+            .chain(more)
+            .map(|said| format!("{said}."))
+            .collect::<Vec<_>>()
+            .join(" ")
     }
 }

@@ -2,8 +2,8 @@
 //! claims have in common is said once.
 
 use super::chapter::Page;
-use super::{COLUMNS, anchor, item, paragraph, place, said};
-use crate::analysis::verdict::{Finding, Judged, Together};
+use super::{COLUMNS, anchor, item, linked, paragraph, place, said};
+use crate::analysis::verdict::{Finding, Judged, Together, Verdicts};
 use crate::render::prose::{markdown, wrapped};
 use crate::render::results;
 use crate::render::tables::{self, short};
@@ -30,7 +30,7 @@ impl Page<'_> {
         text.extend(paper.source.notes.iter().map(|note| item(0, &markdown(note))));
         self.section(&mut text, 0);
         let mut known = BTreeMap::new();
-        text.extend(verdicts.claims.iter().map(|judged| evidence(judged, &mut known)));
+        text.extend(verdicts.claims.iter().map(|judged| evidence(judged, verdicts, &mut known)));
         self.section(&mut text, 1);
         self.together(&mut text);
         self.section(&mut text, 2);
@@ -79,8 +79,9 @@ impl Page<'_> {
             *text += "The studies have no readings.\n";
         }
         for reading in readings {
-            let option =
-                |name: &String| if *name == reading.default { format!("**{name}** (default)") } else { name.clone() };
+            let option = |name: &String| {
+                if *name == reading.default { format!("**{name}** (default)") } else { name.clone() }
+            };
             let options: Vec<String> = reading.options.keys().map(option).collect();
             let about = format!("`{}`: {}. {}", reading.id, options.join(", "), markdown(&reading.why));
             *text += &item(0, &about);
@@ -135,8 +136,13 @@ impl Page<'_> {
             ids.iter().map(|id| id.get_ref().clone()).collect::<Vec<String>>()
         };
         let mut answers = Vec::new();
-        if !row.claims.is_empty() {
-            answers.push(links(&names(&row.claims)));
+        // Those that answer a number stand beside it.
+        let with_number: Vec<String> =
+            row.numbers.iter().flat_map(|numbers| names(&numbers.claims)).collect();
+        let claims: Vec<String> =
+            names(&row.claims).into_iter().filter(|claim| !with_number.contains(claim)).collect();
+        if !claims.is_empty() {
+            answers.push(links(&claims));
         }
         answers.extend(names(&row.figures).iter().map(|id| self.file(id)));
         answers.extend(names(&row.studies).iter().map(|study| format!("study `{study}`")));
@@ -145,7 +151,10 @@ impl Page<'_> {
         let mut text =
             item(0, &format!("**{}**: {}{answers}", markdown(row.item.get_ref()), markdown(&row.says)));
         for numbers in &row.numbers {
-            let number = |(printed, claim): (&base::settings::Spanned<String>, Option<&base::settings::Spanned<String>>)| {
+            let number = |(printed, claim): (
+                &base::settings::Spanned<String>,
+                Option<&base::settings::Spanned<String>>,
+            )| {
                 let own = claim.filter(|_| numbers.claims.len() > 1).map(|claim| links(&[claim.get_ref()]));
                 markdown(printed.get_ref()) + &own.map_or_else(String::new, |own| format!(" {own}"))
             };
@@ -183,11 +192,14 @@ impl Page<'_> {
                 let counted = study.contenders.iter().map(|contender| {
                     let rows = run.rows(&group.label, &contender.label);
                     let of = |status: &Status| rows.iter().filter(|row| row.status == *status).count();
-                    let counts = Status::ALL.iter().map(|status| (of(status), status)).filter(|(count, _)| *count > 0);
-                    let counts: Vec<String> = counts.map(|(count, status)| format!("{count} {status}")).collect();
+                    let counts =
+                        Status::ALL.iter().map(|status| (of(status), status)).filter(|(count, _)| *count > 0);
+                    let counts: Vec<String> =
+                        counts.map(|(count, status)| format!("{count} {status}")).collect();
                     (markdown(&contender.label), counts.join(", "))
                 });
-                let counted: Vec<(String, String)> = counted.filter(|(_, counts)| !counts.is_empty()).collect();
+                let counted: Vec<(String, String)> =
+                    counted.filter(|(_, counts)| !counts.is_empty()).collect();
                 *text += &item(1, &format!("{}: {}", markdown(&group.label), alike(&counted)));
             }
         }
@@ -204,13 +216,21 @@ fn alike(counted: &[(String, String)]) -> String {
         }
     }
     let each = |(counts, names): &(&str, Vec<&str>)| {
-        if names.len() > 1 { format!("{counts} each of {}", names.join(", ")) } else { format!("{counts} of {}", names[0]) }
+        if names.len() > 1 {
+            format!("{counts} each of {}", names.join(", "))
+        } else {
+            format!("{counts} of {}", names[0])
+        }
     };
-    if groups.is_empty() { "no trials under this reading".to_owned() } else { groups.iter().map(each).collect::<Vec<_>>().join("; ") }
+    if groups.is_empty() {
+        "no trials under this reading".to_owned()
+    } else {
+        groups.iter().map(each).collect::<Vec<_>>().join("; ")
+    }
 }
 
 /// The parts of the details with their anchors.
-const SECTIONS: [(&str, &str); 7] = [
+pub(super) const SECTIONS: [(&str, &str); 7] = [
     ("Claims", "claims"),
     ("What holds together", "together"),
     ("Readings", "readings"),
@@ -235,9 +255,10 @@ fn together(set: &Together, with_fail: bool) -> String {
 }
 
 /// What was found about one claim; `known` has the claims that said something first.
-fn evidence<'a>(judged: &'a Judged, known: &mut BTreeMap<String, &'a str>) -> String {
+fn evidence<'a>(judged: &'a Judged, verdicts: &Verdicts, known: &mut BTreeMap<String, &'a str>) -> String {
     let mut text = format!("{}\n", place(&judged.claim));
-    let readings = judged.across_readings().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
+    let readings =
+        judged.across_readings().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
     let mut about = format!("**`{}`: {}{readings}**. ", judged.claim, judged.outcome());
     about += &markdown(&format!("{}: {}", judged.at, said(judged)));
     if let Some(whole) = &judged.part_of {
@@ -248,7 +269,8 @@ fn evidence<'a>(judged: &'a Judged, known: &mut BTreeMap<String, &'a str>) -> St
     }
     text += &(wrapped("", &about, 0, COLUMNS) + ".\n\n");
     let theorem = judged.theorem.iter().map(|theorem| format!("it must hold: {}", markdown(theorem)));
-    let findings = judged.findings.iter().flat_map(|finding| finding_lines(finding, known, &judged.claim));
+    let findings =
+        judged.findings.iter().flat_map(|finding| finding_lines(finding, verdicts, known, &judged.claim));
     let lines: Vec<(usize, String)> = theorem.map(|line| (0, line)).chain(findings).collect();
     text.extend(lines.iter().map(|(depth, line)| item(*depth, line)));
     text + "\n"
@@ -257,6 +279,7 @@ fn evidence<'a>(judged: &'a Judged, known: &mut BTreeMap<String, &'a str>) -> St
 /// What one criterion found, as items of a list with their depths.
 fn finding_lines<'a>(
     finding: &'a Finding,
+    verdicts: &Verdicts,
     known: &mut BTreeMap<String, &'a str>,
     claim: &'a str,
 ) -> Vec<(usize, String)> {
@@ -265,19 +288,23 @@ fn finding_lines<'a>(
         head += &format!(": *{}*", verdict.name());
     }
     if let Some(ours) = &finding.ours {
-        let solved = ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
+        let solved =
+            ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
         head += &format!("; ours {} ({}; n = {}{solved})", short(ours), markdown(&ours.what), ours.n);
     }
     let mut lines = vec![(0, head)];
     let because = finding.because.iter().map(String::clone);
     let settles = finding.settles.iter().map(|settles| format!("what would settle it: {settles}"));
-    let premises = (!finding.premises.is_empty()).then(|| format!("premises: {}", finding.premises.join("; ")));
+    let premises =
+        (!finding.premises.is_empty()).then(|| format!("premises: {}", finding.premises.join("; ")));
     for said in because.chain(settles).chain(premises) {
         let first = *known.entry(said.clone()).or_insert(claim);
         let is_said = first != claim && said.len() > SHORT;
-        lines.push((1, if is_said { format!("as for {}", links(&[first])) } else { markdown(&said) }));
+        let said = if is_said { format!("as for {}", links(&[first])) } else { linked(&said, verdicts, "") };
+        if !lines.contains(&(1, said.clone())) {
+            lines.push((1, said));
+        }
     }
-    lines.dedup();
     if let Some(trial) = &finding.trial {
         lines.push((1, format!("trial `{trial}`")));
     }

@@ -84,7 +84,9 @@ impl Paper {
                 format!("ledger row `{item}` has an answer and `none`, the reason why there is none")
             }
             None if is_figure && row.figures.is_empty() => {
-                format!("{item} of the paper needs `figures`, ours beside it, or `none`, why there is no such figure")
+                format!(
+                    "{item} of the paper needs `figures`, ours beside it, or `none`, why there is no such figure"
+                )
             }
             None if !is_answered && row.numbers.is_empty() => format!(
                 "ledger row `{item}` needs claims, figures, studies or numbers that answer it, or `none` with the reason"
@@ -123,7 +125,8 @@ impl Paper {
         }
         let is_listed = |id: &str, number: &str| {
             self.ledger.iter().any(|row| {
-                let mut named = row.claims.iter().chain(row.numbers.iter().flat_map(|numbers| &numbers.claims));
+                let mut named =
+                    row.claims.iter().chain(row.numbers.iter().flat_map(|numbers| &numbers.claims));
                 let mut printed = row.numbers.iter().flat_map(|numbers| &numbers.printed);
                 named.any(|claim| claim.get_ref() == id) && printed.any(|own| own.get_ref() == number)
             })
@@ -131,7 +134,8 @@ impl Paper {
         for (index, claim) in self.claims.iter().enumerate() {
             let Some(printed) = &claim.printed else { continue };
             if !is_listed(&claim.id, printed) {
-                let message = format!("no row of the ledger lists the number {printed} for claim `{}`", claim.id);
+                let message =
+                    format!("no row of the ledger lists the number {printed} for claim `{}`", claim.id);
                 faults.add(self.document.error_at(&format!("claim.{index}.printed"), message));
             }
         }
@@ -156,7 +160,8 @@ impl Paper {
         }
         let listed: usize = self.ledger.iter().flat_map(|row| &row.numbers).map(|n| n.printed.len()).sum();
         if listed != self.prints.numbers as usize {
-            let message = format!("the ledger lists {listed} printed numbers; `numbers` says {}", self.prints.numbers);
+            let message =
+                format!("the ledger lists {listed} printed numbers; `numbers` says {}", self.prints.numbers);
             faults.add(self.document.error_at("prints.numbers", message));
         }
     }

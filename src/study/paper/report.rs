@@ -50,10 +50,19 @@ pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String 
 
 impl Paper {
     /// Every claim, form, figure and table that the chapter names exists.
-    pub(super) fn check_report(&self, claims: &BTreeSet<&str>, figures: &BTreeSet<&str>, faults: &mut Faults) {
+    pub(super) fn check_report(
+        &self,
+        claims: &BTreeSet<&str>,
+        figures: &BTreeSet<&str>,
+        faults: &mut Faults,
+    ) {
         let report = &self.report;
         let finding = report.finding.iter().map(|text| ("report.finding".to_owned(), text));
-        let findings = report.findings.iter().enumerate().map(|(index, text)| (format!("report.findings.{index}"), text));
+        let findings = report
+            .findings
+            .iter()
+            .enumerate()
+            .map(|(index, text)| (format!("report.findings.{index}"), text));
         for (place, text) in finding.chain(findings) {
             filled(text, |claim, form| {
                 let hint = did_you_mean(claim, claims.iter().copied());

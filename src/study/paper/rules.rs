@@ -120,7 +120,13 @@ impl Paper {
         }
     }
 
-    pub(super) fn known(&self, what: &str, names: &[Spanned<String>], known: &BTreeSet<&str>, faults: &mut Faults) {
+    pub(super) fn known(
+        &self,
+        what: &str,
+        names: &[Spanned<String>],
+        known: &BTreeSet<&str>,
+        faults: &mut Faults,
+    ) {
         for name in names {
             if !known.contains(name.get_ref().as_str()) {
                 let message = none_called(what, name.get_ref(), known.iter().copied());
