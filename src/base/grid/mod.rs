@@ -7,6 +7,7 @@
 //! The order of neighbours is written once, as [`DIRECTIONS`], and every mask, search and tie rule follows it.
 //! Costs belong to the search floor.
 
+mod columns;
 mod components;
 mod cubic;
 mod error;
@@ -17,6 +18,7 @@ mod random;
 mod sight;
 mod text;
 
+pub use columns::{Bits, Columns, MAX_REACH_CELLS};
 pub use components::{Components, components};
 pub use cubic::{Grid3, MAX_SIDE_NODES, STEPS_26};
 pub use error::GridError;
