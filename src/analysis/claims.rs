@@ -1,38 +1,59 @@
 //! Judges every claim of a paper, and which claims hold together.
 
-use super::check::{self, Check, Context};
-use super::evidence::{Evidence, default_point};
-use super::together::together;
-use super::verdict::{Finding, Judged, Verdict, Verdicts};
+use super::class::{self, Caps, Polarity, Sessions, Verdict};
+use super::context::Context;
+use super::criterion::{self, Criterion};
+use super::evidence::{Evidence, Run, default_point};
+use super::found::Found;
+use super::rule;
+use super::settle::settles;
+use super::together::{Explored, together};
+use super::verdict::{Finding, Judged, Verdicts};
 use crate::study::ReadingChoice;
-use crate::study::paper::{Claim, Paper};
+use crate::study::paper::{Asked, Claim, Paper, Parts};
 use base::hash::sha256;
-use base::settings::SettingsError;
+use base::settings::{Faults, Settings, SettingsError, none_called};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
-/// Builds every check of every claim, so that `replan check` finds what is wrong before anything runs.
+/// Builds every criterion and rule of every claim, so that `replan check` finds what is wrong before anything runs.
 ///
 /// # Errors
-/// An unknown check, a metric that the study does not produce, a problem group or contender that it lacks.
+/// Everything at once: criteria and rules that do not exist, metrics that a study does not produce, problem groups and
+/// contenders that it lacks.
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
+    let mut faults = Faults::default();
+    let ids = || paper.claims.iter().map(|claim| claim.id.as_str());
     for study in &paper.studies {
-        for id in &study.fitted_to {
+        for (index, id) in study.fitted_to.iter().enumerate() {
             if paper.claim(id).is_none() {
-                let message = format!("fitted_to names the claim `{id}`, which {} does not have", paper.id);
-                return Err(study.document.error(0..0, message));
+                let message = format!("fitted_to: {}", none_called("claim", id, ids()));
+                faults.add(study.document.error_at(&format!("fitted_to.{index}"), message));
             }
         }
     }
     let point = default_point(paper);
-    paper.claims.iter().try_for_each(|claim| checks(paper, &point, claim).map(|_| ()))
+    for claim in &paper.claims {
+        for (asked, name, settings) in claim.asked() {
+            let context = Context { claim, settings, paper, point: &point };
+            faults.keep(Built::new(asked, name, &context).map(|_| ()));
+        }
+    }
+    faults.done()
 }
 
 /// The hash of what claims say and how they are judged, for manifests: wording and ledger do not count.
 pub fn claims_hash(paper: &Paper) -> String {
     let judged = paper.claims.iter().map(|claim| {
-        let checks: Vec<String> =
-            claim.checks.iter().map(|(name, settings)| format!("{name}: {}", settings.table())).collect();
-        format!("{} {:?} {:?} {:?} {checks:?}\n", claim.id, claim.printed, claim.digits, claim.untestable)
+        let asked: Vec<String> = claim
+            .asked()
+            .map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()))
+            .collect();
+        let parts = &claim.parts;
+        format!(
+            "{} {:?} {:?} {:?} {asked:?} {parts:?}\n",
+            claim.id, claim.printed, claim.digits, claim.untestable
+        )
     });
     sha256(judged.collect::<String>().as_bytes())
 }
@@ -44,8 +65,10 @@ pub fn claims_hash(paper: &Paper) -> String {
 pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     let paper = evidence.paper;
     // Gathered in order before any error is passed on, so that it is the first claim's.
-    let claims = || paper.claims.par_iter().map(|claim| judge_claim(evidence, claim)).collect::<Vec<_>>();
-    let (claims, sets) = rayon::join(claims, || together(evidence));
+    let alone: Vec<_> = paper.claims.par_iter().map(|claim| judge_alone(evidence, claim)).collect();
+    let alone: Vec<(Judged, Vec<Explored>)> = alone.into_iter().collect::<Result<_, _>>()?;
+    let (judged, explored): (Vec<Judged>, Vec<Vec<Explored>>) = alone.into_iter().unzip();
+    let claims = with_parts(paper, judged);
     let hash = claims_hash(paper);
     let changed = evidence.runs().filter(|run| run.manifest.claims != hash);
     Ok(Verdicts {
@@ -54,58 +77,75 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         quick: evidence.runs().any(|run| run.manifest.quick),
         reading: evidence.point.choices().clone(),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
-        claims: claims.into_iter().collect::<Result<_, _>>()?,
-        together: sets?,
+        claims,
+        together: together(evidence, &explored.concat())?,
     })
 }
 
-/// The checks of a claim, built.
-pub(super) fn checks<'a>(
-    paper: &'a Paper,
-    point: &'a ReadingChoice,
-    claim: &'a Claim,
-) -> Result<Vec<(&'static str, Box<dyn Check + 'a>)>, SettingsError> {
-    let mut built = Vec::new();
-    for (name, settings) in &claim.checks {
-        let entry = check::find(name).ok_or_else(|| {
-            let known: Vec<&str> = check::REGISTRY.iter().map(|entry| entry.name).collect();
-            let message = format!(
-                "claim `{}` asks for the check `{name}`, which does not exist; the checks are {}",
-                claim.id,
-                known.join(", ")
-            );
-            settings.error(message)
+/// A criterion or rule, built.
+enum Built<'a> {
+    Criterion(Box<dyn Criterion + 'a>, &'static criterion::Entry),
+    Rule(Box<dyn rule::Rule + 'a>),
+}
+
+impl<'a> Built<'a> {
+    fn new(asked: Asked, name: &str, context: &Context<'a>) -> Result<Self, SettingsError> {
+        let unknown = |what: &str, known: Vec<&'static str>| {
+            let message =
+                format!("claim `{}`: {}", context.claim.id, none_called(what, name, known.into_iter()));
+            context.settings.error(message)
+        };
+        if asked == Asked::Rule {
+            let entry = rule::find(name)
+                .ok_or_else(|| unknown("rule", rule::REGISTRY.iter().map(|entry| entry.name).collect()))?;
+            return Ok(Self::Rule((entry.build)(context)?));
+        }
+        let entry = criterion::find(name).ok_or_else(|| {
+            unknown("criterion", criterion::REGISTRY.iter().map(|entry| entry.name).collect())
         })?;
-        built.push((entry.name, (entry.build)(&Context { claim, settings, paper, point })?));
+        criterion::explored(entry, context)?;
+        Ok(Self::Criterion((entry.build)(context)?, entry))
     }
-    Ok(built)
 }
 
-/// The verdict on one claim under the evidence's reading, without the reasons.
-///
-/// # Errors
-/// Those of [`validate`].
-pub(super) fn verdict_on(evidence: &Evidence<'_>, claim: &Claim) -> Result<Verdict, SettingsError> {
-    let checks = checks(evidence.paper, &evidence.point, claim)?;
-    let untestable = claim.untestable.as_ref().map(|_| Verdict::Untestable);
-    let found = checks.iter().filter_map(|(_, check)| check.verdict(evidence)).chain(untestable);
-    Ok(found.max().unwrap_or(Verdict::Undecided))
+/// One claim by its own criteria and rules, and what readings make of it where they are explored.
+fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<(Judged, Vec<Explored>), SettingsError> {
+    let (mut findings, mut all_explored) = (Vec::new(), Vec::new());
+    for (asked, name, settings) in claim.asked() {
+        let context = Context { claim, settings, paper: evidence.paper, point: &evidence.point };
+        let mut finding = match Built::new(asked, name, &context)? {
+            Built::Rule(rule) => of_rule(name, rule.find(evidence)),
+            Built::Criterion(criterion, entry) => {
+                let mut finding = of_criterion(entry.name, &*criterion, evidence, claim);
+                if let Some((study, settings)) = criterion::explored(entry, &context)? {
+                    let readings =
+                        explore(entry, evidence, claim, &settings, study.explored().unwrap_or_default())?;
+                    let explored = Explored { claim: claim.id.clone(), study: study.name.clone(), readings };
+                    finding.because.extend(explored.said());
+                    all_explored.push(explored);
+                }
+                finding
+            }
+        };
+        if asked == Asked::Shown {
+            (finding.verdict, finding.settles) = (None, None);
+        }
+        findings.push(finding);
+    }
+    let verdicts = findings.iter().filter_map(|finding| finding.verdict);
+    let verdict = class::combined(verdicts, claim.untestable.is_some());
+    Ok((judged(evidence, claim, verdict, findings), all_explored))
 }
 
-fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
-    let mut findings = Vec::new();
-    for (_, check) in checks(evidence.paper, &evidence.point, claim)? {
-        findings.push(check.judge(evidence));
-    }
+fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings: Vec<Finding>) -> Judged {
     if let Some(reason) = &claim.untestable {
         let because = vec![reason.clone()];
-        let check = "none".to_owned();
-        findings.push(Finding { check, verdict: Some(Verdict::Untestable), because, ..Finding::default() });
+        let (criterion, verdict) = ("none".to_owned(), Some(Verdict::Untestable));
+        findings.push(Finding { criterion, verdict, because, ..Finding::default() });
     }
-    let verdict = combine(&findings);
     let deciding = findings.iter().find(|finding| finding.verdict == Some(verdict));
     let reading = deciding.and_then(|finding| finding.reading.clone());
-    Ok(Judged {
+    Judged {
         claim: claim.id.clone(),
         at: claim.at.clone(),
         says: claim.says.clone(),
@@ -114,13 +154,127 @@ fn judge_claim(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, Setting
         unit: claim.unit.clone(),
         verdict,
         theorem: claim.theorem.clone(),
+        part_of: evidence.paper.whole_of(&claim.id).map(|whole| whole.id.clone()),
+        changed_after_run: claim.changed_after_run.clone(),
         reading: reading.unwrap_or_else(|| evidence.point.name().to_owned()),
         findings,
-    })
+    }
 }
 
-/// The verdict over all checks: a proof that it cannot be outweighs everything, otherwise the weakest counts, so
-/// that nothing comes out better than it is. A claim that was only checked for possibility stays undecided.
-fn combine(findings: &[Finding]) -> Verdict {
-    findings.iter().filter_map(|finding| finding.verdict).max().unwrap_or(Verdict::Undecided)
+fn of_rule(name: &str, found: Found) -> Finding {
+    let caps =
+        Caps { existential: found.existential, without_premises: found.without_premises, ..Caps::default() };
+    let mut finding = finding(name, found, caps);
+    if caps.without_premises && finding.verdict.is_none() {
+        finding.because.push("the premises of the proof do not hold under this reading".to_owned());
+    }
+    finding
+}
+
+fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
+    let verdict = found.outcome.and_then(|outcome| class::of_finding(outcome, caps));
+    let settles = (verdict == Some(Verdict::Undecided)).then(|| settles(&found, caps));
+    Finding {
+        criterion: criterion.to_owned(),
+        verdict,
+        ours: found.ours,
+        trial: found.trial,
+        reading: found.reading,
+        settles,
+        because: found.because,
+        premises: found.premises,
+    }
+}
+
+fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: &Claim) -> Finding {
+    let found = of.find(evidence);
+    let studies = of.studies();
+    let caps = Caps {
+        searched: studies.iter().any(|study| study.searched),
+        fitted: studies.iter().any(|study| study.fitted_to.contains(&claim.id)),
+        existential: found.existential,
+        powerless: found.powerless,
+        censored: found.censored > 0,
+        few: found.needs.is_some(),
+        clock: of.is_clock().then(|| sessions(of, evidence)),
+        without_premises: found.without_premises,
+    };
+    finding(name, found, caps)
+}
+
+/// What the stored sessions of the clock say, each judged by itself.
+fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> Sessions {
+    let stored = of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(Run::sessions).min();
+    let count = stored.unwrap_or(0);
+    if count < class::SESSIONS {
+        return Sessions::TooFew;
+    }
+    let outcome = |session: usize| of.find(&evidence.in_session(session as u32)).outcome;
+    let first = outcome(1);
+    if (2..=count).all(|session| outcome(session) == first) { Sessions::Agree } else { Sessions::Disagree }
+}
+
+/// The class of a criterion under every reading that a study explores.
+fn explore(
+    entry: &'static criterion::Entry,
+    evidence: &Evidence<'_>,
+    claim: &Claim,
+    settings: &Settings,
+    points: Vec<ReadingChoice>,
+) -> Result<Vec<(ReadingChoice, Option<Verdict>)>, SettingsError> {
+    let under = |point: ReadingChoice| {
+        let view = evidence.under(point.clone());
+        let context = Context { claim, settings, paper: evidence.paper, point: &view.point };
+        let criterion = (entry.build)(&context)?;
+        let finding = of_criterion(entry.name, &*criterion, &view, claim);
+        let was_run = finding.ours.is_some();
+        Ok((point, finding.verdict.filter(|_| was_run)))
+    };
+    let found: Vec<Result<_, SettingsError>> = points.into_par_iter().map(under).collect();
+    found.into_iter().collect()
+}
+
+/// What would settle a sentence whose parts leave it open.
+fn parts_settle(parts: &Parts, verdicts: &[Verdict]) -> String {
+    let speaks = |wanted| verdicts.iter().any(|verdict| verdict.polarity() == wanted);
+    if matches!(parts, Parts::MeansOneOf(_)) && speaks(Polarity::For) && speaks(Polarity::Against) {
+        return "which of its parts is meant: the paper does not say, and they speak both ways".to_owned();
+    }
+    "what settles its parts".to_owned()
+}
+
+/// Sentences of parts and rows of cells take their class from theirs.
+fn with_parts(paper: &Paper, mut judged: Vec<Judged>) -> Vec<Judged> {
+    let alone: BTreeMap<String, Verdict> =
+        judged.iter().map(|one| (one.claim.clone(), one.verdict)).collect();
+    for (claim, judged) in paper.claims.iter().zip(&mut judged) {
+        let (name, of, ids): (_, fn(&[Verdict]) -> Verdict, _) = match &claim.parts {
+            Parts::None => continue,
+            // A row with criteria of its own is judged by them; its cells are shown.
+            Parts::Cells(_) if claim.asked().next().is_some() => continue,
+            Parts::AllOf(ids) => ("all_of", class::all_of, ids),
+            Parts::Cells(ids) => ("cells", class::all_of, ids),
+            Parts::AnyOf(ids) => ("any_of", class::any_of, ids),
+            Parts::MeansOneOf(ids) => ("means_one_of", class::one_meant, ids),
+        };
+        let verdicts: Vec<Verdict> = ids.iter().map(|id| alone[id]).collect();
+        let listed = |verdict: Verdict| {
+            let with = ids.iter().zip(&verdicts).filter(|(_, found)| **found == verdict);
+            let ids: Vec<String> = with.map(|(id, _)| format!("`{id}`")).collect();
+            (!ids.is_empty()).then(|| format!("{}: {}", verdict.name(), ids.join(", ")))
+        };
+        let because = Verdict::ALL.into_iter().filter_map(listed).collect();
+        let verdict = of(&verdicts);
+        judged.findings.push(Finding {
+            criterion: name.to_owned(),
+            verdict: Some(verdict),
+            because,
+            settles: (verdict == Verdict::Undecided).then(|| parts_settle(&claim.parts, &verdicts)),
+            ..Finding::default()
+        });
+        let found = judged.findings.iter().filter(|finding| finding.criterion != "none");
+        judged.verdict =
+            class::combined(found.filter_map(|finding| finding.verdict), claim.untestable.is_some());
+    }
+    judged
 }

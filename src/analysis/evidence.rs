@@ -1,13 +1,19 @@
 //! The records that claims are judged by, ready to be asked.
 
 use super::metric::{self, Metric};
+use super::polylines::Polylines;
+use crate::study::column;
+use crate::study::key::{DrawKey, Owner, ReadingKey, SweepKey, Text, TrialKey};
 use crate::study::manifest::Manifest;
+use crate::study::name::Names;
 use crate::study::paper::Paper;
 use crate::study::record::{PreparedRow, Row, Status};
 use crate::study::store::{Records, read_records};
 use crate::study::{ReadingChoice, Study, StudyError};
+use audit::turns::{Polyline, TurnQuery};
 use base::hash::sha256;
-use engine::planner::Exhibit;
+use engine::planner::{Exhibit, Value};
+use rayon::prelude::*;
 use stats::summary;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -20,6 +26,7 @@ pub struct Evidence<'a> {
     /// The reading that claims are judged under.
     pub point: ReadingChoice,
     runs: BTreeMap<&'a str, Run<'a>>,
+    polylines: Arc<Polylines>,
 }
 
 /// The stored run of one study, as seen under one reading.
@@ -30,18 +37,29 @@ pub struct Run<'a> {
     pub manifest: Arc<Manifest>,
     /// The records.
     pub records: Arc<Records>,
-    reading: String,
+    reading: ReadingKey,
+    /// The session of the clock, from 1.
+    session: u32,
     index: Arc<Index>,
 }
 
 /// Where things are in the records.
 #[derive(Default)]
 struct Index {
-    /// Rows by group, contender and reading, in the order of records.
-    rows: BTreeMap<[String; 3], Vec<usize>>,
-    /// The clock readings of each timed trial.
-    readings_ns: BTreeMap<String, Vec<f64>>,
+    /// How records are named.
+    names: Names,
+    /// Rows by reading, group and contender, in the order of records.
+    rows: BTreeMap<ReadingKey, Groups>,
+    /// Prepared objects by what names them.
+    prepared: BTreeMap<Arc<DrawKey>, usize>,
+    /// Exhibits by their owners.
+    kept: BTreeMap<Owner, Vec<usize>>,
+    /// The clock readings of each timed trial by session, from 1; those of several are never pooled.
+    readings_ns: Vec<BTreeMap<TrialKey, Vec<f64>>>,
 }
+
+/// Rows by group and contender.
+type Groups = BTreeMap<Text, BTreeMap<Text, Vec<usize>>>;
 
 /// Trials of two contenders on one problem.
 pub struct Pair<'a> {
@@ -75,7 +93,7 @@ impl<'a> Evidence<'a> {
         pairs
             .filter_map(|pair| {
                 let values = (run.value(pair.base, metric)?, run.value(pair.other, metric)?);
-                Some(Measured { values, trial: format!("{study}/{}", pair.other.trial) })
+                Some(Measured { values, trial: run.trial(pair.other) })
             })
             .collect()
     }
@@ -85,18 +103,61 @@ impl<'a> Evidence<'a> {
     /// # Errors
     /// [`StudyError::Stored`] for a run that is missing, damaged or made by another spec.
     pub fn read(paper: &'a Paper, point: ReadingChoice, folder: &Path) -> Result<Self, StudyError> {
-        let mut runs = BTreeMap::new();
-        for study in &paper.studies {
-            runs.insert(study.name.as_str(), Run::read(study, &point, folder)?);
-        }
-        Ok(Self { paper, point, runs })
+        let read = |study: &'a Study| Ok((study.name.as_str(), Run::read(study, &point, folder)?));
+        // Gathered in order before any error is passed on, so that it is the first study's.
+        let runs: Vec<Result<_, StudyError>> = paper.studies.par_iter().map(read).collect();
+        let runs = runs.into_iter().collect::<Result<_, _>>()?;
+        Ok(Self { paper, point, runs, polylines: Arc::default() })
+    }
+
+    /// Runs of the studies of `paper` that were not read from a folder, to be judged under the reading `point`: what the
+    /// records of each study depend on, and the records, by the study's name. Studies that are not named have no run.
+    pub fn of(
+        paper: &'a Paper,
+        point: ReadingChoice,
+        mut stored: BTreeMap<String, (Manifest, Records)>,
+    ) -> Self {
+        let run = |study: &'a Study| {
+            let (manifest, records) = stored.remove(&study.name)?;
+            Some((study.name.as_str(), Run::of(study, &point, manifest, records)))
+        };
+        let runs = paper.studies.iter().filter_map(run).collect();
+        Self { paper, point, runs, polylines: Arc::default() }
+    }
+
+    /// [`shortest_polyline`](audit::turns::shortest_polyline), searched once however many rules ask under however many
+    /// readings.
+    ///
+    /// # Panics
+    /// As that function.
+    pub fn shortest_polyline(&self, query: &TurnQuery) -> Option<Polyline> {
+        self.polylines.shortest(query)
+    }
+
+    /// It, with polylines that an earlier command found and kept in `file`.
+    #[must_use]
+    pub fn remembering(self, file: &Path) -> Self {
+        Self { polylines: Arc::new(Polylines::kept_in(file)), ..self }
+    }
+
+    /// Keeps the polylines that were found for a later command.
+    pub fn keep_polylines(&self) {
+        self.polylines.keep();
     }
 
     /// The same records, to be judged under another reading.
     #[must_use]
     pub fn under(&self, point: ReadingChoice) -> Self {
         let runs = self.runs.iter().map(|(name, run)| (*name, run.under(&point))).collect();
-        Self { paper: self.paper, point, runs }
+        Self { paper: self.paper, point, runs, polylines: self.polylines.clone() }
+    }
+
+    /// The same records, with the clock as it was read in the session of this number, from 1.
+    #[must_use]
+    pub fn in_session(&self, session: u32) -> Self {
+        let runs =
+            self.runs.iter().map(|(name, run)| (*name, Run { session, ..run.under(&self.point) })).collect();
+        Self { paper: self.paper, point: self.point.clone(), runs, polylines: self.polylines.clone() }
     }
 
     /// The run of the study called `name`.
@@ -131,9 +192,14 @@ impl<'a> Run<'a> {
             return Err(StudyError::stored(path, reason));
         }
         let records = read_records(folder, &study.name, &manifest.files)?;
-        let index = Arc::new(Index::of(&records));
-        let reading = point.for_trials(&study.readings).name().to_owned();
-        Ok(Self { study, manifest: Arc::new(manifest), records: Arc::new(records), reading, index })
+        Ok(Self::of(study, point, manifest, records))
+    }
+
+    fn of(study: &'a Study, point: &ReadingChoice, manifest: Manifest, records: Records) -> Self {
+        let index = Arc::new(Index::of(study.names(), &records));
+        let reading = point.for_trials(&study.readings).key(&study.readings);
+        let (manifest, records) = (Arc::new(manifest), Arc::new(records));
+        Self { study, manifest, records, reading, session: 1, index }
     }
 
     fn under(&self, point: &ReadingChoice) -> Self {
@@ -141,52 +207,91 @@ impl<'a> Run<'a> {
             study: self.study,
             manifest: self.manifest.clone(),
             records: self.records.clone(),
-            reading: point.for_trials(&self.study.readings).name().to_owned(),
+            reading: point.for_trials(&self.study.readings).key(&self.study.readings),
+            session: self.session,
             index: self.index.clone(),
         }
     }
 
+    /// How many sessions of the clock are stored.
+    pub fn sessions(&self) -> usize {
+        self.index.readings_ns.len()
+    }
+
+    fn times(&self, row: &Row) -> Option<&Vec<f64>> {
+        self.index.readings_ns.get(self.session as usize - 1)?.get(&row.key)
+    }
+
     /// Whether its trials ran under the reading.
     pub fn is_covered(&self) -> bool {
-        self.manifest.readings.contains(&self.reading)
+        self.manifest.covers(&self.reading)
     }
 
     /// What `metric` is for `row`; `None` if it was not measured.
     pub fn value(&self, row: &Row, metric: &Metric) -> Option<f64> {
-        let raw = if metric.is_clock() {
-            self.index.readings_ns.get(&row.trial).and_then(|times| summary::median(times))
-        } else {
-            row.value(metric.column)
-        };
-        raw.map(|value| value * metric.scale)
+        self.reader(metric)(row)
+    }
+
+    /// [`value`](Self::value) for many rows: where the metric stands is looked up once.
+    pub fn reader<'r>(&'r self, metric: &'r Metric) -> impl Fn(&Row) -> Option<f64> + 'r {
+        let place = column::place(metric.column);
+        move |row| {
+            let raw = if metric.is_clock() {
+                self.times(row).and_then(|times| summary::median(times))
+            } else if metric.is_status() {
+                Some(f64::from(u8::from(matches!(row.status, Status::Solved | Status::Rejected))))
+            } else {
+                row.values.at(place?).map(Value::as_f64)
+            };
+            raw.map(|value| value * metric.scale)
+        }
     }
 
     /// Every clock reading of `row` in the unit of `metric`; none if it was not timed or `metric` is not of the clock.
     pub fn repeats(&self, row: &Row, metric: &Metric) -> Vec<f64> {
-        let times = self.index.readings_ns.get(&row.trial).filter(|_| metric.is_clock());
+        let times = self.times(row).filter(|_| metric.is_clock());
         times.into_iter().flatten().map(|time| time * metric.scale).collect()
     }
 
     /// The trials of `contender` in the problem group `group` under the reading, in the order of draws.
     pub fn rows(&self, group: &str, contender: &str) -> Vec<&Row> {
-        let key = [group, contender, self.reading.as_str()].map(str::to_owned);
-        let found = self.index.rows.get(&key).into_iter().flatten();
-        found.map(|row| &self.records.batch.rows[*row]).collect()
+        let of_reading = self.index.rows.get(&self.reading);
+        let found = of_reading.and_then(|groups| groups.get(group)?.get(contender));
+        found.into_iter().flatten().map(|row| &self.records.batch.rows[*row]).collect()
+    }
+
+    /// As [`rows`](Self::rows), at one point of the sweeps.
+    pub fn rows_at(&self, group: &str, contender: &str, sweep: &SweepKey) -> Vec<&Row> {
+        let mut rows = self.rows(group, contender);
+        rows.retain(|row| row.key.sweep == *sweep);
+        rows
+    }
+
+    /// The name of a trial, with its study, as `--trial` takes it.
+    pub fn trial(&self, row: &Row) -> String {
+        format!("{}/{}", self.study.name, self.index.names.trial(&row.key))
+    }
+
+    /// The name of the problem that a trial is about: group, draw and query.
+    pub fn problem(&self, row: &Row) -> String {
+        self.index.names.problem(&row.key.on, row.key.query.as_deref())
+    }
+
+    /// The name of a prepared object or a trial.
+    pub fn owner(&self, of: &Owner) -> String {
+        self.index.names.owner(of)
     }
 
     /// The trials of two contenders on the same problems, solved by both.
     pub fn pairs(&self, group: &str, base: &str, other: &str) -> Vec<Pair<'_>> {
-        fn key(row: &Row) -> (&str, &str, u32) {
-            (&row.problem, &row.sweep, row.repeat)
+        if base == other {
+            let solved = self.rows(group, base).into_iter().filter(|row| row.status == Status::Solved);
+            return solved.map(|row| Pair { base: row, other: row }).collect();
         }
         let solved = |row: &&Row| row.status == Status::Solved;
-        let bases: BTreeMap<_, &Row> =
-            self.rows(group, base).into_iter().filter(solved).map(|row| (key(row), row)).collect();
-        self.rows(group, other)
-            .into_iter()
-            .filter(solved)
-            .filter_map(|other| Some(Pair { base: bases.get(&key(other))?, other }))
-            .collect()
+        let bases = Cases::of(self.rows(group, base).into_iter().filter(solved));
+        let others = self.rows(group, other).into_iter().filter(solved);
+        others.filter_map(|other| Some(Pair { base: bases.same(other)?, other })).collect()
     }
 
     /// `metric` of `contender` on every problem of `group` that it solved or, with `against`, the reduction in per
@@ -206,39 +311,78 @@ impl<'a> Run<'a> {
 
     /// The prepared object that the trial `row` was run on.
     pub fn prepared_of(&self, row: &Row) -> Option<&PreparedRow> {
-        self.records.batch.prepared.iter().find(|prepared| {
-            prepared.group == row.group
-                && prepared.replicate == row.replicate
-                && prepared.reading == row.reading
-        })
+        self.index.prepared.get(&row.key.on).map(|place| &self.records.batch.prepared[*place])
     }
 
-    /// The name of the prepared object that `row` was run on.
-    pub fn draw_of(&self, row: &Row) -> String {
-        let is_own = |prepared: &&PreparedRow| {
-            prepared.group == row.group
-                && prepared.replicate == row.replicate
-                && prepared.reading == row.reading
-        };
-        self.records.batch.prepared.iter().find(is_own).map(|own| own.prepared.clone()).unwrap_or_default()
+    /// The prepared objects of the problem group `group` under the reading, in the order of draws.
+    pub fn prepared(&self, group: &str) -> impl Iterator<Item = &PreparedRow> {
+        let is_own = move |row: &&PreparedRow| *row.key.group == *group && row.key.reading == self.reading;
+        self.records.batch.prepared.iter().filter(is_own)
+    }
+
+    /// The exhibits of a trial or prepared object.
+    pub fn exhibits(&self, of: impl Into<Owner>) -> impl Iterator<Item = &Exhibit> {
+        let places = self.index.kept.get(&of.into()).into_iter().flatten();
+        places.map(|place| &self.records.batch.kept[*place].exhibit)
     }
 
     /// The exhibit called `name` of a trial or prepared object.
-    pub fn exhibit(&self, of: &str, name: &str) -> Option<&Exhibit> {
-        let kept = &self.records.batch.kept;
-        kept.iter().find(|kept| kept.of == of && kept.exhibit.name == name).map(|kept| &kept.exhibit)
+    pub fn exhibit(&self, of: impl Into<Owner>, name: &str) -> Option<&Exhibit> {
+        self.exhibits(of).find(|exhibit| exhibit.name == name)
+    }
+}
+
+/// Trials of one contender on one problem group, to be found by what they have in common with another contender's.
+pub struct Cases<'r>(BTreeMap<u32, Vec<&'r Row>>);
+
+impl<'r> Cases<'r> {
+    /// These trials.
+    pub fn of(rows: impl IntoIterator<Item = &'r Row>) -> Self {
+        let mut draws: BTreeMap<u32, Vec<&Row>> = BTreeMap::new();
+        for row in rows {
+            draws.entry(row.draw()).or_default().push(row);
+        }
+        Self(draws)
+    }
+
+    /// The trial of the same draw, query, point of the sweeps and repeat as `row`.
+    pub fn same(&self, row: &Row) -> Option<&'r Row> {
+        let of_draw = self.0.get(&row.draw())?;
+        of_draw.iter().copied().find(|own| {
+            let (one, other) = (&own.key, &row.key);
+            one.repeat == other.repeat && one.query == other.query && one.sweep.is_same(&other.sweep)
+        })
     }
 }
 
 impl Index {
-    fn of(records: &Records) -> Self {
-        let mut index = Self::default();
-        for (place, row) in records.batch.rows.iter().enumerate() {
-            let key = [&row.group, &row.contender, &row.reading].map(String::clone);
-            index.rows.entry(key).or_default().push(place);
+    fn of(names: Names, records: &Records) -> Self {
+        let mut index = Self { names, ..Self::default() };
+        let mut rows = records.batch.rows.iter().enumerate().peekable();
+        while let Some((_, first)) = rows.peek() {
+            let on = first.key.on.clone();
+            let of_reading = index.rows.entry(on.reading.clone()).or_default();
+            let of_group = of_reading.entry(on.group.clone()).or_default();
+            while let Some((place, row)) = rows.next_if(|(_, row)| Arc::ptr_eq(&row.key.on, &on)) {
+                match of_group.get_mut(&row.key.contender) {
+                    Some(places) => places.push(place),
+                    None => {
+                        of_group.insert(row.key.contender.clone(), vec![place]);
+                    }
+                }
+            }
+        }
+        index.prepared = records.batch.prepared.iter().map(|row| row.key.clone()).zip(0..).collect();
+        for (place, kept) in records.batch.kept.iter().enumerate() {
+            index.kept.entry(kept.of.clone()).or_default().push(place);
         }
         for time in &records.times {
-            index.readings_ns.entry(time.trial.clone()).or_default().push(time.plan_wall_ns as f64);
+            let session = time.session.max(1) as usize;
+            if index.readings_ns.len() < session {
+                index.readings_ns.resize_with(session, BTreeMap::new);
+            }
+            let of_trial = index.readings_ns[session - 1].entry(time.trial.clone()).or_default();
+            of_trial.push(time.plan_wall_ns as f64);
         }
         index
     }

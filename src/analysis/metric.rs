@@ -1,6 +1,7 @@
 //! Metrics: what can be compared, its unit, which way is better, and how to get it from a record.
 
 use crate::study::clock;
+use std::collections::BTreeSet;
 
 /// Which way is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,6 +12,17 @@ pub enum Better {
     Higher,
     /// Neither.
     Neither,
+}
+
+impl Better {
+    /// Its name, as other programs are told it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lower => "lower",
+            Self::Higher => "higher",
+            Self::Neither => "neither",
+        }
+    }
 }
 
 /// A metric: one column of trials, or the median clock reading of a timed trial.
@@ -30,6 +42,9 @@ pub struct Metric {
     pub scale: f64,
 }
 
+/// What is read from the trial's status in place of a column: 1 where a path came back, refused or not, otherwise 0.
+const STATUS: &str = "status";
+
 const fn metric(name: &'static str, label: &'static str, unit: &'static str, better: Better) -> Metric {
     Metric { name, label, unit, better, column: name, scale: 1.0 }
 }
@@ -44,6 +59,7 @@ pub static METRICS: &[Metric] = &[
     metric("connected", "Start and goal connected", "", Better::Neither),
     metric("cut_in_cm", "Cut-in depth", "cm", Better::Lower),
     metric("expansions", "Expansions", "", Better::Lower),
+    Metric { column: STATUS, ..metric("found", "Path found", "", Better::Higher) },
     metric("generated", "Generated successors", "", Better::Lower),
     metric("goal_links", "Neighbours of the goal", "", Better::Neither),
     metric("hit_share_percent", "Targets met", "%", Better::Neither),
@@ -109,6 +125,16 @@ impl Metric {
         if self.unit.is_empty() { self.label.to_owned() } else { format!("{} ({})", self.label, self.unit) }
     }
 
+    /// Whether a study whose records have these columns gives it.
+    pub fn is_produced(&self, columns: &BTreeSet<&str>) -> bool {
+        self.is_status() || columns.contains(self.column)
+    }
+
+    /// Whether it is read from the trial's status: 1 where a path came back, refused or not, otherwise 0.
+    pub fn is_status(&self) -> bool {
+        self.column == STATUS
+    }
+
     /// Whether it is read from the clock.
     pub fn is_clock(&self) -> bool {
         self.column == clock::COLUMN
@@ -124,7 +150,11 @@ mod tests {
     fn metrics_are_in_order_and_read_columns_that_exist() {
         assert!(METRICS.windows(2).all(|pair| pair[0].name < pair[1].name));
         for metric in METRICS {
-            assert!(metric.is_clock() || column::find(metric.column).is_some(), "{}", metric.name);
+            assert!(
+                metric.is_clock() || metric.is_status() || column::find(metric.column).is_some(),
+                "{}",
+                metric.name
+            );
         }
     }
 }

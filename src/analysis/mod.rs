@@ -1,14 +1,24 @@
 //! What runs mean: the verdicts that rest on them.
 //!
-//! Nothing here starts a trial. [`Evidence`](evidence::Evidence) is the stored runs of a paper; a
-//! [`check`] judges one claim by them; [`judge`](claims::judge) judges all.
+//! Nothing here starts a trial. [`Evidence`](evidence::Evidence) is the stored runs of a paper. A [`selection`] of trials and a
+//! [`statistic`] of each draw go into a [`criterion`], which holds them against what the paper says; a [`rule`] is
+//! arithmetic on what it prints. What either finds becomes a [`class`] in one place, for one claim after the other
+//! ([`judge`](claims::judge)).
 
-pub mod check;
 pub mod claims;
-pub mod draws;
-pub mod effect;
+pub mod class;
+pub mod context;
+pub mod criterion;
+pub mod difference;
 pub mod evidence;
+pub mod found;
 pub mod inclusion;
 pub mod metric;
+mod polylines;
+pub mod rule;
+pub mod selection;
+pub mod selection_spec;
+pub mod settle;
+pub mod statistic;
 pub mod together;
 pub mod verdict;

@@ -4,46 +4,129 @@
 //! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes one
 //! of its problems. Every choice of problems is looked at.
 
-use super::check::{Attained, Context};
-use super::claims::checks;
+use super::class::{Polarity, Verdict};
+use super::context::Context;
+use super::criterion::{Attained, EXISTS};
 use super::evidence::Evidence;
 use super::verdict::Together;
-use crate::study::paper::Claim;
+use crate::study::paper::{Digits, Paper};
+use crate::study::record::Row;
 use crate::study::{ReadingChoice, StudyError};
 use base::settings::SettingsError;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// Whether each claim is met exactly.
-type Outcomes = BTreeMap<String, bool>;
+type Outcomes<'a> = BTreeMap<&'a str, bool>;
+
+/// Outcomes on one problem by contender.
+type Contenders<'a> = BTreeMap<&'a str, Outcomes<'a>>;
 
 /// Outcomes of one study: by problem, then contender.
-type Problems = BTreeMap<String, BTreeMap<String, Outcomes>>;
+type Problems<'a> = BTreeMap<String, Contenders<'a>>;
+
+/// What a criterion says of a claim under each reading that a study explores.
+#[derive(Debug, Clone)]
+pub struct Explored {
+    /// The claim.
+    pub claim: String,
+    /// The study.
+    pub study: String,
+    /// Each reading with the class there; none if it was not run.
+    pub readings: Vec<(ReadingChoice, Option<Verdict>)>,
+}
+
+impl Explored {
+    /// Under how many readings it holds, in a sentence.
+    pub fn said(&self) -> Option<String> {
+        let known: Vec<(&ReadingChoice, Polarity)> = self
+            .readings
+            .iter()
+            .filter_map(|(point, verdict)| Some((point, (*verdict)?.polarity())))
+            .collect();
+        let count = |wanted| known.iter().filter(|(_, polarity)| *polarity == wanted).count();
+        let (held, open) = (count(Polarity::For), count(Polarity::Open));
+        let rarer = if held * 2 > known.len() { Polarity::Against } else { Polarity::For };
+        let single =
+            known.iter().filter(|(point, polarity)| *polarity == rarer && !point.name().contains(','));
+        let named = single.map(|(point, _)| point.name()).collect::<Vec<_>>().join(", ");
+        let verb = if rarer == Polarity::For { "under" } else { "not under" };
+        let tail =
+            if named.is_empty() { String::new() } else { format!("; of the single options {verb} {named}") };
+        (!known.is_empty()).then(|| {
+            format!(
+                "it holds under {held} of {} readings explored in {} and is open under {open}{tail}",
+                known.len(),
+                self.study
+            )
+        })
+    }
+}
 
 /// What one study shows under one reading.
 #[derive(Default)]
-struct Met {
-    problems: Problems,
+struct Met<'a> {
+    problems: Problems<'a>,
     /// The reading that each contender runs under.
-    readings: BTreeMap<String, String>,
+    readings: BTreeMap<&'a str, Arc<str>>,
+}
+
+/// What names mean to the criteria `exists`: the metric that each asks for, and how printed digits end.
+#[derive(PartialEq)]
+struct Meaning<'a> {
+    metrics: Vec<&'a str>,
+    digits: Option<Digits>,
 }
 
 /// The sets of claims that are met exactly together, none within another, over every reading that any study explores; the
 /// largest first.
 ///
 /// # Errors
-/// A settings error of a check.
-pub fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
-    let under = |point| {
-        let view = evidence.under(point);
-        let mut sets = held(&view)?;
-        sets.extend(met(&view)?.iter().flat_map(|(study, met)| sets_of(study, met, view.point.name())));
+/// A settings error of a criterion.
+pub fn together(evidence: &Evidence<'_>, explored: &[Explored]) -> Result<Vec<Together>, SettingsError> {
+    let points = points(evidence);
+    let (asked, meanings) = asked(evidence.paper, &points)?;
+    let under = |(point, meaning): (&ReadingChoice, usize)| {
+        let view = evidence.under(point.clone());
+        let mut sets = held(view.point.name(), explored);
+        let met = met(&view, &asked[meaning]);
+        sets.extend(met.iter().flat_map(|(study, met)| sets_of(study, met, view.point.name())));
         Ok(sets)
     };
     // Gathered in order before any error is passed on, so that it is the first reading's.
     let found: Vec<Result<Vec<Together>, SettingsError>> =
-        points(evidence).into_par_iter().map(under).collect();
+        points.par_iter().zip(meanings).map(under).collect();
     Ok(greatest(found.into_iter().collect::<Result<Vec<_>, _>>()?.concat()))
+}
+
+/// The criteria `exists` of all claims, built once for each meaning that names have under `points`, and which of these each
+/// point gives them.
+fn asked<'a>(
+    paper: &'a Paper,
+    points: &'a [ReadingChoice],
+) -> Result<(Vec<Vec<Attained<'a>>>, Vec<usize>), SettingsError> {
+    let mut meanings: Vec<Meaning<'a>> = Vec::new();
+    let (mut asked, mut of_points) = (Vec::new(), Vec::new());
+    for point in points {
+        let contexts = paper.claims.iter().filter_map(|claim| {
+            let settings = claim.check(EXISTS.name).filter(|_| claim.printed.is_some())?;
+            Some(Context { claim, settings, paper, point })
+        });
+        let built = contexts.clone().map(|context| Attained::new(&context));
+        let metric = |context: Context<'a>| {
+            let name = context.settings.table().get("metric").and_then(toml::Value::as_str);
+            name.map_or("", |name| point.metric(name))
+        };
+        let meaning = Meaning { metrics: contexts.clone().map(metric).collect(), digits: point.digits() };
+        let known = meanings.iter().position(|known| *known == meaning);
+        of_points.push(known.unwrap_or(meanings.len()));
+        if known.is_none() {
+            meanings.push(meaning);
+            asked.push(built.collect::<Result<_, _>>()?);
+        }
+    }
+    Ok((asked, of_points))
 }
 
 /// The reading in hand, and those that studies explore.
@@ -60,83 +143,84 @@ fn points(evidence: &Evidence<'_>) -> Vec<ReadingChoice> {
     points
 }
 
-fn met(view: &Evidence<'_>) -> Result<BTreeMap<String, Met>, SettingsError> {
-    let mut all: BTreeMap<String, Met> = BTreeMap::new();
-    for claim in &view.paper.claims {
-        let Some(settings) = claim.checks.get("attained") else { continue };
-        let context = Context { claim, settings, paper: view.paper, point: &view.point };
-        for seen in Attained::new(&context)?.problems(view) {
-            let (study, problem) = seen.problem;
-            let met = all.entry(study).or_default();
-            met.readings.insert(seen.contender.clone(), seen.reading);
-            let by_contender = met.problems.entry(problem).or_default();
-            by_contender.entry(seen.contender).or_default().insert(claim.id.clone(), seen.is_met);
+fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e str, Met<'e>> {
+    let mut all: BTreeMap<&str, (Met<'e>, BTreeMap<_, (Contenders<'e>, &'e Row)>)> = BTreeMap::new();
+    for attained in asked {
+        for seen in attained.seen(view) {
+            let (study, group, draw, query) = seen.problem();
+            let (met, problems) = all.entry(study).or_default();
+            if !met.readings.contains_key(seen.contender) {
+                met.readings.insert(seen.contender, seen.reading.clone());
+            }
+            let by_contender =
+                problems.entry((group, draw, query)).or_insert_with(|| (BTreeMap::new(), seen.row));
+            let outcomes = by_contender.0.entry(seen.contender).or_default();
+            outcomes.insert(attained.claim(), attained.is_met(seen.value));
         }
     }
-    Ok(all)
+    // A problem's name is made once, however many claims are asked of it.
+    let named = |(study, (mut met, problems)): (&'e str, (Met<'e>, BTreeMap<_, _>))| {
+        let run = view.run(study).expect("it was seen there");
+        met.problems = problems.into_values().map(|(of, row)| (run.problem(row), of)).collect();
+        (study, met)
+    };
+    all.into_iter().map(named).collect()
 }
 
-/// One set per study that explores readings: the claims that hold there under the evidence's reading, each by the
-/// contenders and on the problems that it names.
-fn held(view: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
-    let mut studies: BTreeMap<String, BTreeMap<String, bool>> = BTreeMap::new();
-    let explores = |claim: &&Claim| claim.checks.values().any(|of| of.table().contains_key("explored"));
-    for claim in view.paper.claims.iter().filter(explores) {
-        for (_, check) in checks(view.paper, &view.point, claim)? {
-            if let Some((study, holds)) = check.holds(view) {
-                *studies.entry(study).or_default().entry(claim.id.clone()).or_insert(true) &= holds;
-            }
-        }
+/// One set per study that explores readings: the claims that hold there under the reading, each by the contenders and on the
+/// problems that it names.
+fn held(reading: &str, explored: &[Explored]) -> Vec<Together> {
+    let mut studies: BTreeMap<&str, [BTreeSet<String>; 2]> = BTreeMap::new();
+    for one in explored {
+        let found = one.readings.iter().find(|(point, _)| point.name() == reading);
+        let Some(verdict) = found.and_then(|(_, verdict)| *verdict) else { continue };
+        let [hold, fail] = studies.entry(&one.study).or_default();
+        if verdict.polarity() == Polarity::For { hold } else { fail }.insert(one.claim.clone());
     }
-    let set = |(study, claims): (String, BTreeMap<String, bool>)| {
-        let named = |wanted: bool| {
-            claims.iter().filter(|(_, holds)| **holds == wanted).map(|(id, _)| id.clone()).collect()
-        };
-        Together {
-            study,
-            problem: "those that each claim names".to_owned(),
-            reading: view.point.name().to_owned(),
-            under: "those that each claim names".to_owned(),
-            hold: named(true),
-            fail: named(false),
-        }
+    let set = |(study, [hold, fail]): (&str, [BTreeSet<String>; 2])| Together {
+        study: study.to_owned(),
+        problem: "those that each claim names".to_owned(),
+        reading: reading.to_owned(),
+        under: "those that each claim names".to_owned(),
+        hold: hold.difference(&fail).cloned().collect(),
+        fail: fail.into_iter().collect(),
     };
-    Ok(studies.into_iter().map(set).collect())
+    studies.into_iter().map(set).collect()
 }
 
 /// The sets of every contender that is an alternative for another; contenders without alternative belong to all.
-fn sets_of(study: &str, met: &Met, reading: &str) -> Vec<Together> {
-    let mut claims: BTreeMap<&String, BTreeSet<&String>> = BTreeMap::new();
+fn sets_of(study: &str, met: &Met<'_>, reading: &str) -> Vec<Together> {
+    let mut claims: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for (contender, outcomes) in met.problems.values().flatten() {
-        claims.entry(contender).or_default().extend(outcomes.keys());
+        claims.entry(*contender).or_default().extend(outcomes.keys().copied());
     }
-    let rivals = |label: &String| {
-        claims.iter().any(|(other, theirs)| *other != label && !theirs.is_disjoint(&claims[label]))
+    let rivals = |label: &&str| {
+        claims.iter().any(|(other, theirs)| other != label && !theirs.is_disjoint(&claims[label]))
     };
-    let (alternatives, fixed): (Vec<&String>, Vec<&String>) = claims.keys().partition(|label| rivals(label));
-    let choices: Vec<Option<&String>> =
+    let (alternatives, fixed): (Vec<&str>, Vec<&str>) = claims.keys().partition(|label| rivals(label));
+    let choices: Vec<Option<&str>> =
         if alternatives.is_empty() { vec![None] } else { alternatives.into_iter().map(Some).collect() };
-    let of_choice = |choice: Option<&String>| {
-        let labels: Vec<&String> = fixed.iter().copied().chain(choice).collect();
+    let of_choice = |choice: Option<&str>| {
+        let labels: Vec<&str> = fixed.iter().copied().chain(choice).collect();
         let departed = labels.iter().filter_map(|label| met.readings.get(*label));
-        let reading = departed.into_iter().find(|own| *own != reading).map_or(reading, String::as_str);
-        let under = labels.iter().map(|label| label.as_str()).collect::<Vec<_>>().join(" and ");
+        let reading = departed.into_iter().find(|own| ***own != *reading).map_or(reading, |own| own);
+        let under = labels.join(" and ");
         let choices = choices_of_problems(&met.problems, &labels).into_iter();
         choices.map(|chosen| set(study, reading, &under, &chosen)).collect::<Vec<_>>()
     };
     choices.into_iter().flat_map(of_choice).collect()
 }
 
-fn set(study: &str, reading: &str, under: &str, chosen: &[(&String, Outcomes)]) -> Together {
+fn set(study: &str, reading: &str, under: &str, chosen: &[(&str, Outcomes<'_>)]) -> Together {
     let (mut hold, mut fail) = (Vec::new(), Vec::new());
     for (claim, is_met) in chosen.iter().flat_map(|(_, outcomes)| outcomes) {
-        if *is_met { hold.push(claim.clone()) } else { fail.push(claim.clone()) }
+        if *is_met { hold.push((*claim).to_owned()) } else { fail.push((*claim).to_owned()) }
     }
     hold.sort();
     fail.sort();
     Together {
         study: study.to_owned(),
-        problem: chosen.iter().map(|(problem, _)| problem.as_str()).collect::<Vec<_>>().join(" and "),
+        problem: chosen.iter().map(|(problem, _)| *problem).collect::<Vec<_>>().join(" and "),
         reading: reading.to_owned(),
         under: under.to_owned(),
         hold,
@@ -146,12 +230,12 @@ fn set(study: &str, reading: &str, under: &str, chosen: &[(&String, Outcomes)]) 
 
 /// Every choice of one problem for each group of claims, but for problems on which no more of the group holds than on
 /// another.
-fn choices_of_problems<'a>(problems: &'a Problems, labels: &[&String]) -> Vec<Vec<(&'a String, Outcomes)>> {
-    let mut groups: Vec<(BTreeSet<String>, Vec<(&String, Outcomes)>)> = Vec::new();
+fn choices_of_problems<'a>(problems: &'a Problems<'_>, labels: &[&str]) -> Vec<Vec<(&'a str, Outcomes<'a>)>> {
+    let mut groups: Vec<(BTreeSet<&str>, Vec<(&str, Outcomes<'_>)>)> = Vec::new();
     for (problem, by_contender) in problems {
         let of = labels.iter().filter_map(|label| by_contender.get(*label)).flatten();
-        let outcomes: Outcomes = of.map(|(claim, is_met)| (claim.clone(), *is_met)).collect();
-        let claims: BTreeSet<String> = outcomes.keys().cloned().collect();
+        let outcomes: Outcomes<'_> = of.map(|(claim, is_met)| (*claim, *is_met)).collect();
+        let claims: BTreeSet<&str> = outcomes.keys().copied().collect();
         // A contender that does not solve a problem leaves fewer claims there.
         match groups.iter_mut().find(|(known, _)| !known.is_disjoint(&claims)) {
             Some((known, of_group)) => {
@@ -163,8 +247,8 @@ fn choices_of_problems<'a>(problems: &'a Problems, labels: &[&String]) -> Vec<Ve
     }
     let kept = groups.into_iter().map(|(_, of_group)| greatest_problems(of_group));
     kept.filter(|of_group| !of_group.is_empty()).fold(vec![Vec::new()], |choices, of_group| {
-        let with = |choice: &Vec<(&'a String, Outcomes)>| {
-            let one = |next: &(&'a String, Outcomes)| [&choice[..], std::slice::from_ref(next)].concat();
+        let with = |choice: &Vec<(&'a str, Outcomes<'a>)>| {
+            let one = |next: &(&'a str, Outcomes<'a>)| [&choice[..], std::slice::from_ref(next)].concat();
             of_group.iter().map(one).collect::<Vec<_>>()
         };
         choices.iter().flat_map(with).collect()
@@ -172,15 +256,11 @@ fn choices_of_problems<'a>(problems: &'a Problems, labels: &[&String]) -> Vec<Ve
 }
 
 /// The problems on which something holds and no other has all that holds and more; of equals the first.
-fn greatest_problems(of_group: Vec<(&String, Outcomes)>) -> Vec<(&String, Outcomes)> {
-    let hold = |outcomes: &Outcomes| {
-        outcomes
-            .iter()
-            .filter(|(_, is_met)| **is_met)
-            .map(|(claim, _)| claim.clone())
-            .collect::<BTreeSet<_>>()
+fn greatest_problems<'a>(of_group: Vec<(&'a str, Outcomes<'a>)>) -> Vec<(&'a str, Outcomes<'a>)> {
+    let hold = |outcomes: &Outcomes<'a>| {
+        outcomes.iter().filter(|(_, is_met)| **is_met).map(|(claim, _)| *claim).collect::<BTreeSet<_>>()
     };
-    let mut sets: Vec<BTreeSet<String>> = Vec::new();
+    let mut sets: Vec<BTreeSet<&str>> = Vec::new();
     let mut distinct = Vec::new();
     for (problem, outcomes) in of_group {
         let held = hold(&outcomes);
@@ -190,7 +270,7 @@ fn greatest_problems(of_group: Vec<(&String, Outcomes)>) -> Vec<(&String, Outcom
         }
     }
     let is_greatest =
-        |held: &BTreeSet<String>| !sets.iter().any(|other| other != held && held.is_subset(other));
+        |held: &BTreeSet<&str>| !sets.iter().any(|other| other != held && held.is_subset(other));
     distinct.retain(|(held, _, _)| is_greatest(held));
     distinct.into_iter().map(|(_, problem, outcomes)| (problem, outcomes)).collect()
 }
@@ -212,17 +292,14 @@ fn greatest(mut sets: Vec<Together>) -> Vec<Together> {
 mod tests {
     use super::*;
 
-    fn outcomes(of: &[(&str, bool)]) -> BTreeMap<String, bool> {
-        of.iter().map(|(claim, is_met)| ((*claim).to_owned(), *is_met)).collect()
+    fn outcomes<'a>(of: &[(&'a str, bool)]) -> Outcomes<'a> {
+        of.iter().copied().collect()
     }
 
     #[test]
     fn claims_of_two_maps_join_under_one_contender_and_rivals_stay_apart() {
-        let problem = |base: &[(&str, bool)], one: &[(&str, bool)], two: &[(&str, bool)]| {
-            [("base", base), ("one", one), ("two", two)]
-                .into_iter()
-                .map(|(label, of)| (label.to_owned(), outcomes(of)))
-                .collect::<BTreeMap<_, _>>()
+        let problem = |base: &[_], one: &[_], two: &[_]| {
+            Contenders::from([("base", outcomes(base)), ("one", outcomes(one)), ("two", outcomes(two))])
         };
         let problems = BTreeMap::from([
             ("a1".to_owned(), problem(&[("a", true)], &[("b", true)], &[("b", false)])),
@@ -230,7 +307,7 @@ mod tests {
             ("z1".to_owned(), problem(&[("y", false)], &[("z", false)], &[("z", true)])),
         ]);
         let readings = [("base", "default"), ("one", "default"), ("two", "r=2")];
-        let readings = readings.map(|(label, reading)| (label.to_owned(), reading.to_owned())).into();
+        let readings = readings.map(|(label, reading)| (label, reading.into())).into();
         let sets = sets_of("s", &Met { problems, readings }, "default");
         let seen: Vec<_> =
             sets.iter().map(|s| (s.under.as_str(), s.problem.as_str(), s.hold.join(" "))).collect();
@@ -244,7 +321,7 @@ mod tests {
 
     #[test]
     fn a_map_with_fewer_but_other_claims_makes_a_set_of_its_own() {
-        let problem = |of: &[(&str, bool)]| BTreeMap::from([("base".to_owned(), outcomes(of))]);
+        let problem = |of: &[_]| Contenders::from([("base", outcomes(of))]);
         let problems = BTreeMap::from([
             ("m1".to_owned(), problem(&[("a", true), ("b", true), ("c", false)])),
             ("m2".to_owned(), problem(&[("a", false), ("b", false), ("c", true)])),

@@ -1,63 +1,13 @@
 //! Verdicts: what was found about each claim, and the file that keeps them.
 
+use super::class::Verdict;
 use crate::study::StudyError;
 use crate::study::store::write_whole;
 use base::settings::Document;
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
-use stats::proportion::units_for_margin;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// What we found about a claim, from the best that can be said to the worst.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// Our interval and the printed value agree within the margin, and nothing was fitted to the claim.
-    Reproduced,
-    /// They agree, but something in the study was chosen so that they would.
-    Fitted,
-    /// An input exists on which it holds; it was searched for.
-    Attainable,
-    /// The sign is right, the size is not.
-    DirectionOnly,
-    /// The interval straddles the margin, or too little is known to say.
-    Undecided,
-    /// It is contradicted by what we measured.
-    NotReproduced,
-    /// The printed numbers contradict arithmetic or geometry.
-    Impossible,
-    /// The paper leaves out what is needed.
-    Untestable,
-}
-
-impl Verdict {
-    /// Every verdict.
-    pub const ALL: [Self; 8] = [
-        Self::Reproduced,
-        Self::Fitted,
-        Self::Attainable,
-        Self::DirectionOnly,
-        Self::Undecided,
-        Self::NotReproduced,
-        Self::Impossible,
-        Self::Untestable,
-    ];
-
-    /// Its name in tables and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Reproduced => "reproduced",
-            Self::Fitted => "fitted",
-            Self::Attainable => "attainable",
-            Self::DirectionOnly => "direction only",
-            Self::Undecided => "undecided",
-            Self::NotReproduced => "not reproduced",
-            Self::Impossible => "impossible",
-            Self::Untestable => "untestable",
-        }
-    }
-}
 
 /// Our number beside the printed one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -71,22 +21,41 @@ pub struct Estimate {
     pub what: String,
     /// How many independent draws it rests on.
     pub n: usize,
+    /// Of the cases that were asked, those that were solved by everyone who is compared, and all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub solved: Option<[usize; 2]>,
 }
 
 impl Estimate {
     /// A number with its interval.
     pub fn new(value: f64, interval: Interval, what: impl Into<String>, n: usize) -> Self {
-        Self { value, interval: Some([interval.low, interval.high]), what: what.into(), n }
+        Self { value, interval: Some([interval.low, interval.high]), what: what.into(), n, solved: None }
+    }
+
+    /// A number that was estimated over draws.
+    pub fn of(found: stats::bootstrap::Estimate, what: impl Into<String>) -> Self {
+        Self::new(found.value, found.interval, what, found.units)
+    }
+
+    /// A number without an interval.
+    pub fn bare(value: f64, what: impl Into<String>, n: usize) -> Self {
+        Self { value, interval: None, what: what.into(), n, solved: None }
+    }
+
+    /// It, of so many cases that were solved among all that were asked.
+    #[must_use]
+    pub fn of_cases(self, solved: [usize; 2]) -> Self {
+        Self { solved: Some(solved), ..self }
     }
 }
 
-/// What one check found.
+/// What one criterion found, with its class.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Finding {
-    /// The check.
-    pub check: String,
-    /// Its verdict; absent if the check can only refuse and did not.
+    /// The criterion; of arithmetic on printed numbers the rule.
+    pub criterion: String,
+    /// Its class; absent if it only shows something, or can only refuse and did not.
     pub verdict: Option<Verdict>,
     /// Our number.
     pub ours: Option<Estimate>,
@@ -94,62 +63,14 @@ pub struct Finding {
     pub trial: Option<String>,
     /// The reading it was found under, if that is not the one that the claim is judged under.
     pub reading: Option<String>,
+    /// What would settle it, where it is undecided.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub settles: Option<String>,
     /// The computation, step by step, and what was found.
     pub because: Vec<String>,
     /// What the computation takes for granted.
     #[serde(default)]
     pub premises: Vec<String>,
-}
-
-impl Verdict {
-    /// Whether an estimate is at least `bound`, as its interval says.
-    pub fn at_least(interval: Interval, bound: f64) -> Self {
-        if interval.low >= bound {
-            Self::Reproduced
-        } else if interval.high < bound {
-            Self::NotReproduced
-        } else {
-            Self::Undecided
-        }
-    }
-
-    /// Whether an estimate is below 0, as its interval says.
-    pub fn below_zero(interval: Interval) -> Self {
-        if interval.high < 0.0 {
-            Self::Reproduced
-        } else if interval.low > 0.0 {
-            Self::NotReproduced
-        } else {
-            Self::Undecided
-        }
-    }
-}
-
-impl Finding {
-    /// A finding of `check` that says nothing yet.
-    pub fn of(check: &str) -> Self {
-        Self { check: check.to_owned(), ..Self::default() }
-    }
-
-    /// It, undecided for this reason.
-    #[must_use]
-    pub fn undecided(mut self, because: impl Into<String>) -> Self {
-        self.verdict = Some(Verdict::Undecided);
-        self.because.push(because.into());
-        self
-    }
-
-    /// If it is undecided because the interval of `ours` holds one of `limits`: how many `units` would tell them apart.
-    pub fn say_what_settles(&mut self, limits: &[f64], units: &str) {
-        let (Some(Verdict::Undecided), Some(ours)) = (self.verdict, &self.ours) else { return };
-        let Some([low, high]) = ours.interval else { return };
-        let straddled = limits.iter().filter(|limit| (low..=high).contains(*limit));
-        let margin = straddled.map(|limit| (ours.value - limit).abs()).fold(f64::INFINITY, f64::min);
-        if margin > 0.0 && margin.is_finite() {
-            let needed = units_for_margin((high - low) / 2.0, ours.n, margin);
-            self.because.push(format!("about {needed} {units} would settle a value of this size"));
-        }
-    }
 }
 
 /// A claim with what was found about it.
@@ -173,9 +94,15 @@ pub struct Judged {
     /// Why it must hold, if it is asserted and not found out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub theorem: Option<String>,
+    /// The sentence or table row that it is a part of, and with which it counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part_of: Option<String>,
+    /// What was changed in how it is judged after a run had been seen, and why.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub changed_after_run: Option<String>,
     /// The reading it was judged under.
     pub reading: String,
-    /// What each check found.
+    /// What each criterion found.
     #[serde(default, rename = "finding")]
     pub findings: Vec<Finding>,
 }
@@ -239,6 +166,18 @@ pub struct Verdicts {
     pub together: Vec<Together>,
 }
 
+/// How many sentences and table rows there are of each class, in words: the same on the terminal and in the report. What
+/// is a part of a sentence or a cell of a row counts with it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Counts {
+    /// How many there are, and of each class.
+    pub classes: String,
+    /// How many parts and cells they have.
+    pub parts: Option<String>,
+    /// How many must hold by a theorem, if any.
+    pub asserted: Option<String>,
+}
+
 impl Verdicts {
     /// Where they lie in the folder of a paper's runs.
     pub fn path(folder: &Path) -> PathBuf {
@@ -254,7 +193,7 @@ impl Verdicts {
         if !path.exists() {
             return Err(StudyError::stored(&path, "no verdicts; run `replan judge` first"));
         }
-        Ok(Document::open(&path)?.read()?)
+        Ok(Document::open(&path)?.read_stored()?)
     }
 
     /// Writes the verdicts into `folder`.
@@ -270,29 +209,29 @@ impl Verdicts {
         toml::to_string(self).expect("verdicts are strings, numbers and tables of them")
     }
 
+    /// How many sentences and table rows there are of each class.
+    pub fn counts(&self) -> Counts {
+        let (parts, whole): (Vec<&Judged>, Vec<&Judged>) =
+            self.claims.iter().partition(|judged| judged.part_of.is_some());
+        let (asserted, counted): (Vec<&Judged>, Vec<&Judged>) =
+            whole.into_iter().partition(|judged| judged.theorem.is_some());
+        let of = |verdict: &Verdict| counted.iter().filter(|judged| judged.verdict == *verdict).count();
+        let found = Verdict::ALL.iter().map(|verdict| (of(verdict), verdict.name()));
+        let found = found.filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}"));
+        let what = if counted.len() == 1 { "sentence or row" } else { "sentences and rows" };
+        let classes = format!("{} {what}: {}", counted.len(), found.collect::<Vec<_>>().join(", "));
+        let parts = (!parts.is_empty()).then(|| {
+            format!("{} parts and cells have classes of their own and count with these", parts.len())
+        });
+        let asserted = (!asserted.is_empty()).then(|| {
+            let many = asserted.len();
+            format!("{many} more must hold whatever was drawn; they are asserted and count for nothing")
+        });
+        Counts { classes, parts, asserted }
+    }
+
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Judged> {
         self.claims.iter().find(|judged| judged.claim == id)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_an_undecided_interval_around_a_limit_asks_for_more_units() {
-        let said = |verdict, [low, value, high]: [f64; 3]| {
-            let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 10));
-            let mut finding = Finding { verdict: Some(verdict), ours, ..Finding::of("share") };
-            finding.say_what_settles(&[0.5, 1.0], "trials");
-            finding.because
-        };
-        // Half a width of 1/4 against a distance of 1/8: four times as many.
-        let needed = "about 40 trials would settle a value of this size";
-        assert_eq!(said(Verdict::Undecided, [0.25, 0.375, 0.75]), [needed]);
-        assert!(said(Verdict::Undecided, [0.6, 0.7, 0.8]).is_empty(), "no limit lies within");
-        assert!(said(Verdict::Undecided, [0.4, 0.5, 0.6]).is_empty(), "no number would");
-        assert!(said(Verdict::Reproduced, [0.2, 0.4, 0.6]).is_empty());
     }
 }

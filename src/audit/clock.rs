@@ -1,5 +1,6 @@
 //! Whether printed times are ticks of a coarse clock, and how easily random digits would look so.
 
+use super::exact::{Exact, Print};
 use super::printed::{Digits, Printed};
 
 /// A clock's tick as a fraction of a second.
@@ -11,19 +12,22 @@ pub struct Tick {
     pub denominator: u32,
 }
 
+/// The first and the last number of ticks that print so, the first above the last if there is none; no answer if 128 bits
+/// do not suffice. `tick` is above 0.
+pub fn ticks(print: Print, tick: Exact) -> Option<(i128, i128)> {
+    Some(print.span().times(tick.recip())?.integers())
+}
+
 impl Tick {
     /// 1/64 s, the interrupt period of a PC clock (15.625 ms).
     pub const SIXTY_FOURTH: Self = Self { numerator: 1, denominator: 64 };
 
     /// How many ticks print as `seconds`; none if no whole number does. The fewest, where several do.
     pub fn count(self, seconds: Printed, digits: Digits) -> Option<u64> {
-        let ends = seconds.half_units(digits);
-        // In units of 1 / (2 scale denominator) seconds, a tick and an end are whole numbers.
-        let tick = 2 * i128::from(seconds.scale()) * i128::from(self.numerator);
-        let end = |half_units: i64| i128::from(half_units) * i128::from(self.denominator);
-        let first = end(ends.low).max(0) / tick;
-        let mut ticks = (first..).take_while(|&k| k * tick <= end(ends.high));
-        ticks.find(|&k| ends.holds(|half_units| (k * tick).cmp(&end(half_units)))).map(|k| k as u64)
+        let tick = Exact::new(i128::from(self.numerator), i128::from(self.denominator));
+        let (first, last) = ticks(Print { printed: seconds, digits }, tick)?;
+        let first = first.max(0);
+        (first <= last).then(|| u64::try_from(first).ok()).flatten()
     }
 
     /// The share of all prints with `decimals` places that some whole number of ticks prints as.

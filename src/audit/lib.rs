@@ -1,17 +1,56 @@
 //! Arithmetic on what a paper prints: what its digits can mean and what no input could have given.
 //!
+//! A table comes in as text, its header says what each column is, and findings come out: which cells no data could have
+//! printed, under which premises, with a certificate that another program can verify.
+//!
+//! ```
+//! use replan_audit::reader::{Format, read};
+//! use replan_audit::report::{Class, Options, audit};
+//!
+//! let table = "| planner | success [% of 250] |\n|---|---|\n| A | 33.3 |\n| B | 33.2 |\n";
+//! let input = read(table, Format::Markdown).expect("the table is well formed");
+//! let report = audit(&input, &Options::default()).expect("no relation is wrong");
+//!
+//! // No k of 250 prints as 33.3 %, by any usual rounding: 83 give 33.2 and 84 give 33.6.
+//! let finding = &report.findings[0];
+//! assert_eq!((finding.check, finding.class), ("grim", Class::Impossible));
+//! assert_eq!(finding.mend.as_ref().map(|mend| mend.to.to_string()), Some("33.2".to_owned()));
+//! assert_eq!(finding.certificate.as_ref().map(|proof| &proof["steps"][0]["below"]), Some(&"83".into()));
+//! ```
+//!
+//! [`reader`] makes an [`input`] of CSV, Markdown or TOML; [`checks`] are one a file, each a question with its source;
+//! [`report`] asks them all, with power and mends; [`certificate`] and [`witness`] are what a finding rests on; [`coverage`]
+//! looks for numbers that no macro backs. What a column can be is [`meaning::ITEMS`]. [`reach`], [`form`], [`clock`],
+//! [`lattice`], [`bounds`], [`turns`], [`sight`] and [`fvalues`] are the mathematics, which claims of papers ask directly.
+//!
 //! Nothing here reads a record. Every bound states its premises and takes the printed digits' slack in the
 //! paper's favour, so that "impossible" is a proof under those premises. Decisions about lattice lengths are
 //! made in integers; angles come from `libm`. Cells are `[x, y]` and stand for their centres, one unit apart.
 
+mod asked;
 pub mod bounds;
+pub mod certificate;
+pub mod checks;
 pub mod clock;
+pub mod coverage;
+pub mod exact;
+pub mod form;
 pub mod fvalues;
+pub mod input;
 pub mod lattice;
-pub mod percent;
+pub mod meaning;
+pub mod output;
 pub mod printed;
+pub mod reach;
+pub mod reader;
+pub mod relation;
+pub mod report;
+pub mod sample;
 pub mod sight;
+pub mod statistic;
+pub mod table;
 pub mod turns;
+pub mod witness;
 
 /// A lattice cell `[x, y]`.
 pub type Cell = [i32; 2];
@@ -24,17 +63,6 @@ pub enum AuditError {
     NotANumber {
         /// The text found.
         text: String,
-    },
-    /// A reduction was asked of a cell that may print zero or a negative value.
-    #[error(
-        "a reduction from {before} to {after} has no meaning: the first must be positive and the second \
-         not negative, whatever their digits stand for"
-    )]
-    NoReduction {
-        /// Printed value before.
-        before: String,
-        /// Printed value after.
-        after: String,
     },
 }
 

@@ -14,10 +14,39 @@ use stats::interval::Interval;
 pub enum Digits {
     /// Rounded to nearest; a tie may have gone either way.
     Rounded,
+    /// Rounded to nearest, a tie away from zero.
+    HalfUp,
+    /// Rounded to nearest, a tie to the even digit.
+    HalfEven,
     /// Cut off, towards zero.
     Truncated,
-    /// Either of the two.
+    /// Rounded down, towards minus infinity.
+    Floor,
+    /// Rounded up, towards plus infinity.
+    Ceiling,
+    /// Rounded to nearest or cut off.
     Unknown,
+    /// Any of the above.
+    Any,
+}
+
+impl Digits {
+    /// Every way, with the name that annotations and certificates use.
+    pub const NAMED: [(&'static str, Self); 8] = [
+        ("any", Self::Any),
+        ("nearest", Self::Rounded),
+        ("half up", Self::HalfUp),
+        ("half even", Self::HalfEven),
+        ("truncation", Self::Truncated),
+        ("floor", Self::Floor),
+        ("ceiling", Self::Ceiling),
+        ("nearest or truncation", Self::Unknown),
+    ];
+
+    /// The name that annotations and certificates use.
+    pub fn name(self) -> &'static str {
+        Self::NAMED.iter().find(|(_, digits)| *digits == self).map_or("any", |(name, _)| name)
+    }
 }
 
 /// A decimal number as printed: `units` in the last of `decimals` places.
@@ -91,22 +120,24 @@ impl Printed {
 
     pub(super) fn half_units(self, digits: Digits) -> HalfUnits {
         let centre = 2 * self.units;
-        let rounded = HalfUnits { low: centre - 1, low_closed: true, high: centre + 1, high_closed: true };
-        let truncated = HalfUnits {
-            low: if self.units > 0 { centre } else { centre - 2 },
-            low_closed: self.units > 0,
-            high: if self.units < 0 { centre } else { centre + 2 },
-            high_closed: self.units < 0,
+        let from = |low: i64, low_closed: bool, high: i64, high_closed: bool| HalfUnits {
+            low: centre + low,
+            low_closed,
+            high: centre + high,
+            high_closed,
         };
+        let (is_even, sign) = (self.units % 2 == 0, self.units.signum());
         match digits {
-            Digits::Rounded => rounded,
-            Digits::Truncated => truncated,
-            Digits::Unknown => HalfUnits {
-                low: rounded.low.min(truncated.low),
-                low_closed: rounded.low < truncated.low,
-                high: rounded.high.max(truncated.high),
-                high_closed: rounded.high > truncated.high,
-            },
+            Digits::Rounded => from(-1, true, 1, true),
+            Digits::HalfUp => from(-1, sign > 0, 1, sign < 0),
+            Digits::HalfEven => from(-1, is_even, 1, is_even),
+            Digits::Truncated if sign > 0 => from(0, true, 2, false),
+            Digits::Truncated if sign < 0 => from(-2, false, 0, true),
+            Digits::Floor => from(0, true, 2, false),
+            Digits::Ceiling => from(-2, false, 0, true),
+            Digits::Unknown if sign > 0 => from(-1, true, 2, false),
+            Digits::Unknown if sign < 0 => from(-2, false, 1, true),
+            Digits::Truncated | Digits::Unknown | Digits::Any => from(-2, false, 2, false),
         }
     }
 }

@@ -14,6 +14,7 @@
 //! not found does not exist.
 
 use super::{Cell, bounds::straight_line_between, distance};
+use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
 
 mod half;
@@ -65,8 +66,17 @@ pub struct TurnQuery {
     pub length: Interval,
 }
 
+/// The text of this module, so that an answer that is kept can be told from one that other code would give.
+pub const SOURCE: [&str; 5] = [
+    include_str!("turns.rs"),
+    include_str!("turns/half.rs"),
+    include_str!("turns/net.rs"),
+    include_str!("turns/octile.rs"),
+    include_str!("turns/reserve.rs"),
+];
+
 /// A polyline through cell centres.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Polyline {
     /// Start, corners and goal.
     pub cells: Vec<Cell>,

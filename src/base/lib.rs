@@ -6,5 +6,6 @@
 pub mod hash;
 pub mod seed;
 pub mod settings;
+pub mod slug;
 
 pub mod grid;

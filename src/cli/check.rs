@@ -47,6 +47,9 @@ impl Check {
             paper.claims.len(),
             paper.ledger.len()
         );
+        for (path, kind) in &paper.others {
+            say!("  {} is taken for a {kind}, not for a study", path.display());
+        }
         if self.rerun > 0 {
             rerun(&paper, &places, self.rerun, self.threads as usize)?;
         }

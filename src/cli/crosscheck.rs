@@ -1,6 +1,7 @@
 //! `replan crosscheck`: robots, scenes and stored paths before an independent judge.
 
 mod python;
+mod statistics;
 
 use super::places::{Places, papers};
 use super::progress::Bar;
@@ -17,16 +18,23 @@ use serde::Deserialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Has MuJoCo judge kinematics, contacts and paths.
+/// Has independent programs judge ours: MuJoCo kinematics, contacts and paths; numpy and scipy the statistics.
 ///
 /// Makes its own Python environment below target/replan/ at the first run, which needs Python 3.11 or later and
 /// the network once. Exit code 3: something differs, or an error made on purpose was not noticed. Exit code 4:
 /// Python or the network is missing; nothing else depends on them.
+///
+/// With --statistics every estimate, interval and class of verdicts.toml that rests on trials is computed again from
+/// the Parquet files, by code of its own. A bootstrap interval agrees if both ends lie where Monte-Carlo error can put
+/// them; a class that this error decides is listed as near. Example: replan crosscheck --statistics zhang
 #[derive(Args)]
 pub struct Crosscheck {
-    /// A paper's name or folder; every paper with a crosscheck.toml if none is given
+    /// A paper's name or folder; every paper with a crosscheck.toml, or with --statistics every paper, if none is given
     paper: Option<String>,
-    /// Write below this folder instead of the committed places
+    /// Compute the statistics of stored runs again, with numpy and scipy alone, and list what differs
+    #[arg(long, conflicts_with = "answered")]
+    statistics: bool,
+    /// Write below this folder instead of the committed places; with --statistics read the runs below it
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// The Python that the environment is made with; python3 or python3.11 if none is given
@@ -35,7 +43,8 @@ pub struct Crosscheck {
     /// Judge the answers that are already there; ask nothing
     #[arg(long)]
     answered: bool,
-    /// Leave report and picture as they are; say whether the report's chapter is what would be written
+    /// Leave report and picture as they are; say whether the report's chapter is what would be written. --statistics
+    /// writes neither
     #[arg(long)]
     check: bool,
 }
@@ -54,7 +63,7 @@ struct Source {
 /// What the paper in `folder` says of inputs that stand in for its own.
 fn stand_ins(folder: &Path) -> Result<Option<String>, Failure> {
     let read: Sourced = Document::open(&folder.join("paper.toml"))
-        .and_then(|document| document.read())
+        .and_then(|document| document.read_stored())
         .map_err(CrosscheckError::from)?;
     Ok(read.source.and_then(|source| source.stand_ins))
 }
@@ -68,6 +77,9 @@ const PICTURE: &str = "scene_mujoco.png";
 impl Crosscheck {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
+        if self.statistics {
+            return statistics::run(self.paper.as_deref(), self.out.as_deref(), self.python.as_deref());
+        }
         let names = self.paper.clone().map_or_else(papers, |paper| vec![paper]);
         let mut posed = Vec::new();
         for name in &names {
@@ -265,7 +277,7 @@ fn compare(id: &str, cases: &[Case], folder: &Path) -> Result<Vec<Outcome>, Cros
     let bar = Bar::default();
     bar.begin(&format!("{id}: comparing"), cases.len());
     let outcomes = cases.par_iter().map(|case| {
-        let outcome = case.judge(folder);
+        let outcome = case.compare(folder);
         bar.step();
         outcome
     });

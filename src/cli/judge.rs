@@ -1,14 +1,18 @@
 //! `replan judge`: verdicts from stored runs.
 
 use super::places::Places;
+use super::progress::doing;
 use super::{Failure, How, Which, verdicts};
 use crate::analysis::claims;
+use crate::analysis::difference::differences;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
+use std::fs;
+use std::path::Path;
 
 /// Judges a paper's claims again.
 #[derive(Args)]
@@ -18,6 +22,9 @@ pub struct Judge {
     /// Judge under these readings, which must have been run: `corner_cutting=forbid_any,ties=lifo`
     #[arg(long, value_name = "READINGS")]
     readings: Option<String>,
+    /// Write nothing; say whether the stored verdicts are those that the stored run gives
+    #[arg(long)]
+    check: bool,
 }
 
 impl Judge {
@@ -27,16 +34,45 @@ impl Judge {
         let places = Places::find(&self.which, &how.variant())?;
         let paper = super::run::load(&places, &how)?;
         let point = how.point(&paper.readings())?;
+        if self.check {
+            return check(&paper, point, &places);
+        }
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         verdicts::print(&judge(&paper, point, &places)?);
         Ok(())
     }
 }
 
+/// Judges again and refuses stored verdicts that are not what comes out, to the byte.
+fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Failure> {
+    let (stored, path) = (Verdicts::read(&places.runs)?, Verdicts::path(&places.runs));
+    let now = claims::judge(&read(paper, point, places)?)?;
+    let mut found = differences(&stored, &now);
+    if found.is_empty() && fs::read(&path)? != now.text().as_bytes() {
+        found.push("the same verdicts in other words than `replan judge` writes".to_owned());
+    }
+    if found.is_empty() {
+        say!("{}: {} verdicts are what the stored run gives", paper.id, now.claims.len());
+        return Ok(());
+    }
+    let message = format!("{}: not what the stored run gives:\n  {}", path.display(), found.join("\n  "));
+    Err(Failure::stale(message))
+}
+
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
 pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
-    let evidence = Evidence::read(paper, point, &places.runs)?;
+    let evidence = read(paper, point, places)?.remembering(Path::new(POLYLINES));
     let verdicts = claims::judge(&evidence)?;
+    evidence.keep_polylines();
     verdicts.write(&places.runs)?;
     Ok(verdicts)
+}
+
+/// Where polylines that were searched for are kept; a check searches for its own.
+const POLYLINES: &str = "target/replan/cache/polylines.json";
+
+/// The stored run of `paper`, to be judged under `point`.
+fn read<'a>(paper: &'a Paper, point: ReadingChoice, places: &Places) -> Result<Evidence<'a>, Failure> {
+    doing(&format!("{}: judging {} claims", paper.id, paper.claims.len()));
+    Ok(Evidence::read(paper, point, &places.runs)?)
 }

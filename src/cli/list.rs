@@ -1,20 +1,27 @@
 //! `replan list`: what there is.
 
+use super::catalogue::{self, Item};
+use super::explain::{explained, wrapped};
 use super::places::{EXPERIMENTS, papers};
 use super::{Failure, all};
-use crate::analysis::{check, metric};
-use crate::render::figure;
+use crate::analysis::metric;
+use crate::study::Inputs;
 use crate::study::paper::Paper;
-use crate::study::{Inputs, family, prepared, task};
+use base::settings::none_called;
 use clap::{Args, ValueEnum};
-use engine::planner::{self, Build};
+use engine::kinematics::{Robot, robot::Body};
 use std::path::{Path, PathBuf};
+
+/// Where robots are shipped.
+const ROBOTS: &str = "data/robots";
 
 /// Lists what there is.
 #[derive(Args)]
 pub struct List {
     /// What to list; everything if absent
     what: Option<What>,
+    /// One of them: what it is, what it can be told, and an example
+    name: Option<String>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -22,68 +29,159 @@ enum What {
     Papers,
     Studies,
     Readings,
+    Robots,
     Planners,
     Stages,
     Families,
     Prepared,
     Tasks,
-    Checks,
+    /// Criteria that claims are judged by.
+    #[value(alias = "checks")]
+    Criteria,
+    Rules,
     Metrics,
     Figures,
+    Files,
 }
 
 impl List {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
-        let wanted = [What::Papers, What::Studies, What::Readings];
-        let is_about_papers = self.what.is_none_or(|what| wanted.contains(&what));
-        let (papers, results) = if is_about_papers { loaded() } else { (Vec::new(), Vec::new()) };
+        if let (Some(what), Some(name)) = (self.what, &self.name) {
+            return one(what, name);
+        }
+        let (found, results) = Found::read(|kind| self.what.is_none_or(|what| kind.contains(&what)));
         for what in What::value_variants() {
             if self.what.is_none_or(|wanted| wanted == *what) {
-                let name = what.to_possible_value().expect("no variant is hidden");
-                say!("{}", name.get_name());
-                for (name, about) in rows(*what, &papers) {
-                    say!("  {name:<26} {about}");
+                say!("{}", title(*what));
+                for (name, about) in rows(*what, &found) {
+                    say!("{}", wrapped(&format!("  {name:<26} "), &about, 29));
                 }
             }
         }
-        all(results, "papers cannot be listed")
+        all(results, "papers and robots cannot be listed")
     }
 }
 
-fn rows(what: What, papers: &[Paper]) -> Vec<(String, String)> {
-    let row = |name: &str, about: &str| (name.to_owned(), about.to_owned());
-    let planners = |first: bool| {
-        let fits = move |entry: &&planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
-        planner::REGISTRY.iter().copied().filter(fits).map(|e| row(e.name, e.about)).collect()
+/// What is read from files.
+struct Found {
+    papers: Vec<Paper>,
+    robots: Vec<Robot>,
+}
+
+impl Found {
+    /// The papers and robots that can be read, if a kind that needs them is asked for, and how reading each went.
+    fn read(is_wanted: impl Fn(&[What]) -> bool) -> (Self, Vec<Result<(), Failure>>) {
+        let papers = is_wanted(&[What::Papers, What::Studies, What::Readings]).then(loaded);
+        let (papers, mut results) = papers.unwrap_or_default();
+        let read = is_wanted(&[What::Robots]).then(robots);
+        let (robots, faults) = read.unwrap_or_default();
+        results.extend(faults);
+        (Self { papers, robots }, results)
+    }
+}
+
+fn title(what: What) -> String {
+    what.to_possible_value().expect("no variant is hidden").get_name().to_owned()
+}
+
+fn singular(what: What) -> &'static str {
+    match what {
+        What::Papers => "paper",
+        What::Studies => "study",
+        What::Readings => "reading",
+        What::Robots => "robot",
+        What::Planners => "planner",
+        What::Stages => "stage",
+        What::Families => "family",
+        What::Prepared => "kind of prepared object",
+        What::Tasks => "task",
+        What::Criteria => "criterion",
+        What::Rules => "rule",
+        What::Metrics => "metric",
+        What::Figures => "kind of figure",
+        What::Files => "kind of file",
+    }
+}
+
+/// What the one thing of the kind `what` that is called `name` is.
+fn one(what: What, name: &str) -> Result<(), Failure> {
+    let Some(items) = items(what) else {
+        let (found, results) = Found::read(|kind| kind.contains(&what));
+        let rows = rows(what, &found);
+        let known = rows.iter().map(|(known, _)| known.as_str());
+        let found = rows.iter().find(|(known, _)| known == name);
+        let (_, about) = found.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
+        say!("{name}\n{}", wrapped("  ", about, 2));
+        return all(results, "papers and robots cannot be listed");
     };
+    let known = items.iter().map(|item| item.name);
+    let item = items.iter().find(|item| item.name == name);
+    let item = item.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
+    say!("{}", explained(item));
+    Ok(())
+}
+
+fn items(what: What) -> Option<Vec<Item>> {
+    Some(match what {
+        What::Planners => catalogue::planners(),
+        What::Stages => catalogue::stages(),
+        What::Families => catalogue::families(),
+        What::Prepared => catalogue::prepared(),
+        What::Tasks => catalogue::tasks(),
+        What::Criteria => catalogue::criteria(),
+        What::Rules => catalogue::rules(),
+        What::Figures => catalogue::figures(),
+        What::Files => catalogue::files(),
+        What::Papers | What::Studies | What::Readings | What::Robots | What::Metrics => return None,
+    })
+}
+
+fn rows(what: What, Found { papers, robots }: &Found) -> Vec<(String, String)> {
+    let row = |name: &str, about: &str| (name.to_owned(), about.to_owned());
+    if let Some(items) = items(what) {
+        return items.iter().map(|item| row(item.name, item.about)).collect();
+    }
     match what {
         What::Papers => papers.iter().map(|paper| row(&paper.id, &paper.source.title)).collect(),
         What::Studies => {
             let studies = papers.iter().flat_map(|paper| &paper.studies);
             studies.map(|s| (format!("{}/{}", s.paper, s.name), s.question.clone())).collect()
         }
-        What::Readings => {
-            let readings =
-                papers.iter().flat_map(|paper| paper.readings().into_iter().map(|r| (&paper.id, r)));
-            readings
-                .map(|(paper, reading)| {
-                    let options: Vec<&str> = reading.options.keys().map(String::as_str).collect();
-                    let about =
-                        format!("{} (default {}): {}", options.join(" | "), reading.default, reading.why);
-                    (format!("{paper}/{}", reading.id), about)
-                })
-                .collect()
-        }
-        What::Planners => planners(true),
-        What::Stages => planners(false),
-        What::Families => family::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
-        What::Prepared => prepared::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
-        What::Tasks => task::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
-        What::Checks => check::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
-        What::Metrics => metric::METRICS.iter().map(|m| row(m.name, &m.title())).collect(),
-        What::Figures => figure::REGISTRY.iter().map(|e| row(e.name, e.about)).collect(),
+        What::Readings => papers
+            .iter()
+            .flat_map(|paper| paper.readings().into_iter().map(move |reading| (paper, reading)))
+            .map(|(paper, reading)| {
+                let options: Vec<&str> = reading.options.keys().map(String::as_str).collect();
+                let about = format!("{} (default {}): {}", options.join(" | "), reading.default, reading.why);
+                (format!("{}/{}", paper.id, reading.id), about)
+            })
+            .collect(),
+        What::Robots => robots.iter().map(|robot| row(robot.name(), &about(robot))).collect(),
+        _ => metric::METRICS.iter().map(|m| row(m.name, &m.title())).collect(),
     }
+}
+
+/// What one line says of a robot.
+fn about(robot: &Robot) -> String {
+    let bodies: Vec<&str> = robot.bodies().iter().map(Body::name).collect();
+    format!("{}; bodies: {}", robot.arm().solver(), bodies.join(", "))
+}
+
+/// Every robot of the project that can be read, by name of its file, and what is wrong with the others.
+fn robots() -> (Vec<Robot>, Vec<Result<(), Failure>>) {
+    let files = std::fs::read_dir(ROBOTS).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut files: Vec<PathBuf> =
+        files.filter(|file| file.extension().is_some_and(|e| e == "toml")).collect();
+    files.sort_unstable();
+    let (mut robots, mut faults) = (Vec::new(), Vec::new());
+    for robot in files.iter().map(|file| Robot::load(file)) {
+        match robot {
+            Ok(robot) => robots.push(robot),
+            Err(error) => faults.push(Err(Failure::input(error.to_string()))),
+        }
+    }
+    (robots, faults)
 }
 
 /// Every paper that can be read, and how reading each went.

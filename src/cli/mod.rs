@@ -1,8 +1,8 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 done, but what was checked is not as stored, or an independent judge disagrees; 4 `crosscheck`
-//! lacks Python or the network; 130 interrupted, and what was done is kept.
+//! wrong input files; 3 a check said no: something is not as stored, is judged otherwise, is impossible, or an independent judge
+//! disagrees; 4 `crosscheck` lacks Python or the network; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
 macro_rules! say {
@@ -12,8 +12,12 @@ macro_rules! say {
     }};
 }
 
+mod audit;
+pub mod catalogue;
 mod check;
 mod crosscheck;
+mod explain;
+pub mod file_schema;
 mod judge;
 mod list;
 mod places;
@@ -21,6 +25,7 @@ mod progress;
 mod render;
 mod repro;
 mod run;
+mod schema;
 mod trial;
 mod verdicts;
 
@@ -44,7 +49,8 @@ const EXAMPLES: &str = "Examples:
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
   replan render zhang --check        are the committed plots and tables what the stored run gives?
-  replan list planners               what contenders can name";
+  replan list planners               what contenders can name
+  replan list criteria one_draw      what one criterion can be told, with an example";
 
 #[derive(Subcommand)]
 enum Command {
@@ -60,7 +66,11 @@ enum Command {
     Render(render::Render),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
-    /// List papers, studies, planners, tasks, checks, metrics, figure kinds, readings and more
+    /// Ask of a printed table, by arithmetic alone, whether any data could have given it
+    Audit(audit::Audit),
+    /// Write a JSON Schema of every kind of TOML file, for editors
+    Schema(schema::Schema),
+    /// List papers, studies, planners, tasks, criteria, rules, metrics, figure kinds, readings and more
     List(list::List),
 }
 
@@ -161,7 +171,9 @@ pub fn run() -> ExitCode {
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
+        Command::Audit(command) => command.run(),
         Command::List(command) => command.run(),
+        Command::Schema(command) => command.run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

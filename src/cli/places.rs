@@ -37,7 +37,7 @@ impl Places {
     pub fn find(which: &Which, variant: &str) -> Result<Self, Failure> {
         let (folder, is_own) = folder(&which.paper)?;
         let id = paper_id(&folder)?;
-        let committed = if is_own { folder.join("out") } else { PathBuf::from(".") };
+        let committed = if is_own { Path::new("target/replan").join(&id) } else { PathBuf::from(".") };
         let root = match (&which.out, variant) {
             (Some(out), "") => out.clone(),
             (Some(out), variant) if is_committed(out, &committed) => {

@@ -23,6 +23,13 @@ pub fn stop_flag() -> &'static AtomicBool {
     &STOP
 }
 
+/// Says on a terminal what is about to be done, as it may take longer than a second.
+pub fn doing(what: &str) {
+    if std::io::stderr().is_terminal() {
+        eprintln!("{what} …");
+    }
+}
+
 /// Ends the command here if Ctrl-C was pressed; `kept` says what is not lost.
 pub fn safe_point(stop: &AtomicBool, kept: &str) -> Result<(), Failure> {
     if stop.load(Ordering::Relaxed) {

@@ -1,17 +1,17 @@
 //! `replan render`: figures, tables and the report's chapter from the stored run and verdicts.
 
 use super::places::Places;
-use super::progress::{safe_point, stop_flag};
+use super::progress::{doing, safe_point, stop_flag};
 use super::{Failure, How, Which};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
-use crate::render::output::{self, Output};
+use crate::render::output::{self, Outputs};
 use crate::render::report;
 use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 /// Draws a paper's figures and tables again.
@@ -42,21 +42,52 @@ impl Render {
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         let drawn = draw(&paper, &places, self.only.as_deref(), stop)?;
         put(&paper, &places, &drawn, stop)?;
-        say!("{} files are in {}", drawn.outputs.len(), places.plots.display());
-        Ok(())
+        say!("{} files are in {}", drawn.outputs.files.len(), places.plots.display());
+        all_drawn(&drawn.outputs)
     }
 }
 
 /// What should be on disk.
 struct Drawn {
-    outputs: Vec<Output>,
+    outputs: Outputs,
     /// The paper's chapter, unless only one figure was asked for.
     chapter: Option<String>,
 }
 
-/// Draws everything and writes it.
-pub fn write(paper: &Paper, places: &Places, stop: &AtomicBool) -> Result<(), Failure> {
-    put(paper, places, &draw(paper, places, None, stop)?, stop)
+/// Draws everything and writes it; gives what could not be drawn.
+pub fn write(paper: &Paper, places: &Places, stop: &AtomicBool) -> Result<Outputs, Failure> {
+    let drawn = draw(paper, places, None, stop)?;
+    put(paper, places, &drawn, stop)?;
+    Ok(drawn.outputs)
+}
+
+/// The macros that the stored run and verdicts of `paper` give now; none if there is no such paper here.
+///
+/// # Errors
+/// If the paper or its stored run cannot be read.
+pub fn macros(paper: &str) -> Result<Option<String>, Failure> {
+    if !Path::new("experiments").join(paper).is_dir() {
+        return Ok(None);
+    }
+    let places = Places::find(&Which { paper: paper.to_owned(), out: None }, "")?;
+    let how = How { quick: false, seed: None, readings: None, threads: None };
+    let paper = super::run::load(&places, &how)?;
+    let drawn = draw(&paper, &places, Some("numbers"), stop_flag())?;
+    let made = drawn.outputs.files.first().map(|file| String::from_utf8_lossy(&file.bytes).into_owned());
+    Ok(made)
+}
+
+/// Refuses `outputs` of which figures are missing, each with its reason.
+pub fn all_drawn(outputs: &Outputs) -> Result<(), Failure> {
+    if outputs.undrawn.is_empty() {
+        return Ok(());
+    }
+    let said: Vec<&str> = outputs.undrawn.iter().map(|undrawn| undrawn.why.as_str()).collect();
+    Err(Failure::stale(format!("{} could not be drawn: {}", counted(said.len(), "figure"), said.join("; "))))
+}
+
+fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }
 
 /// Refuses a report that the paper's chapter could not be put into, before anything is written.
@@ -71,6 +102,7 @@ fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -
         Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
     })?;
     let evidence = Evidence::read(paper, point, &places.runs)?;
+    doing(&format!("{}: drawing its figures and tables", paper.id));
     let outputs = output::outputs(&evidence, &verdicts, only, stop)?;
     let chapter = || output::chapter(&places.report, &evidence, &verdicts, &places.plots, &outputs);
     let chapter = only.is_none().then(chapter);
@@ -87,14 +119,16 @@ fn put(paper: &Paper, places: &Places, drawn: &Drawn, stop: &AtomicBool) -> Resu
 }
 
 fn check(paper: &Paper, places: &Places, drawn: &Drawn) -> Result<(), Failure> {
-    let mut stale = output::stale(&places.plots, &drawn.outputs);
+    all_drawn(&drawn.outputs)?;
+    let files = &drawn.outputs.files;
+    let mut stale = output::stale(&places.plots, files);
     let mut left = Vec::new();
     if let Some(chapter) = &drawn.chapter {
         let before = report::read(&places.report)?;
         if report::with_chapter(&places.report, &before, &paper.id, chapter)? != before {
             stale.push(places.report.clone());
         }
-        left = output::left_over(&places.plots, &drawn.outputs, &places.report, &paper.id)?;
+        left = output::left_over(&places.plots, files, &places.report, &paper.id)?;
     }
     let listed = |paths: &[PathBuf]| {
         paths.iter().map(|path| path.display().to_string()).collect::<Vec<String>>().join(", ")
@@ -103,7 +137,7 @@ fn check(paper: &Paper, places: &Places, drawn: &Drawn) -> Result<(), Failure> {
     let said = said.into_iter().filter(|(_, paths)| !paths.is_empty());
     let said: Vec<String> = said.map(|(what, paths)| format!("{what}: {}", listed(paths))).collect();
     if said.is_empty() {
-        say!("{} files are current", drawn.outputs.len() + usize::from(drawn.chapter.is_some()));
+        say!("{} files are current", files.len() + usize::from(drawn.chapter.is_some()));
         return Ok(());
     }
     Err(Failure::stale(said.join("; ")))

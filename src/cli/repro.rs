@@ -43,13 +43,13 @@ impl Repro {
         let point = self.how.point(&paper.readings())?;
         let judged = judge::judge(&paper, point, &places)?;
         verdicts::print(&judged);
-        render::write(&paper, &places, stop)?;
+        let drawn = render::write(&paper, &places, stop)?;
         say!(
             "records and verdicts are in {}, figures and tables in {}, the report in {}",
             places.runs.display(),
             places.plots.display(),
             places.report.display()
         );
-        Ok(())
+        render::all_drawn(&drawn)
     }
 }

@@ -1,13 +1,16 @@
 //! `replan run`: the trials, and nothing after them.
 
+use super::file_schema::with_the_rest;
 use super::places::Places;
 use super::progress::{Bar, stop_flag};
 use super::{Failure, How, Which, command_line};
 use crate::analysis::claims;
+use crate::study::StudyError;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
 use crate::study::session::{self, Options, Report, UnexpectedStatus};
+use base::settings::Faults;
 use clap::Args;
 
 /// Runs the studies of a paper.
@@ -43,11 +46,17 @@ impl Run {
 
 /// The paper as the flags ask for it, with every claim's checks understood.
 pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
-    let paper = how.apply(Paper::load(&places.folder, &places.inputs)?);
+    let paper = Paper::load(&places.folder, &places.inputs).map_err(|error| match error {
+        StudyError::Settings(fault) => StudyError::Settings(with_the_rest(fault, &places.folder)),
+        other => other,
+    })?;
+    let paper = how.apply(paper);
     how.check_readings(&paper)?;
-    claims::validate(&paper)?;
-    crate::render::figure::validate(&paper)?;
-    crate::render::results::validate(&paper)?;
+    let mut faults = Faults::default();
+    faults.keep(claims::validate(&paper));
+    faults.keep(crate::render::figure::validate(&paper));
+    faults.keep(crate::render::results::validate(&paper));
+    faults.done()?;
     Ok(paper)
 }
 
@@ -83,10 +92,13 @@ pub fn run_studies(
 /// What a run did, in a few words.
 pub fn summary(report: &Report, why: bool) -> String {
     let mut text = format!("{}: {} trials", report.manifest.study, report.trials);
-    let parts = [(report.resumed, "resumed"), (report.reused, "reused")];
-    let parts = parts.iter().filter(|(count, _)| *count > 0);
-    let said: Vec<String> =
-        parts.map(|(count, what)| format!("{count} of {} units {what}", report.units)).collect();
+    let parts = [
+        (report.resumed, report.units, "units resumed"),
+        (report.reused, report.units, "units reused"),
+        (report.kept, report.trials, "trials reused"),
+    ];
+    let parts = parts.iter().filter(|(count, ..)| *count > 0);
+    let said: Vec<String> = parts.map(|(count, all, what)| format!("{count} of {all} {what}")).collect();
     if !said.is_empty() {
         text += &format!(" ({})", said.join(", "));
     }

@@ -2,6 +2,7 @@
 
 use super::places::Places;
 use super::{Failure, How};
+use crate::study::name::Names;
 use crate::study::paper::Paper;
 use crate::study::record::{Kept, Row};
 use crate::study::session;
@@ -17,9 +18,10 @@ pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), 
         ))
     })?;
     let points = how.points(study)?;
+    let names = study.names();
     let (batch, stored) = session::run_one(study, &points, &places.inputs, &places.runs, trial)?;
     for row in &batch.rows {
-        print_row(row);
+        print_row(row, &names);
     }
     print_exhibits(&batch.kept);
     match (batch.rows.first(), stored) {
@@ -32,7 +34,7 @@ pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), 
             Ok(())
         }
         (_, Some(stored)) => {
-            print_row(&stored);
+            print_row(&stored, &names);
             Err(Failure::stale(format!("trial {name} is not what is stored; the stored row stands above")))
         }
     }
@@ -54,18 +56,18 @@ fn print_exhibits(kept: &[Kept]) {
     }
 }
 
-fn print_row(row: &Row) {
+fn print_row(row: &Row, names: &Names) {
     let text = |name: &str, value: &str| say!("{name:<22} {value}");
-    text("trial", &row.trial);
-    text("problem", &row.problem);
-    text("contender", &row.contender);
-    text("reading", &row.reading);
+    text("trial", &names.trial(&row.key));
+    text("problem", &names.problem(&row.key.on, row.key.query.as_deref()));
+    text("contender", &row.key.contender);
+    text("reading", &names.reading(&row.key.on.reading));
     text("seed", &row.seed.to_string());
     text("status", row.status.name());
     if let Some(reason) = &row.reason {
         text("reason", reason);
     }
-    for (name, value) in &row.values {
-        text(name, &value.as_f64().to_string());
+    for (column, value) in row.values.iter() {
+        text(column.name, &value.as_f64().to_string());
     }
 }

@@ -1,7 +1,7 @@
 //! The verdict table on the terminal.
 
-use crate::analysis::verdict::{Estimate, Judged, Verdict, Verdicts};
-use std::collections::BTreeMap;
+use crate::analysis::class::Verdict;
+use crate::analysis::verdict::{Counts, Estimate, Judged, Verdicts};
 use std::io::IsTerminal as _;
 
 /// Prints every claim's verdict, and how many there are of each.
@@ -18,7 +18,7 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
     let mut text = format!("{:<width$}  {:>9}  {:<wide$}  verdict\n", "claim", "printed", "ours");
     for (judged, ours) in verdicts.claims.iter().zip(ours) {
         let printed = judged.printed.as_deref().unwrap_or("–");
-        let name = judged.verdict.name();
+        let name = judged.outcome();
         let verdict = if is_coloured {
             format!("\x1b[{}m{name}\x1b[0m", colour(judged.verdict))
         } else {
@@ -31,13 +31,11 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
         let what = what.unwrap_or_default();
         text += &format!("{:<width$}  {printed:>9}  {ours:<wide$}  {verdict}{what}\n", judged.claim);
     }
-    let mut counts: BTreeMap<Verdict, usize> = BTreeMap::new();
-    for judged in &verdicts.claims {
-        *counts.entry(judged.verdict).or_default() += 1;
+    let Counts { classes, parts, asserted } = verdicts.counts();
+    text += &format!("{classes}\n");
+    for more in parts.into_iter().chain(asserted) {
+        text += &format!("{more}\n");
     }
-    let counted: Vec<String> =
-        counts.into_iter().map(|(verdict, count)| format!("{count} {}", verdict.name())).collect();
-    text += &format!("{} claims: {}\n", verdicts.claims.len(), counted.join(", "));
     if verdicts.quick {
         text += "a quick run: few replicates, so these verdicts are not the study's\n";
     }

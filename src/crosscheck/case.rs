@@ -4,10 +4,9 @@ use super::CrosscheckError;
 use super::compare::{Asked, Compared, Disagreement, Line};
 use super::control::{Control, Wrong, pushed_control, pushed_path};
 use super::mjcf::{Key, mjcf};
-use super::model::Model;
+use super::model::{Freedom, Model};
 use super::path::{Path, Pushed, drawn_paths};
 use super::sample::{Kind, Question, Sampler, Sizes};
-use super::stored::Freedom;
 use super::subject::Subject;
 use super::table::{place, write_questions};
 use std::collections::BTreeSet;
@@ -163,7 +162,7 @@ impl Case {
     ///
     /// # Errors
     /// [`CrosscheckError::Answer`] for answers that are missing or do not fit the questions.
-    pub fn judge(&self, folder: &FilePath) -> Result<Outcome, CrosscheckError> {
+    pub fn compare(&self, folder: &FilePath) -> Result<Outcome, CrosscheckError> {
         let folder = self.folder(folder);
         let asked =
             |name, questions| Asked { subject: self.subject.as_ref(), folder: &folder, name, questions };

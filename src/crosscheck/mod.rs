@@ -1,7 +1,7 @@
 //! The independent judge: robots, scenes and paths as MuJoCo is asked about them, and its answers beside ours.
 //!
 //! A [`Case`] is one robot in one scene. [`Case::write`] puts models (MJCF) and questions (Parquet) into a folder; the
-//! Python modules in `crosscheck/` answer them there; [`Case::judge`] compares. Everything that is asked derives from
+//! Python modules in `crosscheck/` answer them there; [`Case::compare`] compares. Everything that is asked derives from
 //! files and a seed, so that questions need not be kept to understand the answers.
 //!
 //! Compared are frames of links and tool, contact of every pair that may touch, distances where separated, and joints
@@ -27,7 +27,7 @@ mod tests;
 pub use case::{Case, Outcome};
 pub use chapter::{Depicted, chapter, list, table as verdict_table};
 pub use compare::{Disagreement, FRAME_TOLERANCE, Line, TIE_M};
-pub use spec::{Picture, SPEC, Sources, Spec};
+pub use spec::{FILE, Picture, SPEC, Sources, Spec};
 pub use table::ANSWERED;
 
 use crate::study::StudyError;

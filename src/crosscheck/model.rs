@@ -1,6 +1,8 @@
 //! A robot among obstacles as the judge is told of it: the numbers of the files, and nothing worked out from them.
 
 use engine::geometry::{Capsule, Frame, Solid, Vec3};
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 /// One row of Denavit–Hartenberg parameters with its joint's limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,6 +142,38 @@ fn moved(solid: &Solid, by_m: &Vec3) -> Solid {
         Solid::HalfSpace(h) => {
             let point = h.normal() * -h.height(&Vec3::zeros()) + by_m;
             Solid::HalfSpace(HalfSpace::behind(&point, h.normal()).expect(STAYS))
+        }
+    }
+}
+
+/// What a path is said to be free of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Freedom {
+    /// Nothing is promised.
+    Nothing,
+    /// What stands around the robot; it may hit itself.
+    Scene,
+    /// All contact.
+    Contact,
+}
+
+impl Freedom {
+    /// In the report's words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nothing => "nothing",
+            Self::Scene => "obstacles",
+            Self::Contact => "all contact",
+        }
+    }
+
+    /// Whether a path with contact of `pair` is not as promised.
+    pub fn is_broken_by(self, pair: Pair) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::Scene => pair.still().is_some(),
+            Self::Contact => true,
         }
     }
 }

@@ -4,8 +4,6 @@ use super::model::Pair;
 use super::sample::{Kind, Question, drawn};
 use super::subject::Subject;
 use base::seed;
-use engine::geometry::{Frame, Vec3};
-use nalgebra::Matrix3;
 
 /// Into how many parts each step of a stored path is cut.
 pub const FINER: u32 = 4;
@@ -161,20 +159,4 @@ fn downhill(start: &[f64], gap_m: impl Fn(&[f64]) -> f64) -> Vec<f64> {
         q.iter_mut().zip(&slopes).for_each(|(angle, slope)| *angle -= PUSH_STEP_RAD * slope / steepness);
     }
     q
-}
-
-/// The frame at `share` of the way from one to another: on a straight line, turned evenly about one axis.
-pub fn straight(from: &Frame, to: &Frame, share: f64) -> Frame {
-    let origin = from.origin + (to.origin - from.origin) * share;
-    let turn = to.rotation * from.rotation.transpose();
-    let skew =
-        Vec3::new(turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]);
-    let angle = libm::atan2(skew.norm(), turn.trace() - 1.0);
-    // One step of a path turns by far less than half a turn, so the axis is known wherever it matters.
-    let rotation = if skew.norm() < 1e-12 {
-        Matrix3::identity()
-    } else {
-        Frame::turned(&(skew / skew.norm()), angle * share).rotation
-    };
-    Frame { rotation: rotation * from.rotation, origin }
 }

@@ -1,7 +1,6 @@
 //! A planar arm as the judge sees it: in the plane z = 0, links as capsules too thin to matter.
 
-use super::model::{Model, Pair, Part, Row, Still};
-use super::stored::Freedom;
+use super::model::{Freedom, Model, Pair, Part, Row, Still};
 use super::subject::Subject;
 use engine::geometry::planar::{Circle, ConvexPolygon, Segment2, Touch, distance_point_segment};
 use engine::geometry::{Capsule, Convex, Frame, GeometryError, Solid, Sphere, Vec2, Vec3};

@@ -4,6 +4,7 @@ use super::model::{Model, Pair};
 use super::subject::Subject;
 use base::seed::{self, Stream};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Why a configuration is asked about.
@@ -58,18 +59,23 @@ pub struct Question {
 }
 
 /// How many configurations of each kind are asked about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sizes {
     /// Drawn evenly.
+    #[schemars(range(max = 1_000_000))]
     pub random: u32,
     /// Of these, how many are also asked for their frames.
+    #[schemars(range(max = 1_000_000))]
     pub random_frames: u32,
     /// Of these, how many are also asked for their distances.
+    #[schemars(range(max = 1_000_000))]
     pub random_distances: u32,
     /// Within [`NEAR_M`] of contact.
+    #[schemars(range(max = 1_000_000))]
     pub near_contact: u32,
     /// Singular.
+    #[schemars(range(max = 1_000_000))]
     pub singular: u32,
     /// Piercing.
     pub piercing: u32,

@@ -2,80 +2,102 @@
 
 use super::CrosscheckError;
 use super::case::{Case, Given};
-use super::model::Still;
+use super::model::{Freedom, Still};
 use super::planar::PlanarArm;
 use super::sample::Sizes;
-use super::stored::{Freedom, StoredPaths};
+use super::stored::StoredPaths;
 use super::subject::{Check, SerialArm, Subject};
 use crate::study::{Inputs, slug};
 use base::seed;
-use base::settings::{Document, SettingsError};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
 use engine::geometry::{Convex, Solid};
 use engine::kinematics::{AXES, Robot};
 use engine::space::cell::{Cell, Obstacle, Scene};
 use engine::space::polyhedra::{CarriedArm, read_scene};
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::Arc;
-use toml::Spanned;
 
 /// The file's name.
 pub const SPEC: &str = "crosscheck.toml";
+/// What `crosscheck.toml` may hold.
+pub const FILE: Accepted = Accepted::of::<SpecFile>();
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SpecFile {
+    /// The root of every seed.
     seed: u64,
+    /// How much is drawn and compared.
     sizes: Sizes,
+    /// What the picture shows.
     picture: PictureEntry,
+    /// Robots whose kinematics are judged.
     #[serde(default, rename = "robot")]
     robots: Vec<Spanned<RobotEntry>>,
+    /// Scenes whose distances are judged.
     #[serde(default, rename = "scene")]
     scenes: Vec<Spanned<SceneEntry>>,
+    /// Stored paths of robots in scenes that are judged.
     #[serde(default, rename = "stored")]
     stored: Vec<Spanned<StoredEntry>>,
+    /// Planar arms whose stored paths are judged.
     #[serde(default, rename = "workspace")]
     workspaces: Vec<Spanned<WorkspaceEntry>>,
 }
 
 /// What the picture shows.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PictureEntry {
+    /// The case, by its label.
     case: Spanned<String>,
+    /// The keyframe, by its name.
     key: Spanned<String>,
+    /// How far the camera is turned about the vertical.
     azimuth_deg: f64,
+    /// How far the camera looks above the horizon; negative looks down.
     elevation_deg: f64,
+    /// How near the camera is; at 1 everything but endless planes is well in the picture.
     zoom: f64,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RobotEntry {
+    /// Its name in tables.
     label: String,
+    /// Its file, from the repository's root.
     file: String,
+    /// The body of the robot's file that is judged.
     body: String,
     /// What is straight between the stops of a stored path.
     straight: Straight,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Straight {
+    /// The tool moves straight.
     Tool,
+    /// The joint angles move straight.
     Joints,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneEntry {
+    /// Its name in tables.
     label: String,
+    /// Its file, from the repository's root.
     file: String,
+    /// How the scene file is written.
     format: SceneFormat,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum SceneFormat {
     /// A robot's cell, in millimetres.
@@ -85,19 +107,24 @@ enum SceneFormat {
 }
 
 /// Paths of one robot in one scene.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct StoredEntry {
+    /// The robot, by its label.
     robot: String,
+    /// The scene, by its label.
     scene: String,
+    /// The stored paths that are judged.
     paths: StoredPaths,
 }
 
 /// A planar arm and its obstacles as a study poses them, and that study's paths.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct WorkspaceEntry {
+    /// Its name in tables.
     label: String,
+    /// The stored paths that are judged.
     paths: StoredPaths,
 }
 
@@ -215,7 +242,7 @@ impl Spec {
         if let Some(twice) = known.iter().enumerate().find(|(at, name)| known[..*at].contains(name)) {
             let message =
                 format!("two cases are called `{}`; accepted: labels that tell them apart", twice.1);
-            return Err(self.document.error(0..0, message));
+            return Err(self.document.error_at("case", message));
         }
         Ok(())
     }
@@ -253,7 +280,7 @@ impl Spec {
         let subject = subject.checked_by(check);
         let fits = |entry: &&StoredEntry| entry.robot == r.label && entry.scene == s.label;
         let stored = self.file.stored.iter().map(Spanned::get_ref).filter(fits).map(|entry| &entry.paths);
-        let given = given(stored, sources.runs, AXES)?;
+        let given = given(stored, &sources, AXES)?;
         self.case(name, Box::new(subject), given).map_err(|message| at_scene(message).into())
     }
 
@@ -264,7 +291,12 @@ impl Spec {
     ) -> Result<Case, CrosscheckError> {
         let at = |message: String| self.document.error(entry.span(), message);
         let WorkspaceEntry { label, paths } = entry.get_ref();
-        let world = paths.world(sources.folder, sources.inputs)?;
+        let index =
+            self.file.workspaces.iter().position(|known| known.span() == entry.span()).unwrap_or_default();
+        let misnamed = |key: &str, message: String| {
+            self.document.error_at(&format!("workspace.{index}.paths.{key}"), message)
+        };
+        let world = paths.world(sources.folder, sources.inputs, &misnamed)?;
         let arm = world.as_arm().ok_or_else(|| {
             at(format!(
                 "the world of `{label}` is a {}; accepted: a planar arm's workspace",
@@ -274,7 +306,7 @@ impl Spec {
         let name = slug(label);
         let subject = PlanarArm::new(name.clone(), arm).map_err(|error| at(error.to_string()))?;
         let joints = subject.model().rows.len();
-        let given = given([paths].into_iter(), sources.runs, joints)?;
+        let given = given([paths].into_iter(), &sources, joints)?;
         self.case(name, Box::new(subject), given).map_err(|message| at(message).into())
     }
 
@@ -287,12 +319,12 @@ impl Spec {
 /// The stored paths of a robot with this many joints.
 fn given<'a>(
     stored: impl Iterator<Item = &'a StoredPaths>,
-    runs: &Path,
+    sources: &Sources<'_>,
     joints: usize,
 ) -> Result<Given, CrosscheckError> {
     let mut given = Given { paths: Vec::new(), free_of: Freedom::Contact };
     for paths in stored {
-        given.paths.extend(paths.read(runs, joints)?);
+        given.paths.extend(paths.read(sources.folder, sources.inputs, sources.runs, joints)?);
         given.free_of = given.free_of.min(paths.free_of);
     }
     Ok(given)

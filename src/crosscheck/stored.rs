@@ -1,19 +1,23 @@
 //! Paths that a study kept, and the worlds that it posed.
 
 use super::CrosscheckError;
-use super::model::Pair;
+use super::model::Freedom;
 use super::path::Path as JointPath;
+use crate::study::key::Owner;
 use crate::study::manifest::Manifest;
-use crate::study::record::{Kept, Status};
+use crate::study::name::Names;
+use crate::study::record::{Kept, Row, Status};
 use crate::study::store::read_records;
-use crate::study::{Inputs, ReadingChoice, Study, StudyError, slug};
+use crate::study::{Inputs, ReadingChoice, Study, StudyError};
+use base::settings::SettingsError;
 use engine::space::World;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Which paths of a study are judged.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StoredPaths {
     /// The study.
@@ -30,40 +34,8 @@ pub struct StoredPaths {
     pub free_of: Freedom,
 }
 
-/// What a path is said to be free of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Freedom {
-    /// Nothing is promised.
-    Nothing,
-    /// What stands around the robot; it may hit itself.
-    Scene,
-    /// All contact.
-    Contact,
-}
-
-impl Freedom {
-    /// In the report's words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Nothing => "nothing",
-            Self::Scene => "obstacles",
-            Self::Contact => "all contact",
-        }
-    }
-
-    /// Whether a path with contact of `pair` is not as promised.
-    pub fn is_broken_by(self, pair: Pair) -> bool {
-        match self {
-            Self::Nothing => false,
-            Self::Scene => pair.still().is_some(),
-            Self::Contact => true,
-        }
-    }
-}
-
 /// A unit of angles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AngleUnit {
     /// Degrees.
@@ -73,24 +45,31 @@ pub enum AngleUnit {
 }
 
 impl StoredPaths {
-    /// The paths of solved trials in the records below `runs`, of a robot with this many joints.
+    /// The paths of solved trials in the records below `runs`, of a robot with this many joints; the study lies in the
+    /// paper's `folder`.
     ///
     /// # Errors
-    /// A run that is missing or damaged, or that kept no such path.
-    pub fn read(&self, runs: &Path, joints: usize) -> Result<Vec<JointPath>, CrosscheckError> {
+    /// A study that is wrong; a run that is missing or damaged, or that kept no such path.
+    pub fn read(
+        &self,
+        folder: &Path,
+        inputs: &Inputs,
+        runs: &Path,
+        joints: usize,
+    ) -> Result<Vec<JointPath>, CrosscheckError> {
+        let names = self.study(folder, inputs)?.names();
         let manifest = Manifest::read(runs, &self.study)?;
         let records = read_records(runs, &self.study, &manifest.files)?;
-        let group = slug(&self.problems);
-        let rows = records.batch.rows.iter().filter(|row| row.status == Status::Solved);
-        let solved: BTreeSet<&str> = rows.map(|row| row.trial.as_str()).collect();
+        let rows = records.batch.rows.iter();
+        let is_solved = |row: &&Row| row.status == Status::Solved && *row.key.on.group == *self.problems;
+        let solved: BTreeSet<Owner> = rows.filter(is_solved).map(|row| Owner::from(&row.key)).collect();
         // A group may also hold paths of a bare point, which are narrower.
         let is_wanted = |kept: &&Kept| {
             kept.exhibit.name == self.exhibit
-                && kept.of.split('/').next() == Some(group.as_str())
                 && kept.exhibit.width >= self.first_joint + joints
-                && solved.contains(kept.of.as_str())
+                && solved.contains(&kept.of)
         };
-        let kept = records.batch.kept.iter().filter(is_wanted).map(|kept| self.path(kept, joints));
+        let kept = records.batch.kept.iter().filter(is_wanted).map(|kept| self.path(kept, &names, joints));
         let paths: Vec<JointPath> = kept.filter(|path| path.stops_rad.len() > 1).collect();
         if paths.is_empty() {
             let reason = format!(
@@ -102,29 +81,38 @@ impl StoredPaths {
         Ok(paths)
     }
 
-    fn path(&self, kept: &Kept, joints: usize) -> JointPath {
+    fn path(&self, kept: &Kept, names: &Names, joints: usize) -> JointPath {
         let angle = |value: &f64| if self.unit == AngleUnit::Deg { value.to_radians() } else { *value };
         let stop = |row: &[f64]| row.iter().skip(self.first_joint).take(joints).map(angle).collect();
         let rows = kept.exhibit.values.chunks_exact(kept.exhibit.width);
-        JointPath { name: kept.of.clone(), stops_rad: rows.map(stop).collect() }
+        JointPath { name: names.owner(&kept.of), stops_rad: rows.map(stop).collect() }
     }
 
-    /// The world that the study, in the paper's `folder`, poses under its default readings.
+    fn study(&self, folder: &Path, inputs: &Inputs) -> Result<Study, StudyError> {
+        Study::load(&folder.join(format!("{}.toml", self.study)), inputs)
+    }
+
+    /// The world that the study, in the paper's `folder`, poses under its default readings; `misnamed` makes an error about
+    /// one of these settings.
     ///
     /// # Errors
     /// A study or problem group that does not exist or is wrong.
-    pub fn world(&self, folder: &Path, inputs: &Inputs) -> Result<World, CrosscheckError> {
-        let path = folder.join(format!("{}.toml", self.study));
-        let study = Study::load(&path, inputs)?;
+    pub fn world(
+        &self,
+        folder: &Path,
+        inputs: &Inputs,
+        misnamed: &dyn Fn(&str, String) -> SettingsError,
+    ) -> Result<World, CrosscheckError> {
+        let study = self.study(folder, inputs)?;
         let group = study.groups.iter().find(|group| group.label == self.problems).ok_or_else(|| {
             let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
             let message =
                 format!("there are no problems `{}`; there are {}", self.problems, known.join(", "));
-            study.document.error(0..0, message)
+            misnamed("problems", message)
         })?;
         let point = ReadingChoice::new(&study.readings, &BTreeMap::new());
         let point = point.expect("a loaded study's defaults are among its options");
         let prepared = group.family(&point, inputs)?.prepare(0);
-        Ok(prepared.map_err(|invalid| study.document.error(0..0, invalid.0))?.world)
+        Ok(prepared.map_err(|invalid| misnamed("problems", invalid.0))?.world)
     }
 }

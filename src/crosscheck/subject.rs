@@ -1,7 +1,6 @@
 //! What is judged: our kinematics and our distances, asked through one door for every kind of robot.
 
-use super::model::{Model, Pair, Part, Row, Still};
-use super::stored::Freedom;
+use super::model::{Freedom, Model, Pair, Part, Row, Still};
 use engine::geometry::{
     Convex, Frame, Solid, Vec3, distance_point_solid, distance_segment_segment, distance_segment_solid,
 };
@@ -9,6 +8,7 @@ use engine::kinematics::robot::Body;
 use engine::kinematics::{AXES, Chain, Joints, Robot};
 use engine::space::cell::{Cell, Standing};
 use engine::space::polyhedra::CarriedArm;
+use nalgebra::Matrix3;
 
 /// A robot among obstacles that answers with our code.
 pub trait Subject: Send + Sync {
@@ -199,8 +199,24 @@ impl Subject for SerialArm {
         }
         let (arm, from, to) = (self.robot.arm(), six(from_rad), six(to_rad));
         let ends = [self.chain().forward(&from), self.chain().forward(&to)];
-        let target = super::path::straight(&ends[0], &ends[1], share);
+        let target = straight(&ends[0], &ends[1], share);
         let q = arm.inverse_on(&target, arm.branch_of(&from), &six(&mixed))?;
         Some(q.to_vec())
     }
+}
+
+/// The frame at `share` of the way from one to another: on a straight line, turned evenly about one axis.
+pub fn straight(from: &Frame, to: &Frame, share: f64) -> Frame {
+    let origin = from.origin + (to.origin - from.origin) * share;
+    let turn = to.rotation * from.rotation.transpose();
+    let skew =
+        Vec3::new(turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]);
+    let angle = libm::atan2(skew.norm(), turn.trace() - 1.0);
+    // One step of a path turns by far less than half a turn, so the axis is known wherever it matters.
+    let rotation = if skew.norm() < 1e-12 {
+        Matrix3::identity()
+    } else {
+        Frame::turned(&(skew / skew.norm()), angle * share).rotation
+    };
+    Frame { rotation: rotation * from.rotation, origin }
 }

@@ -2,11 +2,10 @@
 
 use super::chapter::{Depicted, MUJOCO, chapter};
 use super::mjcf::{Key, mjcf};
-use super::model::{Pair, Still};
-use super::path::{Path as JointPath, Pushed, drawn_paths, pushed, straight};
+use super::model::{Freedom, Pair, Still};
+use super::path::{Path as JointPath, Pushed, drawn_paths, pushed};
 use super::sample::{Kind, NEAR_M, Sampler, Sizes, least_of};
-use super::stored::Freedom;
-use super::subject::{SerialArm, Subject};
+use super::subject::{SerialArm, Subject, straight};
 use engine::geometry::{Frame, OrientedBox, Solid, Sphere, Vec3};
 use engine::kinematics::Robot;
 use std::path::Path;

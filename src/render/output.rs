@@ -1,16 +1,17 @@
 //! Everything that is drawn for a paper: figures, tables, numbers, the report's chapter.
 
 use super::figure::{self, Scene};
-use super::report;
+use super::report::{self, Undrawn};
 use super::results;
 use super::tables;
 use super::vector::{Figure, Provenance};
 use super::{RenderError, marks};
-use crate::analysis::evidence::Evidence;
+use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
 use crate::study::StudyError;
 use crate::study::spec::FigureSpec;
 use crate::study::store::write_whole;
+use rayon::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -24,29 +25,30 @@ pub struct Output {
     pub bytes: Vec<u8>,
 }
 
+/// Every file of a paper, but for figures that could not be drawn.
+#[derive(Debug, Default)]
+pub struct Outputs {
+    /// The files.
+    pub files: Vec<Output>,
+    /// What is missing among them.
+    pub undrawn: Vec<Undrawn>,
+}
+
 /// Every file for the paper of `evidence`, or only those whose name without its ending is `only`; `stop` is looked at
 /// before each figure.
 ///
 /// # Errors
-/// [`RenderError::Interrupted`] if `stop` is set, [`RenderError::Figure`] with the name of a figure that cannot be drawn
-/// from what is stored or whose labels collide ([`RenderError::Flawed`]); two numbers with one macro name.
+/// [`RenderError::Interrupted`] if `stop` is set; two numbers with one macro name. A figure that cannot be drawn from what is
+/// stored, or whose labels collide, costs that figure alone.
 pub fn outputs(
     evidence: &Evidence<'_>,
     verdicts: &Verdicts,
     only: Option<&str>,
     stop: &AtomicBool,
-) -> Result<Vec<Output>, RenderError> {
+) -> Result<Outputs, RenderError> {
     let (paper, is_wanted) = (evidence.paper, |id: &str| only.is_none_or(|only| only == id));
     let marks = marks(paper, verdicts);
-    let mut outputs = Vec::new();
-    for run in evidence.runs() {
-        for spec in run.study.figures.iter().filter(|spec| is_wanted(spec.id.get_ref())) {
-            if stop.load(Ordering::Relaxed) {
-                return Err(RenderError::Interrupted);
-            }
-            outputs.extend(named_figure_outputs(&Scene { evidence, run, verdicts }, spec)?);
-        }
-    }
+    let (mut outputs, undrawn) = figures(evidence, verdicts, is_wanted, stop)?;
     let mut write = |id: &str, text: String| {
         outputs.push(Output { name: format!("{id}.tex"), bytes: text.into_bytes() });
     };
@@ -59,14 +61,40 @@ pub fn outputs(
     if is_wanted("numbers") {
         write("numbers", tables::numbers(evidence, verdicts)?);
     }
-    if outputs.is_empty() {
+    if outputs.is_empty() && undrawn.is_empty() {
         let ids: Vec<&str> = paper.figure_ids().chain(paper.table_ids()).chain(["numbers"]).collect();
         let (wanted, ids) = (only.unwrap_or_default(), ids.join(", "));
         return Err(RenderError::NotStored {
             what: format!("a figure or table `{wanted}`; there are {ids}"),
         });
     }
-    Ok(outputs)
+    Ok(Outputs { files: outputs, undrawn })
+}
+
+/// The files of the figures that are wanted, and those that cannot be drawn.
+fn figures(
+    evidence: &Evidence<'_>,
+    verdicts: &Verdicts,
+    is_wanted: impl Fn(&str) -> bool,
+    stop: &AtomicBool,
+) -> Result<(Vec<Output>, Vec<Undrawn>), RenderError> {
+    let (mut outputs, mut undrawn) = (Vec::new(), Vec::new());
+    let figures = evidence.runs().flat_map(|run| run.study.figures.iter().map(move |spec| (run, spec)));
+    let figures: Vec<_> = figures.filter(|(_, spec)| is_wanted(spec.id.get_ref())).collect();
+    let draw = |(run, spec): &(&Run<'_>, &FigureSpec)| {
+        if stop.load(Ordering::Relaxed) {
+            return Err(RenderError::Interrupted);
+        }
+        Ok(named_figure_outputs(&Scene { evidence, run, verdicts }, spec)
+            .map_err(|error| Undrawn { id: spec.id.get_ref().clone(), why: error.to_string() }))
+    };
+    for drawn in figures.par_iter().map(draw).collect::<Result<Vec<_>, _>>()? {
+        match drawn {
+            Ok(drawn) => outputs.extend(drawn),
+            Err(missing) => undrawn.push(missing),
+        }
+    }
+    Ok((outputs, undrawn))
 }
 
 /// `drawn` unless labels of it overlap or leave the page.
@@ -115,12 +143,22 @@ fn figure_outputs(scene: &Scene<'_>, spec: &FigureSpec) -> Result<Vec<Output>, R
     Ok(outputs)
 }
 
-/// Writes `outputs` into `folder`.
+/// Writes `outputs` into `folder`, and takes away the pictures of figures that could not be drawn: they would show something else.
 ///
 /// # Errors
 /// [`StudyError::Io`].
-pub fn write(folder: &Path, outputs: &[Output]) -> Result<(), StudyError> {
-    outputs.iter().try_for_each(|output| write_whole(&folder.join(&output.name), &output.bytes))
+pub fn write(folder: &Path, outputs: &Outputs) -> Result<(), StudyError> {
+    for name in pictures(outputs).filter(|name| folder.join(name).is_file()) {
+        let path = folder.join(name);
+        fs::remove_file(&path)
+            .map_err(StudyError::io(&path, "removing a figure that cannot be drawn any more"))?;
+    }
+    outputs.files.iter().try_for_each(|output| write_whole(&folder.join(&output.name), &output.bytes))
+}
+
+/// The names of the pictures that are missing among `outputs`.
+fn pictures(outputs: &Outputs) -> impl Iterator<Item = String> {
+    outputs.undrawn.iter().flat_map(|undrawn| ["svg", "png"].map(|ending| format!("{}.{ending}", undrawn.id)))
 }
 
 /// The files among `outputs` that are missing in `folder` or hold something else.
@@ -160,13 +198,15 @@ pub fn chapter(
     evidence: &Evidence<'_>,
     verdicts: &Verdicts,
     plots: &Path,
-    outputs: &[Output],
+    outputs: &Outputs,
 ) -> String {
     let folder = path.parent().unwrap_or(Path::new(""));
     let is_table =
         |name: &&str| *name != "numbers.tex" && Path::new(name).extension() == Some("tex".as_ref());
-    let tables: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).filter(is_table).collect();
-    report::chapter(evidence, verdicts, plots.strip_prefix(folder).unwrap_or(plots), &tables)
+    let tables: Vec<&str> =
+        outputs.files.iter().map(|output| output.name.as_str()).filter(is_table).collect();
+    let plots = plots.strip_prefix(folder).unwrap_or(plots);
+    report::chapter(evidence, verdicts, plots, &tables, &outputs.undrawn)
 }
 
 #[cfg(test)]

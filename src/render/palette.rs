@@ -15,41 +15,78 @@ pub struct Indexed {
 }
 
 /// Red, green and blue of every pixel of `rgba`.
-pub fn opaque(rgba: &[u8]) -> Vec<[u8; 3]> {
-    rgba.as_chunks::<4>().0.iter().map(|[red, green, blue, _]| [*red, *green, *blue]).collect()
+pub fn opaque(rgba: &[u8]) -> Vec<u8> {
+    rgba.as_chunks::<4>().0.iter().flat_map(|[red, green, blue, _]| [*red, *green, *blue]).collect()
 }
 
-/// The picture with at most 256 colours, each pixel with the one that stands for its own.
+/// The picture in `rgba` with at most 256 colours, each pixel with the one that stands for its own.
 ///
 /// The commonest colours are kept as they are; the rest go to the first kept one near enough. The
 /// tolerance grows until 256 suffice; none if they do not within [`TOLERANCE`].
-pub fn indexed(colors: &[[u8; 3]]) -> Option<Indexed> {
-    let mut counts: BTreeMap<[u8; 3], usize> = BTreeMap::new();
-    for run in runs(colors) {
-        *counts.entry(run[0]).or_default() += run.len();
+pub fn indexed(rgba: &[u8]) -> Option<Indexed> {
+    let (runs, mut counts) = (runs(rgba), BTreeMap::<u32, usize>::new());
+    for (color, pixels) in &runs {
+        *counts.entry(*color).or_default() += pixels;
     }
-    let mut common: Vec<([u8; 3], usize)> = counts.into_iter().collect();
+    let mut common: Vec<(u32, usize)> = counts.into_iter().collect();
     common.sort_by_key(|&(color, count)| (std::cmp::Reverse(count), color));
     let (kept, index) = (0..=TOLERANCE).step_by(2).find_map(|tolerance| within(&common, tolerance))?;
-    let pixels = runs(colors).flat_map(|run| std::iter::repeat_n(index[&run[0]], run.len())).collect();
+    let mut pixels = Vec::with_capacity(rgba.len() / 4);
+    for (color, count) in runs {
+        pixels.resize(pixels.len() + count, index[&color]);
+    }
     Some(Indexed { palette: kept.concat(), pixels })
 }
 
-/// Runs of equal colours; a figure is mostly paper, so maps are asked once a run and not once a pixel.
-fn runs(colors: &[[u8; 3]]) -> impl Iterator<Item = &[[u8; 3]]> {
-    colors.chunk_by(|a, b| a == b)
+/// Pixels that are compared at once; where they differ, the second number of them.
+const BLOCKS: [usize; 2] = [64, 8];
+
+/// Runs of equal colours, as one number each: a figure is mostly paper, and whether a block is of one colour is asked of
+/// its bytes at once, which is quick however this is compiled.
+fn runs(rgba: &[u8]) -> Vec<(u32, usize)> {
+    let mut runs: Vec<(u32, usize)> = Vec::new();
+    let mut add = |pixels: &[u8]| {
+        let (color, count) = (color(pixels), pixels.len() / 4);
+        match runs.last_mut() {
+            Some((last, known)) if *last == color => *known += count,
+            _ => runs.push((color, count)),
+        }
+    };
+    for block in rgba.chunks(4 * BLOCKS[0]) {
+        if is_uniform(block) {
+            add(block);
+            continue;
+        }
+        for part in block.chunks(4 * BLOCKS[1]) {
+            if is_uniform(part) { add(part) } else { part.chunks(4).for_each(&mut add) }
+        }
+    }
+    runs
 }
 
-type Kept = (Vec<[u8; 3]>, BTreeMap<[u8; 3], u8>);
+/// Whether all pixels are equal: each is then equal to the one before.
+fn is_uniform(pixels: &[u8]) -> bool {
+    pixels[4..] == pixels[..pixels.len() - 4]
+}
 
-fn within(common: &[([u8; 3], usize)], tolerance: u8) -> Option<Kept> {
+/// Red, green and blue of the first pixel as one number, red first.
+fn color(pixels: &[u8]) -> u32 {
+    u32::from_be_bytes([0, pixels[0], pixels[1], pixels[2]])
+}
+
+type Kept = (Vec<[u8; 3]>, BTreeMap<u32, u8>);
+
+fn within(common: &[(u32, usize)], tolerance: u8) -> Option<Kept> {
     let (mut kept, mut index): Kept = (Vec::new(), BTreeMap::new());
     let near = |a: &[u8; 3], b: &[u8; 3]| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= tolerance);
     for (color, _) in common {
-        let slot = if let Some(slot) = kept.iter().position(|known| near(known, color)) {
+        let [_, levels @ ..] = color.to_be_bytes();
+        let slot = if let Some(slot) = kept.iter().position(|known| near(known, &levels)) {
             slot
+        } else if kept.len() > usize::from(u8::MAX) {
+            return None;
         } else {
-            kept.push(*color);
+            kept.push(levels);
             kept.len() - 1
         };
         index.insert(*color, u8::try_from(slot).ok()?);
@@ -61,12 +98,27 @@ fn within(common: &[([u8; 3], usize)], tolerance: u8) -> Option<Kept> {
 mod tests {
     use super::*;
 
+    fn rgba(colors: &[[u8; 3]]) -> Vec<u8> {
+        colors.iter().flat_map(|[red, green, blue]| [*red, *green, *blue, 255]).collect()
+    }
+
+    #[test]
+    fn runs_hold_every_pixel_in_order_and_neighbours_differ() {
+        let shades = (0..1000_u32).map(|n| if n < 300 { 7 } else { (n / 3 % 5) as u8 });
+        let colors: Vec<[u8; 3]> = shades.map(|shade| [shade, 0, 1]).collect();
+        let found = runs(&rgba(&colors));
+        let unrolled = found.iter().flat_map(|(color, count)| std::iter::repeat_n(*color, *count));
+        assert!(unrolled.eq(colors.iter().map(|[r, g, b]| u32::from_be_bytes([0, *r, *g, *b]))));
+        assert_eq!(found[0].1, 300, "blocks of one colour are one run");
+        assert!(found.windows(2).all(|pair| pair[0].0 != pair[1].0));
+    }
+
     #[test]
     fn a_palette_keeps_common_colours_and_moves_none_further_than_the_tolerance() {
         let ramp: Vec<[u8; 3]> = (0..=255_u8).flat_map(|red| [[red, 90, 10], [red, 90, 14]]).collect();
         let plain = vec![[213, 94, 0]; 1000];
         let colors = [plain, ramp].concat();
-        let Indexed { palette, pixels } = indexed(&colors).unwrap();
+        let Indexed { palette, pixels } = indexed(&rgba(&colors)).unwrap();
         assert!(palette.len() <= 3 * 256 && palette[..3] == [213, 94, 0]);
         assert_eq!(pixels.len(), colors.len());
         for (color, slot) in colors.iter().zip(pixels) {
@@ -79,11 +131,11 @@ mod tests {
     fn a_picture_of_too_many_colours_gets_no_palette() {
         let level = |step: u8| step % 16 * 17;
         let rows = (0..16).flat_map(|red| (0..=255).map(move |n| [level(red), level(n), level(n / 16)]));
-        assert_eq!(indexed(&rows.collect::<Vec<_>>()), None);
+        assert_eq!(indexed(&rgba(&rows.collect::<Vec<_>>())), None);
     }
 
     #[test]
     fn opacity_is_left_out() {
-        assert_eq!(opaque(&[1, 2, 3, 255, 4, 5, 6, 0]), [[1, 2, 3], [4, 5, 6]]);
+        assert_eq!(opaque(&[1, 2, 3, 255, 4, 5, 6, 0]), [1, 2, 3, 4, 5, 6]);
     }
 }

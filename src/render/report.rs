@@ -4,7 +4,7 @@ mod chapters;
 
 use super::tables::short;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::verdict::{Finding, Judged, Together, Verdict, Verdicts};
+use crate::analysis::verdict::{Counts, Finding, Judged, Together, Verdicts};
 use crate::study::StudyError;
 use crate::study::paper::Paper;
 use crate::study::store::write_whole;
@@ -13,6 +13,15 @@ use std::fmt::Write as _;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
+
+/// A figure that could not be drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Undrawn {
+    /// Its id.
+    pub id: String,
+    /// Why, with its study.
+    pub why: String,
+}
 
 const OPENING: &str = "# What the papers claim and what we found
 
@@ -70,8 +79,14 @@ pub fn besides(path: &Path, name: &str) -> Result<String, StudyError> {
 }
 
 /// The chapter of the evidence's paper; `plots` is where its figures are, as seen from the report, and `tables` the names of its
-/// tables there.
-pub fn chapter(evidence: &Evidence<'_>, verdicts: &Verdicts, plots: &Path, tables: &[&str]) -> String {
+/// tables there. A figure that is among `undrawn` is said to be missing where it would stand.
+pub fn chapter(
+    evidence: &Evidence<'_>,
+    verdicts: &Verdicts,
+    plots: &Path,
+    tables: &[&str],
+    undrawn: &[Undrawn],
+) -> String {
     let paper = evidence.paper;
     let mut text = String::new();
     heading(&mut text, paper, verdicts);
@@ -80,7 +95,7 @@ pub fn chapter(evidence: &Evidence<'_>, verdicts: &Verdicts, plots: &Path, table
     together(&mut text, verdicts);
     reasons(&mut text, verdicts);
     results(&mut text, evidence);
-    figures(&mut text, paper, plots, tables);
+    figures(&mut text, paper, plots, tables, undrawn);
     readings(&mut text, paper);
     studies(&mut text, evidence);
     ledger(&mut text, paper);
@@ -124,15 +139,10 @@ fn heading(text: &mut String, paper: &Paper, verdicts: &Verdicts) {
 }
 
 fn counts(text: &mut String, verdicts: &Verdicts) {
-    let found: Vec<&Judged> = verdicts.claims.iter().filter(|judged| judged.theorem.is_none()).collect();
-    let counted = Verdict::ALL.iter().filter_map(|verdict| {
-        let count = found.iter().filter(|judged| judged.verdict == *verdict).count();
-        (count > 0).then(|| format!("{count} {}", verdict.name()))
-    });
-    line!(text, "\n{} claims: {}.", found.len(), counted.collect::<Vec<_>>().join(", "));
-    let asserted = verdicts.claims.len() - found.len();
-    if asserted > 0 {
-        line!(text, "{asserted} more must hold whatever was drawn; they are asserted and count for nothing.");
+    let Counts { classes, parts, asserted } = verdicts.counts();
+    line!(text, "\n{classes}.");
+    for more in parts.into_iter().chain(asserted) {
+        line!(text, "{more}.");
     }
 }
 
@@ -214,14 +224,23 @@ fn reason(text: &mut String, judged: &Judged) {
     if let Some(theorem) = &judged.theorem {
         line!(text, "- it must hold: {theorem}.");
     }
+    if let Some(whole) = &judged.part_of {
+        line!(text, "- it counts with `{whole}`.");
+    }
+    if let Some(why) = &judged.changed_after_run {
+        line!(text, "- changed after a run: {why}.");
+    }
     for finding in &judged.findings {
         if let [first, .., last] = &finding.because[..]
             && first.len() + last.len() > LONG
         {
-            line!(text, "- {}:{}", finding.check, aside(finding));
+            line!(text, "- {}:{}", finding.criterion, aside(finding));
             finding.because.iter().for_each(|reason| line!(text, "  - {reason}"));
         } else {
-            line!(text, "- {}: {}.{}", finding.check, finding.because.join("; "), aside(finding));
+            line!(text, "- {}: {}.{}", finding.criterion, finding.because.join("; "), aside(finding));
+        }
+        if let Some(settles) = &finding.settles {
+            line!(text, "  - what would settle it: {settles}");
         }
         for premise in &finding.premises {
             line!(text, "  - premise: {premise}");
@@ -245,12 +264,15 @@ fn results(text: &mut String, evidence: &Evidence<'_>) {
     }
 }
 
-fn figures(text: &mut String, paper: &Paper, plots: &Path, tables: &[&str]) {
+fn figures(text: &mut String, paper: &Paper, plots: &Path, tables: &[&str], undrawn: &[Undrawn]) {
     line!(text, "### Figures and tables\n");
     for study in &paper.studies {
         for figure in &study.figures {
             let id = figure.id.get_ref();
-            line!(text, "![{id}]({}/{id}.png)\n", plots.display());
+            match undrawn.iter().find(|undrawn| undrawn.id == *id) {
+                Some(undrawn) => line!(text, "**{id} could not be drawn: {}.**\n", undrawn.why),
+                None => line!(text, "![{id}]({}/{id}.png)\n", plots.display()),
+            }
             line!(text, "*{id}: {}*\n", figure.caption);
         }
     }

@@ -4,18 +4,19 @@ use super::RenderError;
 use super::latex::{Cell, Column, Table};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::metric::{self, Metric};
+use crate::analysis::statistic;
 use crate::study::paper::Paper;
 use crate::study::paper::results::{CellSpec, ResultsSpec, Show};
 use crate::study::record::{Row, Status};
-use base::settings::SettingsError;
-use stats::summary;
+use base::settings::{Faults, SettingsError};
 use std::fmt::Write as _;
 
 /// Every metric of every table of results exists, and its study produces it.
 ///
 /// # Errors
-/// The first that does not, with those that do.
+/// Each that does not, with those that do.
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
+    let mut faults = Faults::default();
     for table in &paper.results {
         let columns =
             paper.study(table.study.get_ref()).map(crate::study::Study::columns).unwrap_or_default();
@@ -29,11 +30,11 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
                     table.study.get_ref(),
                     known.join(", ")
                 );
-                return Err(paper.document.error(cell.metric.span(), message));
+                faults.add(paper.document.error(cell.metric.span(), message));
             }
         }
     }
-    Ok(())
+    faults.done()
 }
 
 /// The head of a table and, block by block, its rows.
@@ -82,7 +83,7 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
         (false, _) => Some(f64::INFINITY),
     };
     let values: Vec<f64> = rows.iter().filter_map(value).collect();
-    let quantile = |share: f64| summary::quantile_type7(&values, share);
+    let quantile = |share: f64| statistic::quantile(&values, share);
     let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     let found = match cell.show {
         Show::Median => quantile(0.5).map(number),
@@ -92,7 +93,7 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
             .into_iter()
             .collect::<Option<Vec<f64>>>()
             .map(|q| format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))),
-        Show::Percent => summary::mean(&finite).map(|share| number(100.0 * share)),
+        Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
         Show::Solved => (!rows.is_empty()).then(|| {
             let count = rows.iter().filter(|row| solved(row)).count();
             number(100.0 * count as f64 / rows.len() as f64)
@@ -100,7 +101,7 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
         Show::Failed => {
             let failed: Vec<f64> =
                 rows.iter().filter(|row| !solved(row)).filter_map(|row| run.value(row, metric)).collect();
-            summary::median(&failed).map(number)
+            statistic::median(&failed).map(number)
         }
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
     };

@@ -2,8 +2,9 @@
 
 use super::latex::{Cell, Column, Numbers, Table};
 use super::{RenderError, marks};
+use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::verdict::{Estimate, Judged, Verdict, Verdicts};
+use crate::analysis::verdict::{Estimate, Judged, Verdicts};
 use crate::study::paper::{OursSpec, Paper, TableRow, TableSpec};
 
 /// `table` in LaTeX: for each of its rows the printed numbers, ours with their intervals, and the verdicts.

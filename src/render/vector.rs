@@ -2,7 +2,7 @@
 //!
 //! Print takes the SVG; screens need no more pixels, and pictures are committed.
 //! Both carry the command that made them and the hash of the spec behind them. The PNG is indexed when
-//! 256 colours describe it to within [`palette::TOLERANCE`] levels, else plain 8-bit RGB.
+//! 256 colours describe it to within `palette::TOLERANCE` levels, else plain 8-bit RGB.
 
 use super::RenderError;
 use super::font::Weight;
@@ -85,15 +85,10 @@ pub(super) fn png(svg: &str, from: &Provenance) -> Result<Vec<u8>, RenderError> 
     let mut pixels = Pixmap::new(width_px, height_px).ok_or(RenderError::Size { width_px, height_px })?;
     pixels.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
-    encoded(&palette::opaque(pixels.data()), width_px, height_px, from)
+    encoded(pixels.data(), width_px, height_px, from)
 }
 
-fn encoded(
-    colors: &[[u8; 3]],
-    width_px: u32,
-    height_px: u32,
-    from: &Provenance,
-) -> Result<Vec<u8>, RenderError> {
+fn encoded(rgba: &[u8], width_px: u32, height_px: u32, from: &Provenance) -> Result<Vec<u8>, RenderError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width_px, height_px);
     encoder.set_depth(png::BitDepth::Eight);
@@ -104,7 +99,7 @@ fn encoded(
     for (key, text) in [("Title", &from.title), ("Software", &from.command), ("Spec-Hash", &from.spec_hash)] {
         encoder.add_itxt_chunk(key.to_owned(), text.clone())?;
     }
-    let data = if let Some(indexed) = palette::indexed(colors) {
+    let data = if let Some(indexed) = palette::indexed(rgba) {
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_filter(png::Filter::NoFilter);
         encoder.set_palette(indexed.palette);
@@ -112,7 +107,7 @@ fn encoded(
     } else {
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_filter(png::Filter::Adaptive);
-        colors.concat()
+        palette::opaque(rgba)
     };
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&data)?;
@@ -128,8 +123,9 @@ mod tests {
     fn a_picture_of_too_many_colours_is_written_as_it_is() {
         let level = |step: u32| (step % 16 * 17) as u8;
         let all: Vec<[u8; 3]> = (0..4096).map(|n| [level(n), level(n / 16), level(n / 256)]).collect();
+        let rgba: Vec<u8> = all.iter().flat_map(|[red, green, blue]| [*red, *green, *blue, 255]).collect();
         let bytes = encoded(
-            &all,
+            &rgba,
             64,
             64,
             &Provenance { command: "x".into(), spec_hash: "0".into(), title: "t".into() },

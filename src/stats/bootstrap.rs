@@ -67,7 +67,7 @@ fn of_values(values: &[f64], statistic: fn(&[f64]) -> Option<f64>, plan: Resampl
 /// [`percentile`] for a statistic that takes the indices of units.
 ///
 /// Nothing here depends on the type of a unit, so the many draws are made by this crate's optimised code, whoever asks.
-fn of_indices(
+pub(super) fn of_indices(
     units: usize,
     statistic: &dyn Fn(&[usize]) -> Option<f64>,
     plan: Resampling,

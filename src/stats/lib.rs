@@ -8,6 +8,7 @@ pub mod bands;
 pub mod bootstrap;
 pub mod interval;
 pub mod paired;
+pub mod pooled;
 pub mod proportion;
 pub mod rows;
 pub mod summary;

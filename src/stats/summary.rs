@@ -23,8 +23,15 @@ pub fn standard_deviation(sample: &[f64]) -> Option<f64> {
 /// Hyndman & Fan, "Sample quantiles in statistical packages", The American Statistician 50 (1996) 361–365,
 /// definition 7; the default of R's `quantile`.
 pub fn quantile_type7(sample: &[f64], share: f64) -> Option<f64> {
-    let sorted = sorted(sample);
-    (!sorted.is_empty()).then(|| quantile_of_sorted(&sorted, share))
+    if sample.is_empty() {
+        return None;
+    }
+    let (place, mut rest) = (place(sample.len(), share), sample.to_vec());
+    assert_numbers(sample);
+    // The two order statistics that are needed, without sorting the others.
+    let (_, low, above) = rest.select_nth_unstable_by(place.floor() as usize, f64::total_cmp);
+    let high = above.iter().copied().min_by(f64::total_cmp).filter(|_| place > place.floor());
+    Some(between(*low, high.unwrap_or(*low), place))
 }
 
 /// The median: [`quantile_type7`] at a half.
@@ -37,7 +44,7 @@ pub fn median(sample: &[f64]) -> Option<f64> {
 /// # Panics
 /// If a value is NaN.
 pub(super) fn sorted(sample: &[f64]) -> Vec<f64> {
-    assert!(sample.iter().all(|x| !x.is_nan()), "NaN in a sample of {}", sample.len());
+    assert_numbers(sample);
     let mut sorted = sample.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted
@@ -45,9 +52,22 @@ pub(super) fn sorted(sample: &[f64]) -> Vec<f64> {
 
 /// [`quantile_type7`] of a sample that is sorted and not empty.
 pub(super) fn quantile_of_sorted(sorted: &[f64], share: f64) -> f64 {
+    let place = place(sorted.len(), share);
+    between(sorted[place.floor() as usize], sorted[place.ceil() as usize], place)
+}
+
+fn assert_numbers(sample: &[f64]) {
+    assert!(sample.iter().all(|x| !x.is_nan()), "NaN in a sample of {}", sample.len());
+}
+
+/// Where the quantile lies among so many values in rising order, counted from 0.
+fn place(count: usize, share: f64) -> f64 {
     assert!((0.0..=1.0).contains(&share), "a quantile at {share}; shares lie in [0, 1]");
-    let place = (sorted.len() - 1) as f64 * share;
-    let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
+    (count - 1) as f64 * share
+}
+
+/// What lies at `place` between the order statistics below and above it.
+fn between(low: f64, high: f64, place: f64) -> f64 {
     if low == high { low } else { low + (high - low) * (place - place.floor()) }
 }
 

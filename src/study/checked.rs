@@ -2,20 +2,21 @@
 
 mod load;
 
+use super::contender::{Contender, Sweep, SweepPoint};
 use super::error::StudyError;
-use super::family::{self, Family};
+use super::group::Group;
+use super::key::{KeyColumns, SweepKey, SweepValue, Text};
+use super::name::{self, Names};
 use super::reading::{self, Reading, ReadingChoice};
 use super::spec::{BudgetSpec, ExploreSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
-use super::{Inputs, task};
+use super::task;
 use base::seed;
-use base::settings::{Document, Settings, SettingsError};
-use engine::planner::{self, Build, Planner, Stage};
-use std::collections::{BTreeMap, BTreeSet};
+use base::settings::{Document, Settings};
+use std::collections::BTreeSet;
 use std::sync::Arc;
-use toml::Table;
 
 /// A checked study.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Study {
     /// Its name: the stem of its file.
     pub name: String,
@@ -57,120 +58,6 @@ pub struct Study {
     pub document: Arc<Document>,
 }
 
-/// A group of problems.
-#[derive(Debug)]
-pub struct Group {
-    /// Its name in records.
-    pub label: String,
-    /// The family they are drawn from.
-    pub family: &'static family::Entry,
-    /// How many independent draws.
-    pub replicates: u32,
-    /// The name of its draws, if it shares them with other groups.
-    pub draw: Option<String>,
-    /// Whether the spec asks for more than one draw: their names then carry a number.
-    pub is_numbered: bool,
-    /// The family's settings.
-    pub settings: Settings,
-}
-
-impl Group {
-    /// The family under the reading `point`.
-    ///
-    /// # Errors
-    /// A settings error of the family, or an input file that is missing or wrong.
-    pub fn family(&self, point: &ReadingChoice, inputs: &Inputs) -> Result<Box<dyn Family>, StudyError> {
-        let settings = point
-            .over_problem()
-            .fold(self.settings.clone(), |settings, (over, origin)| settings.overlaid(over, origin));
-        (self.family.build)(&settings, inputs)
-    }
-}
-
-/// A pipeline under a label.
-#[derive(Debug)]
-pub struct Contender {
-    /// Its name in records and tables.
-    pub label: String,
-    /// How many seeds it runs on each problem.
-    pub repeats: u32,
-    /// Whether the spec asks for more than one seed: the trials' names then carry a number.
-    pub is_numbered: bool,
-    /// The planner, then the stages that tidy its plan.
-    pub stages: Vec<StageUse>,
-    /// Readings, with the option, that its settings take in place of the one in hand.
-    pub departs: BTreeMap<String, String>,
-}
-
-/// An entry of the planner registry with its settings.
-#[derive(Debug)]
-pub struct StageUse {
-    /// The entry.
-    pub entry: &'static planner::Entry,
-    /// Its settings.
-    pub settings: Settings,
-}
-
-/// A contender that is ready to run.
-pub struct Pipeline {
-    /// The planner.
-    pub planner: Box<dyn Planner>,
-    /// The stages that tidy its plan.
-    pub stages: Vec<Box<dyn Stage>>,
-}
-
-impl Contender {
-    /// The pipeline under the reading `point` with the sweep's settings laid on top.
-    ///
-    /// # Errors
-    /// A settings error of an entry.
-    pub fn pipeline(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Result<Pipeline, SettingsError> {
-        let mut planner = None;
-        let mut stages = Vec::new();
-        for stage in &self.stages {
-            let settings = stage.effective(point, sweep);
-            match stage.entry.build {
-                Build::Planner(build) => planner = Some(build(&settings)?),
-                Build::Stage(build) => stages.push(build(&settings)?),
-            }
-        }
-        let planner = planner.expect("a checked contender starts with a planner");
-        Ok(Pipeline { planner, stages })
-    }
-}
-
-impl StageUse {
-    /// Its settings with the reading's and the sweep's laid on top.
-    pub fn effective(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Settings {
-        let read = point
-            .over_stage(self.entry.name)
-            .fold(self.settings.clone(), |settings, (over, origin)| settings.overlaid(over, origin));
-        match sweep.over.get(self.entry.name) {
-            Some(table) => read.overlaid(table, &format!("sweep {}", sweep.name)),
-            None => read,
-        }
-    }
-}
-
-/// A factor that the paper varies.
-#[derive(Debug)]
-pub struct Sweep {
-    /// The setting.
-    pub key: String,
-    /// The planner or stage whose setting it is.
-    pub of: String,
-    /// Its values, in the paper's order.
-    pub values: Vec<toml::Value>,
-}
-
-/// One value of every sweep.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct SweepPoint {
-    /// Its name in records; empty without sweeps.
-    pub name: String,
-    over: BTreeMap<String, Table>,
-}
-
 impl Study {
     /// The default point and, for every other option, the point that differs in it alone.
     ///
@@ -207,21 +94,52 @@ impl Study {
     fn points(&self, sample: u32) -> Result<Vec<ReadingChoice>, StudyError> {
         let seed = seed::derive(self.seed, &[&self.paper, &self.name, "explore"]);
         reading::explored(&self.readings, sample, seed)
-            .map_err(|message| StudyError::from(self.document.error(self.key_span("reading"), message)))
+            .map_err(|message| StudyError::from(self.document.error_at("reading", message)))
     }
 
     /// Every combination of the sweeps' values, the first sweep varying slowest; one empty point without sweeps.
     pub fn sweep_points(&self) -> Vec<SweepPoint> {
-        self.sweeps.iter().fold(vec![SweepPoint::default()], |points, sweep| {
-            let with = |point: &SweepPoint, value: &toml::Value| {
-                let mut next = point.clone();
-                next.over.entry(sweep.of.clone()).or_default().insert(sweep.key.clone(), value.clone());
-                let comma = if next.name.is_empty() { "" } else { "," };
-                next.name += &format!("{comma}{}={}", sweep.key, value.to_string().trim_matches('"'));
-                next
+        let mut points = vec![(Vec::new(), SweepPoint::default())];
+        for sweep in &self.sweeps {
+            let key: Text = sweep.key.as_str().into();
+            let values = sweep.key_values().expect("a checked sweep has values that records can have");
+            let values: Vec<_> = values.into_iter().zip(&sweep.values).collect();
+            let with = |(keys, point): &(Vec<(Text, SweepValue)>, SweepPoint),
+                        (value, written): &(_, &toml::Value)| {
+                let (mut keys, mut next) = (keys.clone(), point.clone());
+                keys.push((key.clone(), SweepValue::clone(value)));
+                let over = next.over.entry(sweep.of.clone()).or_default();
+                over.insert(sweep.key.clone(), (*written).clone());
+                (keys, next)
             };
-            points.iter().flat_map(|point| sweep.values.iter().map(move |value| with(point, value))).collect()
-        })
+            points =
+                points.iter().flat_map(|point| values.iter().map(move |value| with(point, value))).collect();
+        }
+        points.into_iter().map(|(keys, point)| SweepPoint { key: SweepKey::new(keys), ..point }).collect()
+    }
+
+    /// The point of the sweeps that people write as `text`: empty without sweeps.
+    pub fn sweep_point(&self, text: &str) -> Option<SweepPoint> {
+        self.sweep_points().into_iter().find(|point| name::sweep(&point.key) == text)
+    }
+
+    /// How its records are named.
+    pub fn names(&self) -> Names {
+        Names::new(
+            self.groups.iter().map(|group| (group.label.as_str(), group.is_numbered)),
+            self.contenders.iter().map(|contender| (contender.label.as_str(), contender.is_numbered)),
+            self.readings.iter().map(|reading| (reading.id.as_str(), reading.default.as_str())),
+        )
+    }
+
+    /// The columns of its records' keys besides those that every study has.
+    pub fn key_columns(&self) -> KeyColumns {
+        let sweep = |sweep: &Sweep| (sweep.key.as_str().into(), sweep.of.as_str().into());
+        let moving = self.readings.iter().filter(|reading| reading.touches_trials());
+        KeyColumns {
+            sweeps: self.sweeps.iter().map(sweep).collect(),
+            readings: moving.map(|reading| reading.id.as_str().into()).collect(),
+        }
     }
 
     /// Every column that its records can have.
@@ -232,10 +150,9 @@ impl Study {
         counted.chain(posed).chain(self.task.columns).chain(timed).copied().collect()
     }
 
-    /// Which trials on the problem group `group` keep their exhibits: those that figures show, and `keep`.
-    pub fn kept(&self, group: &str) -> impl Iterator<Item = &TrialsSpec> {
-        let shown = self.figures.iter().flat_map(|figure| &figure.shows);
-        shown.chain(&self.keeps).filter(move |trials| trials.problems == group)
+    /// Trials that keep their exhibits: those that figures show, and `keep`.
+    pub fn kept(&self) -> impl Iterator<Item = &TrialsSpec> {
+        self.figures.iter().flat_map(|figure| &figure.shows).chain(&self.keeps)
     }
 
     /// The study cut down to what `--quick` keeps.
@@ -257,12 +174,4 @@ impl Study {
         let over = self.quick.task_settings.as_ref();
         over.map_or_else(|| self.task_settings.clone(), |over| self.task_settings.overlaid(over, "--quick"))
     }
-}
-
-/// `label` in lower case with everything but letters and digits turned into dashes, `*` spelled out: part of a
-/// trial's name that any shell takes as it is.
-pub fn slug(label: &str) -> String {
-    let spelled = label.to_lowercase().replace('*', "-star").replace('+', "-plus");
-    let dashed: String = spelled.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    dashed.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
 }

@@ -1,6 +1,9 @@
 //! The columns that records may have besides what names a trial: one list, so that a number means the same in
 //! every study. A column's name ends in its unit; plain counts have none.
 
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -19,6 +22,28 @@ pub struct Column {
     pub kind: Kind,
     /// What the number says.
     pub about: &'static str,
+}
+
+/// How names of measured quantities end, and the unit that this stands for; `1` for a share.
+const UNITS: [(&str, &str); 10] = [
+    ("_deg_s2", "deg/s²"),
+    ("_cells", "cells"),
+    ("_cm", "cm"),
+    ("_deg", "deg"),
+    ("_m", "m"),
+    ("_mm", "mm"),
+    ("_ns", "ns"),
+    ("_percent", "%"),
+    ("_rad", "rad"),
+    ("_share", "1"),
+];
+
+impl Column {
+    /// The unit of what it holds; none for a count.
+    pub fn unit(&self) -> Option<&'static str> {
+        let unit = UNITS.iter().find(|(end, _)| self.name.ends_with(end)).map(|(_, unit)| *unit);
+        unit.filter(|_| self.kind == Kind::Real)
+    }
 }
 
 const fn count(name: &'static str, about: &'static str) -> Column {
@@ -50,6 +75,7 @@ pub static COLUMNS: &[Column] = &[
     count("closed", "nodes ever put on a closed list, both sides"),
     count("expansions", "nodes expanded"),
     count("generated", "successors generated, known ones included"),
+    count("prepared_bytes", "memory that the planner prepared for the map, besides its legal moves"),
     count("minimum_comparisons", "comparisons that finding the least f would take in a plain list"),
     count("membership_comparisons", "comparisons that looking successors up would take in plain lists"),
     count("list_operations", "minimum and membership comparisons together"),
@@ -162,14 +188,27 @@ pub fn of_exhibit(name: &str) -> Option<String> {
     EXHIBITS.iter().find(|(known, _)| *known == kind).map(|(_, columns)| columns.join(","))
 }
 
+/// The place of the column called `name` in [`COLUMNS`].
+pub fn place(name: &str) -> Option<u16> {
+    static PLACES: OnceLock<BTreeMap<&str, u16>> = OnceLock::new();
+    PLACES.get_or_init(|| COLUMNS.iter().map(|column| column.name).zip(0..).collect()).get(name).copied()
+}
+
 /// The column called `name`.
 pub fn find(name: &str) -> Option<&'static Column> {
-    COLUMNS.iter().find(|column| column.name == name)
+    place(name).map(|place| &COLUMNS[usize::from(place)])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_measured_column_has_a_unit_and_no_count_has_one() {
+        for column in COLUMNS {
+            assert_eq!(column.unit().is_some(), column.kind == Kind::Real, "{}", column.name);
+        }
+    }
 
     #[test]
     fn every_column_that_an_entry_declares_is_listed_once() {

@@ -2,13 +2,14 @@
 //!
 //! A [`Variant`] is one way to fill it in; [`answers`] asks a question of [`engine::length_inversion`] under each.
 
-use crate::study::checked::slug;
+use crate::study::name::slug;
 use crate::study::prepared::lattice::CornerSetting;
 use crate::study::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use base::grid::{Grid2, Moves};
 use engine::length_inversion::Match;
 use engine::search::{Octile, ScaledOctile, Ties};
 use engine::space::{ArmRules, ArmWorld, HopRule, Obstacle, Zone};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// How many ways there may be to give each obstacle of a case a shape.
@@ -18,7 +19,7 @@ const MOST_CHOICES: usize = 4096;
 const MOST_HOPS: u32 = 100_000;
 
 /// One case: where the obstacles are and how long the printed path is.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// Centres of the obstacles.
@@ -40,7 +41,7 @@ impl Case {
 }
 
 /// One way to fill in what the paper leaves open; what is absent is as the problem group has it.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
     /// Its name in records.
@@ -49,10 +50,15 @@ pub struct Variant {
     pub shape: ShapeChoice,
     /// The diameter of every obstacle.
     pub diameter_cm: f64,
+    /// Whether touching an obstacle counts as a collision.
     touching: Option<TouchSetting>,
+    /// How far the tip must stay from the base.
     inner_radius_cm: Option<f64>,
+    /// On which side the elbow is.
     elbow: Option<ElbowSetting>,
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: Option<CornerSetting>,
+    /// How the move between neighbouring cells is checked.
     hop_check: Option<HopSetting>,
     /// Whether the paper's A* lowers the g of an open node; lowered if absent.
     open_node: Option<OpenNode>,
@@ -62,7 +68,7 @@ pub struct Variant {
 }
 
 /// The shapes that obstacles may have.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "one of circle, square, square_inscribed, hexagon, hexagon_turned, triangle, triangle_turned is accepted \
@@ -76,7 +82,7 @@ pub enum ShapeChoice {
 }
 
 /// What the paper's A* does with an open node to which a better way is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OpenNode {
     /// It takes it, so that lengths are shortest.
@@ -86,7 +92,7 @@ pub enum OpenNode {
 }
 
 /// The order among equal f.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TieOrder {
     /// The one opened first.
@@ -115,10 +121,11 @@ impl Variant {
     }
 
     /// What is wrong with it, if anything: ties that do not matter, or shapes left open where that cannot be searched.
-    fn fault(&self, cases: &[Case]) -> Option<String> {
+    fn fault(&self, cases: &[Case]) -> Option<(&'static str, String)> {
         let (label, never) = (&self.label, self.never_lowered().is_some());
         if self.ties.is_some() && !never {
-            return Some(format!("variant `{label}` has ties, which only matter with open_node = \"never\""));
+            let message = format!("variant `{label}` has ties, which only matter with open_node = \"never\"");
+            return Some(("ties", message));
         }
         let centers = || cases.iter().flat_map(|case| &case.obstacles_cm);
         let shapes: &[ShapeSetting] = match &self.shape {
@@ -128,25 +135,26 @@ impl Variant {
         let mut made =
             shapes.iter().flat_map(|shape| centers().map(|at| shape.obstacle(*at, self.diameter_cm)));
         if let Some(reason) = made.find_map(Result::err) {
-            return Some(format!("variant `{label}` (diameter_cm is {}): {reason}", self.diameter_cm));
+            let message = format!("variant `{label}` (diameter_cm is {}): {reason}", self.diameter_cm);
+            return Some(("diameter_cm", message));
         }
         if !self.is_free() {
             return None;
         }
         let most = cases.iter().map(|case| case.obstacles_cm.len() as u32).max().unwrap_or_default();
-        let fault = if never {
-            "open nodes are never lowered with one shape only".to_owned()
+        let (key, fault) = if never {
+            ("shape", "open nodes are never lowered with one shape only".to_owned())
         } else if self.hop_check.is_some_and(|check| check != HopSetting::EndPoints) {
-            "hops are judged by their end points then".to_owned()
+            ("hop_check", "hops are judged by their end points then".to_owned())
         } else if shapes.is_empty() {
-            "at least one shape is needed".to_owned()
+            ("shape", "at least one shape is needed".to_owned())
         } else if shapes.len().checked_pow(most).is_none_or(|ways| ways > MOST_CHOICES) {
             let found = format!("{} shapes for {most} obstacles", shapes.len());
-            format!("up to {MOST_CHOICES} choices a case are accepted, not those of {found}")
+            ("shape", format!("up to {MOST_CHOICES} choices a case are accepted, not those of {found}"))
         } else {
             return None;
         };
-        Some(format!("variant `{label}` leaves shapes open; {fault}"))
+        Some((key, format!("variant `{label}` leaves shapes open; {fault}")))
     }
 
     /// The rules of `base` with this variant's laid over them.
@@ -217,30 +225,37 @@ impl Variant {
     }
 }
 
-/// What is wrong with `cases`, `variants` or their names in records, if anything.
-pub fn fault(cases: &[Case], variants: &[Variant]) -> Option<String> {
-    if cases.is_empty() || variants.is_empty() {
-        return Some("at least one case and one variant are needed".to_owned());
+/// The key of what is wrong with `cases`, `variants` or their names in records, and what it is, if anything.
+pub fn fault(cases: &[Case], variants: &[Variant]) -> Option<(String, String)> {
+    for (key, count) in [("cases", cases.len()), ("variants", variants.len())] {
+        if count == 0 {
+            return Some((key.to_owned(), format!("{key} is empty; at least one is accepted")));
+        }
     }
-    let is_odd = |case: &&Case| case.hops == [0, 0] || case.hops.iter().any(|hops| *hops > MOST_HOPS);
-    if let Some(case) = cases.iter().find(is_odd) {
+    let is_odd = |case: &Case| case.hops == [0, 0] || case.hops.iter().any(|hops| *hops > MOST_HOPS);
+    if let Some((index, case)) = cases.iter().enumerate().find(|(_, case)| is_odd(case)) {
         let accepted = format!("at least one hop and at most {MOST_HOPS} of a kind are accepted");
-        return Some(format!("hops is {:?}; {accepted}", case.hops));
+        return Some((format!("cases.{index}.hops"), format!("hops is {:?}; {accepted}", case.hops)));
     }
     for (index, variant) in variants.iter().enumerate() {
         let name = slug(&variant.label);
         if let Some(other) = variants[..index].iter().find(|other| slug(&other.label) == name) {
             let labels = format!("variants `{}` and `{}`", other.label, variant.label);
-            return Some(format!("{labels} have one name in records, `{name}`"));
+            let message = format!("{labels} have one name in records, `{name}`");
+            return Some((format!("variants.{index}.label"), message));
         }
     }
-    variants.iter().find_map(|variant| variant.fault(cases))
+    variants.iter().enumerate().find_map(|(index, variant)| {
+        let (key, message) = variant.fault(cases)?;
+        Some((format!("variants.{index}.{key}"), message))
+    })
 }
 
-/// What is wrong with a limit on how far below a length a shortest path may be, in steps, if anything.
-pub fn fault_of_excess(excess_steps: f64) -> Option<String> {
+/// The key of a limit on how far below a length a shortest path may be, in steps, if anything.
+pub fn fault_of_excess(excess_steps: f64) -> Option<(String, String)> {
     let is_right = (0.0..50.0).contains(&excess_steps);
-    (!is_right).then(|| format!("excess_steps is {excess_steps}; 0 and more, below 50, is accepted"))
+    let message = || format!("excess_steps is {excess_steps}; 0 and more, below 50, is accepted");
+    (!is_right).then(|| ("excess_steps".to_owned(), message()))
 }
 
 /// What is asked of the grids of all cases; printed lengths are the asker's.

@@ -1,9 +1,14 @@
 //! What a study's records depend on, so that a stored trial is reused only if nothing of it has changed.
 
-use super::checked::{Study, SweepPoint};
+use super::checked::Study;
+use super::contender::SweepPoint;
+use super::defaults::defaults;
+use super::error::StudyError;
+use super::key::{ReadingKey, Text};
+use super::name;
 use super::reading::ReadingChoice;
+use super::runner::{BuiltStudy, SESSION};
 use super::store::Staged;
-use super::{StudyError, runner::BuiltStudy};
 use base::hash::sha256;
 use base::settings::Document;
 use serde::{Deserialize, Serialize};
@@ -25,24 +30,49 @@ pub struct Manifest {
     pub quick: bool,
     /// The root of every seed.
     pub seed: u64,
-    /// The readings that were run.
-    pub readings: Vec<String>,
+    /// The readings that touch trials.
+    pub axes: Vec<String>,
+    /// The readings that were run: the option of each of the axes.
+    pub readings: Vec<Vec<String>>,
     /// SHA-256 of the spec.
     pub spec: String,
     /// SHA-256 of the paper's claims.
     pub claims: String,
     /// One hash of everything below that trials depend on.
     pub depends: String,
+    /// What the spec leaves out, and the value that holds there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub defaults: Vec<String>,
     /// The program and the machine.
     pub made_by: MadeBy,
     /// SHA-256 of every input file.
     pub inputs: BTreeMap<String, String>,
-    /// What each problem group depends on, by reading and label.
-    pub problems: BTreeMap<String, String>,
-    /// What each contender depends on, by reading and label.
-    pub contenders: BTreeMap<String, String>,
+    /// Where and by what clocks were read.
+    #[serde(default, rename = "session")]
+    pub sessions: Vec<Session>,
+    /// What each problem group depends on.
+    pub problems: Hashes,
+    /// What each contender depends on.
+    pub contenders: Hashes,
     /// SHA-256 of each record file.
     pub files: BTreeMap<String, String>,
+}
+
+/// What something depends on, by label: a hash, and the numbers of the readings under which it is that.
+pub type Hashes = BTreeMap<String, BTreeMap<String, Vec<usize>>>;
+
+/// One session of the clock; readings of different sessions are never pooled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Session {
+    /// Its number, from 1, as clock readings bear it.
+    pub number: u32,
+    /// The git revision of the program.
+    pub git: Option<String>,
+    /// The compiler.
+    pub rustc: Option<String>,
+    /// The processor.
+    pub cpu: Option<String>,
 }
 
 /// The program and the machine; what cannot be found out is absent.
@@ -76,24 +106,27 @@ impl Manifest {
         command: String,
         quick: bool,
     ) -> Result<Self, StudyError> {
-        let mut inputs = BTreeMap::new();
-        for path in built.inputs() {
-            let bytes = fs::read(&path).map_err(StudyError::io(&path, "reading an input file"))?;
-            inputs.insert(path.display().to_string(), sha256(&bytes));
-        }
-        let problems = problem_hashes(study, points, &inputs);
+        let inputs = built.inputs()?;
+        let (axes, readings) = (study.key_columns().readings, points.iter().map(|p| p.key(&study.readings)));
+        let option = |(_, option): &(Text, Text)| option.to_string();
+        let readings = readings.map(|key| key.options().iter().map(option).collect()).collect();
+        let problems = problem_hashes(study, points, built)?;
         let contenders = contender_hashes(study, points);
         let depends = sha256(format!("{quick}\n{problems:?}\n{contenders:?}").as_bytes());
+        let made_by = MadeBy::here().clone();
         Ok(Self {
             study: study.name.clone(),
             command,
             quick,
             seed: study.seed,
-            readings: points.iter().map(|point| point.name().to_owned()).collect(),
+            axes: axes.iter().map(ToString::to_string).collect(),
+            readings,
             spec: sha256(study.document.text().as_bytes()),
             claims,
             depends,
-            made_by: MadeBy::here().clone(),
+            defaults: defaults(study),
+            sessions: study.timing.iter().map(|_| Session::of(&made_by)).collect(),
+            made_by,
             inputs,
             problems,
             contenders,
@@ -115,7 +148,7 @@ impl Manifest {
         if !path.exists() {
             return Err(StudyError::stored(&path, "no stored run; run the study first"));
         }
-        Ok(Document::open(&path)?.read()?)
+        Ok(Document::open(&path)?.read_stored()?)
     }
 
     /// Stages the manifest for `folder`.
@@ -127,27 +160,105 @@ impl Manifest {
         staged.add(&Self::path(folder, &self.study), text.as_bytes())
     }
 
+    /// Whether the run that `before` describes gave all that this one would give.
+    pub fn is_as(&self, before: &Self) -> bool {
+        (&self.spec, &self.depends, &self.axes, &self.readings)
+            == (&before.spec, &before.depends, &before.axes, &before.readings)
+    }
+
+    /// Whether trials ran under the reading.
+    pub fn covers(&self, reading: &ReadingKey) -> bool {
+        self.place(reading).is_some()
+    }
+
+    /// The number of the reading.
+    fn place(&self, reading: &ReadingKey) -> Option<usize> {
+        let options = reading.options();
+        let is_same = |run: &Vec<String>| {
+            run.len() == options.len() && run.iter().zip(options).all(|(run, (_, option))| **run == **option)
+        };
+        let are_axes = self.axes.len() == options.len()
+            && self.axes.iter().zip(options).all(|(axis, (id, _))| **axis == **id);
+        self.readings.iter().position(is_same).filter(|_| are_axes)
+    }
+
+    /// What the problem group called `group` depends on under the reading.
+    pub fn problem(&self, reading: &ReadingKey, group: &str) -> Option<&str> {
+        hash_of(&self.problems, group, self.place(reading)?)
+    }
+
+    /// What the contender called `label` depends on under the reading.
+    pub fn contender(&self, reading: &ReadingKey, label: &str) -> Option<&str> {
+        hash_of(&self.contenders, label, self.place(reading)?)
+    }
+
     /// Why stored trials of `before` cannot stand for those of this manifest: one sentence a reason.
     pub fn differs_from(&self, before: &Self) -> Vec<String> {
         let mut reasons = Vec::new();
+        if self.quick != before.quick {
+            reasons.push("one of the runs is quick and the other full".to_owned());
+        }
+        if self.axes != before.axes {
+            reasons.push(format!(
+                "the readings that touch trials are {}; they were {}",
+                listed(&self.axes),
+                listed(&before.axes)
+            ));
+            return reasons;
+        }
+        let theirs = |run: &Vec<String>| before.readings.iter().position(|other| other == run);
+        let both: Vec<[usize; 2]> =
+            self.readings.iter().enumerate().filter_map(|(ours, run)| Some([ours, theirs(run)?])).collect();
+        let new = self.readings.len() - both.len();
+        if new > 0 {
+            reasons.push(format!("{new} of {} readings are new", self.readings.len()));
+        }
         for (what, ours, theirs) in [
             ("problem group", &self.problems, &before.problems),
             ("contender", &self.contenders, &before.contenders),
         ] {
-            for (name, hash) in ours {
-                match theirs.get(name) {
-                    None => reasons.push(format!("{what} `{name}` is new")),
-                    Some(other) if other != hash => reasons.push(format!("{what} `{name}` has changed")),
-                    Some(_) => {}
-                }
-            }
-            let gone = theirs.keys().filter(|name| !ours.contains_key(*name));
-            reasons.extend(gone.map(|name| format!("{what} `{name}` is gone")));
-        }
-        if self.quick != before.quick {
-            reasons.push("one of the runs is quick and the other full".to_owned());
+            reasons.extend(changes(what, ours, theirs, &both));
         }
         reasons
+    }
+}
+
+/// What is new, has changed or is gone among the things called `what`; `both` are the readings of both runs.
+fn changes(what: &str, ours: &Hashes, theirs: &Hashes, both: &[[usize; 2]]) -> Vec<String> {
+    let mut changes = Vec::new();
+    for label in ours.keys() {
+        let is_other =
+            |[own, other]: &&[usize; 2]| hash_of(ours, label, *own) != hash_of(theirs, label, *other);
+        let changed = both.iter().filter(is_other).count();
+        if !theirs.contains_key(label) {
+            changes.push(format!("{what} `{label}` is new"));
+        } else if changed > 0 {
+            let under = match both.len() {
+                1 => String::new(),
+                all => format!(" under {changed} of {all} readings"),
+            };
+            changes.push(format!("{what} `{label}` has changed{under}"));
+        }
+    }
+    let gone = theirs.keys().filter(|label| !ours.contains_key(*label));
+    changes.extend(gone.map(|label| format!("{what} `{label}` is gone")));
+    changes
+}
+
+fn hash_of<'h>(hashes: &'h Hashes, label: &str, reading: usize) -> Option<&'h str> {
+    let under = hashes.get(label)?.iter();
+    under.filter(|(_, readings)| readings.contains(&reading)).map(|(hash, _)| hash.as_str()).next()
+}
+
+fn listed(axes: &[String]) -> String {
+    if axes.is_empty() { "none".to_owned() } else { axes.join(", ") }
+}
+
+impl Session {
+    /// The one session of a run, on this machine.
+    fn of(made_by: &MadeBy) -> Self {
+        let MadeBy { git, rustc, cpu, .. } = made_by.clone();
+        Self { number: SESSION, git, rustc, cpu }
     }
 }
 
@@ -186,94 +297,72 @@ impl MadeBy {
     }
 }
 
-/// The key of a problem group or contender under a reading.
-pub fn key(point: &str, label: &str) -> String {
-    if point == "default" { label.to_owned() } else { format!("{label} / {point}") }
-}
-
 fn problem_hashes(
     study: &Study,
     points: &[ReadingChoice],
-    inputs: &BTreeMap<String, String>,
-) -> BTreeMap<String, String> {
-    let mut hashes = BTreeMap::new();
-    for point in points {
-        for group in &study.groups {
+    built: &BuiltStudy<'_>,
+) -> Result<Hashes, StudyError> {
+    let mut hashes = Hashes::new();
+    for (reading, point) in points.iter().enumerate() {
+        for (place, group) in study.groups.iter().enumerate() {
             let settings = point
                 .over_problem()
                 .fold(group.settings.clone(), |s, (over, origin)| s.overlaid(over, origin));
+            // The object's own exhibits are kept for every draw of which anything is.
+            let kept = study.kept().filter(|trials| trials.problems == group.label);
             let text = format!(
-                "{} {} {} {} {:?} {} {} {} {:?} {:?} {:?} {inputs:?}",
+                "{} {} {} {} {:?} {} {} {} {} {:?} {:?} {:?} {:?}",
                 study.paper,
                 study.name,
                 study.seed,
                 group.label,
-                study.budget,
+                group.draw,
                 study.task.name,
                 study.task.revision,
                 group.family.name,
                 group.family.revision,
+                study.budget,
                 (settings.table(), study.task_settings.table()),
-                study.kept(&group.label).collect::<Vec<_>>(),
+                kept.map(|trials| trials.replicates).max(),
+                built.inputs_of(reading, place)?,
             );
-            hashes.insert(key(point.name(), &group.label), sha256(text.as_bytes()));
+            note(&mut hashes, &group.label, &text, reading);
         }
     }
-    hashes
+    Ok(hashes)
 }
 
-fn contender_hashes(study: &Study, points: &[ReadingChoice]) -> BTreeMap<String, String> {
-    let mut hashes = BTreeMap::new();
-    for point in points {
+fn contender_hashes(study: &Study, points: &[ReadingChoice]) -> Hashes {
+    let mut hashes = Hashes::new();
+    let sweeps: Vec<SweepPoint> = study.sweep_points();
+    for (reading, point) in points.iter().enumerate() {
         for contender in &study.contenders {
-            let sweeps: Vec<SweepPoint> = study.sweep_points();
             let mut text = format!("{} {}", contender.label, contender.repeats);
             for stage in &contender.stages {
                 let entry = stage.entry;
                 text += &format!("\n{} {}", entry.name, entry.revision);
                 for sweep in &sweeps {
-                    text += &format!(" {} {:?}", sweep.name, stage.effective(point, sweep).table());
+                    text +=
+                        &format!(" {} {:?}", name::sweep(&sweep.key), stage.effective(point, sweep).table());
                 }
             }
-            hashes.insert(key(point.name(), &contender.label), sha256(text.as_bytes()));
+            let is_own = |of: &Option<String>| of.as_ref().is_none_or(|label| *label == contender.label);
+            for trials in study.kept().filter(|trials| is_own(&trials.contender)) {
+                text += &format!("\n{} {} {:?}", trials.problems, trials.replicates, trials.repeats);
+            }
+            note(&mut hashes, &contender.label, &text, reading);
         }
     }
     hashes
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// How many digits of a hash tell what trials depend on apart.
+const DIGITS: usize = 16;
 
-    #[test]
-    fn outputs_of_runs_leave_a_tree_clean_and_any_other_change_does_not() {
-        let folder = tempfile::tempdir().unwrap();
-        let git = |arguments: &[&str]| {
-            let name = ["-c", "user.name=n", "-c", "user.email=e"];
-            let mut command = Command::new("git");
-            let done = command.current_dir(folder.path()).args(name).args(arguments).output().unwrap();
-            assert!(done.status.success(), "{arguments:?}: {done:?}");
-        };
-        let write = |name: &str| {
-            let path = folder.path().join(name);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, name).unwrap();
-        };
-        let clean = || MadeBy::found(folder.path()).clean;
-        git(&["init", "--quiet"]);
-        write("spec.toml");
-        git(&["add", "."]);
-        git(&["commit", "--quiet", "-m", "first"]);
-        assert_eq!(clean(), Some(true));
-        for output in ["data/runs/p/s.manifest.toml", "plots/p/fig1.svg", "paper_repro.md"] {
-            write(output);
-            assert_eq!(clean(), Some(true), "{output}");
-        }
-        assert_eq!(MadeBy::found(&folder.path().join("data/runs")).clean, Some(true), "seen from below");
-        write("data/robots/r.toml");
-        assert_eq!(clean(), Some(false));
-        fs::remove_dir_all(folder.path().join("data/robots")).unwrap();
-        fs::write(folder.path().join("spec.toml"), "changed").unwrap();
-        assert_eq!(clean(), Some(false));
-    }
+fn note(hashes: &mut Hashes, label: &str, text: &str, reading: usize) {
+    let hash = sha256(text.as_bytes())[..DIGITS].to_owned();
+    hashes.entry(label.to_owned()).or_default().entry(hash).or_default().push(reading);
 }
+
+#[cfg(test)]
+mod tests;

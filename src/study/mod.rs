@@ -3,57 +3,53 @@
 //! [`Study::load`] turns a spec into checked types; [`run`](session::run) turns these into records that
 //! [`store`] keeps; [`manifest`] says what the records depend on. Families pose problems, prepared objects are
 //! what many trials share, tasks say what is done with both. Nothing here judges a claim or draws a figure.
+//!
+//! The modules below stand in the order in which they may know each other, lowest first; no circle is allowed.
 
-mod checked;
 pub mod clock;
 pub mod column;
-pub mod endpoint_variants;
 mod error;
-pub mod family;
-pub mod lock;
-pub mod manifest;
-pub mod paper;
-pub mod prepared;
+mod inputs;
+pub mod key;
+pub mod name;
+pub mod spec;
+
 mod reading;
 pub mod record;
-pub mod rerun;
-pub mod runner;
-pub mod session;
-pub mod spec;
-pub mod store;
-pub mod task;
+
+pub mod contender;
+pub mod prepared;
+
+pub mod endpoint_variants;
+pub mod family;
+mod group;
 pub mod verification;
 
-pub use checked::{Contender, Group, StageUse, Study, Sweep, slug};
+pub mod unit;
+
+pub mod files;
+pub mod task;
+
+mod checked;
+mod defaults;
+pub mod lock;
+pub mod paper;
+pub mod store;
+
+pub mod runner;
+
+pub mod manifest;
+
+pub mod reuse;
+
+pub mod session;
+
+pub mod rerun;
+
+pub use checked::Study;
+pub use contender::{Contender, StageUse, Sweep};
 pub use error::StudyError;
+pub use group::{Families, Group};
+pub use inputs::Inputs;
+pub use name::slug;
 pub use reading::{Reading, ReadingChoice};
-
-use std::path::PathBuf;
-
-/// Where input files named by specs are looked for, in order.
-#[derive(Debug, Clone, Default)]
-pub struct Inputs {
-    /// Folders that relative paths start from.
-    pub roots: Vec<PathBuf>,
-}
-
-impl Inputs {
-    /// The first existing file called `name` below the roots.
-    ///
-    /// # Errors
-    /// A message that lists every place looked at.
-    pub fn locate(&self, name: &str) -> Result<PathBuf, String> {
-        let tried: Vec<PathBuf> = self.roots.iter().map(|root| root.join(name)).collect();
-        if let Some(file) = tried.iter().find(|path| path.is_file()) {
-            return Ok(file.clone());
-        }
-        if let Some(folder) = tried.iter().find(|path| path.is_dir()) {
-            return Err(format!(
-                "input file `{name}` is a folder ({}); a file is accepted",
-                folder.display()
-            ));
-        }
-        let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();
-        Err(format!("input file `{name}` does not exist; looked for {}", places.join(", ")))
-    }
-}

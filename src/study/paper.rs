@@ -2,44 +2,59 @@
 //!
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
+mod claim;
 mod findings;
 pub mod results;
 mod rules;
 mod tables;
 
+pub use self::claim::{Asked, Claim, Parts};
+use self::claim::{ClaimSpec, claim};
 pub use findings::filled;
 
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
-use super::{Inputs, Reading, Study, StudyError};
-use base::settings::{Document, Settings, SettingsError};
-use serde::Deserialize;
+pub use super::spec::Digits;
+use super::{Inputs, Reading, Study, StudyError, files};
+use base::settings::{Accepted, Document, Faults, Spanned};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use toml::{Spanned, Table};
+
+/// What `paper.toml` may hold.
+pub const FILE: Accepted = Accepted::of::<PaperSpec>();
 
 /// `paper.toml` as written.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PaperSpec {
+    /// Where it was published.
     source: Source,
+    /// How many numbered things the paper has, each of which then needs a row in the ledger; none if absent.
+    #[serde(default)]
     prints: Prints,
+    /// Everything that it prints, and what answers it.
     #[serde(default)]
     ledger: Vec<LedgerRow>,
+    /// What it says.
     #[serde(default, rename = "claim")]
     claims: Vec<ClaimSpec>,
+    /// Its own tables, to be set beside ours.
     #[serde(default, rename = "table")]
     tables: Vec<TableSpec>,
+    /// Tables of our results.
     #[serde(default)]
     results: Vec<ResultsSpec>,
+    /// The series, of those that figures have, that a contender is drawn as wherever it is drawn, by its label.
     #[serde(default)]
     series: BTreeMap<String, usize>,
 }
 
 /// Where the paper was published, as far as its text says.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
     /// Title.
@@ -59,19 +74,22 @@ pub struct Source {
 }
 
 /// How many numbered things the paper has.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Prints {
     /// Figures.
+    #[schemars(range(max = 1000))]
     pub figures: u32,
     /// Tables.
+    #[schemars(range(max = 1000))]
     pub tables: u32,
     /// Equations.
+    #[schemars(range(max = 1000))]
     pub equations: u32,
 }
 
 /// One thing that the paper prints and what answers it.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LedgerRow {
     /// `Fig. 4`, `Table 1`, `Eq. 2`, or the place of a sentence.
@@ -89,59 +107,6 @@ pub struct LedgerRow {
     pub studies: Vec<Spanned<String>>,
     /// Why nothing can answer it.
     pub none: Option<String>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ClaimSpec {
-    id: Spanned<String>,
-    at: String,
-    says: Option<String>,
-    quote: Option<String>,
-    printed: Option<Spanned<String>>,
-    unit: Option<String>,
-    digits: Option<Digits>,
-    untestable: Option<String>,
-    theorem: Option<String>,
-    #[serde(default)]
-    check: BTreeMap<String, Spanned<Table>>,
-}
-
-/// How a printed number's digits end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Digits {
-    /// To the nearest.
-    Rounded,
-    /// Cut off.
-    Truncated,
-    /// Either.
-    Unknown,
-}
-
-/// What the paper says.
-#[derive(Debug, Clone)]
-pub struct Claim {
-    /// Its name.
-    pub id: String,
-    /// Where it stands in the paper.
-    pub at: String,
-    /// The sentence, where it is not a number alone.
-    pub says: Option<String>,
-    /// The paper's own words, where they are given word for word.
-    pub quote: Option<String>,
-    /// The number as printed.
-    pub printed: Option<String>,
-    /// The number's unit; absent if the paper gives none.
-    pub unit: Option<String>,
-    /// How the number's digits end, where the claim says so; otherwise the reading decides.
-    pub digits: Option<Digits>,
-    /// What the paper leaves out, if that makes it untestable; checks then only show what can be shown.
-    pub untestable: Option<String>,
-    /// Why it must hold whatever the paper says, if it must: it is then asserted, and no evidence for anything.
-    pub theorem: Option<String>,
-    /// How it is judged: checks by name.
-    pub checks: BTreeMap<String, Settings>,
 }
 
 /// A checked paper with its studies.
@@ -167,6 +132,8 @@ pub struct Paper {
     pub series: BTreeMap<String, usize>,
     /// Its studies, in the order of their names.
     pub studies: Vec<Study>,
+    /// TOML files of its folder that are no studies, with the kind that each is.
+    pub others: Vec<(PathBuf, &'static str)>,
     /// The file it was read from.
     pub document: Arc<Document>,
 }
@@ -185,15 +152,34 @@ impl Paper {
             return Err(StudyError::Missing { path, what });
         }
         let document = Document::open(&path)?;
-        let spec: PaperSpec = document.read()?;
-        let mut studies = Vec::new();
-        for path in study_files(folder)? {
-            studies.push(Study::load(&path, inputs)?);
-        }
-        if studies.is_empty() {
+        let mut faults = Faults::default();
+        let spec = faults.keep(document.read::<PaperSpec>());
+        let files = study_files(folder)?;
+        let (studies, others) = read_files(&files, inputs, &mut faults)?;
+        if files.len() == others.len() && faults.is_empty() {
             let what = "no study; a study is a TOML file beside paper.toml".to_owned();
             return Err(StudyError::Missing { path: folder.to_owned(), what });
         }
+        let Some(spec) = spec else { return Err(faults.error().into()) };
+        Self::assemble(folder, &document, spec, (studies, others), faults)
+    }
+
+    /// The paper in `folder` whose paper.toml is `document`, with studies that were loaded.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load), but for those of the studies.
+    pub fn of(folder: &Path, document: &Arc<Document>, studies: Vec<Study>) -> Result<Self, StudyError> {
+        Self::assemble(folder, document, document.read()?, (studies, Vec::new()), Faults::default())
+    }
+
+    fn assemble(
+        folder: &Path,
+        document: &Arc<Document>,
+        spec: PaperSpec,
+        (studies, others): Files,
+        mut faults: Faults,
+    ) -> Result<Self, StudyError> {
+        let claims = spec.claims.iter().filter_map(|c| faults.keep(claim(document, c))).collect();
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -201,14 +187,19 @@ impl Paper {
             source: spec.source,
             prints: spec.prints,
             ledger: spec.ledger,
-            claims: spec.claims.iter().map(|c| claim(&document, c)).collect::<Result<_, _>>()?,
+            claims,
             tables: spec.tables,
             results: spec.results,
             series: spec.series,
             studies,
-            document,
+            others,
+            document: document.clone(),
         };
-        paper.check(&spec.claims)?;
+        // Names that are missing because their file is wrong are no faults of those that use them.
+        if faults.is_empty() {
+            paper.check(&spec.claims, &mut faults);
+        }
+        faults.done()?;
         Ok(paper)
     }
 
@@ -247,10 +238,37 @@ impl Paper {
         own.chain(behind).chain(self.results.iter().map(|table| table.id.get_ref().as_str()))
     }
 
+    /// The sentence or row that the claim called `id` is a part of, and with which it counts.
+    pub fn whole_of(&self, id: &str) -> Option<&Claim> {
+        self.claims.iter().find(|claim| claim.parts.ids().iter().any(|part| part == id))
+    }
+
     /// The claim called `id`.
     pub fn claim(&self, id: &str) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.id == id)
     }
+}
+
+/// The studies of a paper's folder, and its other TOML files with the kind that each is.
+type Files = (Vec<Study>, Vec<(PathBuf, &'static str)>);
+
+fn read_files(files: &[PathBuf], inputs: &Inputs, faults: &mut Faults) -> Result<Files, StudyError> {
+    let (mut studies, mut others) = (Vec::new(), Vec::new());
+    for path in files {
+        if let Ok(document) = Document::open(path)
+            && let Some(kind) = files::other_than_study(&document)
+        {
+            faults.keep(files::validate(&document, kind));
+            others.push((path.clone(), kind.name));
+            continue;
+        }
+        match Study::load(path, inputs) {
+            Ok(study) => studies.push(study),
+            Err(StudyError::Settings(fault)) => faults.add(fault),
+            Err(other) => return Err(other),
+        }
+    }
+    Ok((studies, others))
 }
 
 /// Files of a paper's folder that are no studies: the paper itself, and what an independent judge is asked.
@@ -265,34 +283,4 @@ fn study_files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
         .collect();
     files.sort();
     Ok(files)
-}
-
-fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsError> {
-    let id = spec.id.get_ref();
-    if let Some(printed) = &spec.printed
-        && printed.get_ref().parse::<f64>().is_err()
-    {
-        let message = format!(
-            "claim `{id}`: printed is `{}`; the digits of one number as the paper prints them are accepted",
-            printed.get_ref()
-        );
-        return Err(document.error(printed.span(), message));
-    }
-    if spec.check.is_empty() && spec.untestable.is_none() {
-        let message = format!("claim `{id}` needs checks, or `untestable` with what the paper leaves out");
-        return Err(document.error(spec.id.span(), message));
-    }
-    let checks = spec.check.iter().map(|(name, table)| (name.clone(), Settings::written(document, table)));
-    Ok(Claim {
-        id: id.clone(),
-        at: spec.at.clone(),
-        says: spec.says.clone(),
-        quote: spec.quote.clone(),
-        printed: spec.printed.as_ref().map(|printed| printed.get_ref().clone()),
-        unit: spec.unit.clone(),
-        digits: spec.digits,
-        untestable: spec.untestable.clone(),
-        theorem: spec.theorem.clone(),
-        checks: checks.collect(),
-    })
 }

@@ -1,7 +1,8 @@
 //! Readings: ways to fill in what a paper leaves open, and points in their product.
 
-use super::paper::Digits;
-use super::spec::OptionSpec;
+use super::key::ReadingKey;
+use super::name;
+use super::spec::{Digits, OptionSpec};
 use base::seed::{self, Stream};
 use rand::RngExt as _;
 use std::collections::{BTreeMap, BTreeSet};
@@ -60,12 +61,12 @@ impl ReadingChoice {
                 format!("reading `{}` has no option `{option}`; it has {}", reading.id, known.join(", "))
             })?;
             if *option != reading.default {
-                differs.push(format!("{}={option}", reading.id));
+                differs.push((reading.id.as_str(), option.as_str()));
             }
             point.choices.insert(reading.id.clone(), option.clone());
             point.changes.push((format!("reading {}={option}", reading.id), change.clone()));
         }
-        point.name = if differs.is_empty() { "default".to_owned() } else { differs.join(",") };
+        point.name = name::choice(differs.into_iter());
         Ok(point)
     }
 
@@ -97,6 +98,14 @@ impl ReadingChoice {
         let mut moving = self.within(readings).choices;
         moving.retain(|id, _| readings.iter().any(|reading| reading.id == *id && reading.touches_trials()));
         Self::new(readings, &moving).expect("the options were just found")
+    }
+
+    /// What names this choice in the records of a study with these readings: the option of each that touches trials.
+    pub fn key(&self, readings: &[Reading]) -> ReadingKey {
+        let moving = readings.iter().filter(|reading| reading.touches_trials());
+        let option =
+            |reading: &Reading| self.choices.get(&reading.id).unwrap_or(&reading.default).as_str().into();
+        ReadingKey::new(moving.map(|reading| (reading.id.as_str().into(), option(reading))).collect())
     }
 
     /// How printed digits end under this point, if a reading says so.

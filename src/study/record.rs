@@ -1,12 +1,16 @@
 //! The record: one row a trial, a failed trial is a row, unknown is null.
 
+use super::column::{self, Column};
+use super::key::{DrawKey, Owner, SweepKey, Text, TrialKey};
 use engine::planner::{Exhibit, Value};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::Arc;
 
 /// How a trial ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// A path was found and the verifier accepts it.
@@ -52,28 +56,86 @@ impl fmt::Display for Status {
     }
 }
 
-/// The numbers of a row, by column name.
-pub type Values = BTreeMap<String, Value>;
+/// The numbers of a row: those that were measured, in the order of [`COLUMNS`](column::COLUMNS).
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "BTreeMap<String, Value>", into = "BTreeMap<String, Value>")]
+pub struct Values(Vec<(u16, Value)>);
+
+impl Values {
+    /// Without a number, with room for `count`.
+    pub fn with_capacity(count: usize) -> Self {
+        Self(Vec::with_capacity(count))
+    }
+
+    /// The number in the column of this place.
+    pub fn at(&self, place: u16) -> Option<Value> {
+        self.0.binary_search_by_key(&place, |(of, _)| *of).ok().map(|at| self.0[at].1)
+    }
+
+    /// The number in the column called `name`.
+    pub fn get(&self, name: &str) -> Option<Value> {
+        self.at(column::place(name)?)
+    }
+
+    /// Puts `value` in the column of this place.
+    pub fn put(&mut self, place: u16, value: Value) {
+        match self.0.last() {
+            Some((last, _)) if *last >= place => match self.0.binary_search_by_key(&place, |(of, _)| *of) {
+                Ok(at) => self.0[at].1 = value,
+                Err(at) => self.0.insert(at, (place, value)),
+            },
+            _ => self.0.push((place, value)),
+        }
+    }
+
+    /// Every column that has a number, and the number.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static Column, Value)> {
+        self.0.iter().map(|(place, value)| (&column::COLUMNS[usize::from(*place)], *value))
+    }
+}
+
+/// # Panics
+/// If there is no such column: entries declare what they fill, and a test holds that it is listed.
+impl<'a> Extend<(&'a str, Value)> for Values {
+    fn extend<T: IntoIterator<Item = (&'a str, Value)>>(&mut self, values: T) {
+        for (name, value) in values {
+            self.put(column::place(name).expect("what an entry declares is listed among the columns"), value);
+        }
+    }
+}
+
+impl<'a> FromIterator<(&'a str, Value)> for Values {
+    fn from_iter<T: IntoIterator<Item = (&'a str, Value)>>(values: T) -> Self {
+        let mut all = Self::default();
+        all.extend(values);
+        all
+    }
+}
+
+impl TryFrom<BTreeMap<String, Value>> for Values {
+    type Error = String;
+
+    fn try_from(values: BTreeMap<String, Value>) -> Result<Self, String> {
+        let mut all = Self::default();
+        for (name, value) in values {
+            let place = column::place(&name).ok_or_else(|| format!("there is no column `{name}`"))?;
+            all.put(place, value);
+        }
+        Ok(all)
+    }
+}
+
+impl From<Values> for BTreeMap<String, Value> {
+    fn from(values: Values) -> Self {
+        values.iter().map(|(column, value)| (column.name.to_owned(), value)).collect()
+    }
+}
 
 /// One trial.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Its name, unique in the study.
-    pub trial: String,
-    /// The problem: group, draw and query.
-    pub problem: String,
-    /// The problem group's label.
-    pub group: String,
-    /// The independent draw it belongs to: the unit of replication within the group.
-    pub replicate: u32,
-    /// The contender's label.
-    pub contender: String,
-    /// The sweep's values; empty without sweeps.
-    pub sweep: String,
-    /// The reading.
-    pub reading: String,
-    /// Which of the contender's seeds.
-    pub repeat: u32,
+    /// What names it, unique in the study.
+    pub key: TrialKey,
     /// The contender's seed.
     pub seed: u64,
     /// How it ended.
@@ -87,23 +149,32 @@ pub struct Row {
 impl Row {
     /// The number in `column`, if it was measured.
     pub fn value(&self, column: &str) -> Option<f64> {
-        self.values.get(column).map(|value| value.as_f64())
+        self.values.get(column).map(Value::as_f64)
+    }
+
+    /// Which draw of its problem group it belongs to.
+    pub fn draw(&self) -> u32 {
+        self.key.on.draw
+    }
+
+    /// The query; empty where a draw has one query only.
+    pub fn query(&self) -> &str {
+        self.key.query.as_deref().unwrap_or_default()
+    }
+
+    /// What it has in common with the trials of other contenders that it is compared with: draw, query, sweep and repeat.
+    pub fn case(&self) -> (&Arc<DrawKey>, &Option<Text>, &SweepKey, u32) {
+        (&self.key.on, &self.key.query, &self.key.sweep, self.key.repeat)
     }
 }
 
 /// One prepared object.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PreparedRow {
-    /// Its name, unique in the study.
-    pub prepared: String,
+    /// What names it, unique in the study.
+    pub key: Arc<DrawKey>,
     /// The kind of prepared object.
     pub kind: String,
-    /// The problem group's label.
-    pub group: String,
-    /// Which draw of the group.
-    pub replicate: u32,
-    /// The reading.
-    pub reading: String,
     /// The seed it was built from.
     pub seed: u64,
     /// Why it could not be built.
@@ -115,8 +186,8 @@ pub struct PreparedRow {
 /// An exhibit and the trial or prepared object it belongs to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Kept {
-    /// The trial's or the prepared object's name.
-    pub of: String,
+    /// Whose it is.
+    pub of: Owner,
     /// The exhibit.
     pub exhibit: Exhibit,
 }
@@ -125,15 +196,11 @@ pub struct Kept {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timing {
     /// The trial.
-    pub trial: String,
-    /// The problem group's label.
-    pub group: String,
-    /// The contender's label.
-    pub contender: String,
-    /// Which draw of the group.
-    pub replicate: u32,
-    /// Which reading of the clock.
-    pub repeat: u32,
+    pub trial: TrialKey,
+    /// The session in which the clock was read, from 1; readings of different sessions are never pooled.
+    pub session: u32,
+    /// Which reading of the clock in its session, from 0.
+    pub clock_repeat: u32,
     /// Planning time.
     pub plan_wall_ns: u64,
 }

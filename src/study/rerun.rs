@@ -1,9 +1,10 @@
 //! Reruns a seeded sample of stored trials and compares every row.
 
+use super::key::{DrawKey, TrialKey};
 use super::manifest::Manifest;
 use super::reading::ReadingChoice;
 use super::record::Row;
-use super::runner::{BuiltStudy, Unit};
+use super::runner::BuiltStudy;
 use super::store::read_records;
 use super::{Inputs, Study, StudyError};
 use base::seed;
@@ -11,6 +12,7 @@ use rand::RngExt as _;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Arc;
 
 /// What a sample of stored trials came out as.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -38,41 +40,34 @@ pub fn rerun(
     let points: Vec<ReadingChoice> = study
         .trial_points()?
         .into_iter()
-        .filter(|p| manifest.readings.iter().any(|r| r == p.name()))
+        .filter(|point| manifest.covers(&point.key(&study.readings)))
         .collect();
     let built = BuiltStudy::new(study, &points, inputs)?;
     let wanted = sample(study, &records.batch.rows, count);
     let mut units = built.units();
     for unit in &mut units {
-        unit.wanted = wanted.get(&place(unit)).cloned();
+        unit.wanted = wanted.get(&unit.key).cloned();
     }
     units.retain(|unit| unit.wanted.is_some());
     let pool = super::session::pool(Some(threads));
     let again = pool.install(|| units.par_iter().map(|unit| built.run_unit(unit)).collect::<Vec<_>>());
-    let stored: BTreeMap<&str, &Row> =
-        records.batch.rows.iter().map(|row| (row.trial.as_str(), row)).collect();
+    let stored: BTreeMap<&TrialKey, &Row> = records.batch.rows.iter().map(|row| (&row.key, row)).collect();
     let rows: Vec<Row> = again.into_iter().flat_map(|batch| batch.rows).collect();
-    let is_other = |row: &&Row| stored.get(row.trial.as_str()).is_none_or(|stored| *stored != *row);
-    let came: BTreeSet<&str> = rows.iter().map(|row| row.trial.as_str()).collect();
-    let lost = wanted.values().flatten().filter(|trial| !came.contains(trial.as_str())).cloned();
-    let differ = rows.iter().filter(is_other).map(|row| row.trial.clone()).chain(lost).collect();
+    let is_other = |row: &&Row| stored.get(&row.key).is_none_or(|stored| *stored != *row);
+    let came: BTreeSet<&TrialKey> = rows.iter().map(|row| &row.key).collect();
+    let lost = wanted.values().flatten().filter(|trial| !came.contains(trial));
+    let differ = rows.iter().filter(is_other).map(|row| &row.key).chain(lost);
+    let differ = differ.map(|key| built.names().trial(key)).collect();
     Ok(Rerun { trials: rows.len(), differ })
 }
 
-type Place = (String, u32, String);
-
-fn place(unit: &Unit<'_>) -> Place {
-    (unit.group.label.clone(), unit.replicate, unit.point.name().to_owned())
-}
-
-/// The names of the trials drawn, by unit.
-fn sample(study: &Study, rows: &[Row], count: usize) -> BTreeMap<Place, BTreeSet<String>> {
+/// The trials drawn, by unit.
+fn sample(study: &Study, rows: &[Row], count: usize) -> BTreeMap<Arc<DrawKey>, BTreeSet<TrialKey>> {
     let mut stream = seed::stream(seed::derive(study.seed, &[&study.paper, &study.name, "rerun"]));
     let picks = (0..count.min(rows.len())).map(|_| &rows[stream.random_range(0..rows.len())]);
-    let mut sample: BTreeMap<Place, BTreeSet<String>> = BTreeMap::new();
+    let mut sample: BTreeMap<Arc<DrawKey>, BTreeSet<TrialKey>> = BTreeMap::new();
     for row in picks {
-        let place = (row.group.clone(), row.replicate, row.reading.clone());
-        sample.entry(place).or_default().insert(row.trial.clone());
+        sample.entry(row.key.on.clone()).or_default().insert(row.key.clone());
     }
     sample
 }

@@ -4,21 +4,30 @@
 //! Units are numbered by reading, problem group and replicate; results are put together in that order, so the
 //! number of threads and the order of completion change nothing.
 
-use super::checked::{Contender, Group, Pipeline, Study, SweepPoint, slug};
-use super::family::{Family, Query};
+use super::checked::Study;
+use super::clock;
+use super::error::StudyError;
+use super::family::Family;
+use super::group::Families;
+use super::inputs::Inputs;
+use super::key::{DrawKey, Owner, ReadingKey, Text, TrialKey};
+use super::name::Names;
 use super::prepared::Prepared;
 use super::reading::ReadingChoice;
-use super::record::{Batch, Timing};
+use super::record::{Batch, Kept, Row, Timing};
 use super::spec::TimingSpec;
 use super::store::Journal;
 use super::task::Task;
-use super::{Inputs, StudyError, clock};
+use super::unit::{Entrant, Terms, Unit};
+use base::hash::sha256;
 use base::seed;
 use engine::planner::Request;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Mutex;
+use std::fs;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// Who watches a run.
 pub trait Progress: Sync {
@@ -40,100 +49,30 @@ impl Progress for Unwatched {
     fn end(&self) {}
 }
 
+/// The number of the session in which a run reads the clock: a run has one, and its readings replace all older ones.
+pub const SESSION: u32 = 1;
+
 /// How many times the clock's sample is gone through; each time takes its share of the repeats.
 const PASSES: u32 = 4;
 
-/// One prepared object and the trials that share it.
-pub struct Unit<'a> {
-    /// Its name in records.
-    pub name: String,
-    /// The group its problems belong to.
-    pub group: &'a Group,
-    /// The group's family under this reading.
-    pub family: &'a dyn Family,
-    /// The reading.
-    pub point: &'a ReadingChoice,
-    /// Who runs on it.
-    pub entrants: &'a [Entrant<'a>],
-    /// Which draw of the group.
-    pub replicate: u32,
-    /// The draw's seed; the same under every reading and for every contender.
-    pub seed: u64,
-    /// Keeps every exhibit, whatever the study asks for.
-    pub keeps_all: bool,
-    /// The trials that are asked for, if not all; a task whose trials share little may leave out others.
-    pub wanted: Option<BTreeSet<String>>,
-}
-
-/// A contender at one point of the sweeps, ready to run.
-pub struct Entrant<'a> {
-    /// The contender.
-    pub contender: &'a Contender,
-    /// The sweeps' values.
-    pub sweep: SweepPoint,
-    /// The pipeline built from both.
-    pub pipeline: Pipeline,
-}
-
-impl Unit<'_> {
-    /// The queries asked of this draw.
-    pub fn queries(&self) -> Vec<Query> {
-        self.family.queries_for(self.seed)
-    }
-
-    /// The name of the problem that `query` poses in this unit.
-    pub fn problem(&self, query: &Query) -> String {
-        let draw = draw_name(self.group, self.replicate);
-        if query.name.is_empty() { draw } else { format!("{draw}/{}", query.name) }
-    }
-
-    /// The name of a trial in this unit.
-    pub fn trial(&self, query: &Query, entrant: &Entrant<'_>, repeat: u32) -> String {
-        let mut name = format!("{}/{}", self.problem(query), slug(&entrant.contender.label));
-        if !entrant.sweep.name.is_empty() {
-            name += &format!("/{}", entrant.sweep.name);
-        }
-        if entrant.contender.is_numbered {
-            name += &format!("/{repeat}");
-        }
-        name + &reading_suffix(self.point)
-    }
-
-    /// Whether a trial is asked for whose name `is_it`.
-    pub fn is_wanted(&self, is_it: impl Fn(&str) -> bool) -> bool {
-        self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|name| is_it(name)))
-    }
-
-    /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
-    pub fn is_kept(&self, study: &Study, contender: Option<&str>, repeat: u32) -> bool {
-        let mut wanted = study.kept(&self.group.label);
-        self.keeps_all
-            || wanted.any(|trials| {
-                let named = match (contender, &trials.contender) {
-                    (Some(contender), Some(wanted)) => contender == wanted,
-                    _ => true,
-                };
-                let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
-                named && is_early && self.replicate < trials.replicates
-            })
-    }
-}
-
-fn draw_name(group: &Group, replicate: u32) -> String {
-    let slug = slug(&group.label);
-    if group.is_numbered { format!("{slug}/{replicate}") } else { slug }
-}
-
-fn reading_suffix(point: &ReadingChoice) -> String {
-    if *point.name() == *"default" { String::new() } else { format!("/{}", point.name()) }
+/// What is stored of a unit of which other contenders' trials must run.
+#[derive(Debug, Default)]
+pub struct Part {
+    /// The contenders whose trials are stored.
+    pub contenders: BTreeSet<Text>,
+    /// What is stored of the unit.
+    pub stored: Batch,
 }
 
 /// A study with everything built that its trials share.
 pub struct BuiltStudy<'a> {
     study: &'a Study,
+    inputs: &'a Inputs,
+    terms: Terms<'a>,
     task: Box<dyn Task>,
     points: &'a [ReadingChoice],
-    families: Vec<Vec<Box<dyn Family>>>,
+    readings: Vec<ReadingKey>,
+    families: Vec<Vec<Arc<dyn Family>>>,
     entrants: Vec<Vec<Entrant<'a>>>,
 }
 
@@ -142,89 +81,153 @@ impl<'a> BuiltStudy<'a> {
     ///
     /// # Errors
     /// Those of families and pipelines; none in a study that was loaded with the same inputs.
-    pub fn new(study: &'a Study, points: &'a [ReadingChoice], inputs: &Inputs) -> Result<Self, StudyError> {
-        let mut families = Vec::new();
-        let mut entrants = Vec::new();
+    pub fn new(
+        study: &'a Study,
+        points: &'a [ReadingChoice],
+        inputs: &'a Inputs,
+    ) -> Result<Self, StudyError> {
+        let (mut families, mut entrants, mut built) = (Vec::new(), Vec::new(), Families::default());
+        let labels: Vec<Text> = study.contenders.iter().map(|c| c.label.as_str().into()).collect();
+        let sweeps = study.sweep_points();
         for point in points {
-            let built = study.groups.iter().map(|group| group.family(point, inputs));
-            families.push(built.collect::<Result<Vec<_>, _>>()?);
+            let of = |group| built.of(group, point, inputs);
+            families.push(study.groups.iter().map(of).collect::<Result<Vec<_>, _>>()?);
             let mut line_up = Vec::new();
-            for contender in &study.contenders {
-                for sweep in study.sweep_points() {
-                    let pipeline = contender.pipeline(point, &sweep)?;
-                    line_up.push(Entrant { contender, sweep, pipeline });
+            for (contender, label) in study.contenders.iter().zip(&labels) {
+                for sweep in &sweeps {
+                    let pipeline = contender.pipeline(point, sweep)?;
+                    line_up.push(Entrant { contender, label: label.clone(), sweep: sweep.clone(), pipeline });
                 }
             }
             entrants.push(line_up);
         }
-        Ok(Self { study, task: (study.task.build)(&study.task_settings)?, points, families, entrants })
+        let (paper, name, keeps) = (&study.paper, &study.name, study.kept().collect());
+        let (names, seed, budget) = (study.names(), study.seed, study.budget);
+        let terms = Terms { paper, study: name, names, seed, budget, keeps };
+        let readings = points.iter().map(|point| point.key(&study.readings)).collect();
+        let task = (study.task.build)(&study.task_settings)?;
+        Ok(Self { study, inputs, terms, task, points, readings, families, entrants })
     }
 
     /// Every unit, in the order of records.
     pub fn units(&self) -> Vec<Unit<'_>> {
         let mut units = Vec::new();
-        for (i, point) in self.points.iter().enumerate() {
-            for (group, family) in self.study.groups.iter().zip(&self.families[i]) {
-                for replicate in 0..group.replicates {
-                    units.push(self.unit(point, &self.entrants[i], group, family.as_ref(), replicate));
+        let labels: Vec<Text> = self.study.groups.iter().map(|group| group.label.as_str().into()).collect();
+        for reading in 0..self.points.len() {
+            for (place, label) in labels.iter().enumerate() {
+                for draw in 0..self.study.groups[place].replicates {
+                    let key = DrawKey { group: label.clone(), draw, reading: self.readings[reading].clone() };
+                    units.push(self.unit(key, reading, place));
                 }
             }
         }
         units
     }
 
-    fn unit<'b>(
-        &self,
-        point: &'b ReadingChoice,
-        entrants: &'b [Entrant<'b>],
-        group: &'b Group,
-        family: &'b dyn Family,
-        replicate: u32,
-    ) -> Unit<'b> {
-        let number = replicate.to_string();
+    /// The unit called `key`: of the reading and the problem group at these places.
+    fn unit(&self, key: DrawKey, reading: usize, group: usize) -> Unit<'_> {
+        let (family, group) = (self.families[reading][group].as_ref(), &self.study.groups[group]);
+        let number = key.draw.to_string();
         let names: &[&str] = match &group.draw {
             Some(draw) => &[&self.study.paper, "draw", draw, &number],
             None => &[&self.study.paper, &self.study.name, "problem", &group.label, &number],
         };
         Unit {
-            name: draw_name(group, replicate) + &reading_suffix(point),
+            terms: &self.terms,
             group,
             family,
-            point,
-            entrants,
-            replicate,
+            point: &self.points[reading],
+            entrants: self.entrants[reading].iter().collect(),
             seed: seed::derive(self.study.seed, names),
+            key: Arc::new(key),
             keeps_all: false,
             wanted: None,
         }
     }
 
-    /// Files that the families read.
-    pub fn inputs(&self) -> Vec<std::path::PathBuf> {
-        let mut files: Vec<_> =
-            self.families.iter().flatten().flat_map(|family| family.inputs().to_vec()).collect();
-        files.sort();
-        files.dedup();
-        files
+    /// The SHA-256 of every file that the families read, by the name that a spec gives it.
+    ///
+    /// # Errors
+    /// [`StudyError::Io`] if one has gone.
+    pub fn inputs(&self) -> Result<BTreeMap<String, String>, StudyError> {
+        let mut all = BTreeMap::new();
+        for reading in 0..self.points.len() {
+            for group in 0..self.study.groups.len() {
+                all.extend(self.inputs_of(reading, group)?);
+            }
+        }
+        Ok(all)
     }
 
-    /// The names of one unit's trials.
-    pub fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+    /// As [`inputs`](Self::inputs), of one problem group under one reading, both by their places.
+    ///
+    /// # Errors
+    /// As [`inputs`](Self::inputs).
+    pub fn inputs_of(&self, reading: usize, group: usize) -> Result<BTreeMap<String, String>, StudyError> {
+        let hash = |path: &PathBuf| {
+            let bytes = fs::read(path).map_err(StudyError::io(path, "reading an input file"))?;
+            Ok((self.inputs.spelled(path), sha256(&bytes)))
+        };
+        self.families[reading][group].inputs().iter().map(hash).collect()
+    }
+
+    /// How the study's records are named.
+    pub fn names(&self) -> &Names {
+        &self.terms.names
+    }
+
+    /// What names one unit's trials, in the order of records.
+    pub fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
         self.task.trials(unit)
     }
 
     /// One unit's records.
     pub fn run_unit(&self, unit: &Unit<'_>) -> Batch {
-        self.task.run(self.study, unit)
+        self.task.run(unit)
     }
 
-    /// Runs every unit that `done` does not hold yet, in the current thread pool.
+    /// One unit's records, of which some contenders' trials are stored.
+    fn run_rest(&self, unit: &Unit<'_>, part: &Part) -> Batch {
+        let mut rest = unit.clone();
+        rest.entrants.retain(|entrant| !part.contenders.contains(&entrant.label));
+        let fresh = self.run_unit(&rest);
+        self.in_order(unit, [&part.stored, &fresh])
+    }
+
+    /// The records of `batches` that are the unit's, in the order in which a run gives them.
+    pub fn in_order(&self, unit: &Unit<'_>, batches: [&Batch; 2]) -> Batch {
+        let rows = batches.iter().flat_map(|batch| &batch.rows);
+        let rows: BTreeMap<&TrialKey, &Row> = rows.map(|row| (&row.key, row)).collect();
+        let prepared = batches.iter().flat_map(|batch| &batch.prepared);
+        let mut kept: BTreeMap<&Owner, Vec<&Kept>> = BTreeMap::new();
+        for batch in batches {
+            let of_batch = batch.kept.iter().map(|kept| &kept.of).collect::<BTreeSet<_>>();
+            // What both hold is the prepared object's, and the same in both.
+            let new: Vec<&Owner> = of_batch.into_iter().filter(|of| !kept.contains_key(*of)).collect();
+            for exhibit in batch.kept.iter().filter(|kept| new.contains(&&kept.of)) {
+                kept.entry(&exhibit.of).or_default().push(exhibit);
+            }
+        }
+        let mut all = Batch { prepared: prepared.take(1).cloned().collect(), ..Batch::default() };
+        let mut keep =
+            |of: Owner| all.kept.extend(kept.get(&of).into_iter().flatten().map(|kept| (*kept).clone()));
+        keep(Owner::from(&unit.key));
+        for key in self.trials(unit) {
+            all.rows.extend(rows.get(&key).map(|row| (*row).clone()));
+            keep(Owner::Trial(key));
+        }
+        all
+    }
+
+    /// Runs every unit that `done` does not hold yet, in the current thread pool; of a unit of which `parts` holds some
+    /// contenders' trials, those of the others.
     ///
     /// # Errors
     /// [`StudyError::Interrupted`] if `stop` was set; an error of the journal.
     pub fn run(
         &self,
         mut done: BTreeMap<usize, Batch>,
+        parts: &BTreeMap<usize, Part>,
         journal: &Mutex<Journal>,
         stop: &AtomicBool,
         progress: &dyn Progress,
@@ -236,7 +239,10 @@ impl<'a> BuiltStudy<'a> {
             if stop.load(Ordering::Relaxed) {
                 return Ok(None);
             }
-            let batch = self.run_unit(&units[*index]);
+            let batch = match parts.get(index) {
+                Some(part) => self.run_rest(&units[*index], part),
+                None => self.run_unit(&units[*index]),
+            };
             journal.lock().expect("no thread panics while it writes").append(*index, &batch)?;
             progress.step();
             Ok(Some((*index, batch)))
@@ -268,7 +274,7 @@ impl<'a> BuiltStudy<'a> {
         let Some(timing) = self.study.timing else { return Ok(Vec::new()) };
         let units = self.units();
         let total = units.len();
-        let is_timed = |unit: &&Unit<'_>| *unit.point == self.points[0] && unit.replicate < timing.problems;
+        let is_timed = |unit: &&Unit<'_>| *unit.point == self.points[0] && unit.key.draw < timing.problems;
         let sample: Vec<(&Unit<'_>, Prepared)> = units
             .iter()
             .filter(is_timed)
@@ -304,13 +310,13 @@ impl<'a> BuiltStudy<'a> {
         for query in &unit.queries() {
             let seeds = |entrant: &Entrant<'_>| entrant.contender.repeats.min(timing.seeds.unwrap_or(1));
             let of_entrant = |entrant| (0..seeds(entrant)).map(move |seed| (entrant, seed));
-            let runs = unit.entrants.iter().flat_map(of_entrant);
+            let runs = unit.entrants.iter().copied().flat_map(of_entrant);
             let request = |(entrant, seed): &(&Entrant<'_>, u32)| Request {
                 world: &prepared.world,
                 start: &query.start,
                 goal: &query.goal,
                 expansions: self.study.budget.expansions,
-                seed: entrant.seed(self.study, &unit.problem(query), *seed),
+                seed: entrant.seed(&self.terms, &unit.problem(query), *seed),
                 trace: false,
             };
             let warmed: Vec<_> = runs.filter(|run| run.0.pipeline.plan(&request(run)).is_ok()).collect();
@@ -318,10 +324,8 @@ impl<'a> BuiltStudy<'a> {
                 let request = request(run);
                 readings.push(Timing {
                     trial: unit.trial(query, run.0, run.1),
-                    group: unit.group.label.clone(),
-                    contender: run.0.contender.label.clone(),
-                    replicate: unit.replicate,
-                    repeat,
+                    session: SESSION,
+                    clock_repeat: repeat,
                     plan_wall_ns: clock::timed(|| run.0.pipeline.plan(&request)).0,
                 });
             };

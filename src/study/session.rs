@@ -2,13 +2,16 @@
 
 use super::checked::Study;
 use super::lock::Lock;
-use super::manifest::{Manifest, key};
+use super::manifest::Manifest;
+use super::name::Names;
 use super::reading::ReadingChoice;
-use super::record::{Batch, Row, Status};
-use super::runner::{BuiltStudy, Progress, Unit};
-use super::store::{Journal, Records, Staged, read_records, remove_temporaries, stage_records};
+use super::record::{Batch, Row, Status, Timing};
+use super::reuse::{self, Before, Reusable, moved};
+use super::runner::{BuiltStudy, Progress};
+use super::store::{Columns, Journal, Records, Staged, remove_temporaries, stage_records};
+use super::unit::Unit;
 use super::{Inputs, StudyError};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
@@ -46,8 +49,10 @@ pub struct Report {
     pub trials: usize,
     /// How many units came from the journal of an interrupted run.
     pub resumed: usize,
-    /// How many units came from stored records.
+    /// How many units came whole from stored records.
     pub reused: usize,
+    /// How many trials of the other units came from stored records: those of contenders that have not changed.
+    pub kept: usize,
     /// How many units there are.
     pub units: usize,
     /// Why stored trials were not reused; empty if there were none or all were.
@@ -71,15 +76,31 @@ pub struct UnexpectedStatus {
     pub reason: String,
 }
 
+/// How much of a run was there before.
+struct Counts {
+    resumed: usize,
+    units: usize,
+    reused: usize,
+    kept: usize,
+}
+
+impl Report {
+    fn new(manifest: Manifest, counts: &Counts, batch: &Batch, names: &Names, why: Vec<String>) -> Self {
+        let Counts { resumed, units, reused, kept } = *counts;
+        let (trials, odd) = (batch.rows.len(), UnexpectedStatus::among(&batch.rows, names));
+        Self { manifest, trials, resumed, reused, kept, units, why, moved: Vec::new(), odd }
+    }
+}
+
 impl UnexpectedStatus {
     /// Those among `rows`, in the order of [`Status::ALL`].
-    fn among(rows: &[Row]) -> Vec<Self> {
+    fn among(rows: &[Row], names: &Names) -> Vec<Self> {
         let is_odd = |status: &Status| ![Status::Solved, Status::NoPath].contains(status);
         let of = |status: Status| {
             let all: Vec<&Row> = rows.iter().filter(|row| row.status == status).collect();
             let first = all.first()?;
             let reason = first.reason.clone().unwrap_or_default();
-            Some(Self { status, count: all.len(), trial: first.trial.clone(), reason })
+            Some(Self { status, count: all.len(), trial: names.trial(&first.key), reason })
         };
         Status::ALL.into_iter().filter(is_odd).filter_map(of).collect()
     }
@@ -97,60 +118,69 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     remove_temporaries(folder, &study.name);
     let (journal, mut done) = Journal::open(&journal_path(folder, &study.name), &manifest.depends)?;
     let (resumed, units) = (done.len(), built.units().len());
-    let Before { stored, why } = before(folder, &manifest);
-    let found = match &stored {
-        Some((before, records)) if !options.fresh => reusable(&built, &manifest, before, records),
-        _ => BTreeMap::new(),
-    };
-    let reused = found.keys().filter(|index| !done.contains_key(index)).count();
-    if let Some((before, records)) = &stored
-        && reused == units
-        && (&before.spec, &before.depends) == (&manifest.spec, &manifest.depends)
-    {
+    let Before { stored, why } = Before::read(folder, &manifest);
+    let is_current = |(before, _): &&(Manifest, Records)| !options.fresh && manifest.is_as(before);
+    if let Some((before, records)) = stored.as_ref().filter(is_current) {
         journal.remove()?;
-        let (manifest, rows) = (before.clone(), &records.batch.rows);
-        let (trials, odd) = (rows.len(), UnexpectedStatus::among(rows));
-        return Ok(Report { manifest, trials, resumed, reused, units, why, moved: Vec::new(), odd });
+        let counts = Counts { resumed, units, reused: units, kept: 0 };
+        return Ok(Report::new(before.clone(), &counts, &records.batch, built.names(), why));
     }
-    if let Some((before, _)) = stored.as_ref().filter(|_| reused > 0) {
+    let found = match &stored {
+        Some((before, records)) if !options.fresh => Reusable::new(&built, &manifest, before, records),
+        _ => Reusable::default(),
+    };
+    let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
+    if let Some((before, _)) = stored.as_ref().filter(|_| counts.reused + counts.kept > 0) {
         // These trials were seen under the former claims, so that a margin which has moved since stays marked.
         manifest.claims.clone_from(&before.claims);
     }
-    done = found.into_iter().chain(done).collect();
-    let journal = Mutex::new(journal);
-    let pool = pool(options.threads);
-    let batch = pool.install(|| built.run(done, &journal, options.stop, options.progress))?;
-    let times = built.time(options.stop, options.progress)?;
-    let moved = stored.map_or_else(Vec::new, |(before, records)| moved(&manifest, &before, &records, &batch));
+    done = found.units.into_iter().chain(done).collect();
+    let (journal, pool) = (Mutex::new(journal), pool(options.threads));
+    let batch = pool.install(|| built.run(done, &found.parts, &journal, options.stop, options.progress))?;
+    let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
+        Some(times) => times,
+        None => built.time(options.stop, options.progress)?,
+    };
     let records = Records { batch, times };
     write(study, folder, &mut manifest, &records)?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
-    let (trials, odd) = (records.batch.rows.len(), UnexpectedStatus::among(&records.batch.rows));
-    Ok(Report { manifest, trials, resumed, reused, units, why, moved, odd })
+    let mut report = Report::new(manifest, &counts, &records.batch, built.names(), why);
+    report.moved = stored.as_ref().map_or_else(Default::default, |(before, old)| {
+        moved(&report.manifest, before, &old.batch, &records.batch, built.names())
+    });
+    Ok(report)
 }
 
-/// What is stored of a study, and why it cannot stand for the run that `manifest` describes.
-struct Before {
-    stored: Option<(Manifest, Records)>,
-    why: Vec<String>,
+/// The stored readings of the clock, with their sessions, if no trial ran again and they are as many as are asked for.
+fn kept_times(
+    study: &Study,
+    stored: Option<&(Manifest, Records)>,
+    manifest: &mut Manifest,
+    none_ran: bool,
+) -> Option<Vec<Timing>> {
+    let (before, old) = stored.filter(|(before, old)| {
+        none_ran && manifest.readings == before.readings && is_timed_as(study, &old.times)
+    })?;
+    manifest.sessions.clone_from(&before.sessions);
+    Some(old.times.clone())
 }
 
-fn before(folder: &Path, manifest: &Manifest) -> Before {
-    if !Manifest::path(folder, &manifest.study).exists() {
-        return Before { stored: None, why: Vec::new() };
-    }
-    match stored(folder, &manifest.study) {
-        Ok((before, records)) => {
-            let why = manifest.differs_from(&before);
-            Before { stored: Some((before, records)), why }
-        }
-        Err(error) => Before { stored: None, why: vec![format!("what is stored cannot be used: {error}")] },
-    }
+/// Whether the clock was read for as many draws, repeats and seeds as `study` asks for: readings are then as good as new ones
+/// where no trial ran again, whatever else of the spec has changed.
+fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
+    let Some(timing) = study.timing else { return times.is_empty() };
+    let most = |of: fn(&Timing) -> u32| times.iter().map(|time| of(time) + 1).max().unwrap_or(0);
+    let draws = study.groups.iter().map(|group| group.replicates).max().unwrap_or(0);
+    let seeds = study.contenders.iter().map(|contender| contender.repeats).max().unwrap_or(0);
+    most(|time| time.trial.on.draw) == timing.problems.min(draws)
+        && most(|time| time.clock_repeat) == timing.repeats
+        && most(|time| time.trial.repeat) == timing.seeds.unwrap_or(1).min(seeds)
 }
 
 /// Puts records and manifest in their places, the manifest last: it says which records are whole.
 fn write(study: &Study, folder: &Path, manifest: &mut Manifest, records: &Records) -> Result<(), StudyError> {
-    let columns: Vec<&'static str> = study.columns().into_iter().collect();
+    let values: Vec<&'static str> = study.columns().into_iter().collect();
+    let columns = Columns { keys: study.key_columns(), values: &values };
     let mut staged = Staged::default();
     manifest.files = stage_records(&mut staged, folder, &study.name, &columns, records)?;
     manifest.stage(&mut staged, folder)?;
@@ -169,25 +199,30 @@ pub fn run_one(
     trial: &str,
 ) -> Result<(Batch, Option<Row>), StudyError> {
     let built = BuiltStudy::new(study, points, inputs)?;
-    let units = built.units();
-    let owner = units.iter().find(|unit| built.trials(unit).iter().any(|name| name == trial));
+    let (units, names) = (built.units(), built.names());
     // What a task finds may have rows of its own, below a trial's name.
     let is_below = |name: &str| trial.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'));
-    let owner =
-        owner.or_else(|| units.iter().find(|unit| built.trials(unit).iter().any(|name| is_below(name))));
+    let find = |is_it: &dyn Fn(&str) -> bool| {
+        let mut all =
+            units.iter().flat_map(|unit| built.trials(unit).into_iter().map(move |key| (unit, key)));
+        all.find(|(_, key)| is_it(&names.trial(key)))
+    };
     let unknown = || {
         let first = units.first().and_then(|unit| built.trials(unit).into_iter().next());
-        let hint = format!("its first one is `{}/{}`", study.name, first.unwrap_or_default());
+        let first = first.map_or_else(String::new, |key| names.trial(&key));
+        let hint = format!("its first one is `{}/{first}`", study.name);
         StudyError::UnknownTrial { study: study.name.clone(), trial: trial.to_owned(), hint }
     };
-    let owner = owner.ok_or_else(unknown)?;
-    let wanted = Some(BTreeSet::from([trial.to_owned()]));
-    let mut batch = built.run_unit(&Unit { name: owner.name.clone(), keeps_all: true, wanted, ..*owner });
-    batch.rows.retain(|row| row.trial == trial);
-    batch.kept.retain(|kept| kept.of == trial);
+    let owner = find(&|name| name == trial).or_else(|| find(&is_below));
+    let (unit, key) = owner.ok_or_else(unknown)?;
+    let mut batch =
+        built.run_unit(&Unit { keeps_all: true, wanted: Some(BTreeSet::from([key])), ..unit.clone() });
+    batch.rows.retain(|row| names.trial(&row.key) == trial);
+    batch.kept.retain(|kept| names.owner(&kept.of) == trial);
     let before = if Manifest::path(folder, &study.name).exists() {
-        let (_, records) = stored(folder, &study.name)?;
-        records.batch.rows.into_iter().find(|row| row.trial == trial)
+        let of_unit = |row: &Row| row.key.on == unit.key;
+        let rows = reuse::stored(folder, &study.name)?.1.batch.rows.into_iter();
+        rows.filter(of_unit).find(|row| names.trial(&row.key) == trial)
     } else {
         None
     };
@@ -207,61 +242,4 @@ pub(super) fn pool(threads: Option<usize>) -> rayon::ThreadPool {
         .num_threads(threads.unwrap_or(0))
         .build()
         .expect("the system gives a process its first threads")
-}
-
-fn stored(folder: &Path, study: &str) -> Result<(Manifest, Records), StudyError> {
-    let manifest = Manifest::read(folder, study)?;
-    let records = read_records(folder, study, &manifest.files)?;
-    Ok((manifest, records))
-}
-
-/// The units of which every record is stored and depends on nothing that has changed.
-fn reusable(
-    built: &BuiltStudy<'_>,
-    manifest: &Manifest,
-    before: &Manifest,
-    records: &Records,
-) -> BTreeMap<usize, Batch> {
-    let mut batches: BTreeMap<usize, Batch> = BTreeMap::new();
-    if manifest.contenders != before.contenders {
-        return batches;
-    }
-    let units = built.units();
-    let is_same = |unit: &Unit<'_>| {
-        let key = key(unit.point.name(), &unit.group.label);
-        manifest.problems.get(&key) == before.problems.get(&key)
-    };
-    let same = units.iter().enumerate().filter(|(_, unit)| is_same(unit));
-    let by_name: BTreeMap<&str, usize> = same.map(|(index, unit)| (unit.name.as_str(), index)).collect();
-    let mut by_draw = BTreeMap::new();
-    let mut owners: BTreeMap<&str, usize> = BTreeMap::new();
-    for row in &records.batch.prepared {
-        let Some(index) = by_name.get(row.prepared.as_str()) else { continue };
-        by_draw.insert((row.reading.as_str(), row.group.as_str(), row.replicate), *index);
-        owners.insert(&row.prepared, *index);
-        batches.entry(*index).or_default().prepared.push(row.clone());
-    }
-    for row in &records.batch.rows {
-        let draw = (row.reading.as_str(), row.group.as_str(), row.replicate);
-        let Some(index) = by_draw.get(&draw) else { continue };
-        owners.insert(&row.trial, *index);
-        batches.entry(*index).or_default().rows.push(row.clone());
-    }
-    for kept in &records.batch.kept {
-        let Some(index) = owners.get(kept.of.as_str()) else { continue };
-        batches.entry(*index).or_default().kept.push(kept.clone());
-    }
-    batches
-}
-
-/// Trials whose problem and contender are unchanged but whose row is not what was stored.
-fn moved(manifest: &Manifest, before: &Manifest, records: &Records, batch: &Batch) -> Vec<String> {
-    let old: BTreeMap<&str, &Row> = records.batch.rows.iter().map(|row| (row.trial.as_str(), row)).collect();
-    let unchanged = |row: &Row| {
-        let (problem, contender) = (key(&row.reading, &row.group), key(&row.reading, &row.contender));
-        manifest.problems.get(&problem) == before.problems.get(&problem)
-            && manifest.contenders.get(&contender) == before.contenders.get(&contender)
-    };
-    let differs = |row: &&Row| old.get(row.trial.as_str()).is_some_and(|stored| *stored != *row);
-    batch.rows.iter().filter(|row| unchanged(row)).filter(differs).map(|row| row.trial.clone()).collect()
 }

@@ -2,13 +2,14 @@
 //!
 //! Unknown keys are refused everywhere; settings stay tables and are read by the entry they name.
 
-use super::paper::Digits;
-use serde::Deserialize;
+use base::settings::{AnyTable, AnyValue, Spanned};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use toml::{Spanned, Table};
+use toml::Table;
 
 /// One study file.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudySpec {
     /// The paper it belongs to: the name of its folder.
@@ -20,6 +21,7 @@ pub struct StudySpec {
     /// What is done with the problems; `plan` unless said otherwise.
     pub task: Option<Spanned<String>>,
     /// Settings of the task.
+    #[schemars(with = "Option<AnyTable>")]
     pub task_settings: Option<Spanned<Table>>,
     /// Inputs were searched for so that claims would hold: at best *attainable*.
     #[serde(default)]
@@ -49,6 +51,7 @@ pub struct StudySpec {
     #[serde(default, rename = "keep")]
     pub keeps: Vec<TrialsSpec>,
     /// What `--quick` cuts down to.
+    #[serde(default)]
     pub quick: QuickSpec,
     /// Figures drawn from this study.
     #[serde(default, rename = "figure")]
@@ -56,7 +59,7 @@ pub struct StudySpec {
 }
 
 /// A group of problems drawn from one family.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ProblemsSpec {
     /// Its name in records.
@@ -64,16 +67,18 @@ pub struct ProblemsSpec {
     /// The problem family.
     pub family: Spanned<String>,
     /// How many independent draws.
-    pub replicates: Option<Spanned<u32>>,
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub replicates: Option<u32>,
     /// What its draws are called: groups of one paper whose draws have one name get the same seeds, draw by draw, so that
     /// what their settings do can be compared in pairs. The study and the label if absent.
     pub draw: Option<String>,
     /// The family's settings.
+    #[schemars(with = "AnyTable")]
     pub settings: Spanned<Table>,
 }
 
 /// A pipeline under a label.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContenderSpec {
     /// Its name in records and tables.
@@ -81,29 +86,32 @@ pub struct ContenderSpec {
     /// The planner.
     pub planner: Spanned<String>,
     /// The planner's settings.
+    #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
     /// Stages that tidy the plan, in order.
     #[serde(default)]
     pub then: Vec<StageSpec>,
     /// How many seeds it runs on each problem; more than 1 only where it draws.
-    pub repeats: Option<Spanned<u32>>,
+    #[schemars(range(min = 1, max = 100_000))]
+    pub repeats: Option<u32>,
     /// Readings, with the option, that its settings take in place of the one in hand: it is then shown under these.
     #[serde(default)]
     pub departs: BTreeMap<String, String>,
 }
 
 /// A stage of a pipeline.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StageSpec {
     /// Its name in the registry.
     pub stage: Spanned<String>,
     /// Its settings.
+    #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
 }
 
 /// A factor that the paper varies.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepSpec {
     /// The setting that it fills, in every planner or stage named by `of`.
@@ -111,11 +119,12 @@ pub struct SweepSpec {
     /// The planner or stage whose setting it is.
     pub of: Spanned<String>,
     /// The values, in the paper's order.
+    #[schemars(with = "Vec<AnyValue>")]
     pub values: Spanned<Vec<toml::Value>>,
 }
 
 /// A way to fill in what the paper leaves open.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReadingSpec {
     /// Its name.
@@ -129,14 +138,16 @@ pub struct ReadingSpec {
 }
 
 /// What one option of a reading changes.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptionSpec {
     /// Settings laid over every problem's.
     #[serde(default)]
+    #[schemars(with = "AnyTable")]
     pub problem: Table,
     /// Settings laid over those of a planner or stage, by its name.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AnyTable>")]
     pub stage: BTreeMap<String, Table>,
     /// What a metric's name stands for under this option: no trial is rerun.
     #[serde(default)]
@@ -145,36 +156,53 @@ pub struct OptionSpec {
     pub digits: Option<Digits>,
 }
 
+/// How a printed number's digits end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Digits {
+    /// To the nearest.
+    Rounded,
+    /// Cut off.
+    Truncated,
+    /// Either.
+    Unknown,
+}
+
 /// Which readings a study explores: the defaults, every other option by itself, and a sample of their product.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExploreSpec {
     /// How many points of the product are drawn, without repetition, besides those that differ in one option.
+    #[schemars(range(max = 10_000))]
     pub sample: u32,
 }
 
 /// Limits on each trial.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BudgetSpec {
     /// At most this many expansions.
+    #[schemars(range(min = 1, max = 1_000_000_000_000_u64))]
     pub expansions: u64,
 }
 
 /// How clocks are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimingSpec {
     /// How many problems of each group are timed, from the first replicate on.
+    #[schemars(range(max = 1_000_000))]
     pub problems: u32,
     /// How many timed runs of each.
+    #[schemars(range(max = 1_000_000))]
     pub repeats: u32,
     /// How many of a contender's seeds are timed; the first one if absent.
+    #[schemars(range(max = 100_000))]
     pub seeds: Option<u32>,
 }
 
 /// Which trials.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TrialsSpec {
     /// The problem group's label.
@@ -188,10 +216,11 @@ pub struct TrialsSpec {
 }
 
 /// What `--quick` cuts down to.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct QuickSpec {
     /// Draws kept of each problem group.
+    #[serde(default = "few")]
     pub replicates: u32,
     /// Seeds kept of each contender.
     pub repeats: Option<u32>,
@@ -200,11 +229,23 @@ pub struct QuickSpec {
     /// How clocks are read, where the study reads any.
     pub timing: Option<TimingSpec>,
     /// Settings laid over those of the task.
+    #[schemars(with = "Option<AnyTable>")]
     pub task_settings: Option<Table>,
 }
 
+/// Draws kept of each group by `--quick` where the spec does not say: what shows that a study runs, and no more.
+fn few() -> u32 {
+    2
+}
+
+impl Default for QuickSpec {
+    fn default() -> Self {
+        Self { replicates: few(), repeats: None, budget: None, timing: None, task_settings: None }
+    }
+}
+
 /// A figure: its kind and what that kind wants to know.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FigureSpec {
     /// Its file name, after the paper's figure where there is one.
@@ -221,5 +262,6 @@ pub struct FigureSpec {
     #[serde(default)]
     pub shows: Vec<TrialsSpec>,
     /// The kind's settings.
+    #[schemars(with = "Option<AnyTable>")]
     pub settings: Option<Spanned<Table>>,
 }

@@ -10,7 +10,7 @@ pub mod roadmap;
 pub use arm::ARM_COLUMNS;
 pub use polyhedra::{CARRIED_COLUMNS, POLYHEDRA_COLUMNS};
 
-use super::checked::Pipeline;
+use super::contender::Pipeline;
 use super::family::Query;
 use super::record::Status;
 use engine::planner::{Counts, Ending, Exhibit, Plan, Request, Value};
@@ -48,7 +48,7 @@ impl Truth {
 
 /// The verifier's answer about one plan.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Judged {
+pub struct Verified {
     /// The trial's status, and the reason unless solved.
     pub outcome: (Status, Option<String>),
     /// What was measured.
@@ -60,7 +60,7 @@ pub struct Judged {
 /// The truth about `query` in `world`.
 pub fn truth(world: &World, query: &Query) -> Truth {
     match world {
-        // Its optimum depends on the planner's neighbourhood and is found when a plan is judged.
+        // Its optimum depends on the planner's neighbourhood and is found when a plan is verified.
         World::Arm(_) => Truth::Arm,
         World::Lattice(lattice) => Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost()),
         World::Roadmap(roadmap) => Truth::Roadmap(roadmap::Case::new(roadmap)),
@@ -68,15 +68,15 @@ pub fn truth(world: &World, query: &Query) -> Truth {
     }
 }
 
-/// Judges `plan`, which `pipeline` returned for `request`.
-pub fn judge(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Judged {
+/// Verifies `plan`, which `pipeline` returned for `request`.
+pub fn verify(request: &Request<'_>, plan: &Plan, pipeline: &Pipeline, truth: &Truth) -> Verified {
     match (request.world, truth) {
-        (World::Arm(world), _) => arm::judge(world, request, plan, pipeline),
+        (World::Arm(world), _) => arm::verify(world, request, plan, pipeline),
         (World::Lattice(lattice), Truth::Lattice(optimal)) => {
-            judge_lattice(lattice, request, plan, pipeline, *optimal)
+            verify_lattice(lattice, request, plan, pipeline, *optimal)
         }
-        (World::Polyhedra(world), Truth::Polyhedra(truth)) => polyhedra::judge(world, request, plan, truth),
-        (_, Truth::Roadmap(case)) => case.judge(request, plan),
+        (World::Polyhedra(world), Truth::Polyhedra(truth)) => polyhedra::verify(world, request, plan, truth),
+        (_, Truth::Roadmap(case)) => case.verify(request, plan),
         _ => unreachable!("the truth is about the request's world"),
     }
 }
@@ -85,13 +85,13 @@ fn case<'a>(lattice: &'a LatticeWorld, start: &'a [f64], goal: &'a [f64]) -> Cas
     Case { grid: lattice.grid(), corner_rule: lattice.corner_rule(), start, goal }
 }
 
-fn judge_lattice(
+fn verify_lattice(
     lattice: &LatticeWorld,
     request: &Request<'_>,
     plan: &Plan,
     pipeline: &Pipeline,
     optimal: Option<f64>,
-) -> Judged {
+) -> Verified {
     let case = case(lattice, request.start, request.goal);
     let mut values = Counts::new();
     if let Some(optimal) = optimal {
@@ -112,7 +112,7 @@ fn judge_lattice(
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
     }
-    Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+    Verified { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
 }
 
 /// The status of a trial that ended as `plan` did and was refused for `refusal`, if it was, and the reason.

@@ -27,6 +27,26 @@ fn every_wrong_word_in_a_spec_is_told_with_its_place_and_what_is_accepted() {
 }
 
 #[test]
+fn faults_of_several_claims_and_of_several_names_in_one_check_are_told_at_once() {
+    let bench = Bench::new();
+    bench.edit("mini/paper.toml", "problems = \"drawn\"", "problems = [\"drown\", \"lost\"]");
+    bench.edit("mini/paper.toml", "contender = \"Two-sided\"", "contender = \"Two\"");
+    bench.edit("mini/paper.toml", "contenders = [\"A*\"]", "contenders = [\"B*\"]");
+    bench.edit("mini/room.toml", "searched = true", "searched = true\nfitted_to = [\"cost\", \"toll\"]");
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    for fault in [
+        "mini/paper.toml:27:15: there is no contender `B*`",
+        "mini/paper.toml:38:13: study `draws` has no problem group `drown`",
+        "mini/paper.toml:38:22: study `draws` has no problem group `lost`",
+        "mini/paper.toml:40:13: study `draws` has no contender `Two`",
+        "mini/room.toml:5:22: fitted_to: there is no claim `toll`",
+    ] {
+        assert!(said.err.contains(fault), "{fault}\nis said: {}", said.err);
+    }
+}
+
+#[test]
 fn files_that_are_no_toml_are_told_apart() {
     let bench = Bench::new();
     let whole = fs::read(bench.at("mini/draws.toml")).unwrap();
@@ -111,7 +131,7 @@ fn papers_and_flags_that_do_not_exist_are_told() {
         assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
         assert!(said.err.contains(complaint), "{arguments:?} is answered: {}", said.err);
     }
-    assert!(!bench.at("mini/out").exists(), "a refused command wrote something");
+    assert!(!bench.at("target/replan/mini").exists(), "a refused command wrote something");
     assert!(!bench.at("target").exists(), "a refused command wrote below target");
 }
 
@@ -119,13 +139,18 @@ fn papers_and_flags_that_do_not_exist_are_told() {
 fn a_wrong_spec_leaves_an_older_run_as_it_was() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    let before = bench.tree("mini/out");
+    let before = bench.tree("target/replan/mini");
     assert!(before.len() > 15, "{:?}", before.keys());
     for case in WRONG.iter().step_by(7) {
         let text = fs::read_to_string(bench.at(&file(case.file))).unwrap();
         bench.edit(&file(case.file), case.from, case.to);
         assert_eq!(bench.run(&["repro", "./mini"]).code, Some(2), "{}", case.to);
-        assert!(bench.tree("mini/out") == before, "{}: {} changed what was stored", case.file, case.to);
+        assert!(
+            bench.tree("target/replan/mini") == before,
+            "{}: {} changed what was stored",
+            case.file,
+            case.to
+        );
         fs::write(bench.at(&file(case.file)), text).unwrap();
     }
 }
@@ -134,7 +159,7 @@ fn a_wrong_spec_leaves_an_older_run_as_it_was() {
 fn records_of_another_spec_truncated_or_missing_are_not_judged() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    let trials = "mini/out/data/runs/mini/draws.trials.parquet";
+    let trials = "target/replan/mini/data/runs/mini/draws.trials.parquet";
     let whole = fs::read(bench.at(trials)).unwrap();
     let refused = |complaint: &str| {
         for command in ["judge", "render"] {
@@ -145,7 +170,8 @@ fn records_of_another_spec_truncated_or_missing_are_not_judged() {
     };
     bench.write(trials, &whole[..whole.len() / 2]);
     refused("draws.trials.parquet: is not the file that the manifest names (sha256 ");
-    bench.write(trials, &fs::read(bench.at("mini/out/data/runs/mini/room.trials.parquet")).unwrap());
+    bench
+        .write(trials, &fs::read(bench.at("target/replan/mini/data/runs/mini/room.trials.parquet")).unwrap());
     refused("truncated, edited, or from another spec; run the study again");
     fs::remove_file(bench.at(trials)).unwrap();
     refused("draws.trials.parquet: cannot be read (");
@@ -153,7 +179,7 @@ fn records_of_another_spec_truncated_or_missing_are_not_judged() {
     assert!(fs::read(bench.at(trials)).unwrap() == whole, "the repaired run differs");
     bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
     refused("draws.manifest.toml: the stored run was made by another spec; run study `draws` again");
-    bench.write("mini/out/data/runs/mini/draws.manifest.toml", b"study = 3");
+    bench.write("target/replan/mini/data/runs/mini/draws.manifest.toml", b"study = 3");
     refused("draws.manifest.toml:1:9: invalid type: integer `3`");
 }
 
@@ -174,15 +200,15 @@ fn places_that_cannot_be_written_are_told_with_exit_code_1() {
 fn a_folder_where_a_record_belongs_stops_the_run_before_any_record_changes() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    let times = "mini/out/data/runs/mini/draws.times.parquet";
+    let times = "target/replan/mini/data/runs/mini/draws.times.parquet";
     fs::remove_file(bench.at(times)).unwrap();
     fs::create_dir(bench.at(times)).unwrap();
-    let before = bench.tree("mini/out");
+    let before = bench.tree("target/replan/mini");
     bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
     let said = bench.run(&["repro", "./mini"]);
     assert_eq!(said.code, Some(1), "{}", said.err);
     assert!(said.err.ends_with("draws.times.parquet: writing the file: is a directory\n"), "{}", said.err);
-    let after = bench.tree("mini/out");
+    let after = bench.tree("target/replan/mini");
     assert!(
         before.iter().all(|(path, bytes)| after.get(path) == Some(bytes)),
         "an older record was replaced"
@@ -195,17 +221,17 @@ fn a_folder_where_a_record_belongs_stops_the_run_before_any_record_changes() {
 fn a_second_run_into_one_folder_is_refused_and_disturbs_nothing() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    let before = bench.tree("mini/out");
-    let lock = File::open(bench.at("mini/out/data/runs/mini/.lock")).unwrap();
+    let before = bench.tree("target/replan/mini");
+    let lock = File::open(bench.at("target/replan/mini/data/runs/mini/.lock")).unwrap();
     lock.try_lock().unwrap();
     let said = bench.run(&["repro", "./mini"]);
     assert_eq!(said.code, Some(1), "{}", said.err);
     assert_eq!(
         said.err,
-        "replan: ./mini/out/data/runs/mini: another run is writing here; wait for it or choose another place with \
+        "replan: target/replan/mini/data/runs/mini: another run is writing here; wait for it or choose another place with \
          --out\n"
     );
-    assert!(bench.tree("mini/out") == before, "the refused run changed something");
+    assert!(bench.tree("target/replan/mini") == before, "the refused run changed something");
     drop(lock);
     bench.done(&["repro", "./mini"]);
 }
@@ -214,7 +240,7 @@ fn a_second_run_into_one_folder_is_refused_and_disturbs_nothing() {
 fn a_map_or_verdicts_that_are_no_text_are_told_with_the_byte_and_a_paper_without_study_as_such() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    bench.write("mini/out/data/runs/mini/verdicts.toml", b"paper = \"\xff\"");
+    bench.write("target/replan/mini/data/runs/mini/verdicts.toml", b"paper = \"\xff\"");
     let said = bench.run(&["render", "./mini"]);
     assert_eq!(
         (said.code, said.err.contains("verdicts.toml: byte 9 is not UTF-8")),
@@ -257,7 +283,7 @@ fn one_broken_paper_does_not_hide_the_others() {
 #[test]
 fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_any_trial() {
     let bench = Bench::new();
-    bench.add_plane("[5, 5]");
+    bench.add_plane();
     let whole = fs::read(bench.at("mini/plane.toml")).unwrap();
     assert!(bench.done(&["check", "./mini"]).starts_with("mini: 3 studies"));
     let sweep = |values: &str| {
@@ -290,6 +316,11 @@ fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_a
         }
         bench.write("mini/plane.toml", &whole);
     }
+    bench.edit("bar.toml", "start_mm = [5, 5]", "start_mm = [50, 25]");
+    let answer = bench.run(&["check", "./mini"]);
+    let said = "replan: bar.toml:3:12: the start cannot be posed: [50.0, 25.0] is in obstacle 1";
+    assert!(answer.code == Some(2) && answer.err.starts_with(said), "{}", answer.err);
+    bench.edit("bar.toml", "start_mm = [50, 25]", "start_mm = [5, 5]");
     // A sweep's own values count, not what it takes the place of.
     bench.edit("mini/plane.toml", "samples = 30, n", "samples = 31, n");
     bench.edit("mini/plane.toml", "[budget]", &sweep("20, 30"));

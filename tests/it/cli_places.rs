@@ -16,7 +16,7 @@ fn another_seed_and_another_reading_write_elsewhere() {
         bench.done(&[&["repro", "./mini"], flags].concat());
         assert_eq!(bench.facts(place).len(), 6, "{flags:?}");
     }
-    assert!(!bench.at("mini/out").exists());
+    assert!(!bench.at("target/replan/mini").exists());
     let trials = |place: &str| bench.facts(place)["draws.trials.parquet"].clone();
     let all = ["seed-9", "readings-corners-forbid-any", "readings-all"]
         .map(|name| trials(&format!("target/replan/mini-{name}")));
@@ -35,9 +35,38 @@ fn a_paper_of_the_project_is_found_by_name_and_writes_the_committed_places() {
     assert!(bench.done(&["check"]).starts_with("mini: 2 studies"));
     assert!(bench.done(&["check", "experiments/mini/draws.toml"]).starts_with("mini: 2 studies"));
     let listed = bench.done(&["list"]);
-    for name in ["  mini ", "  mini/draws ", "  mini/corners ", "  astar ", "  grid_search ", "  ordering "] {
+    for name in ["  mini ", "  mini/draws ", "  mini/corners ", "  astar ", "  grid_search ", "  lower "] {
         assert!(listed.contains(name), "{name}\n{listed}");
     }
+}
+
+#[test]
+fn robots_are_listed_with_the_solver_that_fits_and_a_broken_file_is_said_to_be_broken() {
+    let bench = Bench::new();
+    let ur5 = include_str!("../../data/robots/ur5.toml");
+    bench.write("data/robots/ur5.toml", ur5.as_bytes());
+    // Lines are broken at the terminal's width.
+    let list =
+        |bench: &Bench| bench.done(&["list", "robots"]).split_whitespace().collect::<Vec<_>>().join(" ");
+    let listed = list(&bench);
+    assert!(listed.contains("robots ur5 "), "{listed}");
+    assert!(listed.contains("inverse kinematics by `offset_wrist`; bodies: rods"), "{listed}");
+    let bent = ur5.replacen("alpha_deg = -90", "alpha_deg = -80", 1);
+    bench.write("data/robots/bent.toml", bent.replace("\"ur5\"", "\"bent\"").as_bytes());
+    let listed = list(&bench);
+    assert!(
+        listed.contains("by `numerical`, which may miss configurations; joint 5: alpha_deg is -80"),
+        "{listed}"
+    );
+    bench.write("data/robots/bent.toml", bent.replace("d_mm = 82.3", "").as_bytes());
+    let said = bench.run(&["list", "robots"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(
+        said.out.contains("  ur5 ") && said.err.contains("missing key `d_mm`"),
+        "{}\n{}",
+        said.out,
+        said.err
+    );
 }
 
 /// A bench that is a project: its paper lies in `experiments`.
@@ -63,19 +92,39 @@ fn a_run_that_is_not_a_full_one_is_refused_the_committed_places_however_they_are
     }
     assert!(bench.tree("") == before, "a refused run wrote something");
     let own = Bench::new();
-    let said = own.run(&["repro", "./mini", "--quick", "--out", "mini/out"]);
+    let said = own.run(&["repro", "./mini", "--quick", "--out", "target/replan/mini"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
     bench.done(&["repro", "mini", "--quick", "--out", "elsewhere"]);
     bench.done(&["repro", "mini", "--out", "."]);
 }
 
 #[test]
-fn an_own_paper_given_by_its_absolute_path_keeps_its_outputs_beside_it() {
+fn an_own_paper_writes_below_target_and_neither_into_the_project_nor_its_own_folder() {
     let (bench, own) = (project(), Bench::new());
-    let before = bench.tree("");
+    let (before, folder) = (bench.tree("experiments"), own.tree(""));
     bench.done(&["repro", own.at("mini").to_str().unwrap()]);
-    assert!(bench.tree("") == before, "the project that stood around was written to");
-    assert!(own.at("mini/out/paper_repro.md").is_file());
+    assert!(own.tree("") == folder, "the paper's own folder was written to");
+    assert!(bench.tree("experiments") == before, "the project was written to");
+    for place in ["data", "plots", "paper_repro.md"] {
+        assert!(!bench.at(place).exists(), "{place} of the project was written to");
+        assert!(bench.at("target/replan/mini").join(place).exists(), "{place} is missing");
+    }
+}
+
+#[test]
+fn an_own_paper_whose_path_is_spelled_otherwise_runs_nothing_again() {
+    let bench = Bench::new();
+    let absolute = bench.at("mini").display().to_string();
+    assert!(!bench.done(&["run", "./mini"]).contains("reused"));
+    let before = bench.tree("target");
+    for spelled in ["mini", "mini/", "../mini/../mini", "./mini/.", &absolute] {
+        let spelled = spelled.replace("../mini/..", "./mini/..");
+        let out = bench.done(&["repro", &spelled]);
+        assert!(out.contains("draws: 48 trials (24 of 24 units reused)"), "{spelled}: {out}");
+        assert!(out.contains("room: 1 trials (1 of 1 units reused)"), "{spelled}: {out}");
+    }
+    let after = bench.tree("target");
+    assert!(before.iter().all(|(path, bytes)| after[path] == *bytes), "a record was written again");
 }
 
 #[test]
@@ -98,8 +147,9 @@ fn an_own_paper_runs_from_within_its_folder_and_through_a_link() {
     for (folder, name) in [("mini", "."), ("mini", "./"), ("mini", "../mini"), ("", "./link"), ("", "link")] {
         let said = bench.said(&bench.command(&["run", name]).current_dir(bench.at(folder)).output().unwrap());
         assert_eq!(said.code, Some(0), "{name} in `{folder}`: {}", said.err);
-        assert!(bench.at("mini/out/data/runs/mini/draws.manifest.toml").is_file(), "{name} in `{folder}`");
-        fs::remove_dir_all(bench.at("mini/out")).unwrap();
+        let out = bench.at(folder).join("target/replan/mini");
+        assert!(out.join("data/runs/mini/draws.manifest.toml").is_file(), "{name} in `{folder}`");
+        fs::remove_dir_all(out).unwrap();
     }
     let check = bench.command(&["check", "paper.toml"]).current_dir(bench.at("mini")).output().unwrap();
     assert_eq!(bench.said(&check).out, "mini: 2 studies, 2 claims, 2 ledger rows are in order\n");
@@ -108,14 +158,14 @@ fn an_own_paper_runs_from_within_its_folder_and_through_a_link() {
 #[test]
 fn the_report_keeps_what_others_wrote_and_is_refused_where_it_cannot() {
     let bench = Bench::new();
-    let report = "mini/out/paper_repro.md";
+    let report = "target/replan/mini/paper_repro.md";
     let mine = "# My notes\n\nA remark.\n\n<!-- replan begin zz other -->\n\nx\n\n<!-- replan end zz other -->\n\nThe end";
     bench.write(report, mine.as_bytes());
     bench.done(&["repro", "./mini"]);
     let text = fs::read_to_string(bench.at(report)).unwrap();
     let (before, after) = mine.split_once("<!-- replan begin zz").unwrap();
     assert!(text.starts_with(before) && text.ends_with(after), "{text}");
-    let runs = bench.tree("mini/out/data");
+    let runs = bench.tree("target/replan/mini/data");
     for (broken, said) in [
         (text.replace("<!-- replan end mini -->", "").into_bytes(), "`zz other` begins within `mini`"),
         (text.replace("<!-- replan end zz other -->", "").into_bytes(), "`zz other` begins and has no end"),
@@ -131,6 +181,6 @@ fn the_report_keeps_what_others_wrote_and_is_refused_where_it_cannot() {
             assert!(answer.err.contains(said), "{command:?}: {}", answer.err);
         }
         assert!(fs::read(bench.at(report)).unwrap() == broken, "the broken report was touched");
-        assert!(bench.tree("mini/out/data") == runs, "a refused command ran something");
+        assert!(bench.tree("target/replan/mini/data") == runs, "a refused command ran something");
     }
 }

@@ -3,7 +3,7 @@
 use crate::paper::Bench;
 use std::fs;
 
-const RUNS: &str = "mini/out/data/runs/mini";
+const RUNS: &str = "target/replan/mini/data/runs/mini";
 
 #[test]
 fn one_thread_and_two_write_equal_bytes_and_all_outputs_repeat() {
@@ -25,22 +25,25 @@ fn one_thread_and_two_write_equal_bytes_and_all_outputs_repeat() {
 fn render_writes_what_repro_wrote_byte_for_byte_and_check_notices_an_edit() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    let before = bench.tree("mini/out");
+    let before = bench.tree("target/replan/mini");
     assert_eq!(bench.done(&["render", "./mini", "--check"]), "5 files are current\n");
     bench.done(&["render", "./mini"]);
-    assert!(bench.tree("mini/out") == before, "render changed what repro wrote");
+    assert!(bench.tree("target/replan/mini") == before, "render changed what repro wrote");
     for name in ["plots/mini/fig1.svg", "plots/mini/table1.tex", "plots/mini/numbers.tex", "paper_repro.md"] {
-        let path = bench.at(&format!("mini/out/{name}"));
+        let path = bench.at(&format!("target/replan/mini/{name}"));
         let whole = fs::read_to_string(&path).unwrap();
         fs::write(&path, whole.replacen("made by", "mad by", 1).replacen("Made by", "Mad by", 1)).unwrap();
         let said = bench.run(&["render", "./mini", "--check"]);
-        assert_eq!((said.code, said.err), (Some(3), format!("replan: not current: ./mini/out/{name}\n")));
+        assert_eq!(
+            (said.code, said.err),
+            (Some(3), format!("replan: not current: target/replan/mini/{name}\n"))
+        );
         fs::write(&path, whole).unwrap();
     }
-    fs::remove_file(bench.at("mini/out/plots/mini/fig1.png")).unwrap();
+    fs::remove_file(bench.at("target/replan/mini/plots/mini/fig1.png")).unwrap();
     assert_eq!(bench.run(&["render", "./mini", "--check"]).code, Some(3));
     bench.done(&["render", "./mini", "--only", "fig1"]);
-    assert!(bench.tree("mini/out") == before, "--only fig1 did not bring the figure back");
+    assert!(bench.tree("target/replan/mini") == before, "--only fig1 did not bring the figure back");
     let said = bench.run(&["render", "./mini", "--only", "fig9"]);
     assert_eq!(said.code, Some(2));
     let known = "nothing like a figure or table `fig9`; there are fig1, table1, numbers";
@@ -51,9 +54,9 @@ fn render_writes_what_repro_wrote_byte_for_byte_and_check_notices_an_edit() {
 fn a_quick_run_is_marked_in_every_output_and_lies_elsewhere() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    let before = bench.tree("mini/out");
+    let before = bench.tree("target/replan/mini");
     let out = bench.done(&["repro", "./mini", "--quick"]);
-    assert!(bench.tree("mini/out") == before, "a quick run wrote where full runs lie");
+    assert!(bench.tree("target/replan/mini") == before, "a quick run wrote where full runs lie");
     assert!(out.contains("a quick run: few replicates, so these verdicts are not the study's"), "{out}");
     let read = |name: &str| fs::read_to_string(bench.at("target/replan/mini-quick").join(name)).unwrap();
     let marked = "Quick run: few replicates, not the study's result.";
@@ -62,10 +65,10 @@ fn a_quick_run_is_marked_in_every_output_and_lies_elsewhere() {
     assert!(read("plots/mini/numbers.tex").contains(marked));
     assert!(read("data/runs/mini/draws.manifest.toml").contains("quick = true"));
     assert!(read("data/runs/mini/verdicts.toml").contains("quick = true"));
-    let figures = ["mini/out", "target/replan/mini-quick"]
+    let figures = ["target/replan/mini", "target/replan/mini-quick"]
         .map(|root| fs::read_to_string(bench.at(root).join("plots/mini/fig1.svg")).unwrap());
     assert_ne!(figures[0], figures[1], "the quick figure does not say so");
-    assert_eq!(bench.facts("mini/out").len(), bench.facts("target/replan/mini-quick").len());
+    assert_eq!(bench.facts("target/replan/mini").len(), bench.facts("target/replan/mini-quick").len());
 }
 
 #[test]
@@ -74,7 +77,7 @@ fn a_trial_run_alone_equals_its_stored_row_and_a_wrong_row_is_noticed() {
     let trial = ["repro", "./mini", "--trial", "draws/drawn/5/two-sided"];
     assert!(bench.done(&trial).ends_with("no stored run has this trial\n"));
     bench.done(&["repro", "./mini"]);
-    let before = bench.tree("mini/out");
+    let before = bench.tree("target/replan/mini");
     let out = bench.done(&trial);
     assert!(out.ends_with("equals the stored row\n"), "{out}");
     assert!(out.contains("\nopened ") && out.contains("\nseed "), "{out}");
@@ -82,7 +85,7 @@ fn a_trial_run_alone_equals_its_stored_row_and_a_wrong_row_is_noticed() {
     for out in [&out, &room] {
         assert!(out.contains("\npath                   [0.0, 0.0] ["), "the path is not shown: {out}");
     }
-    assert!(bench.tree("mini/out") == before, "--trial wrote something");
+    assert!(bench.tree("target/replan/mini") == before, "--trial wrote something");
     bench.edit("mini/draws.toml", "seed = 7", "seed = 9");
     let said = bench.run(&trial);
     assert_eq!(said.code, Some(3), "{}", said.out);
@@ -114,7 +117,7 @@ fn what_is_stored_and_unchanged_is_reused_and_why_says_what_changed() {
 
     bench.edit("mini/draws.toml", "ties = \"fifo\" }\n\n", "ties = \"lifo\" }\n\n");
     let changed = why(&[]);
-    says(&changed, "draws: 48 trials");
+    says(&changed, "draws: 48 trials (24 of 48 trials reused)");
     says(&changed, "  why: contender `A*` has changed");
     says(&changed, "room: 1 trials (1 of 1 units reused)");
     bench.edit("mini/draws.toml", "blocked_share = 0.3", "blocked_share = 0.2");
@@ -128,20 +131,26 @@ fn trials_that_ended_in_an_unexpected_way_are_counted_with_the_first_reason() {
     let whole = bench.done(&["run", "./mini"]);
     assert!(whole.starts_with("draws: 48 trials\nroom: 1 trials\n"), "{whole}");
     bench.edit("mini/draws.toml", "expansions = 10_000", "expansions = 3");
-    bench.add_plane("[50, 25]");
+    let study = "paper = \"mini\"\nquestion = \"q\"\nseed = 9\n[budget]\nexpansions = 9\n[quick]\nreplicates = 1\n\
+                 [[problems]]\nlabel = \"lake\"\nfamily = \"movingai\"\n\
+                 settings = { map = \"m.map\", scenarios = \"m.scen\" }\n\
+                 [[contender]]\nlabel = \"A*\"\nplanner = \"astar\"\nsettings = { weight = 1, ties = \"fifo\" }\n";
+    bench.write("mini/lake.toml", study.as_bytes());
+    bench.write("mini/m.map", b"type octile\nheight 2\nwidth 3\nmap\n.@.\n...\n");
+    bench.write("mini/m.scen", b"version 1\n0\tm.map\t3\t2\t1\t0\t2\t0\t6\n0\tm.map\t3\t2\t1\t0\t0\t0\t6\n");
     for again in [false, true] {
         let out = bench.done(&["run", "./mini"]);
         let lines: Vec<&str> = out.lines().collect();
-        let [draws, spent, plane, invalid, room, _] = lines[..] else { panic!("again {again}:\n{out}") };
-        let studies = [(draws, "draws: 48 trials"), (plane, "plane: 2 trials"), (room, "room: 1 trials")];
+        let [draws, spent, lake, invalid, room, _] = lines[..] else { panic!("again {again}:\n{out}") };
+        let studies = [(draws, "draws: 48 trials"), (lake, "lake: 2 trials"), (room, "room: 1 trials")];
         assert!(studies.iter().all(|(line, start)| line.starts_with(start)), "{out}");
         let (count, first) = spent.trim().split_once(' ').unwrap();
         assert!((24..=48).contains(&count.parse::<u32>().unwrap()), "{out}");
         assert!(first.starts_with("budget_spent; the first is draws/drawn/"), "{out}");
         assert!(first.ends_with(": budget of 3 expansions spent"), "{out}");
         let (count, reason) = invalid.split_once(": ").unwrap();
-        assert!(count.starts_with("  2 invalid_problem; the first is plane/plane/"), "{out}");
-        assert_eq!(reason, "the start cannot be posed: [50.0, 25.0] is in obstacle 1");
+        assert!(count.starts_with("  2 invalid_problem; the first is lake/lake/"), "{out}");
+        assert_eq!(reason, "the start [1.0, 1.0] is blocked");
     }
 }
 
@@ -171,6 +180,18 @@ fn a_figure_or_keep_added_later_gets_its_exhibits_and_another_timing_its_reading
 }
 
 #[test]
+fn a_question_in_other_words_keeps_the_clock_readings() {
+    let bench = Bench::new();
+    bench.done(&["run", "./mini"]);
+    let read = |name: &str| fs::read(bench.at(&format!("{RUNS}/draws.{name}"))).unwrap();
+    let (times, manifest) = (read("times.parquet"), read("manifest.toml"));
+    bench.edit("mini/draws.toml", "Which side opens more?", "Who opens more?");
+    bench.done(&["run", "./mini"]);
+    assert!(read("manifest.toml") != manifest, "the manifest names the former spec");
+    assert!(read("times.parquet") == times, "the clock was read again though no trial was");
+}
+
+#[test]
 fn help_has_examples_and_nothing_is_coloured_in_a_pipe() {
     let bench = Bench::new();
     let help = bench.done(&["--help"]);
@@ -192,12 +213,12 @@ fn repro_runs_what_is_stale_and_fresh_runs_everything_without_losing_a_byte() {
     let bench = Bench::new();
     let repro = |flags: &[&str]| bench.done(&[&["repro", "./mini"], flags].concat());
     assert!(repro(&[]).starts_with("draws: 48 trials\n"));
-    let first = bench.tree("mini/out");
+    let first = bench.tree("target/replan/mini");
     assert!(repro(&[]).starts_with("draws: 48 trials (24 of 24 units reused)\n"));
-    assert!(bench.tree("mini/out") == first, "a run with nothing to do changed something");
-    let facts = bench.facts("mini/out");
+    assert!(bench.tree("target/replan/mini") == first, "a run with nothing to do changed something");
+    let facts = bench.facts("target/replan/mini");
     assert!(repro(&["--fresh"]).starts_with("draws: 48 trials\n"));
-    assert!(bench.facts("mini/out") == facts);
+    assert!(bench.facts("target/replan/mini") == facts);
 }
 
 #[test]
@@ -216,11 +237,11 @@ fn a_margin_that_moves_after_the_run_is_marked_until_everything_is_run_again() {
 fn why_says_that_a_stored_run_cannot_be_read() {
     let bench = Bench::new();
     bench.done(&["run", "./mini"]);
-    bench.write("mini/out/data/runs/mini/draws.manifest.toml", b"");
+    bench.write("target/replan/mini/data/runs/mini/draws.manifest.toml", b"");
     let out = bench.done(&["run", "./mini", "--why"]);
     assert!(
         out.contains(
-            "why: what is stored cannot be used: ./mini/out/data/runs/mini/draws.manifest.toml:1:1: the file"
+            "why: what is stored cannot be used: target/replan/mini/data/runs/mini/draws.manifest.toml:1:1: missing field `study`"
         ),
         "{out}"
     );
@@ -238,12 +259,36 @@ fn contenders_take_turns_at_the_clock() {
 fn check_names_what_an_earlier_state_of_the_paper_left_behind() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    bench.write("mini/out/plots/mini/fig7.svg", b"old");
+    bench.write("target/replan/mini/plots/mini/fig7.svg", b"old");
     let said = bench.run(&["render", "./mini", "--check"]);
-    let left = "replan: left over from before; remove: ./mini/out/plots/mini/fig7.svg\n";
+    let left = "replan: left over from before; remove: target/replan/mini/plots/mini/fig7.svg\n";
     assert_eq!((said.code, said.err.as_str()), (Some(3), left));
-    let path = bench.at("mini/out/paper_repro.md");
+    let path = bench.at("target/replan/mini/paper_repro.md");
     let text = fs::read_to_string(&path).unwrap();
     fs::write(&path, text + "\nMy remark on plots/mini/fig7.svg.\n").unwrap();
     assert!(bench.done(&["render", "./mini", "--check"]).ends_with(" files are current\n"));
+}
+
+#[test]
+fn a_figure_that_cannot_be_drawn_costs_that_figure_alone() {
+    let bench = Bench::new();
+    let figure = "\n[[figure]]\nid = \"fig2\"\nkind = \"grid_search\"\ncaption = \"Tidied.\"\n\
+                  settings = { problems = [\"room\"], contenders = [\"A*\"], tidying = true }\n";
+    let room = fs::read_to_string(bench.at("mini/room.toml")).unwrap();
+    bench.write("mini/room.toml", (room + figure).as_bytes());
+    let plots = "target/replan/mini/plots/mini";
+    bench.write(&format!("{plots}/fig2.png"), b"an older picture");
+    let why = "figure `room:fig2`: the stored run and the paper have nothing like";
+    let said = bench.run(&["repro", "./mini"]);
+    assert_eq!(said.code, Some(3), "{}", said.err);
+    assert!(said.err.contains(&format!("replan: 1 figure could not be drawn: {why}")), "{}", said.err);
+    for name in ["fig1.svg", "fig1.png", "table1.tex", "numbers.tex"] {
+        assert!(bench.at(plots).join(name).is_file(), "{name}");
+    }
+    assert!(!bench.at(plots).join("fig2.png").exists(), "a picture of something else was left");
+    let report = fs::read_to_string(bench.at("target/replan/mini/paper_repro.md")).unwrap();
+    assert!(report.contains(&format!("**fig2 could not be drawn: {why}")), "{report}");
+    assert!(report.contains("![fig1](plots/mini/fig1.png)") && !report.contains("![fig2]"), "{report}");
+    let said = bench.run(&["render", "./mini", "--check"]);
+    assert!(said.code == Some(3) && said.err.contains(why), "{}", said.err);
 }

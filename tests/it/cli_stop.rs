@@ -8,7 +8,7 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::Duration;
 
-const JOURNAL: &str = "mini/out/data/runs/mini/draws.journal";
+const JOURNAL: &str = "target/replan/mini/data/runs/mini/draws.journal";
 
 /// A bench whose study takes a moment: enough units that a run can be caught at work.
 fn slow() -> Bench {
@@ -48,7 +48,7 @@ fn await_records(bench: &Bench, run: &mut Child) -> bool {
     let is_record =
         |entry: fs::DirEntry| entry.file_name().to_string_lossy().contains("draws.trials.parquet");
     while run.try_wait().unwrap().is_none() {
-        let runs = fs::read_dir(bench.at("mini/out/data/runs/mini"));
+        let runs = fs::read_dir(bench.at("target/replan/mini/data/runs/mini"));
         if runs.into_iter().flatten().flatten().any(is_record) {
             return true;
         }
@@ -94,16 +94,16 @@ fn a_run_killed_at_20_random_points_ends_with_the_bytes_of_an_undisturbed_one() 
         }
         let out = bench.done(&["run", "./mini"]);
         assert!(
-            bench.facts("mini/out") == calm,
+            bench.facts("target/replan/mini") == calm,
             "round {round}: other bytes than the undisturbed run's\n{out}"
         );
         let left: Vec<_> = bench
-            .tree("mini/out")
+            .tree("target/replan/mini")
             .into_keys()
             .filter(|p| !p.extension().is_some_and(|e| ["parquet", "toml"].iter().any(|known| e == *known)))
             .collect();
         assert!(left.is_empty(), "round {round}: left behind {left:?}");
-        fs::remove_dir_all(bench.at("mini/out")).unwrap();
+        fs::remove_dir_all(bench.at("target/replan/mini")).unwrap();
     }
     assert!(midway >= 8, "only {midway} of 16 kills hit trials at work");
     assert!(writing >= 1, "no kill hit records being written");
@@ -128,7 +128,7 @@ fn ctrl_c_finishes_the_units_at_work_says_what_it_kept_and_the_run_goes_on() {
     assert!((1..300).contains(&kept), "{kept}");
     let out = bench.done(&["run", "./mini"]);
     assert!(out.starts_with(&format!("draws: 600 trials ({kept} of 300 units resumed)\n")), "{out}");
-    assert!(bench.facts("mini/out") == calm);
+    assert!(bench.facts("target/replan/mini") == calm);
 }
 
 #[test]
@@ -146,7 +146,7 @@ fn ctrl_c_while_the_clock_is_read_keeps_the_trials_and_stores_no_half_sample() {
     let said = bench.said(&run.wait_with_output().unwrap());
     assert_eq!(said.code, Some(130), "{}", said.err);
     assert!(said.err.contains("300 of 300 units of study `draws` are kept"), "{}", said.err);
-    assert!(bench.facts("mini/out").is_empty(), "records were written");
+    assert!(bench.facts("target/replan/mini").is_empty(), "records were written");
     bench.edit("mini/draws.toml", "problems = 300\nrepeats = 20", "problems = 2\nrepeats = 2");
     assert!(bench.done(&["run", "./mini"]).starts_with("draws: 600 trials (300 of 300 units resumed)\n"));
 }
@@ -162,21 +162,21 @@ fn a_journal_of_another_study_is_not_believed() {
     let out = bench.done(&["run", "./mini"]);
     assert!(out.starts_with("draws: 600 trials\n"), "{out}");
     bench.done(&["run", "./mini", "--out", "calm"]);
-    assert!(bench.facts("mini/out") == bench.facts("calm"));
+    assert!(bench.facts("target/replan/mini") == bench.facts("calm"));
 }
 
 #[test]
 fn ctrl_c_while_figures_are_drawn_ends_with_130_and_leaves_the_older_ones() {
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    let before = bench.tree("mini/out/plots");
+    let before = bench.tree("target/replan/mini/plots");
     let room = fs::read_to_string(bench.at("mini/room.toml")).unwrap();
     let figure = room.split("[[figure]]").nth(1).unwrap();
     let more: Vec<String> = (2..40).map(|n| figure.replace("fig1", &format!("fig{n}"))).collect();
     fs::write(bench.at("mini/room.toml"), room + "\n[[figure]]" + &more.join("\n[[figure]]")).unwrap();
-    fs::remove_file(bench.at("mini/out/data/runs/mini/verdicts.toml")).unwrap();
+    fs::remove_file(bench.at("target/replan/mini/data/runs/mini/verdicts.toml")).unwrap();
     let mut run = bench.command(&["repro", "./mini"]).spawn().unwrap();
-    while !bench.at("mini/out/data/runs/mini/verdicts.toml").exists() {
+    while !bench.at("target/replan/mini/data/runs/mini/verdicts.toml").exists() {
         assert!(run.try_wait().unwrap().is_none(), "the run was over before its verdicts were seen");
         sleep(Duration::from_micros(500));
     }
@@ -186,11 +186,11 @@ fn ctrl_c_while_figures_are_drawn_ends_with_130_and_leaves_the_older_ones() {
     assert_eq!(said.code, Some(130), "{}", said.err);
     assert!(said.err.contains("interrupted"), "{}", said.err);
     assert!(
-        said.out.contains("2 claims: "),
+        said.out.contains("2 sentences and rows: "),
         "the verdicts are printed before figures are drawn: {}",
         said.out
     );
-    assert!(bench.tree("mini/out/plots") == before, "a figure was replaced");
+    assert!(bench.tree("target/replan/mini/plots") == before, "a figure was replaced");
     bench.done(&["repro", "./mini"]);
-    assert_eq!(bench.tree("mini/out/plots").len(), before.len() + 2 * 38);
+    assert_eq!(bench.tree("target/replan/mini/plots").len(), before.len() + 2 * 38);
 }

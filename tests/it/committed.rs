@@ -1,5 +1,8 @@
 //! What is committed beside the code: stored runs, plots and the report.
 
+use replan::analysis::class::Verdict;
+use replan::analysis::criterion;
+use replan::analysis::verdict::Verdicts;
 use replan::study::manifest::Manifest;
 use replan::study::store::read_records;
 use std::collections::BTreeSet;
@@ -47,10 +50,8 @@ fn every_stored_trial_has_the_row_of_what_was_prepared_by_which_it_is_found_agai
         for name in names.filter_map(|name| name.strip_suffix(".manifest.toml").map(str::to_owned)) {
             let manifest = Manifest::read(&folder, &name).unwrap();
             let batch = read_records(&folder, &name, &manifest.files).unwrap().batch;
-            let prepared: BTreeSet<_> =
-                batch.prepared.iter().map(|row| (&row.reading, &row.group, row.replicate)).collect();
-            let lost =
-                batch.rows.iter().find(|row| !prepared.contains(&(&row.reading, &row.group, row.replicate)));
+            let prepared: BTreeSet<_> = batch.prepared.iter().map(|row| &row.key).collect();
+            let lost = batch.rows.iter().find(|row| !prepared.contains(&row.key.on));
             assert!(lost.is_none(), "{}: {name}: {lost:?}", folder.display());
             assert!(!batch.rows.is_empty(), "{}: {name}: no trial", folder.display());
             studies += 1;
@@ -72,4 +73,29 @@ fn stored_trials_under_a_reading_and_single_variants_are_found_by_their_names() 
         let out = String::from_utf8(said.stdout).unwrap();
         assert!(said.status.success() && out.ends_with("equals the stored row\n"), "{trial}: {out}");
     }
+}
+
+#[test]
+fn what_speaks_against_a_claim_names_a_trial_and_what_leaves_it_open_says_what_would_settle_it() {
+    let runs = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs");
+    let mut against = 0;
+    for folder in fs::read_dir(runs).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_dir())
+    {
+        for judged in Verdicts::read(&folder).unwrap().claims {
+            for finding in &judged.findings {
+                let is_measured = criterion::find(&finding.criterion).is_some();
+                match finding.verdict {
+                    Some(Verdict::NotReproduced | Verdict::DirectionOnly) if is_measured => {
+                        assert!(finding.trial.is_some(), "{}: {}", judged.claim, finding.criterion);
+                        against += 1;
+                    }
+                    Some(Verdict::Undecided) => {
+                        assert!(finding.settles.is_some(), "{}: {}", judged.claim, finding.criterion);
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+    assert!(against > 40, "only {against} findings speak against claims");
 }

@@ -239,7 +239,7 @@ fn a_spec_that_names_what_is_not_there_is_refused_at_its_line() {
             "key = \"one\"",
             ["crosscheck.toml:19:7", "no keyframe `one`; it has zero, path 1 start"],
         ),
-        ("singular = 5", "single = 5", ["crosscheck.toml:13:1", "unknown field `single`"]),
+        ("singular = 5", "single = 5", ["crosscheck.toml:13:1", "unknown key `single`"]),
     ] {
         let bench = bench();
         bench.edit("judged/crosscheck.toml", from, to);
@@ -323,4 +323,46 @@ fn answers_that_were_never_asked_for_are_wrong_input_and_nothing_is_written() {
     bench.write(&format!("{ANSWERS}/scene.questions.parquet"), b"");
     assert_eq!(judged(&bench).code, Some(2));
     assert!(!bench.at("out/paper_repro.md").exists());
+}
+
+#[test]
+fn the_judge_of_statistics_is_told_metrics_and_papers_and_its_word_is_the_exit_code() {
+    let bench = bench();
+    bench.write("crosscheck/requirements.txt", b"scipy==1.17.1\n");
+    let ask =
+        || bench.run(&["crosscheck", "./judged", "--statistics", "--out", "out", "--python", "./python"]);
+    // A Python whose judge ends as it is told.
+    let script = |code: u8| {
+        let body = format!(
+            "#!/bin/sh\ncase \"$2\" in\n  venv) mkdir -p \"$4/bin\" && cp \"$0\" \"$4/bin/python\";;\n  pip) ;;\n\
+             \x20 statistics_judge) echo \"asked in $3\"; exit {code};;\n  *) echo 3 11;;\nesac\n"
+        );
+        bench.write("python", body.as_bytes());
+        let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+        fs::set_permissions(bench.at("python"), mode).unwrap();
+        let made = bench.at("target/replan/crosscheck/venv/requirements.sha256");
+        if made.exists() {
+            fs::remove_file(made).unwrap();
+        }
+    };
+    script(0);
+    let said = ask();
+    assert!(said.code == Some(2) && said.err.contains("no verdicts"), "{}", said.err);
+    bench.write("out/data/runs/judged/verdicts.toml", b"");
+    for (ends, expected, message) in
+        [(0, 0, ""), (3, 3, "differ from verdicts.toml"), (1, 1, "the judge ended")]
+    {
+        script(ends);
+        let said = ask();
+        assert_eq!(said.code, Some(expected), "{}{}", said.out, said.err);
+        assert!(said.err.contains(message) && said.out.contains("asked in out/"), "{}{}", said.out, said.err);
+    }
+    let asked = fs::read_to_string(bench.at("out/target/replan/crosscheck/statistics.json")).unwrap();
+    let asked: serde_json::Value = serde_json::from_str(&asked).unwrap();
+    let metric = asked["metrics"].as_array().unwrap().iter().find(|metric| metric["name"] == "plan_time_ms");
+    let expected = serde_json::json!({
+        "name": "plan_time_ms", "column": "plan_wall_ns", "scale": 1e-6, "better": "lower", "clock": true, "status": false,
+    });
+    assert_eq!(metric, Some(&expected));
+    assert_eq!(asked["papers"].as_array().unwrap().len(), 1, "{asked}");
 }

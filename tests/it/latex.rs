@@ -40,7 +40,7 @@ fn committed_tables_and_numbers_compile_in_a_bare_article_and_fit_its_text() {
     assert!(all.len() > 10, "{all:?}");
     let bench = Bench::new();
     bench.done(&["repro", "./mini"]);
-    all.extend(sources(&bench.at("mini/out/plots")));
+    all.extend(sources(&bench.at("target/replan/mini/plots")));
     for packages in ["booktabs", "booktabs,graphicx"] {
         let Some((is_done, log)) = compiled(&all, packages) else {
             eprintln!("skipped: there is no pdflatex here, so whether tables compile was not seen");

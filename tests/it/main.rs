@@ -1,7 +1,11 @@
 //! Tests of the crate from outside: its source, its registries, its planners, its command line.
 
 mod arm;
+mod audit;
 mod cell_threads;
+mod characteristics;
+mod circles;
+mod cli_explains;
 mod cli_input;
 mod cli_places;
 mod cli_run;
@@ -9,9 +13,13 @@ mod cli_stop;
 mod committed;
 mod conformance;
 mod crosscheck;
+mod documented;
 mod floors;
+mod guards;
+mod jump_points;
 mod latex;
 mod laws;
+mod mutation;
 mod paper;
 mod polyhedra;
 mod registries;

@@ -1,8 +1,9 @@
 //! Holds every registry to its folder: each file with an entry is registered under its own name, in order.
 
 use crate::source::files;
+use audit::checks;
 use engine::planner;
-use replan::analysis::{check, metric};
+use replan::analysis::{criterion, metric, rule};
 use replan::render::figure;
 use replan::study::{column, family, prepared, task};
 use std::collections::BTreeSet;
@@ -29,8 +30,10 @@ fn registries() -> Vec<Registry> {
         registry!("study/family", family),
         registry!("study/prepared", prepared),
         registry!("study/task", task),
-        registry!("analysis/check", check),
+        registry!("analysis/criterion", criterion),
+        registry!("analysis/rule", rule),
         registry!("render/figure", figure),
+        registry!("checks", checks),
     ]
 }
 

@@ -8,7 +8,7 @@ fn a_run_prints_and_writes_what_is_seen_here() {
     let bench = Bench::new();
     let printed = bench.done(&["repro", "./mini"]);
     insta::assert_snapshot!("verdicts", printed);
-    let read = |name: &str| fs::read_to_string(bench.at("mini/out").join(name)).unwrap();
+    let read = |name: &str| fs::read_to_string(bench.at("target/replan/mini").join(name)).unwrap();
     insta::assert_snapshot!("table1", read("plots/mini/table1.tex"));
     insta::assert_snapshot!("numbers", read("plots/mini/numbers.tex"));
 }

@@ -2,7 +2,7 @@
 
 use std::{
     cmp::Reverse,
-    collections::{BTreeMap, BinaryHeap, btree_map::Entry},
+    collections::{BTreeMap, BinaryHeap},
 };
 
 use super::{super::Cell, SLACK, TurnQuery, fits, net::Net, reserve::Reserve};
@@ -33,8 +33,18 @@ struct Search<'a> {
     /// An open-ended turn has no half: then ways are followed to the goal.
     most_deg: f64,
     labels: Vec<Label>,
+    /// By cell and direction of arrival, the best label of those that are alike.
+    best: Vec<BTreeMap<(i64, i64), Best>>,
     /// Least estimate first (as the bits of a non-negative float), then the older label.
     queue: BinaryHeap<Reverse<(u64, usize)>>,
+}
+
+/// The label that is taken from the queue before all that are alike.
+struct Best {
+    /// The bits of its estimate.
+    estimate: u64,
+    id: usize,
+    is_settled: bool,
 }
 
 impl Half {
@@ -47,28 +57,30 @@ impl Half {
             query,
             most_deg: (query.turn_deg.high / 2.0) + SLACK,
             labels: Vec::new(),
+            best: (0..net.len() * net.directions()).map(|_| BTreeMap::new()).collect(),
             queue: BinaryHeap::new(),
         };
-        let mut settled: Vec<BTreeMap<(i64, i64), Label>> =
-            vec![BTreeMap::new(); net.len() * net.directions()];
         for &start in net.starts() {
             search.extend(start, None);
         }
         let mut arrival = None;
         while let Some(Reverse((_, id))) = search.queue.pop() {
             let label = search.labels[id];
-            let known = &mut settled[label.cell * net.directions() + label.direction];
-            let Entry::Vacant(place) = known.entry(search.key(&label)) else { continue };
-            place.insert(label);
+            if !search.settle(id, &label) {
+                continue;
+            }
             if search.is_answer(&label) {
                 arrival = Some(label);
                 break;
             }
             search.extend(label.cell, Some(id));
         }
-        let labels = search.labels;
-        let kept = settled.into_iter().map(|known| known.into_values().collect());
-        Self { kept: kept.collect(), net, labels, arrival }
+        let (labels, best) = (search.labels, search.best);
+        let settled = |alike: BTreeMap<_, Best>| {
+            let settled = alike.into_values().filter(|best| best.is_settled);
+            settled.map(|best| labels[best.id]).collect()
+        };
+        Self { kept: best.into_iter().map(settled).collect(), net, labels, arrival }
     }
 
     /// The shortest way that answers the query without a second half.
@@ -112,6 +124,29 @@ impl Search<'_> {
         (told_apart(label.turn_deg), length)
     }
 
+    /// Whether the label is the best of its like, which is settled with it.
+    fn settle(&mut self, id: usize, label: &Label) -> bool {
+        let (key, state) = (self.key(label), self.state(label));
+        let best = self.best[state].get_mut(&key).filter(|best| best.id == id);
+        best.map(|best| best.is_settled = true).is_some()
+    }
+
+    /// Queues a label unless one like it leaves the queue first.
+    fn queue(&mut self, estimate: f64, label: Label) {
+        let (key, state, id) = (self.key(&label), self.state(&label), self.labels.len());
+        let next = Best { estimate: estimate.to_bits(), id, is_settled: false };
+        let best = self.best[state].entry(key).or_insert(Best { estimate: u64::MAX, ..next });
+        if !best.is_settled && next.estimate < best.estimate {
+            self.queue.push(Reverse((next.estimate, id)));
+            self.labels.push(label);
+            *best = next;
+        }
+    }
+
+    fn state(&self, label: &Label) -> usize {
+        label.cell * self.net.directions() + label.direction
+    }
+
     fn is_answer(&self, label: &Label) -> bool {
         self.net.is_goal(label.cell)
             && label.turn_deg >= self.query.turn_deg.low - SLACK
@@ -141,8 +176,7 @@ impl Search<'_> {
             }
             let least_total = length + self.reserve.least_length(to, direction, turn_deg);
             if least_total <= longest {
-                self.queue.push(Reverse((least_total.to_bits(), self.labels.len())));
-                self.labels.push(Label { cell: to, direction, length, turn_deg, parent, from: cell });
+                self.queue(least_total, Label { cell: to, direction, length, turn_deg, parent, from: cell });
             }
         }
     }

@@ -1,9 +1,6 @@
 //! Cubic lattices in space: which nodes are free, and the 26 steps to neighbours in a written order.
 
-use super::GridError;
-
-/// The most nodes along one side.
-pub const MAX_SIDE_NODES: u32 = 1023;
+use super::{GridError, MAX_CELLS, MAX_SIDE_NODES};
 
 /// The 26 steps from a node to its neighbours: dz rises, for each dz dy, for each dy dx.
 pub const STEPS_26: [[i32; 3]; 26] = {
@@ -33,9 +30,11 @@ impl Grid3 {
     /// A lattice of `size` nodes along x, y and z, all free.
     ///
     /// # Errors
-    /// [`GridError::Space`] unless every side lies in 1..=[`MAX_SIDE_NODES`].
+    /// [`GridError::Space`] unless every side lies in 1..=[`MAX_SIDE_NODES`] and all nodes are at most [`MAX_CELLS`].
     pub fn new(size: [u32; 3]) -> Result<Self, GridError> {
-        if size.iter().any(|side| !(1..=MAX_SIDE_NODES).contains(side)) {
+        let nodes = || size.iter().map(|side| u64::from(*side)).product::<u64>();
+        let is_side = |side: &u32| (1..=MAX_SIDE_NODES).contains(side);
+        if !size.iter().all(is_side) || nodes() > u64::from(MAX_CELLS) {
             return Err(GridError::Space { size });
         }
         let [x, y, z] = size.map(|side| side as usize + 2);
@@ -138,7 +137,10 @@ mod tests {
     #[test]
     fn a_lattice_without_nodes_or_with_too_many_is_refused() {
         let error = Grid3::new([3, 0, 2]).unwrap_err();
-        assert_eq!(error.to_string(), "a lattice of 3 × 0 × 2 nodes; each side may have 1 to 1023 nodes");
+        assert_eq!(
+            error.to_string(),
+            "a lattice of 3 × 0 × 2 nodes; each side may have 1 to 1023 nodes, and all may have 67108864"
+        );
         assert!(Grid3::new([1024, 1, 1]).is_err());
     }
 }

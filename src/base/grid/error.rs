@@ -1,23 +1,24 @@
 //! What can be wrong with a grid or with a file that describes one.
 
-use super::MAX_SIDE_CELLS;
-use super::cubic::MAX_SIDE_NODES;
+use super::{MAX_CELLS, MAX_SIDE_CELLS, MAX_SIDE_NODES};
 use std::path::{Path, PathBuf};
 
 /// Why a grid, a map file or a scenario file was refused.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GridError {
-    /// A side is zero or too long.
-    #[error("a grid of {width} × {height} cells; each side may have 1 to {MAX_SIDE_CELLS} cells")]
+    /// A side is zero or too long, or the cells are too many.
+    #[error(
+        "a grid of {width} × {height} cells; each side may have 1 to {MAX_SIDE_CELLS} cells, and all may have {MAX_CELLS}"
+    )]
     Size {
         /// Columns asked for.
         width: u32,
         /// Rows asked for.
         height: u32,
     },
-    /// A side of a lattice in space is zero or too long.
+    /// A side of a lattice in space is zero or too long, or the nodes are too many.
     #[error(
-        "a lattice of {} × {} × {} nodes; each side may have 1 to {MAX_SIDE_NODES} nodes",
+        "a lattice of {} × {} × {} nodes; each side may have 1 to {MAX_SIDE_NODES} nodes, and all may have {MAX_CELLS}",
         size[0], size[1], size[2]
     )]
     Space {

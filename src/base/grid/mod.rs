@@ -7,6 +7,7 @@
 //! The order of neighbours is written once, as [`DIRECTIONS`], and every mask, search and tie rule follows it.
 //! Costs belong to the search floor.
 
+mod built;
 mod columns;
 mod components;
 mod cubic;
@@ -18,9 +19,10 @@ mod random;
 mod sight;
 mod text;
 
+pub use built::{maze, rooms, streets};
 pub use columns::{Bits, Columns, MAX_REACH_CELLS};
 pub use components::{Components, components};
-pub use cubic::{Grid3, MAX_SIDE_NODES, STEPS_26};
+pub use cubic::{Grid3, STEPS_26};
 pub use error::GridError;
 pub use moves::{CornerRule, DIRECTIONS, Moves};
 pub use movingai::{Scenario, parse_movingai_map, parse_scenarios, read_movingai_map, read_scenarios};
@@ -29,8 +31,14 @@ pub use random::{bars, independent_cells, rectangles};
 pub use sight::Sight;
 pub use text::{parse_text_map, read_text_map};
 
-/// The longest side that is accepted, in cells; 65 535² cells still have `u32` indices.
+/// The longest side that is accepted, in cells.
 pub const MAX_SIDE_CELLS: u32 = 65_535;
+
+/// The most nodes along one side of a lattice in space.
+pub const MAX_SIDE_NODES: u32 = 1023;
+
+/// The most cells of one grid, and the most nodes of one lattice in space: beyond them a search fills the memory.
+pub const MAX_CELLS: u32 = 1 << 26;
 
 /// A dense occupancy grid.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,10 +52,11 @@ impl Grid2 {
     /// A grid whose cells are all free.
     ///
     /// # Errors
-    /// [`GridError::Size`] unless both sides lie in 1..=[`MAX_SIDE_CELLS`].
+    /// [`GridError::Size`] unless both sides lie in 1..=[`MAX_SIDE_CELLS`] and their product is at most [`MAX_CELLS`].
     pub fn new(width: u32, height: u32) -> Result<Self, GridError> {
         let accepted = 1..=MAX_SIDE_CELLS;
-        if !accepted.contains(&width) || !accepted.contains(&height) {
+        let cells = u64::from(width) * u64::from(height);
+        if !accepted.contains(&width) || !accepted.contains(&height) || cells > u64::from(MAX_CELLS) {
             return Err(GridError::Size { width, height });
         }
         Ok(Self { width, height, blocked: vec![false; width as usize * height as usize] })
@@ -142,7 +151,10 @@ mod tests {
     #[test]
     fn a_grid_without_cells_is_refused() {
         let error = Grid2::new(0, 3).unwrap_err();
-        assert_eq!(error.to_string(), "a grid of 0 × 3 cells; each side may have 1 to 65535 cells");
+        assert_eq!(
+            error.to_string(),
+            "a grid of 0 × 3 cells; each side may have 1 to 65535 cells, and all may have 67108864"
+        );
         assert!(Grid2::new(3, 65_536).is_err());
     }
 }

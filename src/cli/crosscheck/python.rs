@@ -9,6 +9,8 @@ use std::process::{Command, Output, Stdio};
 
 /// The exit code that says that Python or the network is missing.
 const MISSING: u8 = 4;
+/// The exit code by which a judge says that something differs.
+const DIFFERS: i32 = 3;
 /// The modules, and what they need.
 const MODULES: &str = "crosscheck";
 const REQUIREMENTS: &str = "crosscheck/requirements.txt";
@@ -103,6 +105,23 @@ impl Judge {
         }
         let message = format!("the judge ended with {status}; what it said stands above");
         Err(Failure { code: 1, message })
+    }
+
+    /// Has the statistics that the file `request` names computed again, on two processes; says whether all agree.
+    ///
+    /// # Errors
+    /// The judge ended otherwise than by saying so.
+    pub fn recompute(&self, request: &Path) -> Result<bool, Failure> {
+        let mut command = self.module("statistics_judge");
+        let status = command.arg(request).args(["--jobs", "2"]).stdin(Stdio::null()).status()?;
+        match status.code() {
+            Some(0) => Ok(true),
+            Some(DIFFERS) => Ok(false),
+            _ => {
+                let message = format!("the judge ended with {status}; what it said stands above");
+                Err(Failure { code: 1, message })
+            }
+        }
     }
 
     /// Draws a picture into a folder that is there.

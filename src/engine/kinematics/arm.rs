@@ -3,7 +3,7 @@
 use super::{
     KinematicsError,
     angle::wrapped,
-    ik::{self, Branch, LaneSolutions, Solutions, Solver},
+    ik::{self, Branch, Choice, LaneSolutions, Solutions, Solver},
     serial::{Chain, Joints},
 };
 use crate::geometry::Frame;
@@ -14,6 +14,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct Arm {
     chain: Chain,
+    choice: Arc<Choice>,
     pub(super) solver: Arc<dyn Solver>,
     base_inverse: Frame,
     tool_inverse: Frame,
@@ -22,31 +23,40 @@ pub struct Arm {
 /// Why a branch has no configuration for a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Missed {
-    /// The wrist's centre is out of reach.
+    /// The pose is out of reach on this branch, or a solver that is not complete did not find it.
     Unreachable,
     /// A joint would be outside its limits.
     Limits,
 }
 
 impl Arm {
-    /// The arm with this chain and the solver of this name.
+    /// The arm with this chain and the solver of this name, or the most special one that fits.
     ///
     /// # Errors
-    /// Those of [`ik::solver`].
-    pub fn new(chain: Chain, solver: &str) -> Result<Self, KinematicsError> {
-        let solver = ik::solver(solver, &chain)?;
-        Ok(Self::assemble(chain, solver))
+    /// Those of [`ik::solver`] and [`ik::fitting`].
+    pub fn new(chain: Chain, solver: Option<&str>) -> Result<Self, KinematicsError> {
+        let choice = match solver {
+            Some(name) => ik::solver(name, &chain)?,
+            None => ik::fitting(&chain)?,
+        };
+        Ok(Self::assemble(chain, Arc::new(choice)))
     }
 
-    fn assemble(chain: Chain, solver: Arc<dyn Solver>) -> Self {
+    fn assemble(chain: Chain, choice: Arc<Choice>) -> Self {
         let (base_inverse, tool_inverse) = (chain.base().inverse(), chain.tool().inverse());
-        Self { chain, solver, base_inverse, tool_inverse }
+        let solver = Arc::clone(&choice.solver);
+        Self { chain, choice, solver, base_inverse, tool_inverse }
+    }
+
+    /// Which solver it is, and whether it finds every configuration.
+    pub fn solver(&self) -> &Choice {
+        &self.choice
     }
 
     /// The same arm with another tool.
     #[must_use]
     pub fn with_tool(&self, tool: Frame) -> Self {
-        Self::assemble(self.chain.with_tool(tool), Arc::clone(&self.solver))
+        Self::assemble(self.chain.with_tool(tool), Arc::clone(&self.choice))
     }
 
     /// The chain: forward kinematics, Jacobian, limits and speeds.
@@ -69,8 +79,8 @@ impl Arm {
         apart(0).min(apart(1))
     }
 
-    /// Every configuration within limits that puts the tool at `target`, at most one a branch: of those that
-    /// differ by whole turns, each joint takes the one nearest to its reference, the lower one if two are.
+    /// Every configuration within limits that puts the tool at `target`, as far as the [solver](Self::solver) is complete: of
+    /// those that differ by whole turns, each joint takes the one nearest to its reference, the lower one if two are.
     ///
     /// Where `target` leaves a joint free (see the solver), it keeps its reference.
     pub fn inverse(&self, target: &Frame, reference: &Joints) -> Solutions {

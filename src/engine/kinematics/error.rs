@@ -50,6 +50,9 @@ pub enum KinematicsError {
         /// All names.
         known: String,
     },
+    /// A robot file holds what is not accepted.
+    #[error(transparent)]
+    File(#[from] base::settings::SettingsError),
     /// A robot file cannot be read.
     #[error("{}: {source}", path.display())]
     Read {
@@ -57,18 +60,6 @@ pub enum KinematicsError {
         path: PathBuf,
         /// Why.
         source: io::Error,
-    },
-    /// A robot file says something that cannot be.
-    #[error("{}:{line}:{column}: {message}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: usize,
-        /// Column in characters, from 1.
-        column: usize,
-        /// What was found and what would be accepted.
-        message: String,
     },
     /// A tool or capsule cannot have this size.
     #[error(transparent)]
@@ -89,5 +80,15 @@ impl KinematicsError {
         // What was written in degrees or millimetres is shown without the rounding of the way back.
         let found = (found * 1e9).round() / 1e9;
         Self::Joint { joint: index + 1, key, found, accepted: accepted.to_owned() }
+    }
+
+    /// The same, with more to be said of what is accepted.
+    pub(super) fn with_accepted(self, more: &str) -> Self {
+        match self {
+            Self::Joint { joint, key, found, accepted } => {
+                Self::Joint { joint, key, found, accepted: accepted + more }
+            }
+            other => other,
+        }
     }
 }

@@ -4,8 +4,11 @@
 //! along x, turn by `alpha` about x. So frame `i` is fixed to link `i`, at its far end; frame 0 is the base
 //! and frame 6 the flange. The tool is fixed to the flange.
 //!
+//! Rows of the modified convention, whose frames are at the near ends, are taken too ([`Chain::modified`]) and become these.
+//!
 //! # Source
-//! Siciliano et al., *Robotics: Modelling, Planning and Control* (2009), section 2.8.2.
+//! Siciliano et al., *Robotics: Modelling, Planning and Control* (2009), section 2.8.2; the modified convention: Craig,
+//! *Introduction to Robotics* (3rd ed. 2005), eq. 3.6.
 
 use super::{KinematicsError, angle::nearest_copy};
 use crate::geometry::{Frame, Vec3};
@@ -96,6 +99,8 @@ pub struct Chain {
     twists: [(f64, f64); AXES],
     base: Frame,
     tool: Frame,
+    /// Whether the rows were written by the modified convention, which has twist and length one row later.
+    was_modified: bool,
 }
 
 impl Chain {
@@ -110,7 +115,40 @@ impl Chain {
             }
         }
         let twists = joints.map(|joint| twist(joint.alpha_rad));
-        Ok(Self { joints, twists, base, tool })
+        Ok(Self { joints, twists, base, tool, was_modified: false })
+    }
+
+    /// The chain of rows by the modified convention, and the frames of that convention, each in the frame of the same link
+    /// here.
+    ///
+    /// Row `i` of `rows` moves by its `a` along x and turns by its `alpha` about x before it turns by `q + offset` and moves
+    /// by `d` along z. Joint angles mean the same; the first row's `a` and `alpha` become a part of the base.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub fn modified(
+        rows: [Joint; AXES],
+        base: Frame,
+        tool: Frame,
+    ) -> Result<(Self, [Frame; AXES + 1]), KinematicsError> {
+        Self::new(rows, base, tool)?;
+        let before = rows.map(|row| {
+            let (s, c) = twist(row.alpha_rad);
+            let rotation = Matrix3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c);
+            Frame { rotation, origin: Vec3::x() * row.a_m }
+        });
+        let joints = std::array::from_fn(|i| match rows.get(i + 1) {
+            Some(next) => Joint { alpha_rad: next.alpha_rad, a_m: next.a_m, ..rows[i] },
+            None => Joint { alpha_rad: 0.0, a_m: 0.0, ..rows[i] },
+        });
+        let near = std::array::from_fn(|link| before.get(link).map_or(Frame::IDENTITY, Frame::inverse));
+        let chain = Self::new(joints, base * before[0], tool)?;
+        Ok((Self { was_modified: true, ..chain }, near))
+    }
+
+    /// The row, from 0, in which the quantity `key` of row `i` was written.
+    pub(super) fn written_in(&self, i: usize, key: &str) -> usize {
+        i + usize::from(self.was_modified && ["alpha_deg", "a_mm"].contains(&key))
     }
 
     /// The joints, base first.

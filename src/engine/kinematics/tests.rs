@@ -1,9 +1,9 @@
 //! Forward kinematics against printed poses, another chain of frames, and finite differences.
 
-use super::{AXES, Chain, Joints, Robot};
+use super::{AXES, Chain, Joint, Joints, Robot};
 use crate::geometry::{Frame, Vec3};
 use base::seed::{self, Stream};
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
 use rand::RngExt as _;
 use std::{f64::consts::FRAC_PI_2, f64::consts::PI, path::Path};
 
@@ -79,6 +79,59 @@ fn the_aubo_at_zero_stands_upright_with_its_flange_beside_it() {
     let flange = robot("aubo_i10").arm().chain().flange(&[0.0; AXES]);
     assert!((flange.origin - Vec3::new(0.0, -0.2953, 1.5132)).norm() < 1e-12, "{flange:?}");
     assert!((flange.axis(2) + Vec3::y()).norm() < 1e-12, "{flange:?}");
+}
+
+#[test]
+fn the_ur5_and_the_puma_at_zero_are_where_their_tables_add_up_to() {
+    let ur5 = robot("ur5").arm().chain().flange(&[0.0; AXES]);
+    assert!((ur5.origin - Vec3::new(-0.817_25, -0.191_45, -0.005_491)).norm() < 1e-12, "{ur5:?}");
+    assert!((ur5.axis(2) + Vec3::y()).norm() < 1e-12, "{ur5:?}");
+    let puma = robot("puma560").arm().chain().flange(&[0.0; AXES]);
+    assert!((puma.origin - Vec3::new(0.4521, -0.150_05, 0.672 + 0.4318)).norm() < 1e-12, "{puma:?}");
+    assert!((puma.axis(2) - Vec3::z()).norm() < 1e-12, "{puma:?}");
+}
+
+/// One row of the modified convention, entry by entry.
+fn modified_row(joint: &Joint, angle_rad: f64) -> Matrix4<f64> {
+    let (s, c) = libm::sincos(angle_rad + joint.offset_rad);
+    let ((sa, ca), d) = (libm::sincos(joint.alpha_rad), joint.d_m);
+    #[rustfmt::skip]
+    let row = Matrix4::new(
+        c, -s, 0.0, joint.a_m,
+        s * ca, c * ca, -sa, -sa * d,
+        s * sa, c * sa, ca, ca * d,
+        0.0, 0.0, 0.0, 1.0,
+    );
+    row
+}
+
+#[test]
+fn modified_rows_put_every_frame_of_the_link_where_craig_does() {
+    let (seed, mut worst) = (714, 0.0_f64);
+    let mut stream = seed::stream(seed);
+    for _ in 0..1_000 {
+        let rows: [Joint; AXES] = std::array::from_fn(|_| Joint {
+            alpha_rad: stream.random_range(-PI..PI),
+            a_m: stream.random_range(-0.5..0.5),
+            d_m: stream.random_range(-0.5..0.5),
+            offset_rad: stream.random_range(-PI..PI),
+            lower_rad: -PI,
+            upper_rad: PI,
+            speed_rad_s: 1.0,
+        });
+        let (chain, near) = Chain::modified(rows, Frame::IDENTITY, Frame::IDENTITY).unwrap();
+        let q = draw(&mut stream, &chain);
+        let (frames, mut craig) = (chain.frames(&q), Matrix4::identity());
+        for link in 0..=AXES {
+            let ours = frames[link] * near[link];
+            worst = worst.max((ours.rotation - craig.fixed_view::<3, 3>(0, 0)).abs().max());
+            worst = worst.max((ours.origin - craig.fixed_view::<3, 1>(0, 3)).abs().max());
+            if link < AXES {
+                craig *= modified_row(&rows[link], q[link]);
+            }
+        }
+    }
+    assert!(worst < 1e-13, "seed {seed}: off by {worst}");
 }
 
 /// The maker's chain of joint frames, each `(xyz; rpy)` before its joint.

@@ -8,6 +8,8 @@ use crate::search::{
     falling, weighted,
 };
 use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -17,6 +19,11 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     needs: WorldKind::Lattice,
     columns: COLUMNS,
+    settings: Accepted::of::<Astar>(),
+    example: r#"
+weight = 1
+ties = "fifo"
+"#,
     build: Build::Planner(|settings| {
         let read: Astar = settings.read()?;
         if let Weight::Constant(weight) = read.weight
@@ -25,24 +32,25 @@ pub static ENTRY: Entry = Entry {
             let message = format!(
                 "weight is {weight}; 0 (Dijkstra), 1 (A*), any larger number, or \"falling\" is accepted"
             );
-            return Err(settings.error(message));
+            return Err(settings.error_at("weight", message));
         }
         Ok(Box::new(read))
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Astar {
     /// What h is multiplied by.
     weight: Weight,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
     #[serde(skip)]
     pool: Pool<Search<Octile, Heap>>,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq)]
 #[serde(untagged, expecting = "a number, or `falling`, is accepted as a weight")]
 enum Weight {
     /// The same everywhere.
@@ -51,7 +59,7 @@ enum Weight {
     Ruled(Rule),
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Rule {
     /// (R + r) / R, as Zhang's eq. 2.

@@ -6,6 +6,8 @@ use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::OctileAstar;
 use crate::space::WorldKind;
 use base::grid::Moves;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -16,13 +18,15 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Lattice,
     columns: COLUMNS,
+    settings: Accepted::of::<AstarOctile>(),
+    example: "",
     build: Build::Planner(|settings| {
         let read: AstarOctile = settings.read()?;
         Ok(Box::new(read))
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct AstarOctile {
     #[serde(skip)]

@@ -8,6 +8,8 @@ use crate::search::{
     SideChoice, euclidean_to, falling, sum,
 };
 use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -17,13 +19,20 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Lattice,
     columns: COLUMNS,
+    settings: Accepted::of::<TwoSided>(),
+    example: r#"
+weight = "one"
+meeting = "generated_any"
+side = "alternate"
+ties = "fifo"
+"#,
     build: Build::Planner(|settings| {
         let read: TwoSided = settings.read()?;
         Ok(Box::new(read))
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct TwoSided {
     /// What h is multiplied by.
@@ -33,6 +42,7 @@ struct TwoSided {
     /// Which side moves next.
     side: SideSetting,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
     #[serde(skip)]
     pool: Pool<Memory>,
@@ -40,7 +50,7 @@ struct TwoSided {
 
 type Memory = Bidirectional<Octile, Heap>;
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Weight {
     /// 1: f = g + h.
@@ -49,19 +59,25 @@ enum Weight {
     Falling,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum MeetingSetting {
+    /// A side generates a node that the other has generated before, be it open or closed there.
     GeneratedAny,
+    /// A side generates a node that the other has closed.
     ClosedByOther,
+    /// A side closes a node that the other has closed; the node is not expanded again.
     BothClosed,
+    /// The best sum found is no more than the smallest f on either side.
     OptimalStop,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum SideSetting {
+    /// Strictly in turn, the start's side first.
     Alternate,
+    /// The side with the smaller least f; the start's side if they are equal.
     SmallerF,
 }
 

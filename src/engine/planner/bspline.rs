@@ -10,7 +10,8 @@ use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::geometry::{Segment, Vec3};
 use crate::shorten::cubic_spline;
 use crate::space::{PolyhedraWorld, WorldKind};
-use base::settings::Settings;
+use base::settings::{Accepted, Settings};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -20,17 +21,23 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: &["cut_in_cm", "raised_points"],
+    settings: Accepted::of::<Spline>(),
+    example: r#"
+control = "steps"
+guarded = true
+points_per_span = 4
+"#,
     build: Build::Stage(|settings: &Settings| {
         let read: Spline = settings.read()?;
         if !(1..=64).contains(&read.points_per_span) {
             let message = format!("points_per_span is {}; 1 to 64 is accepted", read.points_per_span);
-            return Err(settings.error(message));
+            return Err(settings.error_at("points_per_span", message));
         }
         Ok(Box::new(read))
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Spline {
     /// What the control points are.
@@ -38,10 +45,11 @@ struct Spline {
     /// Whether control points count more often where the curve touches an obstacle.
     guarded: bool,
     /// Points of the curve returned for each of its spans.
+    #[schemars(range(max = 1000))]
     points_per_span: u32,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Control {
     /// The path's nodes.

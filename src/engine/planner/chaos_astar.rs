@@ -8,7 +8,9 @@ use crate::search::Successors;
 use crate::space::{ArmWorld, WorldKind};
 use base::grid::Offsets;
 use base::seed::{self, Stream};
+use base::settings::Accepted;
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -18,6 +20,17 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Arm,
     columns: COLUMNS,
+    settings: Accepted::of::<ChaosAstar>(),
+    example: r#"
+region_shape = "square"
+region_radius_cells = 1
+neighbours = 5
+drawn = "each_expansion"
+source = "uniform"
+goal_in_region = "included"
+open_node = "lowered"
+ties = "fifo"
+"#,
     build: Build::Planner(|settings| {
         let read: ChaosAstar = settings.read()?;
         let region = RegionSetting { shape: read.region_shape, radius_cells: read.region_radius_cells };
@@ -28,13 +41,13 @@ pub static ENTRY: Entry = Entry {
                 "neighbours is {}; 1 to {most}, all points of the region, is accepted",
                 read.neighbours
             );
-            return Err(settings.error(message));
+            return Err(settings.error_at("neighbours", message));
         }
         Ok(Box::new(Ready { read, offsets, pool: Pool::default() }))
     }),
 };
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(deny_unknown_fields)]
 struct ChaosAstar {
     /// The shape of the region that is drawn from.
@@ -52,27 +65,34 @@ struct ChaosAstar {
     /// Whether a better way to an open node is taken.
     open_node: OpenSetting,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Drawn {
+    /// Anew at every expansion.
     EachExpansion,
+    /// Once, and then kept for the whole run.
     OncePerRun,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Source {
+    /// Evenly distributed numbers.
     Uniform,
+    /// The logistic map.
     Logistic,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum GoalInRegion {
+    /// It takes that place.
     Included,
+    /// It does not; the points stay as they were drawn.
     AsDrawn,
 }
 

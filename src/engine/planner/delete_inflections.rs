@@ -5,6 +5,8 @@ use super::{Build, Ending, Entry, Plan, Request, Stage};
 use crate::shorten::{bends, inflection_deletion, path_length};
 use crate::space::{LatticeWorld, WorldKind};
 use base::grid::{CornerRule, Sight};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -14,24 +16,32 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     needs: WorldKind::Lattice,
     columns: &[],
+    settings: Accepted::of::<DeleteInflections>(),
+    example: r#"
+line_of_sight = "exact_interior"
+"#,
     build: Build::Stage(|settings| {
         let read: DeleteInflections = settings.read()?;
         Ok(Box::new(read))
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct DeleteInflections {
     /// Which cells a line of sight must find free.
     line_of_sight: SightSetting,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum SightSetting {
+    /// Cells whose interior the segment crosses; where it passes through the corner between two cells, neither is
+    /// entered.
     ExactInterior,
+    /// Cells that the segment touches at all: at a corner also the two that flank it.
     ClosedCells,
+    /// Cells of Bresenham's line drawn from the first end to the second.
     Bresenham,
 }
 

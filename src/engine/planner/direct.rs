@@ -3,6 +3,8 @@
 use super::roadmap::{Posed, solved, unsolved};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request};
 use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -12,13 +14,15 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Roadmap,
     columns: &[],
+    settings: Accepted::of::<Direct>(),
+    example: "",
     build: Build::Planner(|settings| {
         let read: Direct = settings.read()?;
         Ok(Box::new(read))
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Direct {}
 

@@ -2,7 +2,7 @@
 
 use crate::space::roadmap::Extent;
 use crate::space::{World, WorldKind};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -40,14 +40,6 @@ impl Value {
             Self::Count(count) => count as f64,
             Self::Real(real) => real,
         }
-    }
-}
-
-/// Puts the cells of the column called `name` into those of `rows` that have one. It stands here, and not with the stored
-/// tables it is for, because there are millions of cells and this package is optimised in every build.
-pub fn fill_column(rows: &mut [BTreeMap<String, Value>], name: &str, cells: &[Option<Value>]) {
-    for (row, cell) in rows.iter_mut().zip(cells) {
-        row.extend(cell.map(|cell| (name.to_owned(), cell)));
     }
 }
 
@@ -151,6 +143,10 @@ pub struct Entry {
     pub needs: WorldKind,
     /// The columns that its counts fill.
     pub columns: &'static [&'static str],
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it.
     pub build: Build,
 }

@@ -17,6 +17,8 @@ use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, Stop, Terms, 
 use crate::shorten::path_length;
 use crate::space::polyhedra::{CarriedArm, DOWN};
 use crate::space::{PolyhedraWorld, WorldKind};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -28,16 +30,21 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::ArmAmongPolyhedra,
     columns: COLUMNS,
+    settings: Accepted::of::<JointAstar>(),
+    example: "
+delta_deg = 10.0
+neighbours = 12
+",
     build: Build::Planner(|settings| {
         let read: JointAstar = settings.read()?;
         if !(read.delta_deg > 0.0 && read.delta_deg <= 45.0) {
             let message = format!("delta_deg is {}; more than 0 and at most 45 is accepted", read.delta_deg);
-            return Err(settings.error(message));
+            return Err(settings.error_at("delta_deg", message));
         }
         if ![12, 728].contains(&read.neighbours) {
             let message =
                 format!("neighbours is {}; 12 (one joint) or 728 (any joints) is accepted", read.neighbours);
-            return Err(settings.error(message));
+            return Err(settings.error_at("neighbours", message));
         }
         Ok(Box::new(read))
     }),
@@ -50,7 +57,7 @@ const LEAST_CM: f64 = 0.1;
 /// How far around the start's clearance is looked for.
 const FAR_CM: f64 = 50.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct JointAstar {
     /// The step of each joint.

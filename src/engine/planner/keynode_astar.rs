@@ -20,6 +20,8 @@ use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value
 use crate::geometry::Vec3;
 use crate::search::{Heap, Search, Ties};
 use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -29,26 +31,36 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: &["opened", "expansions", "generated", "fell_back"],
+    settings: Accepted::of::<Keynode>(),
+    example: r#"
+search = "greedy"
+cluster = false
+last_resort = false
+"#,
     build: Build::Planner(|settings| {
         let read: Keynode = settings.read()?;
         if read.search != Mode::OpenList && (read.cluster || read.last_resort) {
-            let message = "cluster and last_resort belong to search = \"open_list\"; false is accepted here";
-            return Err(settings.error(message));
+            let key = if read.cluster { "cluster" } else { "last_resort" };
+            let message = format!("{key} belongs to search = \"open_list\"; false is accepted here");
+            return Err(settings.error_at(key, message));
         }
         Ok(Box::new(read))
     }),
 };
 
 /// How key nodes are followed.
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum Mode {
+    /// The walk as printed: over the key node of least cost on the faces in front of it.
     Literal,
+    /// The same walk with the guards without which it stops at its first key node.
     Greedy,
+    /// Key nodes wait on an open list, as in an A*.
     OpenList,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Keynode {
     /// How key nodes are followed.

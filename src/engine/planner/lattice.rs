@@ -4,17 +4,22 @@ use super::{Counts, Ending, Exhibit, Invalid, Plan, Request, Value};
 use crate::search::{Cost as _, Counters, Octile, Outcome, Ties, Update};
 use crate::space::{LatticeWorld, World};
 use base::grid::Grid2;
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// The columns that every search on a lattice fills.
 pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated"];
 
 /// The order among equal f, as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum TiesSetting {
+    /// The node that was put in first.
+    #[default]
     Fifo,
+    /// The node that was put in last.
     Lifo,
+    /// The node with the larger g; among those the one that was put in first.
     LargerG,
 }
 

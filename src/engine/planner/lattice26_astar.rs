@@ -8,6 +8,8 @@ use crate::geometry::{Segment, Vec3};
 use crate::search::{Combined, Graph, Heap, Outcome, Report, Rules, Search, Stop, Terms, sum};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::grid::STEPS_26;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -17,6 +19,11 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: COLUMNS,
+    settings: Accepted::of::<Lattice26>(),
+    example: r#"
+checked = "segments"
+ties = "fifo"
+"#,
     build: Build::Planner(|settings| {
         let read: Lattice26 = settings.read()?;
         Ok(Box::new(read))
@@ -24,7 +31,7 @@ pub static ENTRY: Entry = Entry {
 };
 
 /// Which part of a move must be free.
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Checked {
     /// Its end only.
@@ -33,12 +40,13 @@ pub(super) enum Checked {
     Segments,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Lattice26 {
     /// Which part of a move must be free.
     checked: Checked,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
     #[serde(skip)]
     pool: Pool<LatticeSearch>,

@@ -6,6 +6,8 @@ use super::tips::{self, COLUMNS, FreeHops, OpenSetting, Posed, RegionSetting, Ti
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::space::WorldKind;
 use base::grid::Offsets;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -15,6 +17,12 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Arm,
     columns: COLUMNS,
+    settings: Accepted::of::<LatticeAstar>(),
+    example: r#"
+neighbourhood = { shape = "disc", radius_cells = 2 }
+open_node = "lowered"
+ties = "fifo"
+"#,
     build: Build::Planner(|settings| {
         let read: LatticeAstar = settings.read()?;
         let offsets = read.neighbourhood.offsets(settings)?;
@@ -22,7 +30,7 @@ pub static ENTRY: Entry = Entry {
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct LatticeAstar {
     /// Which points are neighbours.
@@ -30,6 +38,7 @@ struct LatticeAstar {
     /// Whether a better way to an open node is taken.
     open_node: OpenSetting,
     /// The order among equal f.
+    #[serde(default)]
     ties: TiesSetting,
 }
 

@@ -13,6 +13,9 @@ mod delete_inflections;
 mod direct;
 mod entry;
 mod joint_astar;
+mod jps;
+mod jps_plus;
+mod jump_points;
 mod key_nodes;
 mod keynode_astar;
 mod lattice;
@@ -29,9 +32,7 @@ mod straighten_from_previous;
 mod tips;
 mod visibility_edges;
 
-pub use entry::{
-    Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value, fill_column,
-};
+pub use entry::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Stage, Value};
 
 /// Every planner and stage, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
@@ -43,6 +44,8 @@ pub static REGISTRY: &[&Entry] = &[
     &delete_inflections::ENTRY,
     &direct::ENTRY,
     &joint_astar::ENTRY,
+    &jps::ENTRY,
+    &jps_plus::ENTRY,
     &keynode_astar::ENTRY,
     &lattice26_astar::ENTRY,
     &lattice_astar::ENTRY,

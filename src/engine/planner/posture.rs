@@ -22,6 +22,7 @@ use crate::kinematics::ik::Branch;
 use crate::shorten::path_length;
 use crate::space::polyhedra::{CarriedArm, DOWN};
 use crate::space::{PolyhedraWorld, WorldKind};
+use base::settings::Accepted;
 use follow::{Follower, LEAST_CM};
 use settings::{Branches, Posture};
 
@@ -38,6 +39,24 @@ pub static ENTRY: Entry = Entry {
         "posture_within_bounds",
         "posture_within_rad",
     ],
+    settings: Accepted::of::<Posture>(),
+    example: r#"
+adjust = true
+sign = "down"
+clamp = "floor"
+distance = "exact"
+pose = "inverse"
+damping = 0.02
+act_cm = 2.0
+d0_cm = 5.0
+step_rad = 0.03
+iterations = 20
+bounds_rad = [0.2, 0.2, 0.1]
+bounds = "per_node"
+recovery_rad = 0.02
+branches = "all"
+diagnose = true
+"#,
     build: Build::Stage(|settings| Ok(Box::new(Posture::read(settings)?))),
 };
 

@@ -7,7 +7,8 @@ use crate::search::{
 };
 use crate::space::WorldKind;
 use crate::space::roadmap::{Extent, Roadmap};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -28,6 +29,15 @@ pub static ENTRY: Entry = Entry {
         "goal_links",
         "unjoined_legs",
     ],
+    settings: Accepted::of::<RoadmapAstar>(),
+    example: r#"
+samples = 1500
+neighbour_mm = 500
+cost = "hops"
+blind = true
+goal_shot = "never"
+path = "parents"
+"#,
     build: Build::Planner(|settings| {
         let read: RoadmapAstar = settings.read()?;
         read.check(settings)?;
@@ -35,7 +45,7 @@ pub static ENTRY: Entry = Entry {
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RoadmapAstar {
     /// How many samples: N.
@@ -55,22 +65,27 @@ struct RoadmapAstar {
     path: PathSetting,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum CostSetting {
+    /// Edges: each counts 1.
     Hops,
+    /// The length of the edges.
     Length,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum ShotSetting {
+    /// At no time.
     Never,
+    /// Once, from the start.
     FromStart,
+    /// From every node before it is expanded.
     BeforeExpansion,
 }
 
-#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum PathSetting {
     /// From each node to the one it was reached from.
@@ -82,14 +97,14 @@ enum PathSetting {
 impl RoadmapAstar {
     fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
         if self.samples == 0 {
-            return Err(settings.error("samples is 0; at least 1 is accepted"));
+            return Err(settings.error_at("samples", "samples is 0; at least 1 is accepted"));
         }
         if !self.neighbour_mm.is_finite() || self.neighbour_mm <= 0.0 {
             let message = format!("neighbour_mm is {}; a length above 0 is accepted", self.neighbour_mm);
-            return Err(settings.error(message));
+            return Err(settings.error_at("neighbour_mm", message));
         }
         if self.nearest == Some(0) {
-            return Err(settings.error("nearest is 0; at least 1 is accepted, or leave it out"));
+            return Err(settings.error_at("nearest", "nearest is 0; at least 1 is accepted, or leave it out"));
         }
         Ok(())
     }

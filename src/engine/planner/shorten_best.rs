@@ -4,6 +4,8 @@ use super::roadmap::{roadmap, solved};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::shorten::least_selection;
 use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -13,23 +15,29 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Roadmap,
     columns: &["joins"],
+    settings: Accepted::of::<ShortenBest>(),
+    example: r#"
+least = "nodes"
+"#,
     build: Build::Stage(|settings| {
         let read: ShortenBest = settings.read()?;
         Ok(Box::new(read))
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ShortenBest {
     /// What is least.
     least: Least,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum Least {
+    /// The path's length.
     Length,
+    /// How many nodes the path has.
     Nodes,
 }
 

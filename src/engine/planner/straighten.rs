@@ -4,6 +4,8 @@ use super::roadmap::{roadmap, solved};
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::shorten::{LastNode, straightening};
 use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -13,23 +15,29 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Roadmap,
     columns: &["joins"],
+    settings: Accepted::of::<Straighten>(),
+    example: r#"
+last = "goal"
+"#,
     build: Build::Stage(|settings| {
         let read: Straighten = settings.read()?;
         Ok(Box::new(read))
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Straighten {
     /// Which nodes may be joined to an earlier one.
     last: LastSetting,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum LastSetting {
+    /// The goal is not tried, as the printed loop ends before it.
     AsPrinted,
+    /// Every later node is tried, the goal included.
     Goal,
 }
 

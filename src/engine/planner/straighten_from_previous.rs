@@ -5,6 +5,8 @@ use super::{Build, Ending, Entry, Plan, Request, Stage};
 use crate::geometry::Segment;
 use crate::shorten::{Resume, stepwise_straightening};
 use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -14,23 +16,29 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: &[],
+    settings: Accepted::of::<Straighten>(),
+    example: r#"
+resume = "last_joined"
+"#,
     build: Build::Stage(|settings| {
         let read: Straighten = settings.read()?;
         Ok(Box::new(read))
     }),
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Straighten {
     /// The node from which the next stretch starts.
     resume: ResumeSetting,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum ResumeSetting {
+    /// At the last node that was joined, P(m − 1): what the procedure needs to stay on the path it drew.
     LastJoined,
+    /// At the node that could not be joined, P(m), as the text says.
     FirstRefused,
 }
 

@@ -9,6 +9,7 @@ use crate::search::{
 use crate::space::ArmWorld;
 use base::grid::{MAX_REACH_CELLS, Offsets};
 use base::settings::{Settings, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The columns that every search over tip positions fills.
@@ -26,18 +27,22 @@ pub(super) const COLUMNS: &[&str] = &[
 const WIDEST_CELLS: u8 = MAX_REACH_CELLS as u8;
 
 /// A neighbourhood as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RegionSetting {
+    /// Its shape.
     pub(super) shape: RegionShape,
+    /// How far it reaches.
     pub(super) radius_cells: u8,
 }
 
 /// The shape of a neighbourhood.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum RegionShape {
+    /// All cells of a square.
     Square,
+    /// The cells of it that lie within a circle.
     Disc,
     /// With sides square to the axes.
     Octagon,
@@ -50,7 +55,7 @@ impl RegionSetting {
         let radius = self.radius_cells;
         if !(1..=WIDEST_CELLS).contains(&radius) {
             let message = format!("radius_cells is {radius}; 1 to {WIDEST_CELLS} is accepted");
-            return Err(settings.error(message));
+            return Err(settings.error_at("radius_cells", message));
         }
         Ok(match self.shape {
             RegionShape::Square => Offsets::square(radius),
@@ -62,10 +67,12 @@ impl RegionSetting {
 }
 
 /// What happens to an open node to which a better way is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum OpenSetting {
+    /// It takes the better way.
     Lowered,
+    /// It keeps the way that it was first reached by.
     Never,
 }
 

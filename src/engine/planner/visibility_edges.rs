@@ -10,6 +10,8 @@ use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value
 use crate::geometry::{Segment, Vec3};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, Stop, Terms, Ties, Update, sum};
 use crate::space::{PolyhedraWorld, WorldKind};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -19,11 +21,15 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     needs: WorldKind::Polyhedra,
     columns: &["opened", "expansions", "generated"],
+    settings: Accepted::of::<Visibility>(),
+    example: "
+spacing_cm = 3.0
+",
     build: Build::Planner(|settings| {
         let read: Visibility = settings.read()?;
         if !(read.spacing_cm.is_finite() && read.spacing_cm > 0.0) {
             let message = format!("spacing_cm is {}; more than 0 is accepted", read.spacing_cm);
-            return Err(settings.error(message));
+            return Err(settings.error_at("spacing_cm", message));
         }
         Ok(Box::new(read))
     }),
@@ -34,7 +40,7 @@ const SETTLED: f64 = 1e-9;
 /// At most this many rounds of sliding.
 const ROUNDS: u32 = 200;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Visibility {
     /// How far apart the points on an edge are, at most.

@@ -8,16 +8,16 @@
 //! bound are noted as opened and not offered; open nodes lie in buckets of f, and only those of the bucket in hand are
 //! put in order.
 
+use super::buckets::Buckets;
 use super::cost::{Cost as _, Octile, quantised};
 use super::estimate::ScaledOctile;
 use super::frontier::Ties;
-use super::sorted_buckets::{Order, SortedBuckets};
 use base::grid::{DIRECTIONS, Moves};
 use std::cmp::Reverse;
 use std::f64::consts::SQRT_2;
 
 /// A bucket spans 2^20 keys, 0.001 cells: few hold two nodes. A move raises f by at most 2√2, 2698 buckets, which keeps
-/// the promise that [`Buckets`](super::Buckets) asks for.
+/// the promise that [`Buckets`] asks for.
 const BUCKET_BITS: u32 = 20;
 
 /// Which of the [`DIRECTIONS`] lead to cells whose bits are set, three each of the row below, a cell's own and the one
@@ -59,7 +59,7 @@ pub struct FirstWayAstar {
     h: Vec<f64>,
     /// A bit a cell: whether it was not opened yet.
     unopened: Vec<u8>,
-    open: SortedBuckets<Open, Ties>,
+    open: Queue,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +86,7 @@ impl FirstWayAstar {
             h: vec![0.0; masks.len()],
             unopened: vec![0; masks.len() / 8 + 2],
             masks,
-            open: SortedBuckets::new(ties, BUCKET_BITS),
+            open: Queue { ties, buckets: Buckets::default(), bucket: 0, now: Vec::new() },
         };
         search.aim(0);
         search
@@ -140,10 +140,10 @@ impl FirstWayAstar {
                 let (f, rank) = (quantised(lengths[kind] + h[node as usize]), opened);
                 opened += 1;
                 if f <= bound {
-                    self.open.push(Open { f, rank, node, g });
+                    self.open.offer(Open { f, rank, node, g });
                 }
             }
-            at = self.open.pop()?;
+            at = self.open.take()?;
         }
     }
 }
@@ -158,22 +158,70 @@ fn around(bits: &[u8], cell: u32, width: u32) -> usize {
     row(cell - width) | row(cell) << 3 | row(cell + width) << 6
 }
 
-impl Order<Open> for Ties {
-    fn f(&self, open: &Open) -> u64 {
-        open.f
+/// Open nodes by f, then by the order among equals.
+#[derive(Clone, Debug)]
+struct Queue {
+    ties: Ties,
+    buckets: Buckets<Open>,
+    /// The bucket in hand.
+    bucket: u64,
+    /// What is open in it or below, the first of them last.
+    now: Vec<Open>,
+}
+
+impl Queue {
+    /// Forgets everything; `first` is in hand.
+    fn begin(&mut self, first: Open) -> Open {
+        self.buckets.clear();
+        self.now.clear();
+        self.bucket = first.f >> BUCKET_BITS;
+        // The buckets count from the first key.
+        self.buckets.push(self.bucket, first);
+        self.buckets.pop().map_or(first, |(_, first)| first)
     }
 
-    fn is_after(&self, one: &Open, other: &Open) -> bool {
-        if one.f != other.f {
-            return one.f > other.f;
-        }
-        match self {
-            Ties::Fifo => one.rank > other.rank,
-            Ties::Lifo => one.rank < other.rank,
-            Ties::LargerG => {
-                let key = |open: &Open| (Reverse(quantised(open.g.value())), open.rank);
-                key(one) > key(other)
+    #[inline]
+    fn offer(&mut self, open: Open) {
+        let bucket = open.f >> BUCKET_BITS;
+        if bucket <= self.bucket { self.insert(open) } else { self.buckets.push(bucket, open) }
+    }
+
+    #[inline]
+    fn take(&mut self) -> Option<Open> {
+        if self.now.is_empty() {
+            let (bucket, first) = self.buckets.pop()?;
+            self.bucket = bucket;
+            self.now.push(first);
+            while let Some(other) = self.buckets.pop_equal() {
+                self.insert(other);
             }
+        }
+        self.now.pop()
+    }
+
+    /// Puts `offer` at its place among what is in hand.
+    #[inline]
+    fn insert(&mut self, offer: Open) {
+        let mut place = self.now.len();
+        self.now.push(offer);
+        while place > 0 && comes_after(&offer, &self.now[place - 1], self.ties) {
+            self.now[place] = self.now[place - 1];
+            place -= 1;
+        }
+        self.now[place] = offer;
+    }
+}
+
+fn comes_after(one: &Open, other: &Open, ties: Ties) -> bool {
+    if one.f != other.f {
+        return one.f > other.f;
+    }
+    match ties {
+        Ties::Fifo => one.rank > other.rank,
+        Ties::Lifo => one.rank < other.rank,
+        Ties::LargerG => {
+            let key = |open: &Open| (Reverse(quantised(open.g.value())), open.rank);
+            key(one) > key(other)
         }
     }
 }

@@ -35,12 +35,14 @@ mod estimate;
 mod first_way;
 mod frontier;
 mod graph;
+mod jump;
 mod lattice_astar;
 mod many;
 mod neighbourhood;
 mod observe;
 mod octile;
 mod one_way;
+mod radix;
 mod side;
 mod sorted_buckets;
 #[cfg(test)]
@@ -53,6 +55,7 @@ pub use estimate::{Combined, Estimate, ScaledOctile, euclidean_to, falling, octi
 pub use first_way::FirstWayAstar;
 pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
+pub use jump::JumpSearch;
 pub use lattice_astar::{LatticeAstar, LatticeQuery};
 pub use many::{GridSet, ManyGrids};
 pub use neighbourhood::{ColumnGraph, Successors};

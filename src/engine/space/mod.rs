@@ -11,7 +11,7 @@ pub mod roadmap;
 #[cfg(test)]
 pub use arm::reproduced_rules;
 pub use arm::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, Zone};
-pub use lattice::LatticeWorld;
+pub use lattice::{JumpLines, JumpTable, Jumps, LatticeWorld, Pruning};
 pub use polyhedra::PolyhedraWorld;
 use roadmap::Roadmap;
 

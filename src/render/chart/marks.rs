@@ -124,6 +124,19 @@ pub struct Points {
     pub label: String,
 }
 
+impl Points {
+    /// Points without a label.
+    pub fn of(points: Vec<[f64; 2]>, marker: Marker, radius_pt: f64, color: Rgb) -> Self {
+        Self { points, marker, radius_pt, color, label: String::new() }
+    }
+
+    /// The same with an entry in the legend.
+    #[must_use]
+    pub fn labelled(self, label: impl Into<String>) -> Self {
+        Self { label: label.into(), ..self }
+    }
+}
+
 impl Mark for Points {
     fn draw(&self, _: &mut Canvas, _: &View) {}
 

@@ -1,22 +1,34 @@
-//! A planar arm among obstacles: what each tip position is, paths of the tip, the arm at stations along them.
+//! A planar arm among obstacles: what each tip position is, paths of the tip, the arm at stations along them; or both its
+//! postures at one point.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
+use crate::render::canvas::{Align, Stand, Type};
 use crate::render::chart::legend::cell_key;
-use crate::render::chart::marks::{Cells, Line, Points, Shape};
+use crate::render::chart::marks::{Cells, Line, Note, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{
-    BLACK, BLUE, Fill, GREEN, GREY, INK, Marker, ORANGE, Rgb, SKY, Stroke, WHITE, Width, YELLOW,
-    series_stroke,
+    BLACK, BLUE, Fill, GREEN, GREY, INK, Marker, ORANGE, Rgb, SKY, Stroke, TextSize, VERMILLION, WHITE,
+    Width, YELLOW, series_stroke,
 };
 use crate::study::record::Row;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "arm_plane",
-    about: "a planar arm among obstacles: zones, paths of the tip, the arm at stations along them",
+    about: "a planar arm among obstacles: zones, paths of the tip, the arm at stations along them; or both postures at the goal",
+    settings: Accepted::of::<ArmPlane>(),
+    example: r#"
+stations = 7
+panels = [
+    { problem = "case 1", contenders = ["A* 8"] },
+    { problem = "case 2", contenders = ["A* 8"] },
+]
+"#,
     build: |settings, study, _paper| {
         let read: ArmPlane = settings.read()?;
         for panel in &read.panels {
@@ -29,10 +41,11 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 150.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmPlane {
     /// Whether points are coloured by what they are.
+    #[serde(default)]
     zones: bool,
     /// The part of the plane that is shown, x from and to, then y; all of it if absent.
     window_cm: Option<[f64; 4]>,
@@ -40,16 +53,23 @@ struct ArmPlane {
     #[serde(default = "yes")]
     paths: bool,
     /// At how many points of the first path the arm is drawn.
+    #[serde(default)]
+    #[schemars(range(max = 1000))]
     stations: usize,
+    /// Whether both postures at the goal of each problem are shown instead, without obstacles.
+    #[serde(default)]
+    postures: bool,
+    /// The panels, in their order.
     panels: Vec<PanelSetting>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
     /// The problem group; its first draw is shown.
     problem: String,
     /// Whose paths, of the first seed.
+    #[serde(default)]
     contenders: Vec<String>,
 }
 
@@ -58,10 +78,26 @@ fn yes() -> bool {
 }
 
 impl Kind for ArmPlane {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        let panels = self.panels.iter();
+        if self.postures {
+            return panels.flat_map(|panel| Shown::prepared(&panel.problem)).collect();
+        }
+        panels.flat_map(|panel| Shown::first(&panel.problem, &panel.contenders)).collect()
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, self.panels.len().min(2), PLOT_PT);
-        for panel in &self.panels {
+        let columns = if self.postures { 2 } else { self.panels.len().min(2) };
+        let mut sheet = Sheet::new(Width::Double, columns, PLOT_PT);
+        for panel in self.panels.iter().filter(|_| !self.postures) {
             sheet.add(self.panel(scene, panel)?);
+        }
+        for panel in self.panels.iter().filter(|_| self.postures) {
+            let both = ask::exhibit(scene, ask::draw(scene, &panel.problem, 0)?, "branches")?;
+            let stations: Vec<&[f64]> = both.values.chunks(both.width).collect();
+            for (name, station) in [("elbow down", stations[1]), ("elbow up", stations[0])] {
+                sheet.add(posture(name, station, &stations)?);
+            }
         }
         Ok(sheet)
     }
@@ -71,7 +107,7 @@ impl ArmPlane {
     fn panel(&self, scene: &Scene<'_>, setting: &PanelSetting) -> Result<Panel, RenderError> {
         let rows = setting.contenders.iter().map(|label| ask::trial(scene, &setting.problem, 0, None, label));
         let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
-        let map = rows.first().and_then(|row| scene.run.prepared_of(row)).map_or("", |map| &map.prepared);
+        let map = ask::draw(scene, &setting.problem, 0)?;
         let lattice = &ask::exhibit(scene, map, "lattice")?.values;
         let (low, step, size) = ([lattice[0], lattice[1]], lattice[2], [lattice[3], lattice[4]]);
         let ends = |axis: usize| match self.window_cm {
@@ -98,14 +134,13 @@ impl ArmPlane {
     }
 
     fn add_path(&self, scene: &Scene<'_>, row: &Row, index: usize, panel: &mut Panel) {
-        let Some(stations) = scene.run.exhibit(&row.trial, "stations") else { return };
+        let Some(stations) = scene.run.exhibit(&row.key, "stations") else { return };
         let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
         if index == 0 {
             for station in spread(&stations, self.stations) {
                 let joints = vec![[0.0, 0.0], [station[2], station[3]], [station[4], station[5]]];
                 panel.add(Line::through(joints.clone(), Stroke::solid(GREY, 1.4)).labelled("arm"));
-                let (marker, label) = (Marker::Circle, String::new());
-                panel.add(Points { points: joints[..2].to_vec(), marker, radius_pt: 1.6, color: INK, label });
+                panel.add(Points::of(joints[..2].to_vec(), Marker::Circle, 1.6, INK));
             }
         }
         if !self.paths {
@@ -115,10 +150,10 @@ impl ArmPlane {
         let ends = [("start", Marker::Circle, path.first()), ("goal", Marker::Diamond, path.last())];
         for (label, marker, at) in ends {
             let points = at.into_iter().copied().collect();
-            panel.add(Points { points, marker, radius_pt: 3.0, color: GREEN, label: label.to_owned() });
+            panel.add(Points::of(points, marker, 3.0, GREEN).labelled(label));
         }
-        let stroke = series_stroke(ask::place(scene, &row.contender));
-        panel.add(Line::through(path, stroke).labelled(row.contender.clone()));
+        let stroke = series_stroke(ask::place(scene, &row.key.contender));
+        panel.add(Line::through(path, stroke).labelled(row.key.contender.to_string()));
     }
 }
 
@@ -140,7 +175,7 @@ fn title(problem: &str, rows: &[&Row]) -> String {
                 Some(hops) if hops > 0.0 => format!(", {hops:.0} of its hops hit"),
                 _ => String::new(),
             };
-            format!("{problem}, {}: {length}{hits}", row.contender)
+            format!("{problem}, {}: {length}{hits}", row.key.contender)
         }
         _ => problem.to_owned(),
     }
@@ -172,9 +207,38 @@ fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> C
 /// An obstacle; its outline alone where zones show what lies in it.
 fn obstacle(outline: &Exhibit, is_filled: bool) -> Shape {
     Shape {
-        corners: outline.values.chunks(2).map(|point| [point[0], point[1]]).collect(),
+        corners: ask::points(outline),
         fill: is_filled.then(|| Fill::sheer(BLUE.mixed(BLACK, 0.3), 0.45)),
         stroke: Some(Stroke::solid(INK, 0.7)),
         label: "obstacle".to_owned(),
     }
+}
+
+/// Room beside and above the arm for the names of its joints, which must reach neither the frame nor the ticks.
+const MARGINS_CM: [f64; 2] = [22.0, 12.0];
+
+/// A station is θ1, θ2 in degrees, elbow and tip in centimetres.
+fn posture(name: &str, station: &[f64], all: &[&[f64]]) -> Result<Panel, RenderError> {
+    let coordinates = |axis: usize| all.iter().flat_map(move |s| [0.0, s[2 + axis], s[4 + axis]]);
+    let (low, high) = (
+        [0, 1].map(|axis| coordinates(axis).fold(f64::INFINITY, f64::min) - MARGINS_CM[axis]),
+        [0, 1].map(|axis| coordinates(axis).fold(f64::NEG_INFINITY, f64::max) + MARGINS_CM[axis]),
+    );
+    let title = format!("{name}: θ1 = {:.2}°, θ2 = {:.2}°", station[0], station[1]).replace('-', "−");
+    let (x, y) = (Axis::linear("x (cm)", low[0], high[0])?, Axis::linear("y (cm)", low[1], high[1])?);
+    let mut panel = Panel::new(title, x, y).trimmed(Trim::Grid).with_equal_scales();
+    let (elbow, tip) = ([station[2], station[3]], [station[4], station[5]]);
+    panel.add(Line::through(vec![[0.0, 0.0], elbow], Stroke::solid(BLUE, 2.6)).labelled("link 1"));
+    panel.add(Line::through(vec![elbow, tip], Stroke::solid(VERMILLION, 2.6)).labelled("link 2"));
+    // The elbow's name stands on the side to which the arm bends, where no link is.
+    let bends_right = elbow[0] > tip[0].midpoint(0.0);
+    for (text, at, color, to_right) in
+        [("base", [0.0, 0.0], INK, true), ("elbow", elbow, INK, bends_right), ("tip", tip, GREEN, true)]
+    {
+        panel.add(Points::of(vec![at], Marker::Circle, 3.0, color));
+        let (align, shift) = if to_right { (Align::Start, 6.0) } else { (Align::End, -6.0) };
+        let set = Type::of(TextSize::TICK).aligned(align, Stand::Centre);
+        panel.add(Note { at, shift_pt: [shift, 0.0], text: text.to_owned(), set });
+    }
+    Ok(panel)
 }

@@ -1,12 +1,19 @@
 //! What several kinds of figure ask of a study and of its stored run.
 
 use super::Scene;
+use crate::analysis::evidence::Run;
+use crate::analysis::metric::{self, Metric};
+use crate::analysis::selection::Selection;
+use crate::analysis::statistic::OfDraw;
 use crate::render::RenderError;
 use crate::study::Study;
+use crate::study::key::{DrawKey, Owner, SweepKey};
+use crate::study::name;
 use crate::study::paper::Paper;
 use crate::study::record::Row;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Settings, SettingsError, none_called};
 use engine::planner::Exhibit;
+use std::sync::Arc;
 
 /// Refuses problem groups and contenders that `study` does not have.
 pub(super) fn known(
@@ -15,25 +22,82 @@ pub(super) fn known(
     problems: &[String],
     contenders: &[String],
 ) -> Result<(), SettingsError> {
-    let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-    let labels: Vec<&str> = study.contenders.iter().map(|contender| contender.label.as_str()).collect();
-    for (what, wanted, known) in [("problem group", problems, groups), ("contender", contenders, labels)] {
-        if let Some(name) = wanted.iter().find(|name| !known.contains(&name.as_str())) {
-            let message =
-                format!("study `{}` has no {what} `{name}`; it has {}", study.name, known.join(", "));
-            return Err(settings.error(message));
-        }
+    super::check_labels(settings, study, contenders, problems)
+}
+
+/// The metric called `name`.
+pub(super) fn metric(settings: &Settings, name: &str) -> Result<&'static Metric, SettingsError> {
+    let missing = || none_called("metric", name, metric::METRICS.iter().map(|metric| metric.name));
+    metric::find(name).ok_or_else(|| settings.error_about("", &["metric", "x", "y"], name, missing()))
+}
+
+/// The same, which trials of `study` must have.
+pub(super) fn produced(
+    settings: &Settings,
+    study: &Study,
+    name: &str,
+) -> Result<&'static Metric, SettingsError> {
+    let metric = metric(settings, name)?;
+    if metric.is_produced(&study.columns()) {
+        return Ok(metric);
     }
-    Ok(())
+    let message = format!("study `{}` does not produce the metric `{name}`", study.name);
+    Err(settings.error_about("", &["metric", "x", "y"], name, message))
 }
 
-/// The printed number of the claim `id`.
-pub(super) fn printed(settings: &Settings, paper: &Paper, id: &str) -> Result<f64, SettingsError> {
+/// The shares of queries, in per cent, that `contender` solves on each draw of `problems` at one point of the sweeps.
+pub(super) fn solved_percents(
+    scene: &Scene<'_>,
+    run: &Run<'_>,
+    problems: &str,
+    contender: &str,
+    at: &SweepKey,
+) -> Vec<f64> {
+    let all = trials(run, problems, contender);
+    let draws = Selection { sweep: Some(at.clone()), ..all }.draws(scene.evidence);
+    draws.iter().filter_map(|draw| OfDraw::SolvedPercent.of(draw)).collect()
+}
+
+/// All trials of one contender on one problem group.
+pub(super) fn trials<'s>(run: &Run<'s>, problems: &str, contender: &str) -> Selection<'s> {
+    Selection::of(run.study, &[problems.to_owned()], &[contender.to_owned()])
+}
+
+/// A value of a trial as titles show it.
+pub(super) fn number(row: &Row, column: &str, decimals: usize) -> String {
+    row.value(column).map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
+}
+
+/// The points of an exhibit of coordinates, the two that begin each of its rows.
+pub(super) fn points(exhibit: &Exhibit) -> Vec<[f64; 2]> {
+    exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1]]).collect()
+}
+
+/// The point of the sweeps that people write as `text`.
+pub(super) fn sweep(settings: &Settings, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
+    study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
+        let known: Vec<String> = study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
+        let message = format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
+        settings.error_about("", &["sweep"], text, message)
+    })
+}
+
+/// The printed number of the claim `id`, which the settings name at `key`.
+pub(super) fn printed(settings: &Settings, paper: &Paper, key: &str, id: &str) -> Result<f64, SettingsError> {
     let number = paper.claim(id).and_then(|claim| claim.printed.as_ref()?.parse().ok());
-    number.ok_or_else(|| settings.error(format!("there is no claim `{id}` with a printed number")))
+    number.ok_or_else(|| settings.error_at(key, format!("there is no claim `{id}` with a printed number")))
 }
 
-pub(super) use crate::analysis::draws::query;
+/// The printed numbers of the claims that the settings list under `key`.
+pub(super) fn all_printed<'a>(
+    settings: &Settings,
+    paper: &Paper,
+    key: &str,
+    ids: impl IntoIterator<Item = &'a String>,
+) -> Result<Vec<f64>, SettingsError> {
+    let ids = ids.into_iter().enumerate();
+    ids.map(|(index, id)| printed(settings, paper, &format!("{key}.{index}"), id)).collect()
+}
 
 /// Which series `contender` is drawn as: the paper's own for its label, or the one at its place.
 pub(super) fn series(scene: &Scene<'_>, contender: &str, place: usize) -> usize {
@@ -50,11 +114,29 @@ pub(super) fn place(scene: &Scene<'_>, label: &str) -> usize {
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if it was not kept.
-pub(super) fn exhibit<'s>(scene: &Scene<'s>, of: &str, name: &str) -> Result<&'s Exhibit, RenderError> {
-    scene
-        .run
-        .exhibit(of, name)
-        .ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
+pub(super) fn exhibit<'s>(
+    scene: &Scene<'s>,
+    of: impl Into<Owner>,
+    name: &str,
+) -> Result<&'s Exhibit, RenderError> {
+    let of = of.into();
+    scene.run.exhibit(of.clone(), name).ok_or_else(|| RenderError::NotStored {
+        what: format!("the exhibit `{name}` of `{}`", scene.run.owner(&of)),
+    })
+}
+
+/// What names the draw of this number of the problem group `problems`.
+///
+/// # Errors
+/// [`RenderError::NotStored`] if there is none.
+pub(super) fn draw<'s>(
+    scene: &Scene<'s>,
+    problems: &str,
+    number: u32,
+) -> Result<&'s Arc<DrawKey>, RenderError> {
+    let found = scene.run.prepared(problems).find(|row| row.key.draw == number);
+    let missing = || RenderError::NotStored { what: format!("draw {number} of `{problems}`") };
+    found.map(|row| &row.key).ok_or_else(missing)
 }
 
 /// The first trial of `contender` on the draw `replicate` of `problems`, for the query called `of_query`.
@@ -70,10 +152,25 @@ pub(super) fn trial<'s>(
 ) -> Result<&'s Row, RenderError> {
     let rows = scene.run.rows(problems, contender).into_iter();
     let mut wanted =
-        rows.filter(|row| row.replicate == replicate && of_query.is_none_or(|name| query(row) == name));
+        rows.filter(|row| row.draw() == replicate && of_query.is_none_or(|name| row.query() == name));
     wanted.next().ok_or_else(|| RenderError::NotStored {
         what: format!("a trial of `{contender}` on draw {replicate} of `{problems}`"),
     })
+}
+
+/// The first trial of `contender` on `problems`, at one point of the sweeps if one is asked for.
+///
+/// # Errors
+/// [`RenderError::NotStored`] if there is none.
+pub(super) fn trial_at<'s>(
+    scene: &Scene<'s>,
+    problems: &str,
+    at: Option<&SweepKey>,
+    contender: &str,
+) -> Result<&'s Row, RenderError> {
+    let mut rows = scene.run.rows(problems, contender).into_iter();
+    let missing = || RenderError::NotStored { what: format!("a trial of `{contender}` on `{problems}`") };
+    rows.find(|row| at.is_none_or(|sweep| row.key.sweep == *sweep)).ok_or_else(missing)
 }
 
 /// The first draw on which every contender has a trial with the exhibit `name` for the query called `of_query`.
@@ -89,7 +186,7 @@ pub(super) fn shared_draw(
 ) -> Result<u32, RenderError> {
     let has_it = |replicate: u32, contender: &String| {
         trial(scene, problems, replicate, Some(of_query), contender)
-            .is_ok_and(|row| scene.run.exhibit(&row.trial, name).is_some())
+            .is_ok_and(|row| scene.run.exhibit(&row.key, name).is_some())
     };
     let group = scene.run.study.groups.iter().find(|group| group.label == problems);
     let mut draws = 0..group.map_or(0, |group| group.replicates);

@@ -1,26 +1,42 @@
 //! Distributions of our draws, with the printed number marked: one panel a claim.
 //!
-//! What is drawn stands in each claim's check `row_among_draws`.
+//! What is drawn stands in each claim's check `one_draw`.
 
-use super::{Entry, Kind, Scene, check_claim, printed_value};
-use crate::analysis::check;
+use super::{Entry, Kind, Scene, asked_claim, printed_value};
+use crate::analysis::context::Context;
+use crate::analysis::criterion;
+use crate::analysis::statistic::{cumulative, quantile};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{INK, Stroke, Width, series_stroke};
-use base::settings::Settings;
+use base::settings::{Accepted, Settings};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::summary::quantile_type7;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "draws",
     about: "cumulative distributions of our draws with the printed number marked, one panel a claim",
+    settings: Accepted::of::<Draws>(),
+    example: r#"
+columns = 4
+panels = [
+    { claim = "t1.reduction.time", title = "simple: planning time", axis = "reduction (%)" },
+    { claim = "t1.reduction.cost", title = "simple: path cost", axis = "reduction (%)" },
+    { claim = "t1.reduction.turn", title = "simple: turn sum", axis = "reduction (%)" },
+    { claim = "t1.reduction.nodes", title = "simple: nodes", axis = "reduction (%)" },
+    { claim = "t2.reduction.time", title = "complex: planning time", axis = "reduction (%)" },
+    { claim = "t2.reduction.cost", title = "complex: path cost", axis = "reduction (%)" },
+    { claim = "t2.reduction.turn", title = "complex: turn sum", axis = "reduction (%)" },
+    { claim = "t2.reduction.nodes", title = "complex: nodes", axis = "reduction (%)" },
+]
+"#,
     build: |settings, _study, paper| {
         let read: Draws = settings.read()?;
         for panel in &read.panels {
-            check_claim(settings, paper, &panel.claim, "row_among_draws")?;
+            asked_claim(settings, paper, &panel.claim, "one_draw")?;
         }
         Ok(Box::new(Asked { read, settings: settings.clone() }))
     },
@@ -29,18 +45,24 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 118.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Draws {
+    /// The panels, in their order.
     panels: Vec<PanelSpec>,
+    /// How many panels stand beside each other.
+    #[schemars(range(min = 1, max = 12))]
     columns: usize,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSpec {
+    /// The claim, by its id.
     claim: String,
+    /// What stands above it.
     title: String,
+    /// What stands along the axis.
     axis: String,
 }
 
@@ -61,10 +83,13 @@ impl Kind for Asked {
 
 impl Asked {
     fn panel(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Result<Panel, RenderError> {
-        let sets = check::draws(scene.evidence, &self.settings, &spec.claim)?;
+        let (paper, point) = (scene.evidence.paper, &scene.evidence.point);
+        let claim = asked_claim(&self.settings, paper, &spec.claim, "one_draw")?;
+        let context = Context { claim, settings: &self.settings, paper, point };
+        let sets = criterion::draws(&context, scene.evidence)?;
         let printed = printed_value(scene.evidence, &spec.claim);
         // The outermost hundredth on either side would squeeze all the rest.
-        let ends = sets.iter().flat_map(|set| [0.01, 0.99].map(|share| quantile_type7(&set.values, share)));
+        let ends = sets.iter().flat_map(|set| [0.01, 0.99].map(|share| quantile(&set.values, share)));
         let x = Axis::over(&spec.axis, ends.flatten().chain(printed));
         let mut panel = Panel::new(&spec.title, x, Axis::linear("share of maps", 0.0, 1.0)?);
         for (index, set) in sets.iter().enumerate() {
@@ -76,10 +101,4 @@ impl Asked {
         }
         Ok(panel)
     }
-}
-
-/// Quantiles at every half per cent: as good as every step to the eye, and a tenth of the bytes.
-fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
-    let shares = (0..=200).map(|step| f64::from(step) / 200.0);
-    shares.filter_map(|share| Some([quantile_type7(values, share)?, share])).collect()
 }

@@ -1,17 +1,26 @@
 //! Where pairs of end points lie that have printed lengths.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{Stroke, WHITE, Width, series_color, series_marker};
-use crate::study::slug;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "endpoint_pairs",
     about: "where pairs of end points lie that have the printed lengths, one series a variant",
+    settings: Accepted::of::<EndpointPairs>(),
+    example: r#"
+problem = "workspace"
+panels = [
+    { title = "one shape for all", variants = ["circles", "squares", "hexagons", "triangles"] },
+    { title = "any shape for each", variants = ["each obstacle of any shape"] },
+]
+"#,
     build: |settings, study, _paper| {
         let read: EndpointPairs = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problem), &[])?;
@@ -25,26 +34,30 @@ type Pairs = Vec<[[f64; 2]; 2]>;
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 190.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct EndpointPairs {
     /// The problem group.
     problem: String,
+    /// The panels, in their order.
     panels: Vec<PanelSetting>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSetting {
+    /// What stands above it.
     title: String,
     /// Labels of the variants shown.
     variants: Vec<String>,
 }
 
 impl Kind for EndpointPairs {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::prepared(&self.problem)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let map = scene.run.records.batch.prepared.iter().find(|map| map.group == self.problem);
-        let map = map.map_or("", |map| map.prepared.as_str());
         let mut sheet = Sheet::new(Width::Double, self.panels.len(), PLOT_PT);
         let mut first = 0;
         for setting in &self.panels {
@@ -54,7 +67,8 @@ impl Kind for EndpointPairs {
                 if scene.run.manifest.quick && scene.run.rows(&self.problem, label).is_empty() {
                     continue;
                 }
-                let found = ask::exhibit(scene, &format!("{map}/{}", slug(label)), "pairs")?;
+                let row = ask::trial(scene, &self.problem, 0, None, label)?;
+                let found = ask::exhibit(scene, &row.key, "pairs")?;
                 let pairs = found.values.chunks(4).map(|p| [[p[0], p[1]], [p[2], p[3]]]);
                 series.push((label, pairs.collect::<Pairs>()));
             }
@@ -81,14 +95,11 @@ fn panel(title: &str, first: usize, series: &[(&String, Pairs)]) -> Result<Panel
     }
     for (place, (label, pairs)) in series.iter().enumerate() {
         let index = first + place;
-        panel.add(Points {
-            points: pairs.iter().flatten().copied().collect(),
-            marker: series_marker(index),
-            // Series may share points: the first ones are larger and show behind the last.
-            radius_pt: 2.0 + 0.9 * (series.len() - 1 - place) as f64,
-            color: series_color(index),
-            label: format!("{label} ({})", pairs.len()),
-        });
+        let points = pairs.iter().flatten().copied().collect();
+        // Series may share points: the first ones are larger and show behind the last.
+        let radius_pt = 2.0 + 0.9 * (series.len() - 1 - place) as f64;
+        let points = Points::of(points, series_marker(index), radius_pt, series_color(index));
+        panel.add(points.labelled(format!("{label} ({})", pairs.len())));
     }
     Ok(panel)
 }

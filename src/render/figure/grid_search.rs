@@ -1,107 +1,207 @@
-//! Searches on one grid map: opened cells of each side, raw and tidied path, one panel a contender.
+//! Searches on grid maps: opened cells of each side at the end or at moments before, raw and tidied path, refused lines of
+//! sight.
 
-use super::{Entry, Kind, Scene};
+use super::{Entry, Kind, Scene, Shown, ask, check_labels};
 use crate::render::RenderError;
 use crate::render::chart::legend::{Key, cell_key};
 use crate::render::chart::marks::{Cells, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{
-    BLACK, BLUE, Dash, GREEN, Marker, ORANGE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
+    BLACK, BLUE, Dash, GREEN, GREY, Marker, ORANGE, PURPLE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use engine::shorten::bends;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "grid_search",
-    about: "searches on one grid map: opened cells of each side, raw and tidied path, one panel a contender",
+    about: "searches on grid maps: opened cells of each side, then or by moments, paths, bends; one panel a trial or moment",
+    settings: Accepted::of::<GridSearch>(),
+    example: r#"
+problems = ["W1"]
+contenders = ["A*", "Improved A*"]
+"#,
     build: |settings, study, _paper| {
         let read: GridSearch = settings.read()?;
-        super::check_labels(settings, study, &read.contenders, [&read.problem])?;
+        check_labels(settings, study, &read.contenders, &read.problems)?;
+        if read.moments.iter().any(|share| !(0.0..=1.0).contains(share)) {
+            let message = "shares of opened cells from 0 to 1 are accepted, one a panel";
+            return Err(settings.error_at("moments", message));
+        }
         Ok(Box::new(read))
     },
 };
 
-/// Height of a panel's plot, in points.
-const PLOT_PT: f64 = 215.0;
-
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GridSearch {
-    /// The problem group; its first draw is shown.
-    problem: String,
-    /// One panel each.
+    /// Problem groups; the first draw of each is shown.
+    problems: Vec<String>,
+    /// The contenders, by their labels.
     contenders: Vec<String>,
+    /// Shares of all opened cells: one panel each, about what was opened by then, instead of one at the end.
+    #[serde(default)]
+    moments: Vec<f64>,
+    /// Shows, in place of opened cells, how the path was tidied: bends before and after, refused lines of sight.
+    #[serde(default)]
+    tidying: bool,
 }
 
-pub(super) fn start_side() -> Rgb {
+fn start_side() -> Rgb {
     SKY.mixed(WHITE, 0.6)
 }
 
-pub(super) fn goal_side() -> Rgb {
+fn goal_side() -> Rgb {
     ORANGE.mixed(WHITE, 0.2)
 }
 
-pub(super) fn blocked() -> Rgb {
+fn blocked() -> Rgb {
     BLACK.mixed(WHITE, 0.25)
 }
 
 impl Kind for GridSearch {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        self.problems.iter().flat_map(|problem| Shown::first(problem, &self.contenders)).collect()
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, self.contenders.len(), PLOT_PT);
-        for contender in &self.contenders {
-            let rows = scene.run.rows(&self.problem, contender);
-            let row = rows.first().ok_or_else(|| RenderError::NotStored {
-                what: format!("a trial of `{contender}` on `{}`", self.problem),
-            })?;
-            sheet.add(panel(scene, row)?);
+        let mut panels = Vec::new();
+        for problem in &self.problems {
+            for contender in &self.contenders {
+                let map = Map::of(scene, ask::trial(scene, problem, 0, None, contender)?)?;
+                for share in &self.moments {
+                    panels.push(map.moment(*share)?);
+                }
+                match (&self.moments[..], self.tidying) {
+                    ([], true) => panels.push(map.tidied(problem)?),
+                    ([], false) => panels.push(map.searched()?),
+                    _ => {}
+                }
+            }
+        }
+        let height = if self.moments.is_empty() { 215.0 } else { 150.0 };
+        let mut sheet = Sheet::new(Width::Double, panels.len(), height);
+        for panel in panels {
+            sheet.add(panel);
         }
         Ok(sheet)
     }
 }
 
-fn panel(scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
-    let map = map(scene, row)?;
-    let mut panel = map.panel(title(row))?;
-    panel.add(cells(scene, row, &map));
-    if let Some(raw) = scene.run.exhibit(&row.trial, "raw_path") {
+/// A trial on a map as it is stored: the map's size and its blocked cells.
+struct Map<'a> {
+    scene: &'a Scene<'a>,
+    row: &'a Row,
+    size: [usize; 2],
+    walls: &'a Exhibit,
+}
+
+impl<'a> Map<'a> {
+    fn of(scene: &'a Scene<'a>, row: &'a Row) -> Result<Self, RenderError> {
+        let stored = |name: &str| ask::exhibit(scene, &row.key.on, name);
+        let (size, walls) = (stored("size_cells")?, stored("blocked")?);
+        Ok(Self { scene, row, size: [size.values[0] as usize, size.values[1] as usize], walls })
+    }
+
+    fn exhibit(&self, name: &str) -> Option<&'a Exhibit> {
+        self.scene.run.exhibit(&self.row.key, name)
+    }
+
+    /// The cells of an exhibit, in its order; none if it was not kept.
+    fn listed(&self, name: &str) -> Vec<[f64; 2]> {
+        self.exhibit(name).map(ask::points).unwrap_or_default()
+    }
+
+    /// The whole map with all that was opened and the paths.
+    fn searched(&self) -> Result<Panel, RenderError> {
+        let number = |column: &str, decimals| ask::number(self.row, column, decimals);
+        let title = format!(
+            "{}: cost {}, turns {}°, opened {}",
+            self.row.key.contender,
+            number("path_cost_cells", 2),
+            number("turn_exterior_deg", 2),
+            number("opened", 0)
+        );
+        let [width, height] = self.size.map(|side| side as f64);
+        let mut panel = window(title, [[0.0, width], [0.0, height]])?;
+        let layers = [
+            (self.listed("opened_goal_side"), goal_side()),
+            (self.listed("opened_start_side"), start_side()),
+        ];
+        let keys = vec![
+            cell_key("blocked", blocked()),
+            cell_key("opened by the start's side", start_side()),
+            cell_key("opened by the goal's side", goal_side()),
+        ];
+        panel.add(self.painted(&layers, keys));
+        if let Some(raw) = self.exhibit("raw_path") {
+            let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
+            panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
+        }
+        if let Some(path) = self.exhibit("path") {
+            panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
+            add_ends(&mut panel, &centres(path));
+        }
+        Ok(panel)
+    }
+
+    /// What was opened when `share` of all was, and at the end the path found.
+    fn moment(&self, share: f64) -> Result<Panel, RenderError> {
+        let sides = ["opened_start_side", "opened_goal_side"].map(|name| self.listed(name));
+        let shown = sides.each_ref().map(|side| (side.len() as f64 * share).ceil() as usize);
+        let all: usize = sides.iter().map(Vec::len).sum();
+        let title = format!("{} of {all} nodes opened", shown.iter().sum::<usize>());
+        let around: Vec<[f64; 2]> = sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
+        let mut panel = self.panel_about(title, &around)?;
+        let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());
+        let mut keys = vec![cell_key("blocked", blocked()), cell_key("opened from the start", start_side())];
+        if !sides[1].is_empty() {
+            keys.push(cell_key("opened from the goal", goal_side()));
+        }
+        panel.add(self.painted(&[(goal, goal_side()), (start, start_side())], keys));
+        let path = self.exhibit("raw_path").or_else(|| self.exhibit("path")).map(centres).unwrap_or_default();
+        if share >= 1.0 {
+            panel.add(Line::through(path.clone(), Stroke::solid(BLUE, 1.4)).labelled("path found"));
+            let met: Vec<[f64; 2]> = self.exhibit("meeting").map(centres).unwrap_or_default();
+            if !met.is_empty() {
+                panel.add(Points::of(met, Marker::Square, 3.0, PURPLE).labelled("where the sides met"));
+            }
+        }
+        add_ends(&mut panel, &path);
+        Ok(panel)
+    }
+
+    /// Bends before and after, and the lines of sight that were refused.
+    fn tidied(&self, problem: &str) -> Result<Panel, RenderError> {
+        let stored = |name: &str| ask::exhibit(self.scene, &self.row.key, name);
+        let (raw, path, refused) = (stored("raw_path")?, stored("path")?, stored("refused_sight")?);
+        let raw_points: Vec<&[f64]> = raw.values.chunks(raw.width).collect();
+        let bent: Vec<[f64; 2]> = bends(&raw_points).into_iter().map(|i| centres(raw)[i]).collect();
+        let path = centres(path);
+        let title = format!("{problem}: {} bends before, {} after", bent.len() - 2, path.len() - 2);
+        let mut panel = self.panel_about(title, &centres(raw))?;
+        panel.add(self.painted(&[], vec![cell_key("blocked", blocked())]));
+        let lines = refused.values.chunks(refused.width).flat_map(|ends| {
+            let [from, to] = [[ends[0] + 0.5, ends[1] + 0.5], [ends[2] + 0.5, ends[3] + 0.5]];
+            [from, to, [f64::NAN; 2]]
+        });
+        let dotted = Stroke::solid(GREY, 0.9).dashed(Dash::Dotted);
+        panel.add(Line::through(lines.collect(), dotted).labelled("line of sight refused"));
         let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
         panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
-    }
-    if let Some(path) = scene.run.exhibit(&row.trial, "path") {
-        panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
-        add_ends(&mut panel, &centres(path));
-    }
-    Ok(panel)
-}
-
-/// A map as it is stored: its size and its blocked cells.
-pub(super) struct Map<'a> {
-    pub(super) size: [usize; 2],
-    pub(super) walls: &'a Exhibit,
-}
-
-/// The map that the trial `row` was run on.
-pub(super) fn map<'a>(scene: &Scene<'a>, row: &Row) -> Result<Map<'a>, RenderError> {
-    let of = scene.run.prepared_of(row).map_or("", |prepared| &prepared.prepared);
-    let stored = |name: &str| {
-        let found = scene.run.exhibit(of, name);
-        found.ok_or_else(|| RenderError::NotStored { what: format!("the exhibit `{name}` of `{of}`") })
-    };
-    let (size, walls) = (stored("size_cells")?, stored("blocked")?);
-    Ok(Map { size: [size.values[0] as usize, size.values[1] as usize], walls })
-}
-
-impl Map<'_> {
-    /// An empty panel over the whole map.
-    pub(super) fn panel(&self, title: String) -> Result<Panel, RenderError> {
-        let [width, height] = self.size.map(|side| side as f64);
-        window(title, [[0.0, width], [0.0, height]])
+        panel.add(Points::of(bent, Marker::Circle, 1.8, BLUE).labelled("its bends"));
+        let kept = Line::through(path.clone(), Stroke::solid(VERMILLION, 1.6)).marked(Marker::Square);
+        panel.add(kept.labelled("after deletion"));
+        add_ends(&mut panel, &path);
+        Ok(panel)
     }
 
     /// An empty panel over a square part of the map that holds `points` and some room around them.
-    pub(super) fn panel_about(&self, title: String, points: &[[f64; 2]]) -> Result<Panel, RenderError> {
+    fn panel_about(&self, title: String, points: &[[f64; 2]]) -> Result<Panel, RenderError> {
         let of = |axis: usize, pick: fn(f64, f64) -> f64, start: f64| {
             points.iter().map(|point| point[axis]).fold(start, pick)
         };
@@ -118,6 +218,19 @@ impl Map<'_> {
         });
         window(title, part)
     }
+
+    /// The cells, blocked ones dark, with `layers` on top of nothing and below the walls.
+    fn painted(&self, layers: &[(Vec<[f64; 2]>, Rgb)], keys: Vec<Key>) -> Cells {
+        let [columns, rows] = self.size;
+        let mut colors = vec![None; columns * rows];
+        for (cells, color) in layers.iter().chain(&[(ask::points(self.walls), blocked())]) {
+            for [x, y] in cells {
+                colors[*y as usize * columns + *x as usize] = Some(*color);
+            }
+        }
+        let lines = Some(Stroke::solid(BLACK.mixed(WHITE, 0.85), 0.25));
+        Cells { corner: [0.0, 0.0], cell: [1.0, 1.0], columns, colors, lines, keys }
+    }
 }
 
 fn window(title: String, [x, y]: [[f64; 2]; 2]) -> Result<Panel, RenderError> {
@@ -127,61 +240,17 @@ fn window(title: String, [x, y]: [[f64; 2]; 2]) -> Result<Panel, RenderError> {
 }
 
 /// Markers on the first and the last of `points`.
-pub(super) fn add_ends(panel: &mut Panel, points: &[[f64; 2]]) {
+fn add_ends(panel: &mut Panel, points: &[[f64; 2]]) {
     for (label, marker, at) in
         [("start", Marker::Circle, points.first()), ("goal", Marker::Diamond, points.last())]
     {
-        let points = at.into_iter().copied().collect();
-        panel.add(Points { points, marker, radius_pt: 3.2, color: GREEN, label: label.to_owned() });
+        panel.add(Points::of(at.into_iter().copied().collect(), marker, 3.2, GREEN).labelled(label));
     }
-}
-
-/// The cells of `map`, blocked ones dark, with what `painted` lists on top of nothing and below the walls.
-pub(super) fn painted(map: &Map<'_>, layers: &[(Vec<[f64; 2]>, Rgb)], keys: Vec<Key>) -> Cells {
-    let [columns, rows] = map.size;
-    let mut colors = vec![None; columns * rows];
-    let walls: Vec<[f64; 2]> = map.walls.values.chunks(2).map(|point| [point[0], point[1]]).collect();
-    for (cells, color) in layers.iter().chain(&[(walls, blocked())]) {
-        for [x, y] in cells {
-            colors[*y as usize * columns + *x as usize] = Some(*color);
-        }
-    }
-    let lines = Some(Stroke::solid(BLACK.mixed(WHITE, 0.85), 0.25));
-    Cells { corner: [0.0, 0.0], cell: [1.0, 1.0], columns, colors, lines, keys }
-}
-
-/// The cells that an exhibit lists, in its order.
-pub(super) fn listed(exhibit: Option<&Exhibit>) -> Vec<[f64; 2]> {
-    exhibit.into_iter().flat_map(|e| e.values.chunks(e.width)).map(|point| [point[0], point[1]]).collect()
-}
-
-fn title(row: &Row) -> String {
-    let number = |column: &str, decimals: usize| {
-        row.value(column).map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
-    };
-    format!(
-        "{}: cost {}, turns {}°, opened {}",
-        row.contender,
-        number("path_cost_cells", 2),
-        number("turn_exterior_deg", 2),
-        number("opened", 0)
-    )
 }
 
 /// A cell (x, y) is drawn as the unit square from (x, y) to (x + 1, y + 1), as the paper places its points.
-pub(super) fn centres(path: &Exhibit) -> Vec<[f64; 2]> {
-    path.values.chunks(path.width).map(|point| [point[0] + 0.5, point[1] + 0.5]).collect()
-}
-
-fn cells(scene: &Scene<'_>, row: &Row, map: &Map<'_>) -> Cells {
-    let side = |name: &str| listed(scene.run.exhibit(&row.trial, name));
-    let layers = [(side("opened_goal_side"), goal_side()), (side("opened_start_side"), start_side())];
-    let keys = vec![
-        cell_key("blocked", blocked()),
-        cell_key("opened by the start's side", start_side()),
-        cell_key("opened by the goal's side", goal_side()),
-    ];
-    painted(map, &layers, keys)
+fn centres(path: &Exhibit) -> Vec<[f64; 2]> {
+    ask::points(path).into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect()
 }
 
 #[cfg(test)]

@@ -1,25 +1,41 @@
 //! Which value of a sweep gives the printed shares, for several studies: what the printed numbers identify, and what not.
 
 use super::{Entry, Kind, Scene, ask};
-use crate::analysis::draws::solved_percents;
 use crate::analysis::evidence::Run;
+use crate::analysis::statistic::{curves_of_draws, distance_of_draws, mean_of_draws, plan};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, Fill, GREY, Stroke, Width, series_color, series_marker, series_stroke};
-use base::seed;
+use crate::study::contender::SweepPoint;
+use crate::study::key::{SweepValue, Text};
+use crate::study::{Study, name};
+use base::settings::{Accepted, Settings, SettingsError, none_called};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::{self, Resampling};
+use std::collections::BTreeSet;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "identification",
     about: "shares of solved queries against a swept value, one curve a study, printed shares as lines",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+contender = "Original A*"
+sweep = "neighbour_mm"
+axis = "neighbour threshold ρ (mm)"
+others = ["samples=800", "samples=1500"]
+printed = ["t2.original.800", "t2.original.1500"]
+row = { sweep = "samples", printed = "t2.original." }
+studies = ["identify_full", "identify_front", "identify_branch", "identify_poses"]
+"#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         ask::known(settings, study, &[], std::slice::from_ref(&read.contender))?;
         if let Some(missing) = read.studies.iter().find(|name| paper.study(name).is_none()) {
-            return Err(settings.error(format!("there is no study `{missing}`")));
+            let known = paper.studies.iter().map(|study| study.name.as_str());
+            let message = none_called("study", missing, known);
+            return Err(settings.error_about("", &["studies"], missing, message));
         }
         if read.printed.len() != read.others.len() {
             let message = format!(
@@ -27,42 +43,47 @@ pub static ENTRY: Entry = Entry {
                 read.printed.len(),
                 read.others.len()
             );
-            return Err(settings.error(message));
+            return Err(settings.error_at("printed", message));
         }
-        let printed = read.printed.iter().map(|id| ask::printed(settings, paper, id));
-        let printed = printed.collect::<Result<_, _>>()?;
+        let printed = ask::all_printed(settings, paper, "printed", &read.printed)?;
+        let others = others(settings, study, &read.others)?;
         let mut row = Vec::new();
         if let Some(wanted) = &read.row {
             let sweep = study.sweeps.iter().find(|sweep| sweep.key == wanted.sweep);
             let sweep = sweep.ok_or_else(|| {
-                settings.error(format!("study `{}` does not sweep `{}`", study.name, wanted.sweep))
+                let message = format!("study `{}` does not sweep `{}`", study.name, wanted.sweep);
+                settings.error_at("row.sweep", message)
             })?;
-            for value in &sweep.values {
-                let claim = ask::printed(settings, paper, &format!("{}{value}", wanted.printed))?;
-                row.push((format!("{}={value}", wanted.sweep), claim));
+            for value in sweep.key_values().into_iter().flatten() {
+                let claim =
+                    ask::printed(settings, paper, "row.printed", &format!("{}{value}", wanted.printed))?;
+                row.push((value, claim));
             }
         }
-        Ok(Box::new(Identification { read, printed, row }))
+        Ok(Box::new(Identification { read, others, printed, row }))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
+    /// The contender, by its label.
     contender: String,
     /// The sweep along the axis.
     sweep: String,
+    /// What stands along the axis.
     axis: String,
-    /// What the other sweeps are at: one panel each.
+    /// A value of another sweep, as `setting=value`: one panel each.
     others: Vec<String>,
     /// The claim printed for each panel.
     printed: Vec<String>,
     /// A printed row whose distance from the mean curve is shown in a last panel.
     row: Option<RowOf>,
+    /// The studies that are compared, by name.
     studies: Vec<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RowOf {
     /// The sweep along the row.
@@ -73,33 +94,46 @@ struct RowOf {
 
 struct Identification {
     read: Read,
+    /// What the other sweeps are at, one a panel.
+    others: Vec<Other>,
     printed: Vec<f64>,
-    /// The row's cells: the sweep's point and the printed share.
-    row: Vec<(String, f64)>,
+    /// The row's cells: the value of its sweep and the printed share.
+    row: Vec<(SweepValue, f64)>,
 }
 
-/// The root of the mean square of the differences of a mean curve from the printed cells.
-fn row_distance(draws: &[&Vec<f64>], printed: &[f64]) -> Option<f64> {
-    let mean = |cell: usize| draws.iter().map(|draw| draw[cell]).sum::<f64>() / draws.len() as f64;
-    let squares = printed.iter().enumerate().map(|(cell, value)| (mean(cell) - value).powi(2));
-    (!draws.is_empty()).then(|| (squares.sum::<f64>() / printed.len() as f64).sqrt())
+/// A sweep's setting and one of its values.
+type Other = (Text, SweepValue);
+
+/// The sweeps and values that people write as `setting=value`.
+fn others(settings: &Settings, study: &Study, written: &[String]) -> Result<Vec<Other>, SettingsError> {
+    let points = study.sweep_points();
+    let known: BTreeSet<&Other> = points.iter().flat_map(|point| point.key.values()).collect();
+    let find = |(index, text): (usize, &String)| {
+        let found = known.iter().find(|other| name::sweep_value(other) == *text);
+        found.map(|other| (*other).clone()).ok_or_else(|| {
+            let known: Vec<String> = known.iter().map(|other| name::sweep_value(other)).collect();
+            let message =
+                format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
+            settings.error_at(&format!("others.{index}"), message)
+        })
+    };
+    written.iter().enumerate().map(find).collect()
 }
 
 /// A point of a curve: the swept value, and the mean share with its interval.
 type Point = [f64; 4];
 
 impl Identification {
-    fn curve(&self, run: &Run<'_>, other: &str) -> Vec<Point> {
-        let prefix = format!("{}=", self.read.sweep);
+    fn curve(&self, scene: &Scene<'_>, run: &Run<'_>, other: &Other) -> Vec<Point> {
         let Some(group) = run.study.groups.first() else { return Vec::new() };
         let mut points = Vec::new();
         for point in run.study.sweep_points() {
-            let parts: Vec<&str> = point.name.split(',').collect();
-            let value = parts.iter().find_map(|part| part.strip_prefix(&prefix)?.parse::<f64>().ok());
-            let Some(value) = value.filter(|_| parts.contains(&other)) else { continue };
-            let draws = solved_percents(run, &group.label, &self.read.contender, &point.name);
-            let seed = seed::derive(0, &["identification", &run.study.name, &point.name]);
-            if let Some(found) = bootstrap::mean(&draws, Resampling { resamples: 1000, level: 0.95, seed }) {
+            let value = point.key.value(&self.read.sweep).and_then(SweepValue::as_f64);
+            let value = value.filter(|_| point.key.value(&other.0) == Some(&other.1));
+            let Some(value) = value else { continue };
+            let draws = ask::solved_percents(scene, run, &group.label, &self.read.contender, &point.key);
+            let plan = plan(&[&run.study.name, &name::sweep(&point.key)]);
+            if let Some(found) = mean_of_draws(&draws, plan) {
                 points.push([value, found.value, found.interval.low, found.interval.high]);
             }
         }
@@ -109,36 +143,29 @@ impl Identification {
 
 impl Identification {
     /// How far the mean curve along the row is from the printed one, at each value of the sweep along the axis.
-    fn distances(&self, run: &Run<'_>) -> Vec<Point> {
+    fn distances(&self, scene: &Scene<'_>, run: &Run<'_>) -> Vec<Point> {
         let Some(group) = run.study.groups.first() else { return Vec::new() };
         let Some(sweep) = run.study.sweeps.iter().find(|sweep| sweep.key == self.read.sweep) else {
             return Vec::new();
         };
         let printed: Vec<f64> = self.row.iter().map(|(_, printed)| *printed).collect();
         let mut points = Vec::new();
-        for value in &sweep.values {
-            let at = format!("{}={value}", self.read.sweep);
-            let cells: Vec<Vec<f64>> = self
-                .row
-                .iter()
-                .map(|(cell, _)| {
-                    let point = run.study.sweep_points().into_iter().find(|point| {
-                        let parts: Vec<&str> = point.name.split(',').collect();
-                        parts.contains(&at.as_str()) && parts.contains(&cell.as_str())
-                    });
-                    point.map_or_else(Vec::new, |point| {
-                        solved_percents(run, &group.label, &self.read.contender, &point.name)
-                    })
+        let along = self.read.row.as_ref().map_or("", |row| &row.sweep);
+        let sweep_points = run.study.sweep_points();
+        for value in sweep.key_values().into_iter().flatten() {
+            let cell = |(cell, _): &(SweepValue, f64)| {
+                let is_own = |point: &&SweepPoint| {
+                    point.key.value(&self.read.sweep) == Some(&value) && point.key.value(along) == Some(cell)
+                };
+                sweep_points.iter().find(is_own).map_or_else(Vec::new, |point| {
+                    ask::solved_percents(scene, run, &group.label, &self.read.contender, &point.key)
                 })
-                .collect();
-            let count = cells.iter().map(Vec::len).min().unwrap_or(0);
-            let draws: Vec<Vec<f64>> =
-                (0..count).map(|d| cells.iter().map(|cell| cell[d]).collect()).collect();
-            let seed = seed::derive(0, &["identification", "row", &run.study.name, &at]);
-            let plan = Resampling { resamples: 1000, level: 0.95, seed };
-            let found = bootstrap::percentile(&draws, |draws| row_distance(draws, &printed), plan);
-            let at = value.as_float().or_else(|| value.as_integer().map(|value| value as f64));
-            if let (Some(at), Some(found)) = (at, found) {
+            };
+            let cells: Vec<Vec<f64>> = self.row.iter().map(cell).collect();
+            let at = format!("{}={value}", self.read.sweep);
+            let plan = plan(&["row", &run.study.name, &at]);
+            let found = distance_of_draws(&curves_of_draws(&cells), &printed, plan);
+            if let (Some(at), Some(found)) = (value.as_f64(), found) {
                 points.push([at, found.value, found.interval.low, found.interval.high]);
             }
         }
@@ -159,23 +186,26 @@ impl Identification {
 
 impl Kind for Identification {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let panels = self.read.others.len() + usize::from(!self.row.is_empty());
+        let panels = self.others.len() + usize::from(!self.row.is_empty());
         let mut sheet = Sheet::new(Width::Double, panels, 150.0);
         let runs: Vec<&Run<'_>> =
             self.read.studies.iter().filter_map(|name| scene.evidence.run(name)).collect();
-        for (other, printed) in self.read.others.iter().zip(&self.printed) {
-            let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.curve(run, other)).collect();
+        for (other, printed) in self.others.iter().zip(&self.printed) {
+            let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.curve(scene, run, other)).collect();
             let x = Axis::over(&self.read.axis, curves.iter().flatten().map(|point| point[0]));
             let [low, high] = x.ends();
-            let mut panel =
-                Panel::new(other.replace('=', " = "), x, Axis::linear("groups solved (%)", -3.0, 103.0)?);
+            let mut panel = Panel::new(
+                format!("{} = {}", other.0, other.1),
+                x,
+                Axis::linear("groups solved (%)", -3.0, 103.0)?,
+            );
             let dashed = Stroke::solid(GREY, 0.9).dashed(Dash::Dashed);
             panel.add(Line::through(vec![[low, *printed], [high, *printed]], dashed).labelled("printed"));
             Self::add_curves(&mut panel, &runs, &curves);
             sheet.add(panel);
         }
         if !self.row.is_empty() {
-            let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.distances(run)).collect();
+            let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.distances(scene, run)).collect();
             let x = Axis::over(&self.read.axis, curves.iter().flatten().map(|point| point[0]));
             let top = curves.iter().flatten().map(|point| point[3]).fold(1.0, f64::max);
             let y = Axis::linear("distance from the printed row (points)", 0.0, top * 1.05)?;

@@ -3,35 +3,22 @@
 //! A kind turns stored records and exhibits into a [`Sheet`]; it runs no trial and draws no statistics of its own.
 
 mod arm_plane;
-mod arm_poses;
-mod arm_postures;
 mod ask;
-mod cell_paths;
-mod cell_poses;
 mod draws;
 mod endpoint_pairs;
 mod grid_search;
 mod identification;
-mod joint_curves;
-mod length_against_work;
+mod intervals;
 mod motion_curves;
 mod neighbourhoods;
 mod paired_boxes;
 mod plane_search;
-mod polyhedra_paths;
-mod polyhedra_scene;
-mod reductions;
+mod polyhedra;
 mod rejections;
-mod row_draws;
 mod saving_over;
-mod search_flow;
-mod share_bars;
-mod specification_curve;
-mod success_bands;
 mod sweep_curves;
-mod tidying;
-mod tip_path_joints;
 mod tradeoff;
+mod work_cell;
 
 use super::RenderError;
 use super::chart::Sheet;
@@ -39,9 +26,9 @@ use super::latex::Table;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
 use crate::study::Study;
-use crate::study::paper::Paper;
+use crate::study::paper::{Claim, Paper};
 use crate::study::spec::FigureSpec;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean, none_called};
 use toml::Table as Toml;
 
 /// What a figure is drawn from.
@@ -62,6 +49,11 @@ pub trait Kind {
     /// [`RenderError::NotStored`] if the run lacks what it shows; axes that cannot be drawn.
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError>;
 
+    /// The trials whose exhibits it draws: a spec must keep them.
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Vec::new()
+    }
+
     /// The numbers behind the figure as a table under its own name, where they are worth one.
     ///
     /// # Errors
@@ -71,12 +63,47 @@ pub trait Kind {
     }
 }
 
+/// Trials of which a figure draws what was kept.
+pub struct Shown<'a> {
+    /// The problem group.
+    pub problems: &'a str,
+    /// The contender; any if what was prepared for the group is drawn.
+    pub contender: Option<&'a str>,
+    /// The draw.
+    pub draw: u32,
+}
+
+impl<'a> Shown<'a> {
+    /// The first draw of `problems`, by each of `contenders`.
+    fn first(problems: &'a str, contenders: &'a [String]) -> Vec<Self> {
+        let by = |label: &'a String| Self { problems, contender: Some(label), draw: 0 };
+        contenders.iter().map(by).collect()
+    }
+
+    /// What was prepared for the first draw of `problems`.
+    fn prepared(problems: &'a str) -> Vec<Self> {
+        vec![Self { problems, contender: None, draw: 0 }]
+    }
+
+    /// Whether `study` keeps it.
+    fn is_kept(&self, study: &Study) -> bool {
+        study.kept().filter(|trials| trials.problems == self.problems).any(|trials| {
+            let is_by = |label: &str| trials.contender.as_deref().is_none_or(|kept| kept == label);
+            trials.replicates > self.draw && self.contender.is_none_or(is_by)
+        })
+    }
+}
+
 /// A registered kind of figure.
 pub struct Entry {
     /// The name that specs use; also its file's name.
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it from its settings.
     pub build: fn(&Settings, &Study, &Paper) -> Result<Box<dyn Kind>, SettingsError>,
 }
@@ -84,34 +111,25 @@ pub struct Entry {
 /// Every kind, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
-    &arm_poses::ENTRY,
-    &arm_postures::ENTRY,
-    &cell_paths::ENTRY,
-    &cell_poses::ENTRY,
     &draws::ENTRY,
     &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,
     &identification::ENTRY,
-    &joint_curves::ENTRY,
-    &length_against_work::ENTRY,
+    &intervals::ENTRY,
     &motion_curves::ENTRY,
     &neighbourhoods::ENTRY,
     &paired_boxes::ENTRY,
     &plane_search::ENTRY,
-    &polyhedra_paths::ENTRY,
-    &reductions::ENTRY,
+    &polyhedra::ENTRY,
     &rejections::ENTRY,
-    &row_draws::ENTRY,
     &saving_over::ENTRY,
-    &search_flow::ENTRY,
-    &share_bars::ENTRY,
-    &specification_curve::ENTRY,
-    &success_bands::ENTRY,
     &sweep_curves::ENTRY,
-    &tidying::ENTRY,
-    &tip_path_joints::ENTRY,
     &tradeoff::ENTRY,
+    &work_cell::ENTRY,
 ];
+
+/// How the keys of settings start that name contenders.
+const CONTENDER_KEYS: [&str; 3] = ["contender", "against", "rows"];
 
 /// Refuses contenders and problem groups that `study` does not have.
 fn check_labels<'a>(
@@ -121,28 +139,37 @@ fn check_labels<'a>(
     problems: impl IntoIterator<Item = &'a String>,
 ) -> Result<(), SettingsError> {
     let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
-    if let Some(label) = contenders.into_iter().find(|label| !known.contains(&label.as_str())) {
-        let message = format!("no contender is called `{label}`; they are {}", known.join(", "));
-        return Err(settings.error(message));
+    let mut faults = Faults::default();
+    for label in contenders.into_iter().filter(|label| !known.contains(&label.as_str())) {
+        let hint = did_you_mean(label, known.iter().copied());
+        let message = format!("no contender is called `{label}`{hint}; they are {}", known.join(", "));
+        faults.add(settings.error_about("", &CONTENDER_KEYS, label, message));
     }
     let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-    if let Some(label) = problems.into_iter().find(|label| !groups.contains(&label.as_str())) {
-        let message = format!("no problem group is called `{label}`; they are {}", groups.join(", "));
-        return Err(settings.error(message));
+    for label in problems.into_iter().filter(|label| !groups.contains(&label.as_str())) {
+        let hint = did_you_mean(label, groups.iter().copied());
+        let message = format!("no problem group is called `{label}`{hint}; they are {}", groups.join(", "));
+        faults.add(settings.error_about("", &["problem"], label, message));
     }
-    Ok(())
+    faults.done()
 }
 
-/// The claim called `id`, whose checks say what is to be shown.
-fn check_claim(settings: &Settings, paper: &Paper, id: &str, check: &str) -> Result<(), SettingsError> {
+/// The claim called `id`, whose criterion `name` says what is to be shown.
+fn asked_claim<'p>(
+    settings: &Settings,
+    paper: &'p Paper,
+    id: &str,
+    name: &str,
+) -> Result<&'p Claim, SettingsError> {
     let Some(claim) = paper.claim(id) else {
-        return Err(settings.error(format!("there is no claim `{id}`")));
+        let known = paper.claims.iter().map(|claim| claim.id.as_str());
+        return Err(settings.error_about("", &["claim"], id, none_called("claim", id, known)));
     };
-    if claim.checks.contains_key(check) {
-        return Ok(());
+    if claim.criteria().any(|(own, _)| own == name) {
+        return Ok(claim);
     }
-    let message = format!("claim `{id}` has no check `{check}`, which says what is to be shown");
-    Err(settings.error(message))
+    let message = format!("claim `{id}` has no criterion `{name}`, which says what is to be shown");
+    Err(settings.error_about("", &["claim"], id, message))
 }
 
 /// The number that the claim called `id` prints.
@@ -160,12 +187,13 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 /// # Errors
 /// An unknown kind, settings that the kind does not understand, problems or contenders that the study lacks.
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
+    let mut faults = Faults::default();
     for study in &paper.studies {
         for figure in &study.figures {
-            build(figure, study, paper)?;
+            faults.keep(build(figure, study, paper));
         }
     }
-    Ok(())
+    faults.done()
 }
 
 /// The kind of `figure` with its settings.
@@ -176,9 +204,10 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
     let entry = find(figure.kind.get_ref()).ok_or_else(|| {
         let known: Vec<&str> = REGISTRY.iter().map(|entry| entry.name).collect();
         let message = format!(
-            "figure `{}` is of kind `{}`, which does not exist; the kinds are {}",
+            "figure `{}` is of kind `{}`, which does not exist{}; the kinds are {}",
             figure.id.get_ref(),
             figure.kind.get_ref(),
+            did_you_mean(figure.kind.get_ref(), known.iter().copied()),
             known.join(", ")
         );
         study.document.error(figure.kind.span(), message)
@@ -187,11 +216,29 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
         Some(settings) => Settings::written(&study.document, settings),
         None => Settings::composed(String::new(), Toml::new()),
     };
-    (entry.build)(&settings, study, paper).map_err(|error| match figure.settings {
+    let kind = (entry.build)(&settings, study, paper).map_err(|error| match figure.settings {
         Some(_) => error,
         None => study.document.error(
             figure.id.span(),
             format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message()),
         ),
-    })
+    })?;
+    check_kept(figure, study, kind.as_ref())?;
+    Ok(kind)
+}
+
+/// Refuses a figure that draws what no trial of the study would keep.
+fn check_kept(figure: &FigureSpec, study: &Study, kind: &dyn Kind) -> Result<(), SettingsError> {
+    let Some(Shown { problems, contender, draw }) =
+        kind.shown().into_iter().find(|shown| !shown.is_kept(study))
+    else {
+        return Ok(());
+    };
+    let (id, replicates) = (figure.id.get_ref(), draw + 1);
+    let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));
+    let message = format!(
+        "figure `{id}` draws what is kept of trials on `{problems}`, and none is kept; accepted is \
+         shows = [{{ problems = \"{problems}\"{by}, replicates = {replicates} }}]"
+    );
+    Err(study.document.error(figure.id.span(), message))
 }

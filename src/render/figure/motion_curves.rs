@@ -1,63 +1,99 @@
-//! How tip, posture or joints change over the time of a motion, one panel a contender.
+//! How tip, posture or joints change along a motion: over its time or its way, one panel a contender or a joint.
 
-use super::polyhedra_scene::stored;
-use super::{Entry, Kind, Scene};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
+use crate::study::key::SweepKey;
 use crate::study::record::Row;
+use base::settings::Accepted;
+use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "motion_curves",
-    about: "how tip, posture or joints change over the time of a motion, one panel a contender",
+    about: "how tip, posture or joints change along a motion, over its time or the tip's way; one panel a contender or joint",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+panels = [{ problem = "C1", contenders = ["This method"] }]
+quantity = "joints"
+sweep = "delta_deg=10.0"
+"#,
     build: |settings, study, _paper| {
-        let read: MotionCurves = settings.read()?;
-        super::check_labels(settings, study, &read.contenders, [&read.problem])?;
-        Ok(Box::new(read))
+        let read: Read = settings.read()?;
+        for panel in &read.panels {
+            ask::known(settings, study, std::slice::from_ref(&panel.problem), &panel.contenders)?;
+        }
+        let sweep = read.sweep.as_ref().map(|text| ask::sweep(settings, study, text)).transpose()?;
+        Ok(Box::new(MotionCurves { read, sweep }))
     },
 };
 
-/// Height of a panel's plot, in points.
-const PLOT_PT: f64 = 150.0;
-
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct MotionCurves {
-    /// The problem group; its first draw is shown.
-    problem: String,
-    /// One panel each.
-    contenders: Vec<String>,
+struct Read {
+    /// Whose motions on what, in their order.
+    panels: Vec<PanelSetting>,
     /// What is drawn.
     quantity: Quantity,
-    /// The value of the sweep, where there is one.
+    /// The sweeps' values of the trial that is shown, as `setting=value,…`; the first trial if absent.
     sweep: Option<String>,
+    /// The query, where a draw has several; the first draw on which every contender's motion is kept is shown.
+    query: Option<String>,
+    /// Of joints along the way: draws, at each share of the way, how far each curve is from that of the panel's first
+    /// contender, which is not drawn: curves that all but coincide can then be told apart.
+    #[serde(default)]
+    differences: bool,
+    /// How many panels stand side by side; all of them if absent.
+    #[schemars(range(min = 1, max = 12))]
+    columns: Option<usize>,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PanelSetting {
+    /// The problem group; its first draw is shown.
+    problem: String,
+    /// Whose motions, of the first seed: one panel each, or all in one panel a joint.
+    contenders: Vec<String>,
+}
+
+struct MotionCurves {
+    read: Read,
+    /// The point of the sweeps that is shown; the first trial if absent.
+    sweep: Option<SweepKey>,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq)]
 #[serde(rename_all = "snake_case")]
 enum Quantity {
+    /// The tip's coordinates over the motion's time.
     Tip,
+    /// The arm's posture over the motion's time.
     Posture,
+    /// The joint angles over the motion's time.
     Joints,
+    /// The joint angles over the motion's time in seconds.
+    TimedJoints,
+    /// The joint angles along the way of the tip, one panel a joint with all contenders.
+    JointsAlong,
 }
 
-impl Quantity {
-    fn exhibit(self) -> &'static str {
-        match self {
-            Self::Tip => "tip_trail",
-            Self::Posture => "posture_trail",
-            Self::Joints => "path",
-        }
-    }
+/// A curve with the contender it belongs to.
+type Curves<'a> = Vec<(&'a String, Vec<[f64; 2]>)>;
 
-    fn axis(self) -> &'static str {
+impl Quantity {
+    /// The exhibit, the first of its columns and what stands along the axis.
+    fn shown(self) -> (&'static str, usize, &'static str) {
         match self {
-            Self::Tip => "tip (cm)",
-            Self::Posture => "turn from tool down (rad)",
-            Self::Joints => "joint angle (rad)",
+            Self::Tip => ("tip_trail", 0, "tip (cm)"),
+            Self::Posture => ("posture_trail", 0, "turn from tool down (rad)"),
+            Self::Joints => ("path", 0, "joint angle (rad)"),
+            Self::TimedJoints => ("trajectory", 1, "joint angle (°)"),
+            Self::JointsAlong => ("stations", 0, "θ"),
         }
     }
 
@@ -66,38 +102,190 @@ impl Quantity {
             Self::Tip => ["x", "y", "z"][index].to_owned(),
             Self::Posture => ["about x", "about y", "about z"][index].to_owned(),
             Self::Joints => format!("joint {}", index + 1),
+            Self::TimedJoints | Self::JointsAlong => format!("θ{}", index + 1),
         }
+    }
+
+    /// How many columns of an exhibit this wide are drawn.
+    fn columns(self, width: usize) -> usize {
+        if self == Self::TimedJoints { 6 } else { width }
     }
 }
 
 impl Kind for MotionCurves {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        self.read.panels.iter().flat_map(|panel| Shown::first(&panel.problem, &panel.contenders)).collect()
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let note = "Stored configurations follow each other at equal times.";
-        let mut sheet = Sheet::new(Width::Double, self.contenders.len(), PLOT_PT).noted(note);
-        for contender in &self.contenders {
-            let rows = scene.run.rows(&self.problem, contender);
-            let is_asked = |row: &&Row| self.sweep.as_ref().is_none_or(|sweep| row.sweep == *sweep);
-            let row = rows.into_iter().find(is_asked).ok_or_else(|| RenderError::NotStored {
-                what: format!("a trial of `{contender}` on `{}`", self.problem),
-            })?;
-            sheet.add(self.panel(scene, row)?);
+        if self.read.quantity == Quantity::JointsAlong {
+            return self.along(scene);
+        }
+        let mut found = Vec::new();
+        for panel in &self.read.panels {
+            for contender in &panel.contenders {
+                let row = self.row(scene, panel, contender)?;
+                found.push((row, ask::exhibit(scene, &row.key, self.read.quantity.shown().0)?));
+            }
+        }
+        let (columns, timed) =
+            (self.read.columns.unwrap_or(found.len()), self.read.quantity == Quantity::TimedJoints);
+        let mut sheet = Sheet::new(Width::Double, columns, if timed { 170.0 } else { 150.0 });
+        if !timed {
+            sheet = sheet.noted("Stored configurations follow each other at equal times.");
+        }
+        for (row, exhibit) in &found {
+            // Seconds and degrees are compared on one scale.
+            let all: Vec<&Exhibit> =
+                if timed { found.iter().map(|(_, exhibit)| *exhibit).collect() } else { vec![exhibit] };
+            sheet.add(self.panel(row, exhibit, &all)?);
         }
         Ok(sheet)
     }
 }
 
 impl MotionCurves {
-    fn panel(&self, scene: &Scene<'_>, row: &Row) -> Result<Panel, RenderError> {
-        let found = stored(scene.run, &row.trial, self.quantity.exhibit())?;
-        let count = found.values.len() / found.width;
-        let x = Axis::linear("share of the motion's time", 0.0, 1.0)?;
-        let y = Axis::over(self.quantity.axis(), found.values.iter().copied());
-        let mut panel = Panel::new(row.contender.clone(), x, y);
-        for index in 0..found.width {
-            let values = found.values.chunks(found.width).map(|point| point[index]).enumerate();
-            let points = values.map(|(k, value)| [k as f64 / (count - 1).max(1) as f64, value]).collect();
-            panel.add(Line::through(points, series_stroke(index)).labelled(self.quantity.name(index)));
+    fn row<'s>(
+        &self,
+        scene: &Scene<'s>,
+        panel: &PanelSetting,
+        contender: &str,
+    ) -> Result<&'s Row, RenderError> {
+        let (problem, query) = (&panel.problem, self.read.query.as_deref());
+        if let Some(query) = query {
+            let draw =
+                ask::shared_draw(scene, problem, query, &panel.contenders, self.read.quantity.shown().0)?;
+            return ask::trial(scene, problem, draw, Some(query), contender);
+        }
+        ask::trial_at(scene, problem, self.sweep.as_ref(), contender)
+    }
+
+    /// One contender's motion, on the scale of `all`.
+    fn panel(&self, row: &Row, exhibit: &Exhibit, all: &[&Exhibit]) -> Result<Panel, RenderError> {
+        let quantity = self.read.quantity;
+        let (_, first, axis) = quantity.shown();
+        let columns = first..first + quantity.columns(exhibit.width);
+        let stops: Vec<&[f64]> = exhibit.values.chunks(exhibit.width).collect();
+        let shown = all.iter().flat_map(|e| e.values.chunks(e.width)).flat_map(|stop| &stop[columns.clone()]);
+        let y = Axis::over(axis, shown.copied());
+        let (title, x) = if quantity == Quantity::TimedJoints {
+            let number = |column: &str| ask::number(row, column, 0);
+            let [legs, travel, peak] = ["local_paths", "joint_travel_deg", "joint_peak_deg_s2"].map(number);
+            let last_s = all.iter().filter_map(|e| e.values.chunks(e.width).last()).map(|stop| stop[0]);
+            let title =
+                format!("{}: {legs} local paths, travel {travel}°, peak {peak} °/s²", row.key.contender);
+            (title, Axis::linear("time (s)", 0.0, last_s.fold(0.0, f64::max))?)
+        } else {
+            (row.key.contender.to_string(), Axis::linear("share of the motion's time", 0.0, 1.0)?)
+        };
+        let time = |k: usize| match quantity {
+            Quantity::TimedJoints => stops[k][0],
+            _ => k as f64 / (stops.len() - 1).max(1) as f64,
+        };
+        let mut panel = Panel::new(title, x, y);
+        for (index, column) in columns.enumerate() {
+            let points = stops.iter().enumerate().map(|(k, stop)| [time(k), stop[column]]).collect();
+            panel.add(Line::through(points, series_stroke(index)).labelled(quantity.name(index)));
         }
         Ok(panel)
+    }
+
+    /// Both joints of a planar arm along the way of its tip, side by side.
+    fn along(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let mut sheet = Sheet::new(Width::Double, self.read.columns.unwrap_or(2), 105.0);
+        let mut all = Vec::new();
+        for panel in &self.read.panels {
+            all.push([self.curves(scene, panel, 0)?, self.curves(scene, panel, 1)?]);
+        }
+        // One scale for each joint, so that cases can be compared.
+        let ranges = [0, 1].map(|joint| {
+            let points = all.iter().flat_map(move |both| &both[joint]).flat_map(|(_, points)| points);
+            points.map(|point| point[1]).collect::<Vec<f64>>()
+        });
+        let (way, sign) = if self.read.differences {
+            ("share of the way (%)", "Δ")
+        } else {
+            ("way along the path (cm)", "")
+        };
+        for (setting, both) in self.read.panels.iter().zip(all) {
+            for (joint, curves) in both.into_iter().enumerate() {
+                let ways = curves.iter().flat_map(|(_, points)| points).map(|point| point[0]);
+                let name = self.read.quantity.name(joint);
+                let y = Axis::over(format!("{sign}{name} (°)"), ranges[joint].iter().copied());
+                let mut panel = Panel::new(format!("{}, {name}", setting.problem), Axis::over(way, ways), y);
+                for (label, points) in curves {
+                    let stroke = series_stroke(ask::place(scene, label));
+                    panel.add(Line::through(points, stroke).labelled(label.clone()));
+                }
+                sheet.add(panel);
+            }
+        }
+        Ok(sheet)
+    }
+
+    fn curves<'a>(
+        &self,
+        scene: &Scene<'_>,
+        setting: &'a PanelSetting,
+        joint: usize,
+    ) -> Result<Curves<'a>, RenderError> {
+        let mut curves = Vec::new();
+        for label in &setting.contenders {
+            let row = self.row(scene, setting, label)?;
+            // A failed trial has no path and no curve.
+            curves.extend(curve(scene, row, joint).map(|points| (label, points)));
+        }
+        if self.read.differences && !curves.is_empty() {
+            let (_, base) = curves.remove(0);
+            for (_, points) in &mut curves {
+                *points = away(points, &base);
+            }
+        }
+        Ok(curves)
+    }
+}
+
+/// How far `points` are from `base` at each share of the way, in percent.
+fn away(points: &[[f64; 2]], base: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let length = |of: &[[f64; 2]]| of.last().map_or(1.0, |last| last[0]).max(f64::MIN_POSITIVE);
+    let (own, other) = (length(points), length(base));
+    let point = |[way, angle]: &[f64; 2]| [100.0 * way / own, angle - at(base, way / own * other)];
+    points.iter().map(point).collect()
+}
+
+/// The angle of a curve at `way`, even between its stations.
+fn at(curve: &[[f64; 2]], way: f64) -> f64 {
+    let after = curve.partition_point(|point| point[0] < way).clamp(1, curve.len().max(2) - 1);
+    let ([x, y], [to_x, to_y]) = (curve[after - 1], curve[after.min(curve.len() - 1)]);
+    if to_x > x { y + (to_y - y) * (way - x) / (to_x - x) } else { y }
+}
+
+/// The way along the path and the joint's angle at every station.
+fn curve(scene: &Scene<'_>, row: &Row, joint: usize) -> Option<Vec<[f64; 2]>> {
+    let stations = scene.run.exhibit(&row.key, "stations")?;
+    let stations: Vec<&[f64]> = stations.values.chunks(stations.width).collect();
+    let mut way = 0.0;
+    let mut before = [stations[0][4], stations[0][5]];
+    let point = |station: &&[f64]| {
+        let tip = [station[4], station[5]];
+        way += libm::hypot(tip[0] - before[0], tip[1] - before[1]);
+        before = tip;
+        [way, station[joint]]
+    };
+    Some(stations.iter().map(point).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_is_nowhere_away_from_itself_however_it_is_sampled() {
+        let base = [[0.0, 1.0], [2.0, 5.0], [10.0, -3.0]];
+        // The same curve, twice as long and with a station more.
+        let same = [[0.0, 1.0], [4.0, 5.0], [12.0, 1.0], [20.0, -3.0]];
+        assert!(away(&same, &base).iter().all(|[_, gap]| gap.abs() < 1e-12));
+        let higher = same.map(|[way, angle]| [way, angle + 2.0]);
+        assert_eq!(away(&higher, &base).last(), Some(&[100.0, 2.0]));
     }
 }

@@ -1,18 +1,25 @@
 //! Neighbourhoods of planners that move over a lattice: the region, and what was drawn from it.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{BLUE, GREY, Marker, Stroke, VERMILLION, WHITE, Width};
 use crate::study::record::Row;
+use base::settings::Accepted;
 use engine::planner::Exhibit;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "neighbourhoods",
     about: "the neighbours of a lattice point, one panel a contender; those that were drawn, where some are",
+    settings: Accepted::of::<Neighbourhoods>(),
+    example: r#"
+problem = "case 1"
+contenders = ["A* 8"]
+"#,
     build: |settings, study, _paper| {
         let read: Neighbourhoods = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problem), &read.contenders)?;
@@ -23,7 +30,7 @@ pub static ENTRY: Entry = Entry {
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 120.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Neighbourhoods {
     /// The problem group whose first trials hold the neighbourhoods.
@@ -33,32 +40,35 @@ struct Neighbourhoods {
 }
 
 impl Kind for Neighbourhoods {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.problem, &self.contenders)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let rows = self.contenders.iter().map(|label| ask::trial(scene, &self.problem, 0, None, label));
         let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
         let width = if rows.len() == 1 { Width::Single } else { Width::Double };
         let mut sheet = Sheet::new(width, rows.len().min(4), PLOT_PT);
         for row in rows {
-            let region = ask::exhibit(scene, &row.trial, "region")?;
-            sheet.add(panel(row, region, scene.run.exhibit(&row.trial, "drawn"))?);
+            let region = ask::exhibit(scene, &row.key, "region")?;
+            sheet.add(panel(row, region, scene.run.exhibit(&row.key, "drawn"))?);
         }
         Ok(sheet)
     }
 }
 
 fn panel(row: &Row, region: &Exhibit, drawn: Option<&Exhibit>) -> Result<Panel, RenderError> {
-    let steps = |exhibit: &Exhibit| exhibit.values.chunks(2).map(|s| [s[0], s[1]]).collect::<Vec<_>>();
     let reach = region.values.iter().copied().fold(1.0, f64::max) + 0.6;
     let axis = |label: &str| Axis::linear(label, -reach, reach).map(Axis::whole);
-    let (tried, all) = (steps(drawn.unwrap_or(region)), steps(region));
-    let title = format!("{}: {} of {}", row.contender, tried.len(), all.len());
+    let (tried, all) = (ask::points(drawn.unwrap_or(region)), ask::points(region));
+    let title = format!("{}: {} of {}", row.key.contender, tried.len(), all.len());
     let mut panel =
         Panel::new(title, axis("x (steps)")?, axis("y (steps)")?).trimmed(Trim::Grid).with_equal_scales();
     for &step in &tried {
         panel.add(Line::through(vec![[0.0, 0.0], step], Stroke::solid(BLUE.mixed(WHITE, 0.5), 0.6)));
     }
     let mut points = |points: Vec<[f64; 2]>, color, radius_pt, label: &str| {
-        panel.add(Points { points, marker: Marker::Circle, radius_pt, color, label: label.to_owned() });
+        panel.add(Points::of(points, Marker::Circle, radius_pt, color).labelled(label));
     };
     if drawn.is_some() {
         let left = all.into_iter().filter(|step| !tried.contains(step)).collect();

@@ -3,38 +3,51 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
+use crate::analysis::selection::Selection;
+use crate::analysis::statistic::{box_of, mean, median, quantile};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::BoxStrip;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color};
-use crate::study::record::Status;
+use crate::study::key::SweepKey;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::summary::{mean, median, quantile_type7};
-use std::collections::BTreeMap;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "paired_boxes",
     about: "a metric by query and contender, boxes over the draws on which all compared contenders solve the query, and savings",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = "cell"
+metric = "path_length_mm"
+contenders = ["Original A*", "Improved A*"]
+axis = "group of Table 1"
+savings = ["length.least", "length.greatest"]
+"#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
         ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
-        let metric = crate::analysis::metric::find(&read.metric)
-            .ok_or_else(|| settings.error(format!("there is no metric `{}`", read.metric)))?;
-        let printed = read.savings.iter().flatten().map(|id| ask::printed(settings, paper, id));
-        let printed = printed.collect::<Result<_, _>>()?;
-        Ok(Box::new(PairedBoxes { read, metric, printed }))
+        let metric = ask::metric(settings, &read.metric)?;
+        let printed = ask::all_printed(settings, paper, "savings", read.savings.iter().flatten())?;
+        let sweep = ask::sweep(settings, study, &read.sweep)?;
+        Ok(Box::new(PairedBoxes { read, metric, sweep, printed }))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
+    /// The problem group, by its label.
     problems: String,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
     metric: String,
+    /// The contenders, by their labels.
     contenders: Vec<String>,
+    /// What stands along the axis.
     axis: String,
     /// The point of the sweeps, in a study that has any.
     #[serde(default)]
@@ -47,6 +60,7 @@ struct Read {
 struct PairedBoxes {
     read: Read,
     metric: &'static Metric,
+    sweep: SweepKey,
     /// Printed savings.
     printed: Vec<f64>,
 }
@@ -59,27 +73,23 @@ type ByQuery = Vec<(String, Vec<Vec<f64>>)>;
 
 impl PairedBoxes {
     fn values(&self, scene: &Scene<'_>) -> ByQuery {
+        let (groups, contenders) = (std::slice::from_ref(&self.read.problems), &self.read.contenders);
+        let all = || Selection {
+            metric: Some(self.metric),
+            sweep: Some(self.sweep.clone()),
+            whole_draws: true,
+            ..Selection::of(scene.run.study, groups, contenders)
+        };
         let mut order: Vec<String> = Vec::new();
-        let mut found: BTreeMap<(String, u32), Vec<f64>> = BTreeMap::new();
-        for contender in &self.read.contenders {
-            let rows = scene.run.rows(&self.read.problems, contender).into_iter();
-            for row in rows.filter(|row| row.sweep == self.read.sweep) {
-                let name = ask::query(row).to_owned();
-                if !order.contains(&name) {
-                    order.push(name.clone());
-                }
-                if let (Status::Solved, Some(value)) = (row.status, scene.run.value(row, self.metric)) {
-                    found.entry((name, row.replicate)).or_default().push(value);
-                }
+        for row in contenders.iter().flat_map(|label| all().rows(scene.run, &groups[0], label)) {
+            if !order.iter().any(|name| name == row.query()) {
+                order.push(row.query().to_owned());
             }
         }
-        let contenders = self.read.contenders.len();
         let of_query = |name: String| {
-            let all =
-                found.iter().filter(|((query, _), values)| *query == name && values.len() == contenders);
-            let rows: Vec<&Vec<f64>> = all.map(|(_, values)| values).collect();
-            let columns = (0..contenders).map(|c| rows.iter().map(|row| row[c]).collect()).collect();
-            (name, columns)
+            let draws = Selection { query: Some(name.clone()), ..all() }.draws(scene.evidence);
+            let of = |contender| draws.iter().flat_map(|draw| draw.by(contender).values()).collect();
+            (name, contenders.iter().map(|contender| of(contender)).collect())
         };
         order.into_iter().map(of_query).collect()
     }
@@ -92,7 +102,7 @@ impl PairedBoxes {
         let top =
             values.iter().flat_map(|(_, columns)| columns.iter().flatten()).copied().fold(0.0, f64::max);
         // Single values beyond the whiskers are only drawn where there are strips of them.
-        let whiskers = values.iter().flat_map(|(_, columns)| columns).filter_map(|c| quantile_type7(c, 0.95));
+        let whiskers = values.iter().flat_map(|(_, columns)| columns).filter_map(|c| quantile(c, 0.95));
         let top = if self.has_strips() { top } else { whiskers.fold(0.0, f64::max) };
         let y = Axis::linear(self.metric.title(), 0.0, if top > 0.0 { top * 1.04 } else { 1.0 })?;
         let mut panel = Panel::new("", Axis::names(&self.read.axis, names), y);
@@ -103,7 +113,7 @@ impl PairedBoxes {
                 panel.add(BoxStrip {
                     at: place as f64 - 0.4 + step * (index as f64 + 0.5),
                     width: step * 0.62,
-                    quantiles: quantiles(column),
+                    quantiles: box_of(column),
                     values: if self.has_strips() { column.clone() } else { Vec::new() },
                     color: series_color(ask::series(scene, contender, index)),
                     label: if place == 0 { contender.clone() } else { String::new() },
@@ -146,7 +156,7 @@ impl PairedBoxes {
             panel.add(BoxStrip {
                 at: place as f64,
                 width: 0.5,
-                quantiles: quantiles(&columns[0]),
+                quantiles: box_of(&columns[0]),
                 values: columns[0].clone(),
                 color,
                 label: String::new(),
@@ -154,10 +164,6 @@ impl PairedBoxes {
         }
         Ok(panel)
     }
-}
-
-fn quantiles(values: &[f64]) -> [f64; 5] {
-    [0.05, 0.25, 0.5, 0.75, 0.95].map(|share| quantile_type7(values, share).unwrap_or(f64::NAN))
 }
 
 impl Kind for PairedBoxes {
@@ -190,7 +196,7 @@ impl Kind for PairedBoxes {
                 number(of_query.and_then(|values| median(values)))
             };
             let range = |low: f64, high: f64| {
-                format!("{} to {}", number(quantile_type7(saved, low)), number(quantile_type7(saved, high)))
+                format!("{} to {}", number(quantile(saved, low)), number(quantile(saved, high)))
             };
             let row = [
                 name.clone(),

@@ -1,6 +1,6 @@
 //! A particle's searches on one roadmap in the plane: the first searches of each contender, one panel each.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Note, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
@@ -8,14 +8,21 @@ use crate::render::style::{
     BLACK, BLUE, Dash, Fill, GREEN, GREY, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
 };
 use crate::study::record::Row;
-use crate::study::slug;
-use engine::planner::Exhibit;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "plane_search",
     about: "a particle's searches on one roadmap in the plane: nodes closed so far, shots at the goal, paths",
+    settings: Accepted::of::<PlaneSearch>(),
+    example: r#"
+problems = "plane"
+draw = 13
+radius_mm = 220
+panels = [{ contender = "Original A*", title = "", bare = true }]
+"#,
     build: |settings, study, _paper| {
         let read: PlaneSearch = settings.read()?;
         let contenders: Vec<String> = read.panels.iter().map(|panel| panel.contender.clone()).collect();
@@ -24,21 +31,25 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneSearch {
+    /// The problem group, by its label.
     problems: String,
     /// Which draw of the group.
     draw: u32,
     /// The radius of a neighbourhood.
     radius_mm: f64,
+    /// The panels, in their order.
     panels: Vec<PanelOf>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelOf {
+    /// The contender, by its label.
     contender: String,
+    /// What stands above it.
     title: String,
     /// How many searches are shown; all and the path if absent.
     searches: Option<usize>,
@@ -53,17 +64,21 @@ struct PanelOf {
     bare: bool,
 }
 
-fn points(exhibit: &Exhibit) -> Vec<[f64; 2]> {
-    exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1]]).collect()
-}
-
 impl Kind for PlaneSearch {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        let shown = self.panels.iter().map(|panel| {
+            let contender = (!panel.bare).then_some(panel.contender.as_str());
+            Shown { problems: &self.problems, contender, draw: self.draw }
+        });
+        shown.collect()
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut sheet = Sheet::new(Width::Double, self.panels.len().min(2), 200.0);
         for of in &self.panels {
             let mut panel = self.map(scene, &of.title)?;
             let row = ask::trial(scene, &self.problems, self.draw, None, &of.contender)?;
-            let path = points(ask::exhibit(scene, &row.trial, "path")?);
+            let path = ask::points(ask::exhibit(scene, &row.key, "path")?);
             if !of.bare {
                 match of.straightened {
                     Some(kept) => straightened(&mut panel, scene, row, &path, kept)?,
@@ -79,26 +94,22 @@ impl Kind for PlaneSearch {
 
 impl PlaneSearch {
     fn map(&self, scene: &Scene<'_>, title: &str) -> Result<Panel, RenderError> {
-        let draw = format!("{}/{}", slug(&self.problems), self.draw);
-        let size = ask::exhibit(scene, &draw, "size_mm")?;
+        let draw = ask::draw(scene, &self.problems, self.draw)?;
+        let size = ask::exhibit(scene, draw, "size_mm")?;
         let x = Axis::linear("x (mm)", 0.0, size.values[0])?;
         let mut panel = Panel::new(title, x, Axis::linear("y (mm)", 0.0, size.values[1])?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
-        let corners = ask::exhibit(scene, &draw, "obstacles")?;
+        let corners = ask::exhibit(scene, draw, "obstacles")?;
         let numbered: Vec<[f64; 3]> = corners.values.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
         for obstacle in numbered.chunk_by(|a, b| a[0] == b[0]) {
             let fill = Some(Fill::solid(BLUE.mixed(BLACK, 0.45)));
             let corners = obstacle.iter().map(|c| [c[1], c[2]]).collect();
             panel.add(Shape { corners, fill, stroke: None, label: "obstacle".to_owned() });
         }
-        panel.add(Points {
-            points: points(ask::exhibit(scene, &draw, "samples")?),
-            marker: Marker::Circle,
-            radius_pt: 1.2,
-            color: GREY.mixed(WHITE, 0.35),
-            label: "sample".to_owned(),
-        });
+        let samples = ask::points(ask::exhibit(scene, draw, "samples")?);
+        let samples = Points::of(samples, Marker::Circle, 1.2, GREY.mixed(WHITE, 0.35));
+        panel.add(samples.labelled("sample"));
         Ok(panel)
     }
 
@@ -110,7 +121,7 @@ impl PlaneSearch {
         path: &[[f64; 2]],
         of: &PanelOf,
     ) -> Result<(), RenderError> {
-        let closed = points(ask::exhibit(scene, &row.trial, "closed")?);
+        let closed = ask::points(ask::exhibit(scene, &row.key, "closed")?);
         let all = of.searches.is_none();
         let shown = of.searches.unwrap_or(closed.len()).min(closed.len());
         let Some(goal) = path.last() else { return Ok(()) };
@@ -133,13 +144,7 @@ impl PlaneSearch {
         for (number, at) in picked.iter().enumerate() {
             panel.add(Note::beside(*at, (number + 1).to_string()));
         }
-        panel.add(Points {
-            points: picked,
-            marker: Marker::Circle,
-            radius_pt: 2.6,
-            color: SKY,
-            label: "searched".to_owned(),
-        });
+        panel.add(Points::of(picked, Marker::Circle, 2.6, SKY).labelled("searched"));
         Ok(())
     }
 }
@@ -161,28 +166,15 @@ fn straightened(
     path: &[[f64; 2]],
     kept: usize,
 ) -> Result<(), RenderError> {
-    let raw = points(ask::exhibit(scene, &row.trial, "raw_path")?);
+    let raw = ask::points(ask::exhibit(scene, &row.key, "raw_path")?);
     let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
     panel.add(Line::through(raw.clone(), stroke).labelled("path as searched"));
     let inner = raw[1..raw.len() - 1].to_vec();
-    panel.add(Points {
-        points: inner,
-        marker: Marker::Circle,
-        radius_pt: 2.4,
-        color: SKY,
-        label: "searched".to_owned(),
-    });
+    panel.add(Points::of(inner, Marker::Circle, 2.4, SKY).labelled("searched"));
     let shown = path[..kept.min(path.len())].to_vec();
     if kept > 0 {
         panel.add(Line::through(shown.clone(), Stroke::solid(BLACK, 1.5)).labelled("straightened"));
-        let label = "retained".to_owned();
-        panel.add(Points {
-            points: shown,
-            marker: Marker::Diamond,
-            radius_pt: 2.8,
-            color: VERMILLION,
-            label,
-        });
+        panel.add(Points::of(shown, Marker::Diamond, 2.8, VERMILLION).labelled("retained"));
     }
     Ok(())
 }
@@ -191,6 +183,6 @@ fn ends(panel: &mut Panel, path: &[[f64; 2]]) {
     let ends = [("start", GREEN, path.first()), ("goal", ORANGE, path.last())];
     for (label, color, at) in ends {
         let points = at.into_iter().copied().collect();
-        panel.add(Points { points, marker: Marker::Square, radius_pt: 3.4, color, label: label.to_owned() });
+        panel.add(Points::of(points, Marker::Square, 3.4, color).labelled(label));
     }
 }

@@ -1,6 +1,7 @@
 //! What became of the pairs that roadmaps tried: shares by reason, mean over draws.
 
 use super::{Entry, Kind, Scene, ask};
+use crate::analysis::statistic::mean;
 use crate::render::RenderError;
 use crate::render::canvas::{Align, Stand, Type};
 use crate::render::chart::marks::Note;
@@ -8,12 +9,19 @@ use crate::render::chart::rows::Bars;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Fill, TextSize, Width, series_color};
 use crate::study::record::PreparedRow;
+use base::settings::Accepted;
+use engine::planner::Value;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "rejections",
     about: "what became of the pairs of samples that roadmaps tried, by the first reason: mean share over draws",
+    settings: Accepted::of::<Rejections>(),
+    example: r#"
+problems = ["cell"]
+"#,
     build: |settings, study, _paper| {
         let read: Rejections = settings.read()?;
         ask::known(settings, study, &read.problems, &[])?;
@@ -21,9 +29,10 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Rejections {
+    /// The problem groups, by their labels.
     problems: Vec<String>,
 }
 
@@ -45,12 +54,12 @@ const PANELS: [(&[&str], &str); 2] =
     [(&[], "of all pairs"), (&["rejected_branch"], "of pairs on one branch")];
 
 fn count(row: &PreparedRow, column: &str) -> Option<f64> {
-    row.values.get(column).map(|value| value.as_f64())
+    row.values.get(column).map(Value::as_f64)
 }
 
 impl Rejections {
     fn rows<'s>(scene: &'s Scene<'_>, problems: &str) -> Vec<&'s PreparedRow> {
-        scene.run.records.batch.prepared.iter().filter(|row| row.group == problems).collect()
+        scene.run.prepared(problems).collect()
     }
 
     /// The bars that any roadmap of the figure has pairs for, without those left out.
@@ -78,7 +87,8 @@ impl Rejections {
             let mut bars = Vec::new();
             for (place, (column, _)) in named.iter().enumerate() {
                 let shares: Vec<f64> = rows.iter().filter_map(|row| share(row, column)).collect();
-                let mean = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
+                // Where nothing was counted there is no share, and no bar.
+                let Some(mean) = mean(&shares) else { continue };
                 let left = place as f64 - 0.4 + index as f64 * width;
                 bars.push([left, left + width, mean]);
                 let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Base);

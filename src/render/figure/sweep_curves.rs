@@ -1,89 +1,230 @@
-//! Metrics along a sweep: one panel a metric, one line a contender.
+//! Shares of solved queries or metrics along a sweep, one curve a contender, printed rows on top.
 
-use super::{Entry, Kind, Scene};
-use crate::analysis::metric::{self, Metric};
+use super::{Entry, Kind, Scene, ask};
+use crate::analysis::metric::Metric;
+use crate::analysis::statistic::{band_of_draws, curves_of_draws, mean, plan};
 use crate::render::RenderError;
-use crate::render::chart::marks::Line;
+use crate::render::chart::marks::{Band, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{Width, series_marker, series_stroke};
+use crate::render::style::{
+    Fill, GREY, Stroke, VERMILLION, WHITE, Width, series_color, series_marker, series_stroke,
+};
+use crate::study::Study;
+use crate::study::key::SweepKey;
+use crate::study::paper::Paper;
+use base::settings::{Accepted, Settings, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "sweep_curves",
-    about: "metrics along a sweep, one panel a metric, one line a contender, on a logarithmic scale",
-    build: |settings, study, _paper| {
-        let read: Settings = settings.read()?;
-        super::check_labels(settings, study, &read.contenders, [&read.problem])?;
-        let found = |name: &String| {
-            metric::find(name).ok_or_else(|| settings.error(format!("there is no metric `{name}`")))
-        };
-        let metrics = read.metrics.iter().map(found).collect::<Result<_, _>>()?;
-        if !study.sweeps.iter().any(|sweep| sweep.key == read.along) {
-            return Err(settings.error(format!("the study has no sweep over `{}`", read.along)));
-        }
-        Ok(Box::new(SweepCurves { settings: read, metrics }))
-    },
+    about: "along a sweep: shares of solved queries with simultaneous bands or draw by draw, printed rows on top; or metrics",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = "cell"
+sweep = "samples"
+axis = "samples N"
+rows = [
+    { contender = "Original A*", printed = "t2.original." },
+    { contender = "Improved A*", printed = "t2.improved." },
+]
+"#,
+    build: |settings, study, paper| Ok(Box::new(SweepCurves::new(settings, study, paper)?)),
 };
 
-/// Height of a panel's plot, in points.
-const PLOT_PT: f64 = 165.0;
-
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Settings {
-    /// The problem group.
-    problem: String,
-    /// One line each.
-    contenders: Vec<String>,
-    /// One panel each.
+struct Read {
+    /// The problem group, by its label.
+    problems: String,
+    /// The setting that the study sweeps.
+    sweep: String,
+    /// What stands along the axis.
+    axis: String,
+    /// The contenders that are shown.
+    rows: Vec<ReadRow>,
+    /// Draws every draw's own curve beside their mean, one panel a contender.
+    #[serde(default)]
+    single_draws: bool,
+    /// Metrics on a logarithmic scale, one panel each, in place of shares of solved queries.
+    #[serde(default)]
     metrics: Vec<String>,
-    /// The setting that is swept.
-    along: String,
-    /// Its name on the axis.
-    label: String,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ReadRow {
+    /// The contender, by its label.
+    contender: String,
+    /// What the claims of the printed cells are called before the sweep's value, if a row is printed.
+    printed: Option<String>,
 }
 
 struct SweepCurves {
-    settings: Settings,
+    read: Read,
+    /// The sweep's values as numbers and as records have them.
+    points: Vec<(f64, SweepKey)>,
     metrics: Vec<&'static Metric>,
+    rows: Vec<RowOf>,
+}
+
+/// One contender's curve and its printed row.
+struct RowOf {
+    contender: String,
+    printed: Vec<[f64; 2]>,
+}
+
+/// At most this many draws are drawn one by one, the first ones.
+const DRAWN: usize = 60;
+
+impl SweepCurves {
+    fn new(settings: &Settings, study: &Study, paper: &Paper) -> Result<Self, SettingsError> {
+        let read: Read = settings.read()?;
+        let contenders: Vec<String> = read.rows.iter().map(|row| row.contender.clone()).collect();
+        ask::known(settings, study, std::slice::from_ref(&read.problems), &contenders)?;
+        let metrics =
+            read.metrics.iter().map(|name| ask::metric(settings, name)).collect::<Result<_, _>>()?;
+        if study.sweeps.len() > 1 {
+            let message =
+                format!("study `{}` sweeps more than `{}`, and one sweep is drawn", study.name, read.sweep);
+            return Err(settings.error_at("sweep", message));
+        }
+        let value = |key: &SweepKey| key.value(&read.sweep)?.as_f64();
+        let points = study.sweep_points().into_iter().map(|point| point.key);
+        let points: Vec<(f64, SweepKey)> = points.filter_map(|key| Some((value(&key)?, key))).collect();
+        if points.is_empty() {
+            let message = format!("study `{}` does not sweep numbers of `{}`", study.name, read.sweep);
+            return Err(settings.error_at("sweep", message));
+        }
+        let mut rows = Vec::new();
+        for (index, row) in read.rows.iter().enumerate() {
+            let key = format!("rows.{index}.printed");
+            let cells = row.printed.iter().flat_map(|prefix| {
+                let key = &key;
+                points.iter().map(move |(x, _)| {
+                    ask::printed(settings, paper, key, &format!("{prefix}{x}")).map(|printed| [*x, printed])
+                })
+            });
+            rows.push(RowOf { printed: cells.collect::<Result<_, _>>()?, contender: row.contender.clone() });
+        }
+        Ok(Self { read, points, metrics, rows })
+    }
+
+    /// Each draw's row of shares.
+    fn curves(&self, scene: &Scene<'_>, contender: &str) -> Vec<Vec<f64>> {
+        let share = |(_, at): &(f64, SweepKey)| {
+            ask::solved_percents(scene, scene.run, &self.read.problems, contender, at)
+        };
+        curves_of_draws(&self.points.iter().map(share).collect::<Vec<_>>())
+    }
+
+    /// A curve through these numbers, one a point of the sweep.
+    fn over<T>(&self, values: impl IntoIterator<Item = T>) -> impl Iterator<Item = (f64, T)> {
+        self.points.iter().map(|(x, _)| *x).zip(values)
+    }
+
+    fn panel(&self, title: &str) -> Result<Panel, RenderError> {
+        let (low, high) = (self.points[0].0, self.points[self.points.len() - 1].0);
+        let margin = 0.03 * (high - low);
+        let x = Axis::linear(&self.read.axis, low - margin, high + margin)?;
+        Ok(Panel::new(title, x, Axis::linear("groups solved (%)", -3.0, 103.0)?))
+    }
+
+    fn add_band(
+        &self,
+        scene: &Scene<'_>,
+        panel: &mut Panel,
+        row: &RowOf,
+        place: usize,
+    ) -> Result<(), RenderError> {
+        let index = ask::series(scene, &row.contender, place);
+        let curves = self.curves(scene, &row.contender);
+        let Some(found) = band_of_draws(&curves, plan(&["success_bands", &row.contender])) else {
+            let what = format!("two draws of `{}` on `{}`", row.contender, self.read.problems);
+            return Err(RenderError::NotStored { what });
+        };
+        let edges = self.over(&found.band).map(|(x, b)| [x, b.low.max(0.0), b.high.min(100.0)]).collect();
+        let label = format!("{}: mean of {} draws, 95 % band", row.contender, curves.len());
+        panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.25), label: String::new() });
+        let points = self.over(&found.mean).map(|(x, y)| [x, *y]).collect();
+        panel.add(Line::through(points, series_stroke(index)).labelled(label));
+        if !row.printed.is_empty() {
+            let color = Stroke::solid(series_color(index), 1.0).color;
+            let printed = Points::of(row.printed.clone(), series_marker(index), 3.0, color);
+            panel.add(printed.labelled(format!("{}: printed", row.contender)));
+        }
+        Ok(())
+    }
+
+    fn single_draws(&self, scene: &Scene<'_>, row: &RowOf) -> Result<Panel, RenderError> {
+        let curves = self.curves(scene, &row.contender);
+        let mut panel = self.panel(&row.contender)?;
+        let thin = Stroke::solid(series_color(0).mixed(WHITE, 0.6), 0.35);
+        for (draw, curve) in curves.iter().take(DRAWN).enumerate() {
+            // Equal rows are moved apart by up to a point and a half, so that they can be told.
+            let shift = ((draw as f64 * 0.618_033_988_749_895).fract() - 0.5) * 3.0;
+            let line = Line::through(self.over(curve).map(|(x, y)| [x, y + shift]).collect(), thin);
+            panel.add(line.labelled(if draw == 0 { "one roadmap (first 60)" } else { "" }));
+        }
+        let cells = 0..self.points.len();
+        let average = |cell: usize| mean(&curves.iter().map(|curve| curve[cell]).collect::<Vec<_>>());
+        let means = self.over(cells.map(average)).filter_map(|(x, y)| Some([x, y?])).collect();
+        panel.add(Line::through(means, Stroke::solid(GREY, 1.8)).labelled("mean of all draws"));
+        let printed = Points::of(row.printed.clone(), series_marker(0), 2.8, VERMILLION);
+        panel.add(printed.labelled("printed"));
+        Ok(panel)
+    }
+
+    /// One metric of every trial, whether it was solved or spent its budget.
+    fn metric(&self, scene: &Scene<'_>, metric: &Metric) -> Result<Panel, RenderError> {
+        let curve = |row: &RowOf| -> Vec<[f64; 2]> {
+            let trials = scene.run.rows(&self.read.problems, &row.contender);
+            let point = |trial: &&crate::study::record::Row| {
+                Some([trial.key.sweep.value(&self.read.sweep)?.as_f64()?, scene.run.value(trial, metric)?])
+            };
+            trials.iter().filter_map(point).collect()
+        };
+        let curves: Vec<_> = self.rows.iter().map(curve).collect();
+        let all = || curves.iter().flatten();
+        let low = all().map(|point| point[1]).fold(f64::INFINITY, f64::min);
+        let high = all().map(|point| point[1]).fold(0.0, f64::max);
+        if !(low > 0.0 && high.is_finite()) {
+            return Err(RenderError::NotStored { what: format!("values of `{}`", metric.name) });
+        }
+        let x = Axis::over(self.read.axis.clone(), all().map(|point| point[0]));
+        let mut panel = Panel::new(metric.label, x, Axis::log(metric.title(), low / 1.5, high * 1.5)?);
+        for (index, (curve, row)) in curves.into_iter().zip(&self.rows).enumerate() {
+            let line = Line::through(curve, series_stroke(index)).marked(series_marker(index));
+            panel.add(line.labelled(row.contender.clone()));
+        }
+        Ok(panel)
+    }
 }
 
 impl Kind for SweepCurves {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let note = "A trial that spent its budget shows what it spent.";
-        let mut sheet = Sheet::new(Width::Double, self.metrics.len(), PLOT_PT).noted(note);
-        for metric in &self.metrics {
-            let curves: Vec<Vec<[f64; 2]>> =
-                self.settings.contenders.iter().map(|label| self.curve(scene, label, metric)).collect();
-            let all = || curves.iter().flatten();
-            let (low, high) = all()
-                .fold((f64::INFINITY, 0.0_f64), |(low, high), point| (low.min(point[1]), high.max(point[1])));
-            if !(low > 0.0 && high.is_finite()) {
-                return Err(RenderError::NotStored { what: format!("values of `{}`", metric.name) });
+        if !self.metrics.is_empty() {
+            let note = "A trial that spent its budget shows what it spent.";
+            let mut sheet = Sheet::new(Width::Double, self.metrics.len(), 165.0).noted(note);
+            for metric in &self.metrics {
+                sheet.add(self.metric(scene, metric)?);
             }
-            let x = Axis::over(self.settings.label.clone(), all().map(|point| point[0]));
-            let y = Axis::log(metric.title(), low / 1.5, high * 1.5)?;
-            let mut panel = Panel::new(metric.label, x, y);
-            for (index, (curve, label)) in curves.into_iter().zip(&self.settings.contenders).enumerate() {
-                let line = Line::through(curve, series_stroke(index)).marked(series_marker(index));
-                panel.add(line.labelled(label.clone()));
-            }
-            sheet.add(panel);
+            return Ok(sheet);
         }
+        if self.read.single_draws {
+            let mut sheet = Sheet::new(Width::Double, self.rows.len(), 170.0);
+            for row in &self.rows {
+                sheet.add(self.single_draws(scene, row)?);
+            }
+            return Ok(sheet);
+        }
+        let mut panel = self.panel("")?;
+        for (place, row) in self.rows.iter().enumerate() {
+            self.add_band(scene, &mut panel, row, place)?;
+        }
+        let mut sheet = Sheet::new(Width::Double, 1, 210.0);
+        sheet.add(panel);
         Ok(sheet)
-    }
-}
-
-impl SweepCurves {
-    /// (value of the sweep, metric), in the sweep's order.
-    fn curve(&self, scene: &Scene<'_>, contender: &str, metric: &Metric) -> Vec<[f64; 2]> {
-        let prefix = format!("{}=", self.settings.along);
-        let rows = scene.run.rows(&self.settings.problem, contender);
-        let points = rows.iter().filter_map(|row| {
-            let part = row.sweep.split(',').find_map(|part| part.strip_prefix(&prefix))?;
-            Some([part.parse().ok()?, scene.run.value(row, metric)?])
-        });
-        points.collect()
     }
 }

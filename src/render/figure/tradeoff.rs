@@ -1,18 +1,31 @@
-//! One metric against another, a point a contender: means over the same problems with intervals both ways.
+//! One metric against another, a point a contender: means over the same problems with intervals both ways, or every trial
+//! with the medians.
 
-use super::{Entry, Kind, Scene, check_labels};
-use crate::analysis::effect::{mean, solved_by_all};
-use crate::analysis::metric::{self, Metric};
+use super::{Entry, Kind, Scene, ask, check_labels};
+use crate::analysis::metric::Metric;
+use crate::analysis::selection::{Draw, Selection};
+use crate::analysis::statistic::{OfAll, median, plan};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{GREY, INK, SERIES, Stroke, Width, series_color, series_marker};
+use crate::render::style::{BLACK, SERIES, Stroke, WHITE, Width, series_color, series_marker};
+use crate::study::record::{Row, Status};
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::bootstrap::Estimate;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "tradeoff",
-    about: "one metric against another, a point a contender, with intervals both ways; one panel a list of problems",
+    about: "one metric against another, a point a contender: means with intervals both ways, or all trials and their medians",
+    settings: Accepted::of::<Tradeoff>(),
+    example: r#"
+x = "opened"
+y = "path_cost_cells"
+contenders = ["A*", "Improved A*"]
+panels = [{ title = "simple", problems = ["simple cells", "simple rectangles", "simple bars"] }]
+"#,
     build: |settings, study, _paper| {
         let read: Tradeoff = settings.read()?;
         check_labels(
@@ -21,53 +34,64 @@ pub static ENTRY: Entry = Entry {
             &read.contenders,
             read.panels.iter().flat_map(|panel| &panel.problems),
         )?;
-        for name in [&read.x, &read.y] {
-            if !metric::find(name).is_some_and(|metric| study.columns().contains(metric.column)) {
-                let message = format!("study `{}` does not produce the metric `{name}`", study.name);
-                return Err(settings.error(message));
-            }
-        }
-        Ok(Box::new(read))
+        let metrics = [ask::produced(settings, study, &read.x)?, ask::produced(settings, study, &read.y)?];
+        Ok(Box::new(Ready { read, metrics }))
     },
 };
 
-/// Height of a panel's plot, in points.
-const PLOT_PT: f64 = 150.0;
-
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Tradeoff {
+    /// The metric along the horizontal axis.
     x: String,
+    /// The metric along the vertical axis.
     y: String,
+    /// The contenders, by their labels.
     contenders: Vec<String>,
+    /// The panels, in their order.
     panels: Vec<PanelSpec>,
+    /// Every trial as a point and medians, failures infinite, on a logarithmic axis, in place of means.
+    #[serde(default)]
+    trials: bool,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PanelSpec {
+    /// What stands above it.
     title: String,
+    /// The problem groups, by their labels.
     problems: Vec<String>,
 }
 
-impl Tradeoff {
-    fn panel(&self, scene: &Scene<'_>, spec: &PanelSpec, [x, y]: [&Metric; 2]) -> Panel {
-        let solved = solved_by_all(scene.run, &spec.problems, &self.contenders);
-        let both = |contender: &String| {
-            let of = |metric| mean(scene.run, &solved[contender], contender, metric);
-            of(x).zip(of(y))
+struct Ready {
+    read: Tradeoff,
+    metrics: [&'static Metric; 2],
+}
+
+impl Ready {
+    /// Means over the draws that every contender solved.
+    fn means(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Panel {
+        let draws = self.metrics.map(|metric| {
+            let all = Selection::of(scene.run.study, &spec.problems, &self.read.contenders);
+            Selection { metric: Some(metric), whole_draws: true, ..all }.draws(scene.evidence)
+        });
+        let mean = |contender: &String, axis: usize| -> Option<Estimate> {
+            let own: Vec<Draw<'_>> = draws[axis].iter().map(|draw| draw.by(contender)).collect();
+            OfAll::Mean.of(&own, plan(&[&scene.run.study.name, contender, self.metrics[axis].name]))
         };
-        let points: Vec<_> = self.contenders.iter().map(both).collect();
-        let maps = solved.values().next().map_or(0, Vec::len);
-        let found = || points.iter().flatten();
-        let across = found().flat_map(|(a, _)| [a.interval.low, a.interval.high]);
-        let up = found().flat_map(|(_, b)| [b.interval.low, b.interval.high]);
-        let title = format!("{}, {maps} maps", spec.title);
-        let mut panel = Panel::new(&title, Axis::over(x.title(), across), Axis::over(y.title(), up));
-        for (index, (contender, point)) in self.contenders.iter().zip(&points).enumerate() {
+        let both = |contender: &String| mean(contender, 0).zip(mean(contender, 1));
+        let points: Vec<_> = self.read.contenders.iter().map(both).collect();
+        let ends = |axis: usize| {
+            let of = move |(a, b): &(Estimate, Estimate)| [a.interval, b.interval][axis];
+            points.iter().flatten().map(of).flat_map(|interval| [interval.low, interval.high])
+        };
+        let title = format!("{}, {} maps", spec.title, draws[0].len());
+        let [x, y] = [0, 1].map(|axis| Axis::over(self.metrics[axis].title(), ends(axis)));
+        let mut panel = Panel::new(title, x, y);
+        for (contender, point) in self.read.contenders.iter().zip(&points) {
             let Some((a, b)) = point else { continue };
-            let color = if index < SERIES.len() { series_color(index) } else { GREY.mixed(INK, 0.3) };
-            let stroke = Stroke::solid(color, 0.9);
+            let index = ask::place(scene, contender);
             let cross = vec![
                 [a.interval.low, b.value],
                 [a.interval.high, b.value],
@@ -75,24 +99,72 @@ impl Tradeoff {
                 [a.value, b.interval.low],
                 [a.value, b.interval.high],
             ];
-            panel.add(Line::through(cross, stroke));
-            // One marker on for each round of the colours, so that no two are alike.
-            let marker = series_marker(index + index / SERIES.len());
-            let points = vec![[a.value, b.value]];
-            panel.add(Points { points, marker, radius_pt: 3.0, color, label: contender.clone() });
+            let point = marked(vec![[a.value, b.value]], 3.0, index, 0.0);
+            panel.add(Line::through(cross, Stroke::solid(point.color, 0.9)));
+            panel.add(point.labelled(contender));
         }
         panel
     }
+
+    /// Every trial, and the medians of each contender, failures at infinity.
+    fn trials(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Result<Panel, RenderError> {
+        let both = |row: &Row| {
+            let solved = row.status == Status::Solved;
+            let value = |metric| if solved { scene.run.value(row, metric) } else { Some(f64::INFINITY) };
+            Some([value(self.metrics[0])?, value(self.metrics[1])?])
+        };
+        let of = |label: &String| -> Vec<[f64; 2]> {
+            let rows = spec.problems.iter().flat_map(|problem| scene.run.rows(problem, label));
+            rows.filter_map(both).collect()
+        };
+        let series: Vec<(&String, Vec<[f64; 2]>)> =
+            self.read.contenders.iter().map(|label| (label, of(label))).collect();
+        let shown = |axis: usize| {
+            let values = series.iter().flat_map(|(_, points)| points).map(move |point| point[axis]);
+            values.filter(|value| value.is_finite())
+        };
+        let low = shown(0).fold(f64::INFINITY, f64::min).max(1.0);
+        let x = Axis::log(self.metrics[0].title(), low / 1.3, shown(0).fold(low, f64::max) * 1.3)?;
+        let y = Axis::over(self.metrics[1].title(), shown(1));
+        let mut panel = Panel::new(title(&spec.title, &series), x, y);
+        for (label, all) in series.iter().filter(|(_, all)| all.len() > 1) {
+            panel.add(marked(all.clone(), 0.9, ask::place(scene, label), 0.45));
+        }
+        for (label, all) in &series {
+            let middle = [0, 1].map(|axis| median(&all.iter().map(|point| point[axis]).collect::<Vec<_>>()));
+            let at = middle[0].zip(middle[1]).map(|(x, y)| [x, y]);
+            panel.add(marked(at.into_iter().collect(), 3.6, ask::place(scene, label), 0.0).labelled(*label));
+        }
+        Ok(panel)
+    }
 }
 
-impl Kind for Tradeoff {
+impl Kind for Ready {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let metrics = [&self.x, &self.y]
-            .map(|name| metric::find(name).expect("the metric was found when the settings were read"));
-        let mut sheet = Sheet::new(Width::Double, self.panels.len(), PLOT_PT);
-        for panel in &self.panels {
-            sheet.add(self.panel(scene, panel, metrics));
+        let height = if self.read.trials { 190.0 } else { 150.0 };
+        let mut sheet = Sheet::new(Width::Double, self.read.panels.len(), height);
+        for panel in &self.read.panels {
+            sheet.add(if self.read.trials { self.trials(scene, panel)? } else { self.means(scene, panel) });
+        }
+        if self.read.trials {
+            return Ok(sheet);
         }
         Ok(sheet.noted("Means over the maps that every contender solved, with 95 % bootstrap intervals of each mean over maps."))
     }
+}
+
+/// The title with who fails: failures are at infinity and show nowhere else.
+fn title(title: &str, series: &[(&String, Vec<[f64; 2]>)]) -> String {
+    let failed = |all: &[[f64; 2]]| all.iter().filter(|point| point[1].is_infinite()).count();
+    let said = series.iter().filter(|(_, all)| failed(all) > 0);
+    let said: Vec<String> =
+        said.map(|(label, all)| format!("{label} fails in {} of {}", failed(all), all.len())).collect();
+    if said.is_empty() { title.to_owned() } else { format!("{title}; {}", said.join(", ")) }
+}
+
+/// Points of the contender at place `index`: colours come round after seven, darker, and the marker moves on by one.
+fn marked(points: Vec<[f64; 2]>, radius_pt: f64, index: usize, pale: f64) -> Points {
+    let round = index / SERIES.len();
+    let color = series_color(index).mixed(BLACK, if round == 0 { 0.0 } else { 0.4 });
+    Points::of(points, series_marker(index + round), radius_pt, color.mixed(WHITE, pale))
 }

@@ -1,55 +1,68 @@
 //! From a spec to checked types: what is wrong is said with file, line, column, what was found and what is accepted.
 
+use super::super::contender::StageUse;
+use super::super::error::StudyError;
+use super::super::family::Family;
+use super::super::group::Families;
+use super::super::inputs::Inputs;
+use super::super::name::{self, slug};
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
-use super::{
-    Build, Contender, Family, Group, Inputs, Reading, ReadingChoice, Settings, StageUse, Study, StudyError,
-    Sweep, SweepPoint, slug,
-};
-use base::settings::{Document, SettingsError};
-use engine::planner;
+use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint};
+use base::settings::{Document, Faults, SettingsError, Spanned, did_you_mean, none_called};
+use engine::planner::{self, Build};
 use engine::space::roadmap::Extent;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
-use toml::{Spanned, Table};
+use toml::Table;
 
 impl Study {
     /// Reads and checks the study in `path`.
     ///
     /// # Errors
     /// Every name that does not exist, every settings table that its entry does not understand, every label
-    /// that is used twice: with file, line, column, what was found and what is accepted.
+    /// that is used twice: all of them at once, each with file, line, column, what was found and what is accepted.
     pub fn load(path: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
         let document = Document::open(path)?;
         let spec: StudySpec = document.read()?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let study = Self::resolve(name, spec, &document)?;
-        study.check(inputs)?;
+        let mut faults = Faults::default();
+        let study = Self::resolve(name, spec, &document, &mut faults);
+        study.check(inputs, &mut faults)?;
+        faults.done()?;
         Ok(study)
     }
 
-    fn resolve(name: String, spec: StudySpec, document: &Arc<Document>) -> Result<Self, StudyError> {
-        unique(document, "problem group", spec.problems.iter().map(|p| &p.label))?;
-        unique(document, "contender", spec.contenders.iter().map(|c| &c.label))?;
-        unique(document, "reading", spec.readings.iter().map(|r| &r.id))?;
-        unique(document, "figure", spec.figures.iter().map(|f| &f.id))?;
-        let task = match &spec.task {
-            None => task::default(),
-            Some(task) => look_up(document, "task", task, task::find, task::REGISTRY.iter().map(|e| e.name))?,
-        };
-        Ok(Self {
+    /// The study as far as its names exist; what does not goes to `faults`.
+    fn resolve(name: String, spec: StudySpec, document: &Arc<Document>, faults: &mut Faults) -> Self {
+        unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
+        unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
+        unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
+        unique(document, "figure", spec.figures.iter().map(|f| &f.id), faults);
+        check_selections(&spec, document, faults);
+        let named = spec
+            .task
+            .as_ref()
+            .map(|task| look_up(document, "task", task, task::find, task::REGISTRY.iter().map(|e| e.name)));
+        Self {
             name,
             paper: spec.paper.into_inner(),
             question: spec.question,
             seed: spec.seed,
-            task,
-            task_settings: optional(document, spec.task_settings.as_ref(), "task_settings"),
+            task: named.and_then(|named| faults.keep(named)).unwrap_or_else(task::default),
+            task_settings: optional(
+                document,
+                spec.task_settings.as_ref(),
+                spec.task.as_ref().map_or(0..0, Spanned::span),
+                "task_settings",
+            ),
             searched: spec.searched,
             fitted_to: spec.fitted_to.into_iter().map(Spanned::into_inner).collect(),
-            groups: spec.problems.iter().map(|p| group(document, p)).collect::<Result<_, _>>()?,
-            contenders: spec.contenders.iter().map(|c| contender(document, c)).collect::<Result<_, _>>()?,
+            groups: spec.problems.iter().filter_map(|p| faults.keep(group(document, p))).collect(),
+            contenders: spec.contenders.iter().filter_map(|c| faults.keep(contender(document, c))).collect(),
             sweeps: spec.sweeps.into_iter().map(sweep).collect(),
             readings: spec.readings.into_iter().map(reading).collect(),
             explore: spec.explore,
@@ -59,38 +72,101 @@ impl Study {
             quick: spec.quick,
             figures: spec.figures,
             document: document.clone(),
-        })
+        }
     }
 
     /// Builds everything once under every single option, so that nothing can fail for its settings later.
-    fn check(&self, inputs: &Inputs) -> Result<(), StudyError> {
+    fn check(&self, inputs: &Inputs, faults: &mut Faults) -> Result<(), StudyError> {
         let path = self.document.path();
         let absolute = fs::canonicalize(path).map_err(StudyError::io(path, "opening the study"))?;
         let folder = absolute.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
         if folder != self.paper {
             let message =
                 format!("`paper` is `{}`, but the study lies in the folder of `{folder}`", self.paper);
-            return Err(self.document.error(self.key_span("paper"), message).into());
+            faults.add(self.document.error_at("paper", message));
         }
-        if [Some(self.budget), self.quick.budget].iter().flatten().any(|budget| budget.expansions == 0) {
-            let message = "expansions is 0; a budget of at least 1 is accepted";
-            return Err(self.document.error(self.key_span("expansions"), message).into());
+        faults.keep((self.task.build)(&self.task_settings));
+        faults.keep((self.task.build)(&self.quick_task_settings()));
+        if faults.is_empty() {
+            self.check_sweeps(faults);
         }
-        (self.task.build)(&self.task_settings)?;
-        (self.task.build)(&self.quick_task_settings())?;
-        self.check_sweeps()?;
-        self.check_selections()?;
-        self.single_options()?.iter().try_for_each(|point| self.check_point(point, inputs))
+        if !self.check_defaults(faults) {
+            return Ok(());
+        }
+        match self.single_options() {
+            Ok(points) => {
+                let mut known = Families::default();
+                let mut check = |point| self.check_point(point, inputs, &mut known, faults);
+                points.iter().try_for_each(&mut check)?;
+                if faults.is_empty() {
+                    self.check_ends(&points[0], inputs, &mut known, faults)
+                } else {
+                    Ok(())
+                }
+            }
+            Err(error) => keep(faults, Err(error)).map(|_: Option<()>| ()),
+        }
     }
 
-    fn check_point(&self, point: &ReadingChoice, inputs: &Inputs) -> Result<(), StudyError> {
-        let families: Vec<Box<dyn Family>> =
-            self.groups.iter().map(|group| group.family(point, inputs)).collect::<Result<_, _>>()?;
-        let kinds: BTreeSet<_> = families.iter().map(|family| family.world()).collect();
+    /// Whether each reading's default is one of its options.
+    fn check_defaults(&self, faults: &mut Faults) -> bool {
+        let mut is_right = true;
+        for (index, reading) in self.readings.iter().enumerate() {
+            let (id, default) = (&reading.id, &reading.default);
+            if !reading.options.contains_key(default) {
+                let known: Vec<&str> = reading.options.keys().map(String::as_str).collect();
+                let hint = did_you_mean(default, known.iter().copied());
+                let message =
+                    format!("reading `{id}` has no option `{default}`{hint}; it has {}", known.join(", "));
+                faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
+                is_right = false;
+            }
+        }
+        is_right
+    }
+
+    /// Refuses problems whose start or goal is in collision under the default reading.
+    ///
+    /// Under other readings, and in groups that vary another group of their family, an end may be in collision: the
+    /// trials are then rows that say so.
+    fn check_ends(
+        &self,
+        default: &ReadingChoice,
+        inputs: &Inputs,
+        known: &mut Families,
+        faults: &mut Faults,
+    ) -> Result<(), StudyError> {
+        let mut posed = BTreeMap::new();
+        for group in &self.groups {
+            let ends = known.of(group, default, inputs)?.check_ends();
+            let of_family = posed.entry(group.family.name).or_insert(ends.clone());
+            if ends.is_ok() {
+                *of_family = ends;
+            }
+        }
+        for ends in posed.into_values() {
+            faults.keep(ends);
+        }
+        Ok(())
+    }
+
+    fn check_point(
+        &self,
+        point: &ReadingChoice,
+        inputs: &Inputs,
+        known: &mut Families,
+        faults: &mut Faults,
+    ) -> Result<(), StudyError> {
+        let mut families: Vec<(&Group, Arc<dyn Family>)> = Vec::new();
+        for group in &self.groups {
+            families.extend(keep(faults, known.of(group, point, inputs))?.map(|family| (group, family)));
+        }
+        let kinds: BTreeSet<_> = families.iter().map(|(_, family)| family.world()).collect();
         for contender in &self.contenders {
             for sweep in self.sweep_points() {
-                let planner = contender.pipeline(point, &sweep)?.planner;
-                self.check_extent(contender, &sweep, planner.asks(), &families)?;
+                if let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) {
+                    faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), &families));
+                }
             }
             for stage in &contender.stages {
                 if let Some(kind) = kinds.iter().find(|kind| !kind.serves(stage.entry.needs)) {
@@ -101,86 +177,98 @@ impl Study {
                         stage.entry.needs.name(),
                         kind.name()
                     );
-                    return Err(stage.settings.error(message).into());
+                    faults.add(self.document.error(stage.named.clone(), message));
                 }
             }
         }
         Ok(())
     }
 
-    /// A planner that asks for more of a roadmap than there is would make nothing but invalid rows.
-    fn check_extent(
-        &self,
-        contender: &Contender,
-        sweep: &SweepPoint,
-        asked: Option<Extent>,
-        families: &[Box<dyn Family>],
-    ) -> Result<(), StudyError> {
-        for (group, family) in self.groups.iter().zip(families) {
-            let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));
-            let Some(lack) = lack else { continue };
-            let swept = if sweep.name.is_empty() { String::new() } else { format!(" at {}", sweep.name) };
-            let message =
-                format!("contender `{}`{swept} on problems `{}`: {lack}", contender.label, group.label);
-            return Err(contender.stages[0].settings.error(message).into());
-        }
-        Ok(())
-    }
-
-    fn check_sweeps(&self) -> Result<(), StudyError> {
-        for sweep in &self.sweeps {
+    fn check_sweeps(&self, faults: &mut Faults) {
+        let mut keys = BTreeSet::new();
+        for (index, sweep) in self.sweeps.iter().enumerate() {
+            let wrong = if sweep.key_values().is_none() {
+                Some("has a value that is neither a number nor a word nor a truth value")
+            } else {
+                (!keys.insert(&sweep.key)).then_some("is the second over this setting; one is accepted")
+            };
+            if let Some(wrong) = wrong {
+                let message = format!("sweep `{}` {wrong}", sweep.key);
+                faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
+                continue;
+            }
             let used: BTreeSet<&str> = self.stage_names();
             if !used.contains(sweep.of.as_str()) {
+                let hint = did_you_mean(&sweep.of, used.iter().copied());
                 let message = format!(
-                    "sweep `{}` is over `{}`, which no contender uses; they use {}",
+                    "sweep `{}` is over `{}`, which no contender uses{hint}; they use {}",
                     sweep.key,
                     sweep.of,
                     Vec::from_iter(used).join(", ")
                 );
-                return Err(self.document.error(self.key_span("sweep"), message).into());
+                faults.add(self.document.error_at(&format!("sweep.{index}.of"), message));
             }
         }
-        Ok(())
-    }
-
-    fn check_selections(&self) -> Result<(), StudyError> {
-        let shown = self.figures.iter().flat_map(|figure| &figure.shows);
-        for selection in shown.chain(&self.keeps) {
-            let labels = || self.groups.iter().map(|g| g.label.as_str()).collect::<Vec<_>>().join(", ");
-            if !self.groups.iter().any(|group| group.label == selection.problems) {
-                let message =
-                    format!("no problem group is called `{}`; they are {}", selection.problems, labels());
-                return Err(self.document.error(self.text_span(&selection.problems), message).into());
-            }
-            let Some(wanted) = &selection.contender else { continue };
-            if !self.contenders.iter().any(|contender| contender.label == *wanted) {
-                let known: Vec<&str> = self.contenders.iter().map(|c| c.label.as_str()).collect();
-                let message = format!("no contender is called `{wanted}`; they are {}", known.join(", "));
-                return Err(self.document.error(self.text_span(wanted), message).into());
-            }
-        }
-        Ok(())
     }
 
     fn stage_names(&self) -> BTreeSet<&'static str> {
         self.contenders.iter().flat_map(|c| &c.stages).map(|stage| stage.entry.name).collect()
     }
+}
 
-    /// Where `key` is first set, or its first table; comments may have the word as well.
-    pub(super) fn key_span(&self, key: &str) -> std::ops::Range<usize> {
-        let text = self.document.text();
-        let begins_line =
-            |at: &usize| text[..*at].rsplit('\n').next().is_some_and(|line| line.trim().is_empty());
-        let is_set = |at: &usize| text[*at + key.len()..].trim_start().starts_with('=');
-        let places = || text.match_indices(key).map(|(at, _)| at).filter(is_set);
-        let table = || text.find(&format!("[{key}"));
-        let at = places().find(begins_line).or_else(|| places().next()).or_else(table).unwrap_or(0);
-        at..at + key.len()
+/// The value, if there is one; what is wrong with the study's text goes to `faults`, any other error is passed on.
+fn keep<T>(faults: &mut Faults, result: Result<T, StudyError>) -> Result<Option<T>, StudyError> {
+    match result {
+        Ok(value) => Ok(Some(value)),
+        Err(StudyError::Settings(fault)) => {
+            faults.add(fault);
+            Ok(None)
+        }
+        Err(other) => Err(other),
     }
+}
 
-    fn text_span(&self, text: &str) -> std::ops::Range<usize> {
-        let at = self.document.text().rfind(&format!("\"{text}\"")).unwrap_or(0);
-        at..at + text.len()
+/// A planner that asks for more of a roadmap than there is would make nothing but invalid rows.
+fn check_extent(
+    contender: &Contender,
+    sweep: &SweepPoint,
+    asked: Option<Extent>,
+    families: &[(&Group, Arc<dyn Family>)],
+) -> Result<(), SettingsError> {
+    for (group, family) in families {
+        let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));
+        let Some(lack) = lack else { continue };
+        let at = name::sweep(&sweep.key);
+        let swept = if at.is_empty() { at } else { format!(" at {at}") };
+        let message = format!("contender `{}`{swept} on problems `{}`: {lack}", contender.label, group.label);
+        return Err(contender.stages[0].settings.error(message));
+    }
+    Ok(())
+}
+
+/// Trials that figures show or that are kept are of problem groups and contenders that there are.
+fn check_selections(spec: &StudySpec, document: &Document, faults: &mut Faults) {
+    let groups: Vec<&str> = spec.problems.iter().map(|group| group.label.get_ref().as_str()).collect();
+    let contenders: Vec<&str> = spec.contenders.iter().map(|c| c.label.get_ref().as_str()).collect();
+    let mut check = |what: &str, known: &[&str], name: &str, place: String| {
+        if !known.contains(&name) {
+            let hint = did_you_mean(name, known.iter().copied());
+            let message = format!("no {what} is called `{name}`{hint}; they are {}", known.join(", "));
+            faults.add(document.error_at(&place, message));
+        }
+    };
+    let shown = spec.figures.iter().enumerate().flat_map(|(figure, spec)| {
+        spec.shows
+            .iter()
+            .enumerate()
+            .map(move |(index, trials)| (format!("figure.{figure}.shows.{index}"), trials))
+    });
+    let kept = spec.keeps.iter().enumerate().map(|(index, trials)| (format!("keep.{index}"), trials));
+    for (place, trials) in shown.chain(kept) {
+        check("problem group", &groups, &trials.problems, format!("{place}.problems"));
+        if let Some(contender) = &trials.contender {
+            check("contender", &contenders, contender, format!("{place}.contender"));
+        }
     }
 }
 
@@ -188,21 +276,20 @@ fn unique<'a>(
     document: &Document,
     what: &str,
     labels: impl Iterator<Item = &'a Spanned<String>>,
-) -> Result<(), SettingsError> {
+    faults: &mut Faults,
+) {
     let mut seen = BTreeSet::new();
     for label in labels {
         let slug = slug(label.get_ref());
         if slug.is_empty() {
             let message = format!("{what} `{}` has no letter or digit in its name", label.get_ref());
-            return Err(document.error(label.span(), message));
-        }
-        if !seen.insert(slug.clone()) {
+            faults.add(document.error(label.span(), message));
+        } else if !seen.insert(slug.clone()) {
             let message =
                 format!("{what} `{}` is the second to be called `{slug}` in trial names", label.get_ref());
-            return Err(document.error(label.span(), message));
+            faults.add(document.error(label.span(), message));
         }
     }
-    Ok(())
 }
 
 fn look_up<T>(
@@ -212,19 +299,17 @@ fn look_up<T>(
     find: impl Fn(&str) -> Option<T>,
     known: impl Iterator<Item = &'static str>,
 ) -> Result<T, SettingsError> {
-    find(name.get_ref()).ok_or_else(|| {
-        let known: Vec<&str> = known.collect();
-        let message =
-            format!("there is no {what} `{}`; the known ones are {}", name.get_ref(), known.join(", "));
-        document.error(name.span(), message)
-    })
+    find(name.get_ref()).ok_or_else(|| document.error(name.span(), none_called(what, name.get_ref(), known)))
 }
 
-fn optional(document: &Arc<Document>, table: Option<&Spanned<Table>>, whose: &str) -> Settings {
-    match table {
-        Some(table) => Settings::written(document, table),
-        None => Settings::composed(format!("{}: {whose}", document.path().display()), Table::new()),
-    }
+/// The settings in `table`; without it, empty ones of what is named `at`.
+fn optional(
+    document: &Arc<Document>,
+    table: Option<&Spanned<Table>>,
+    at: Range<usize>,
+    whose: &str,
+) -> Settings {
+    table.map_or_else(|| Settings::absent(document, at, whose), |table| Settings::written(document, table))
 }
 
 fn sweep(spec: SweepSpec) -> Sweep {
@@ -247,26 +332,21 @@ fn reading(spec: ReadingSpec) -> Reading {
 
 fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
     let known = family::REGISTRY.iter().map(|entry| entry.name);
-    let replicates = spec.replicates.as_ref().map_or(1, |replicates| *replicates.get_ref());
-    if let (0, Some(written)) = (replicates, &spec.replicates) {
-        return Err(document.error(written.span(), "replicates is 0; at least 1 is accepted"));
-    }
+    let replicates = spec.replicates.unwrap_or(1);
+    let family = look_up(document, "problem family", &spec.family, family::find, known)?;
     Ok(Group {
         label: spec.label.get_ref().clone(),
-        family: look_up(document, "problem family", &spec.family, family::find, known)?,
+        family,
         replicates,
         draw: spec.draw.clone(),
         is_numbered: replicates > 1,
-        settings: Settings::written(document, &spec.settings),
+        settings: Settings::written(document, &spec.settings).completed(family.settings),
     })
 }
 
 fn contender(document: &Arc<Document>, spec: &ContenderSpec) -> Result<Contender, SettingsError> {
     let label = spec.label.get_ref();
-    let repeats = spec.repeats.as_ref().map_or(1, |repeats| *repeats.get_ref());
-    if let (0, Some(written)) = (repeats, &spec.repeats) {
-        return Err(document.error(written.span(), "repeats is 0; at least 1 is accepted"));
-    }
+    let repeats = spec.repeats.unwrap_or(1);
     let mut stages = vec![stage(document, label, &spec.planner, spec.settings.as_ref(), true)?];
     for StageSpec { stage: name, settings } in &spec.then {
         stages.push(stage(document, label, name, settings.as_ref(), false)?);
@@ -292,12 +372,14 @@ fn stage(
     let known: Vec<&str> = planner::REGISTRY.iter().filter(|e| fits(e)).map(|e| e.name).collect();
     let entry = planner::find(name.get_ref()).filter(|entry| fits(entry)).ok_or_else(|| {
         let message = format!(
-            "contender `{label}` asks for {what} `{}`, which does not exist; the {what}s are {}",
+            "contender `{label}` asks for {what} `{}`, which does not exist{}; the {what}s are {}",
             name.get_ref(),
+            did_you_mean(name.get_ref(), known.iter().copied()),
             known.join(", ")
         );
         document.error(name.span(), message)
     })?;
-    let settings = optional(document, settings, &format!("contender `{label}`, {what} `{}`", entry.name));
-    Ok(StageUse { entry, settings })
+    let whose = format!("contender `{label}`, {what} `{}`", entry.name);
+    let settings = optional(document, settings, name.span(), &whose).completed(entry.settings);
+    Ok(StageUse { entry, named: name.span(), settings })
 }

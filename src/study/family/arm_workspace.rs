@@ -5,10 +5,11 @@ use crate::study::StudyError;
 use crate::study::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::ARM_COLUMNS;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::kinematics::planar_2r::Planar2r;
 use engine::planner::Invalid;
 use engine::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -18,6 +19,23 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: workspace_map::ENTRY.name,
     columns: ARM_COLUMNS,
+    settings: Accepted::of::<ArmWorkspace>(),
+    example: r#"
+links_cm = [30, 20]
+x_cm = [-50, 50]
+y_cm = [0, 50]
+step_cm = 1
+inner_radius_cm = 20
+elbow = "negative_theta2"
+touching = "collides"
+hop_check = "end_points"
+corner_rule = "allow"
+obstacle_diameter_cm = 10
+obstacle_shapes = ["circle"]
+obstacles_cm = []
+start_cm = [49, 3]
+goal_cm = [0, 45]
+"#,
     build: |settings, _inputs| {
         let read: ArmWorkspace = settings.read()?;
         let posed = read.posed(settings)?;
@@ -25,41 +43,52 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmWorkspace {
+    /// The lengths of the two links.
     links_cm: [f64; 2],
+    /// The least and the greatest x of the lattice.
     x_cm: [f64; 2],
+    /// The least and the greatest y of the lattice.
     y_cm: [f64; 2],
+    /// The side of a lattice cell.
     step_cm: f64,
+    /// How far the tip must stay from the base.
     inner_radius_cm: f64,
+    /// On which side the elbow is.
     elbow: ElbowSetting,
+    /// Whether touching an obstacle counts as a collision.
     touching: TouchSetting,
+    /// How the move between neighbouring cells is checked.
     hop_check: HopSetting,
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
+    /// The diameter of every obstacle.
     obstacle_diameter_cm: f64,
     /// One shape for all obstacles, or one for each.
     obstacle_shapes: Vec<ShapeSetting>,
+    /// x and y of the middle of each obstacle.
     obstacles_cm: Vec<[f64; 2]>,
     /// Absent, as the goal, where the study looks for both.
     start_cm: Option<[f64; 2]>,
+    /// x and y of the goal; absent where the study looks for it.
     goal_cm: Option<[f64; 2]>,
 }
 
 impl ArmWorkspace {
     fn posed(&self, settings: &Settings) -> Result<Posed, SettingsError> {
-        let refuse = |message: String| settings.error(message);
+        let refuse = |key: &'static str| move |message: String| settings.error_at(key, message);
         if !(self.inner_radius_cm.is_finite() && self.inner_radius_cm >= 0.0) {
-            return Err(refuse(format!(
-                "inner_radius_cm is {}; 0 or more is accepted",
-                self.inner_radius_cm
-            )));
+            let message = format!("inner_radius_cm is {}; 0 or more is accepted", self.inner_radius_cm);
+            return Err(refuse("inner_radius_cm")(message));
         }
         let rules = ArmRules {
             arm: Planar2r::new(self.links_cm[0], self.links_cm[1])
-                .map_err(|e| refuse(format!("links_cm: {e}")))?,
+                .map_err(|e| refuse("links_cm")(format!("links_cm: {e}")))?,
             elbow: self.elbow.into(),
-            lattice: TipLattice::new(self.x_cm, self.y_cm, self.step_cm).map_err(refuse)?,
+            lattice: TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
+                .map_err(|(key, message)| refuse(key)(message))?,
             inner_radius_cm: self.inner_radius_cm,
             touch: self.touching.into(),
             corner_rule: self.corner_rule.into(),
@@ -71,34 +100,38 @@ impl ArmWorkspace {
             }
             (None, None) => Vec::new(),
             (start, _) => {
-                let missing = if start.is_some() { "goal_cm" } else { "start_cm" };
-                return Err(refuse(format!(
-                    "{missing} is missing; start and goal are given together or not at all"
-                )));
+                let (given, missing) =
+                    if start.is_some() { ("start_cm", "goal_cm") } else { ("goal_cm", "start_cm") };
+                let message =
+                    format!("{missing} is missing; start and goal are given together or not at all");
+                return Err(refuse(given)(message));
             }
         };
-        let obstacles = self.obstacles().map_err(refuse)?;
+        let obstacles = self.obstacles().map_err(|(key, message)| settings.error_at(&key, message))?;
         let world = ArmWorld::new(rules, obstacles.clone());
         for query in &queries {
-            for (what, point) in [("start", &query.start), ("goal", &query.goal)] {
-                world.free_cell(what, point).map_err(refuse)?;
+            for (what, key, point) in [("start", "start_cm", &query.start), ("goal", "goal_cm", &query.goal)]
+            {
+                world.free_cell(what, point).map_err(refuse(key))?;
             }
         }
         Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
     }
 
-    fn obstacles(&self) -> Result<Vec<Obstacle>, String> {
+    /// The obstacles, or the key at fault and what is wrong.
+    fn obstacles(&self) -> Result<Vec<Obstacle>, (String, String)> {
         let (count, shapes) = (self.obstacles_cm.len(), &self.obstacle_shapes);
         if shapes.len() != 1 && shapes.len() != count {
-            return Err(format!(
+            let message = format!(
                 "obstacle_shapes names {} shapes for {count} obstacles; one for all or one for each is accepted",
                 shapes.len()
-            ));
+            );
+            return Err(("obstacle_shapes".to_owned(), message));
         }
         let shaped = self.obstacles_cm.iter().enumerate().map(|(index, center)| {
             shapes[index.min(shapes.len() - 1)]
                 .obstacle(*center, self.obstacle_diameter_cm)
-                .map_err(|e| format!("obstacle {}: {e}", index + 1))
+                .map_err(|e| (format!("obstacles_cm.{index}"), format!("obstacle {}: {e}", index + 1)))
         });
         shaped.collect()
     }

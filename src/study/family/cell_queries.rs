@@ -7,7 +7,7 @@ use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::ARM_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::seed;
-use base::settings::{Document, Settings, SettingsError};
+use base::settings::{Accepted, Document, Settings, SettingsError, Spanned};
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, Joints, Robot};
 use engine::planner::Invalid;
@@ -15,10 +15,11 @@ use engine::space::WorldKind;
 use engine::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Scene, SpeedRule};
 use engine::space::roadmap::{Counted, Extent, Local, Sample};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::PathBuf;
-use toml::Spanned;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -27,6 +28,25 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     prepared: nested_roadmap::ENTRY.name,
     columns: ARM_COLUMNS,
+    settings: Accepted::of::<CellQueries>(),
+    example: r#"
+robot = "data/robots/motoman_up6.toml"
+scene = "data/scenes/fu2018_cell.toml"
+queries = "data/scenes/fu2018_groups.toml"
+obstacles = true
+self_collision = true
+samples = 1500
+counted = "accepted"
+region = "full"
+radius_mm = 500
+path = "tool"
+step_mm = 20
+step_deg = 4
+jump_deg = 20
+turn_deg = 180
+end = "own"
+tool_mm = 100
+"#,
     build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(Box::new(Posed::new(settings, inputs)?)),
 };
 
@@ -35,39 +55,57 @@ const DRAWS_PER_SAMPLE: u32 = 1000;
 /// How far the region around the queries' poses reaches beyond them.
 const AROUND_DEG: f64 = 20.0;
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CellQueries {
+    /// The robot file.
     robot: String,
+    /// The scene file.
     scene: String,
     /// Whether the scene's obstacles stand there; its floor goes with them.
     obstacles: bool,
+    /// Whether the arm must not touch itself.
     self_collision: bool,
     /// Instead of the robot file's tool.
     tool_mm: Option<f64>,
+    /// The file with the groups of poses that are started from and planned to.
     queries: String,
+    /// How many samples the roadmap is built from.
+    #[schemars(range(max = 100_000))]
     samples: u32,
+    /// Which samples the number counts.
     counted: CountedSetting,
+    /// Where samples are drawn from.
     region: Region,
+    /// How far the tools of two samples may be apart to be tried as neighbours.
     radius_mm: f64,
+    /// What moves straight between neighbours.
     path: PathSetting,
+    /// How far the tool may move between two configurations that are checked.
     step_mm: f64,
+    /// How far the tool may turn between two configurations that are checked.
     step_deg: f64,
+    /// How far a joint may move between two of them before the path counts as broken.
     jump_deg: f64,
+    /// How far the tool may turn along one local path.
     turn_deg: f64,
+    /// What the end of a local path must be.
     end: EndSetting,
+    /// The tool's speed; without it the path has no time.
     speed: Option<SpeedSetting>,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum CountedSetting {
+    /// The first N that were accepted.
     Accepted,
+    /// Those accepted among the first N draws.
     Drawn,
 }
 
 /// Where samples are drawn from, evenly.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Region {
     /// All joint ranges, at most half a turn either way.
@@ -80,31 +118,38 @@ enum Region {
     AroundPoses,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum PathSetting {
+    /// The tool's way.
     Tool,
+    /// The way in the space of joint angles.
     Joints,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum EndSetting {
+    /// The configuration itself.
     Own,
+    /// The configuration, joints 4 and 6 up to whole turns.
     WholeTurns,
+    /// Any configuration with the tool in the same pose.
     PoseOnly,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SpeedSetting {
+    /// The greatest speed of the tool.
     tool_mm_s: f64,
+    /// The greatest acceleration of the tool, in millimetres a second squared.
     acceleration_mm_s2: f64,
 }
 
 impl CellQueries {
-    /// The first number that cannot be.
-    fn fault(&self) -> Option<String> {
+    /// The key of the first number that cannot be, and what is wrong with it.
+    fn fault(&self) -> Option<(&'static str, String)> {
         let speed = self.speed.unwrap_or(SpeedSetting { tool_mm_s: 1.0, acceleration_mm_s2: 1.0 });
         let numbers = [
             ("radius_mm", self.radius_mm),
@@ -117,8 +162,10 @@ impl CellQueries {
         ];
         let wrong = numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
         let wrong =
-            wrong.map(|(key, value)| format!("{key} is {value}; a finite number above 0 is accepted"));
-        wrong.or_else(|| (self.samples == 0).then(|| "samples is 0; at least 1 is accepted".to_owned()))
+            wrong.map(|(key, value)| (key, format!("{key} is {value}; a finite number above 0 is accepted")));
+        wrong.or_else(|| {
+            (self.samples == 0).then(|| ("samples", "samples is 0; at least 1 is accepted".to_owned()))
+        })
     }
 
     fn rules(&self) -> LineRules {
@@ -145,23 +192,34 @@ impl CellQueries {
 }
 
 /// The file of poses and of groups that join two of them.
-#[derive(Deserialize)]
+/// What a file of groups may hold.
+pub const GROUPS_FILE: Accepted = Accepted::of::<GroupsFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GroupsFile {
+    /// The poses by name: the angle of each joint, from the base on.
     pose_deg: BTreeMap<String, Joints>,
+    /// The queries.
     #[serde(rename = "group")]
     groups: Vec<GroupEntry>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GroupEntry {
+    /// Its name.
     name: String,
+    /// The pose that it starts from, by name.
     from: Spanned<String>,
+    /// The pose that it goes to, by name.
     to: Spanned<String>,
 }
 
-fn read_queries(document: &Document) -> Result<Vec<Query>, SettingsError> {
+/// The queries of a file, and where the ends of each are named in it.
+type Placed = (Vec<Query>, Vec<[Range<usize>; 2]>);
+
+fn read_queries(document: &Document) -> Result<Placed, SettingsError> {
     let file: GroupsFile = document.read()?;
     let pose = |name: &Spanned<String>| {
         let found = file.pose_deg.get(name.get_ref()).ok_or_else(|| {
@@ -181,9 +239,23 @@ fn read_queries(document: &Document) -> Result<Vec<Query>, SettingsError> {
     };
     let queries: Vec<Query> = file.groups.iter().map(query).collect::<Result<_, _>>()?;
     if queries.is_empty() {
-        return Err(document.error(0..0, "there is no group; at least one is accepted"));
+        return Err(document.error_at("group", "there is no group; at least one is accepted"));
     }
-    Ok(queries)
+    let places = file.groups.iter().map(|group| [group.from.span(), group.to.span()]).collect();
+    Ok((queries, places))
+}
+
+/// The first end of a query that the arm cannot stand at in `cell`.
+fn unposed(cell: &Cell, document: &Document, (queries, places): &Placed) -> Option<SettingsError> {
+    queries.iter().zip(places).find_map(|(query, places)| {
+        let ends = [("start", &query.start), ("goal", &query.goal)].into_iter().zip(places);
+        ends.into_iter().find_map(|((what, end), place)| {
+            let pose: Joints = end.as_slice().try_into().expect("a pose has six angles");
+            let refusal = cell.refusal(&pose)?;
+            let message = format!("the {what} of group `{}` cannot be posed: {refusal}", query.name);
+            Some(document.error(place.clone(), message))
+        })
+    })
 }
 
 struct Posed {
@@ -192,32 +264,38 @@ struct Posed {
     bounds_rad: [[f64; 2]; AXES],
     branch: Option<Branch>,
     queries: Vec<Query>,
+    unposed: Option<SettingsError>,
     inputs: [PathBuf; 3],
 }
 
 impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
-        if let Some(fault) = read.fault() {
-            return Err(settings.error(fault));
+        if let Some((key, message)) = read.fault() {
+            return Err(settings.error_at(key, message));
         }
-        let locate = |name: &str| inputs.locate(name).map_err(|message| settings.error(message));
-        let files = [locate(&read.robot)?, locate(&read.scene)?, locate(&read.queries)?];
-        let robot = Robot::load(&files[0]).map_err(|e| settings.error(e.to_string()))?;
+        let locate =
+            |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
+        let files =
+            [locate("robot", &read.robot)?, locate("scene", &read.scene)?, locate("queries", &read.queries)?];
+        let robot = Robot::load(&files[0]).map_err(|e| settings.error_at("robot", e.to_string()))?;
         let robot = match read.tool_mm {
-            Some(tool_mm) => {
-                robot.with_tool_length(tool_mm * 1e-3).map_err(|e| settings.error(format!("tool_mm: {e}")))?
-            }
+            Some(tool_mm) => robot
+                .with_tool_length(tool_mm * 1e-3)
+                .map_err(|e| settings.error_at("tool_mm", format!("tool_mm: {e}")))?,
             None => robot,
         };
         let scene = Scene::load(&files[1])?;
-        let queries = read_queries(Document::open(&files[2])?.as_ref())?;
+        let document = Document::open(&files[2])?;
+        let placed = read_queries(&document)?;
         let scene = if read.obstacles { scene } else { Scene::empty() };
         let cell = Cell::new(robot, scene, read.self_collision);
+        let unposed = unposed(&cell, &document, &placed);
+        let (queries, _) = placed;
         let bounds_rad = bounds_rad(&cell, read.region, &queries);
         let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
         let branch = (read.region == Region::OneBranch).then(|| cell.robot().arm().branch_of(&home));
-        Ok(Self { read, cell, bounds_rad, branch, queries, inputs: files })
+        Ok(Self { read, cell, bounds_rad, branch, queries, unposed, inputs: files })
     }
 
     /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.
@@ -293,6 +371,10 @@ impl Family for Posed {
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        self.unposed.clone().map_or(Ok(()), Err)
     }
 
     fn extent(&self) -> Option<Extent> {

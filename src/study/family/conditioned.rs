@@ -13,10 +13,11 @@ use crate::study::verification::{LATTICE_COLUMNS, measured};
 use crate::study::{Inputs, StudyError, column};
 use base::hash::sha256;
 use base::seed;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, AnyTable, Settings, SettingsError};
 use engine::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
 use engine::space::{World, WorldKind};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -29,6 +30,28 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
+    settings: Accepted::of::<Conditioned>(),
+    example: r#"
+corner_rule = "allow"
+planner = "astar"
+planner_settings = { weight = 1, ties = "fifo" }
+expansions = 56
+tries = 100000
+found = "data/draws/zhang_conditioned.txt"
+given = { path_cost_cells = [14.65, 14.66] }
+shared = { size_cells = [30, 30], start = [22, 15], goal = [26, 28] }
+of = [
+    { family = "random_cells", settings = { blocked_share = 0.1 } },
+    { family = "random_cells", settings = { blocked_share = 0.2 } },
+    { family = "random_cells", settings = { blocked_share = 0.3 } },
+    { family = "random_rectangles", settings = { count = 8, side_cells = [2, 5] } },
+    { family = "random_rectangles", settings = { count = 17, side_cells = [2, 5] } },
+    { family = "random_rectangles", settings = { count = 27, side_cells = [2, 5] } },
+    { family = "random_bars", settings = { count = 18, length_cells = [3, 8] } },
+    { family = "random_bars", settings = { count = 38, length_cells = [3, 8] } },
+    { family = "random_bars", settings = { count = 62, length_cells = [3, 8] } },
+]
+"#,
     build: |settings, inputs| {
         let read: Conditioned = settings.read()?;
         read.check(settings)?;
@@ -36,15 +59,17 @@ pub static ENTRY: Entry = Entry {
         let planner = read.planner(settings)?;
         let queries = families[0].queries().to_vec();
         if queries.len() != 1 || families.iter().any(|family| family.queries() != queries) {
-            return Err(settings.error("`of` has families with different queries, or more than one").into());
+            return Err(settings
+                .error_at("of", "`of` has families with different queries, or more than one")
+                .into());
         }
         let mut files: Vec<PathBuf> = families.iter().flat_map(|family| family.inputs().to_vec()).collect();
         let found = match &read.found {
             None => BTreeMap::new(),
             Some(name) => {
-                let file = inputs.locate(name).map_err(|message| settings.error(message))?;
-                let found =
-                    found::read(&file, &read.fingerprint()).map_err(|message| settings.error(message))?;
+                let file = inputs.locate(name).map_err(|message| settings.error_at("found", message))?;
+                let found = found::read(&file, &read.fingerprint())
+                    .map_err(|message| settings.error_at("found", message))?;
                 files.push(file);
                 found
             }
@@ -60,33 +85,39 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Conditioned {
     /// The families that are drawn from.
     of: Vec<Of>,
     /// Settings that all of them share.
+    #[schemars(with = "AnyTable")]
     shared: Table,
     /// The corner rule of all of them.
     corner_rule: String,
     /// The planner whose record is asked for.
     planner: String,
     /// Its settings.
+    #[schemars(with = "AnyTable")]
     planner_settings: Table,
     /// Columns of the record with the least and the greatest value that are accepted.
     given: BTreeMap<String, [f64; 2]>,
     /// At most this many expansions a try.
     expansions: u64,
     /// At most this many tries a draw; a draw that is not accepted is an invalid problem.
+    #[schemars(range(max = 1_000_000_000))]
     tries: u64,
     /// A file that lists how many tries draws took, so that they need not be tried again.
     found: Option<String>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Of {
+    /// The family, by name.
     family: String,
+    /// Its settings besides the shared ones.
+    #[schemars(with = "AnyTable")]
     settings: Table,
 }
 
@@ -119,40 +150,46 @@ impl Conditioned {
             if column::find(name).is_none() {
                 let known: Vec<&str> = column::COLUMNS.iter().map(|column| column.name).collect();
                 let message = format!("`given` names the column `{name}`; there are {}", known.join(", "));
-                return Err(settings.error(message));
+                return Err(settings.error_at(&format!("given.{name}"), message));
             }
             if low.is_nan() || high.is_nan() || low > high {
                 let message = format!("`given.{name}` is [{low}, {high}]; [least, greatest] is accepted");
-                return Err(settings.error(message));
+                return Err(settings.error_at(&format!("given.{name}"), message));
             }
         }
-        if self.of.is_empty() || self.tries == 0 {
-            return Err(settings.error("at least one family in `of` and one try are needed"));
+        if self.of.is_empty() {
+            return Err(settings.error_at("of", "of is empty; at least one family is accepted"));
+        }
+        if self.tries == 0 {
+            return Err(settings.error_at("tries", "tries is 0; at least 1 is accepted"));
         }
         Ok(())
     }
 
     fn families(&self, settings: &Settings, inputs: &Inputs) -> Result<Vec<Box<dyn Family>>, StudyError> {
-        let build = |of: &Of| {
+        let build = |(index, of): (usize, &Of)| {
             let entry = super::find(&of.family).ok_or_else(|| {
                 let known: Vec<&str> = super::REGISTRY.iter().map(|entry| entry.name).collect();
-                settings.error(format!(
-                    "there is no problem family `{}`; there are {}",
-                    of.family,
-                    known.join(", ")
-                ))
+                let message =
+                    format!("there is no problem family `{}`; there are {}", of.family, known.join(", "));
+                settings.error_at(&format!("of.{index}.family"), message)
             })?;
             let mut table = self.shared.clone();
             table.extend(of.settings.clone());
             table.insert("corner_rule".to_owned(), Toml::String(self.corner_rule.clone()));
-            let family = (entry.build)(&Settings::composed(format!("`of` {}", of.family), table), inputs)?;
+            let origin = format!("`of` {}", of.family);
+            let family = (entry.build)(&Settings::composed(&*origin, table), inputs);
+            let family = family.map_err(|error| placed(settings, &origin, error))?;
             if family.world() == WorldKind::Lattice {
                 Ok(family)
             } else {
-                Err(settings.error(format!("family `{}` poses no problems on a lattice", of.family)).into())
+                Err({
+                    let message = format!("family `{}` poses no problems on a lattice", of.family);
+                    settings.error_at(&format!("of.{index}.family"), message).into()
+                })
             }
         };
-        self.of.iter().map(build).collect()
+        self.of.iter().enumerate().map(build).collect()
     }
 
     fn planner(&self, settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
@@ -162,9 +199,24 @@ impl Conditioned {
         );
         let entry = planner::find(&self.planner).filter(|entry| entry.needs == WorldKind::Lattice);
         match entry.map(|entry| entry.build) {
-            Some(Build::Planner(build)) => build(&table),
-            _ => Err(settings.error(format!("there is no planner `{}` for a lattice", self.planner))),
+            Some(Build::Planner(build)) => build(&table).map_err(|error| {
+                settings.error_at("planner_settings", format!("planner_settings: {}", error.message()))
+            }),
+            _ => {
+                Err(settings
+                    .error_at("planner", format!("there is no planner `{}` for a lattice", self.planner)))
+            }
         }
+    }
+}
+
+/// `error` of settings that were put together from `settings`, with their place in the file.
+fn placed(settings: &Settings, origin: &str, error: StudyError) -> StudyError {
+    match error {
+        StudyError::Settings(error @ (SettingsError::Composed { .. } | SettingsError::Several(_))) => {
+            settings.error(format!("{origin}: {}", error.message())).into()
+        }
+        other => other,
     }
 }
 
@@ -228,6 +280,10 @@ impl Family for Rejection {
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        self.families.iter().try_for_each(|family| family.check_ends())
     }
 
     fn inputs(&self) -> &[PathBuf] {

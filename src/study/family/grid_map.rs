@@ -5,8 +5,10 @@ use crate::study::StudyError;
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::{Grid2, read_text_map};
+use base::settings::Accepted;
 use engine::planner::Invalid;
 use engine::space::WorldKind;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -17,10 +19,17 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
+    settings: Accepted::of::<GridMap>(),
+    example: r#"
+map = "data/maps/zhang_w1.map.txt"
+start = [22, 15]
+goal = [26, 28]
+corner_rule = "allow"
+"#,
     build: |settings, inputs| {
         let read: GridMap = settings.read()?;
-        let file = inputs.locate(&read.map).map_err(|message| settings.error(message))?;
-        let grid = read_text_map(&file).map_err(|e| settings.error(e.to_string()))?;
+        let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
+        let grid = read_text_map(&file).map_err(|e| settings.error_at("map", e.to_string()))?;
         lattice::prepare(grid.clone(), read.corner_rule, read.start, read.goal)
             .map_err(|invalid| settings.error(invalid.0))?;
         let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());
@@ -29,12 +38,16 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GridMap {
+    /// The map file.
     map: String,
+    /// The column and row of the start cell.
     start: [u32; 2],
+    /// The column and row of the goal cell.
     goal: [u32; 2],
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
 }
 

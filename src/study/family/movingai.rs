@@ -8,9 +8,12 @@ use super::{Entry, Family, Query};
 use crate::study::StudyError;
 use crate::study::prepared::{Prepared, lattice};
 use base::grid::{Grid2, Scenario, read_movingai_map, read_scenarios};
+use base::settings::Accepted;
 use engine::planner::{Counts, Invalid, Value};
 use engine::space::WorldKind;
+use schemars::JsonSchema;
 use serde::Deserialize;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// The registry's entry.
@@ -27,15 +30,23 @@ pub static ENTRY: Entry = Entry {
         "optimal_cost_cells",
         "printed_optimal_cells",
     ],
+    settings: Accepted::of::<MovingAi>(),
+    example: r#"
+map = "data/maps/movingai_sample.map"
+scenarios = "data/maps/movingai_sample.scen"
+corner_rule = "forbid_any"
+"#,
     build: |settings, inputs| {
         let read: MovingAi = settings.read()?;
-        let file = |name: &str| inputs.locate(name).map_err(|message| settings.error(message));
-        let files = [file(&read.map)?, file(&read.scenarios)?];
-        let refused = |e: base::grid::GridError| settings.error(e.to_string());
-        let grid = read_movingai_map(&files[0]).map_err(refused)?;
-        let all = read_scenarios(&files[1], &grid).map_err(refused)?;
-        read.check_names(&all).map_err(|message| settings.error(message))?;
-        let scenarios = read.picked(all).map_err(|message| settings.error(message))?;
+        let file =
+            |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
+        let files = [file("map", &read.map)?, file("scenarios", &read.scenarios)?];
+        let refused =
+            |key: &'static str| move |e: base::grid::GridError| settings.error_at(key, e.to_string());
+        let grid = read_movingai_map(&files[0]).map_err(refused("map"))?;
+        let all = read_scenarios(&files[1], &grid).map_err(refused("scenarios"))?;
+        read.check_names(&all).map_err(|message| settings.error_at("scenarios", message))?;
+        let scenarios = read.picked(all).map_err(|message| settings.error_at("scenarios", message))?;
         let point = |cell: u32| grid.xy(cell).map(f64::from).to_vec();
         let query = |s: &Scenario| Query {
             name: format!("line-{}", s.line),
@@ -48,25 +59,22 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MovingAi {
+    /// The map, a `.map` file of the Moving AI benchmarks.
     map: String,
+    /// Its queries, a `.scen` file of the Moving AI benchmarks.
     scenarios: String,
     /// The benchmark's lengths hold for `forbid_any`.
     #[serde(default = "no_corner_is_cut")]
     corner_rule: lattice::CornerSetting,
-    /// Only every so many-th query, from the first on.
-    #[serde(default = "every_query")]
-    every: usize,
+    /// Only every so many-th query, from the first on; all of them if absent.
+    every: Option<NonZeroUsize>,
 }
 
 fn no_corner_is_cut() -> lattice::CornerSetting {
     lattice::CornerSetting::ForbidAny
-}
-
-fn every_query() -> usize {
-    1
 }
 
 impl MovingAi {
@@ -83,10 +91,8 @@ impl MovingAi {
     }
 
     fn picked(&self, all: Vec<Scenario>) -> Result<Vec<Scenario>, String> {
-        if self.every == 0 {
-            return Err("every is 0; 1 or more is accepted".to_owned());
-        }
-        let picked: Vec<Scenario> = all.into_iter().step_by(self.every).collect();
+        let picked: Vec<Scenario> =
+            all.into_iter().step_by(self.every.map_or(1, NonZeroUsize::get)).collect();
         if picked.is_empty() { Err(format!("{} holds no query", self.scenarios)) } else { Ok(picked) }
     }
 }
@@ -177,8 +183,8 @@ mod tests {
                 "",
                 "line 3 of m.scen asks of map `n.map`; m.map is accepted",
             ),
-            (MAP, SCENARIOS, "every = 0", "every is 0; 1 or more is accepted"),
-            (MAP, SCENARIOS, "corner = 1", "unknown field `corner`"),
+            (MAP, SCENARIOS, "every = 0", "`every` is 0; a whole number of 1 or more is accepted"),
+            (MAP, SCENARIOS, "corner = 1", "unknown key `corner`"),
         ] {
             let error = build(map, scenarios, extra).err().unwrap();
             assert!(error.contains(message), "{error}\nlacks\n{message}");

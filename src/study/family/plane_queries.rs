@@ -5,16 +5,16 @@ use crate::study::StudyError;
 use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::PLANE_COLUMNS;
 use base::seed;
-use base::settings::{Document, SettingsError};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
 use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
 use engine::planner::{Exhibit, Invalid};
 use engine::space::WorldKind;
 use engine::space::roadmap::{Counted, Extent, Local, PlaneMap, Sample};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
-use toml::Spanned;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -23,6 +23,12 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: nested_roadmap::ENTRY.name,
     columns: PLANE_COLUMNS,
+    settings: Accepted::of::<PlaneQueries>(),
+    example: r#"
+map = "data/scenes/fu2018_particle.toml"
+samples = 40
+radius_mm = 220
+"#,
     build: |settings, inputs| {
         let read: PlaneQueries = settings.read()?;
         if read.samples == 0 || !read.radius_mm.is_finite() || read.radius_mm <= 0.0 {
@@ -30,48 +36,70 @@ pub static ENTRY: Entry = Entry {
                 "samples is {} and radius_mm {}; at least 1 and a length above 0 are accepted",
                 read.samples, read.radius_mm
             );
-            return Err(settings.error(message).into());
+            return Err(settings.error_at("samples", message).into());
         }
-        let file = inputs.locate(&read.map).map_err(|message| settings.error(message))?;
+        let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
         let document = Document::open(&file)?;
         let map: MapFile = document.read()?;
         let plane = map.plane(&document)?;
-        let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.to_vec());
+        let unposed = map.unposed(&plane, &document);
+        let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.into_inner().to_vec());
         let queries = [Query { name: String::new(), start, goal }];
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, inputs: [file] }))
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, unposed, inputs: [file] }))
     },
 };
 
 /// Samples lie on this raster, on which the verifier is exact.
 const RASTER_MM: f64 = 1.0 / 16.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneQueries {
+    /// The map file.
     map: String,
+    /// How many samples the roadmap is built from.
+    #[schemars(range(max = 100_000))]
     samples: u32,
+    /// How far two samples may be apart to be tried as neighbours.
     radius_mm: f64,
 }
 
-#[derive(Deserialize)]
+/// What a file of polygons may hold.
+pub const MAP_FILE: Accepted = Accepted::of::<MapFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MapFile {
+    /// Its name.
     #[expect(dead_code, reason = "a map says its name to readers")]
     name: String,
+    /// How wide and how high the plane is.
     size_mm: [f64; 2],
-    start_mm: [f64; 2],
-    goal_mm: [f64; 2],
+    /// x and y of the start.
+    start_mm: Spanned<[f64; 2]>,
+    /// x and y of the goal.
+    goal_mm: Spanned<[f64; 2]>,
+    /// The obstacles: convex polygons.
     #[serde(rename = "obstacle")]
     obstacles: Vec<Spanned<ObstacleEntry>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ObstacleEntry {
+    /// x and y of each corner, counter-clockwise.
     corners_mm: Vec<[f64; 2]>,
 }
 
 impl MapFile {
+    /// The end at which the particle cannot stand, the start first.
+    fn unposed(&self, plane: &PlaneMap, document: &Document) -> Option<SettingsError> {
+        [("start", &self.start_mm), ("goal", &self.goal_mm)].into_iter().find_map(|(what, end)| {
+            let refusal = plane.refusal(*end.get_ref())?;
+            Some(document.error(end.span(), format!("the {what} cannot be posed: {refusal}")))
+        })
+    }
+
     fn plane(&self, document: &Document) -> Result<PlaneMap, SettingsError> {
         let polygon = |entry: &Spanned<ObstacleEntry>| {
             let corners = &entry.get_ref().corners_mm;
@@ -85,7 +113,7 @@ impl MapFile {
         };
         if !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
             let message = format!("size_mm is {:?}; two lengths above 0 are accepted", self.size_mm);
-            return Err(document.error(0..0, message));
+            return Err(document.error_at("size_mm", message));
         }
         Ok(PlaneMap::new(self.size_mm, self.obstacles.iter().map(polygon).collect::<Result<_, _>>()?))
     }
@@ -95,6 +123,7 @@ struct Drawn {
     read: PlaneQueries,
     plane: PlaneMap,
     queries: [Query; 1],
+    unposed: Option<SettingsError>,
     inputs: [PathBuf; 1],
 }
 
@@ -132,6 +161,10 @@ impl Family for Drawn {
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        self.unposed.clone().map_or(Ok(()), Err)
     }
 
     fn extent(&self) -> Option<Extent> {

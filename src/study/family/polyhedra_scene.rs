@@ -6,13 +6,14 @@ use crate::study::prepared::{Prepared, polyhedra};
 use crate::study::verification::CARRIED_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::seed;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::geometry::Vec3;
 use engine::kinematics::Robot;
 use engine::planner::Invalid;
-use engine::space::polyhedra::{CarriedArm, DOWN, read_scene};
+use engine::space::polyhedra::{CarriedArm, DOWN, PolyhedraError, read_scene};
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -23,32 +24,48 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     prepared: polyhedra::ENTRY.name,
     columns: CARRIED_COLUMNS,
+    settings: Accepted::of::<SceneSettings>(),
+    example: r#"
+scene = "data/scenes/tang_c1.toml"
+step_cm = 1
+growth_cm = 7
+robot = "data/robots/aubo_i10.toml"
+body = "paper"
+scatter_cm = 5
+queries = [{ start = [70, -46, 36], goal = [70, 41, 51] }]
+"#,
     build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(Box::new(posed(settings, inputs)?)),
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneSettings {
+    /// The scene file.
     scene: String,
+    /// The side of a lattice cell.
     step_cm: f64,
     /// By how much the tip keeps away from the obstacles.
     growth_cm: f64,
+    /// The queries: start and goal each.
     queries: Vec<QuerySettings>,
     /// Each draw's start and goal lie in balls of this radius about the written ones.
     scatter_cm: Option<f64>,
+    /// The robot file of the arm whose tip the point is; a point alone if absent.
     robot: Option<String>,
     /// The body that stands for the robot's links.
     body: Option<String>,
 }
 
 /// A query as it is written.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct QuerySettings {
     /// Its name; empty if it is the only one.
     #[serde(default)]
     name: String,
+    /// x, y and z of the start, in centimetres.
     start: [f64; 3],
+    /// x, y and z of the goal, in centimetres.
     goal: [f64; 3],
 }
 
@@ -67,27 +84,37 @@ struct Posed {
 
 fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
     let read: SceneSettings = settings.read()?;
-    let refuse = |message: String| settings.error(message);
-    let file = inputs.locate(&read.scene).map_err(refuse)?;
+    let refuse = |key: &'static str| move |message: String| settings.error_at(key, message);
+    let file = inputs.locate(&read.scene).map_err(refuse("scene"))?;
     let scene = read_scene(&file)?;
-    let mut world = PolyhedraWorld::new(scene.bodies, scene.domain, read.step_cm, read.growth_cm)
-        .map_err(|e| settings.error(format!("{}: {e}", read.scene)))?;
+    let mut world =
+        PolyhedraWorld::new(scene.bodies, scene.domain, read.step_cm, read.growth_cm).map_err(|e| {
+            let key = match e {
+                PolyhedraError::Step { .. } => "step_cm",
+                PolyhedraError::Growth { .. } => "growth_cm",
+                _ => "scene",
+            };
+            settings.error_at(key, format!("{}: {e}", read.scene))
+        })?;
     let mut files = vec![file];
     match (&read.robot, &read.body) {
         (Some(robot), Some(body)) => {
-            let file = inputs.locate(robot).map_err(refuse)?;
-            let robot = Robot::load(&file).map_err(|e| settings.error(e.to_string()))?;
-            world = world.with_arm(CarriedArm::new(&robot, body).map_err(refuse)?);
+            let file = inputs.locate(robot).map_err(refuse("robot"))?;
+            let robot = Robot::load(&file).map_err(|e| settings.error_at("robot", e.to_string()))?;
+            world = world.with_arm(CarriedArm::new(&robot, body).map_err(refuse("body"))?);
             files.push(file);
         }
         (None, None) => {}
-        _ => return Err(settings.error("robot and body are given together or not at all").into()),
+        (robot, _) => {
+            let given = if robot.is_some() { "robot" } else { "body" };
+            return Err(settings.error_at(given, "robot and body are given together or not at all").into());
+        }
     }
     if let Some(radius) = read.scatter_cm
         && !(radius.is_finite() && radius > 0.0)
     {
         let message = format!("scatter_cm is {radius}; more than 0 is accepted");
-        return Err(settings.error(message).into());
+        return Err(settings.error_at("scatter_cm", message).into());
     }
     let queries: Vec<Query> = read.queries.iter().map(QuerySettings::query).collect();
     check(settings, &world, &queries)?;
@@ -101,14 +128,15 @@ pub(super) fn check(
     queries: &[Query],
 ) -> Result<(), SettingsError> {
     if queries.is_empty() {
-        return Err(settings.error("queries is empty; at least one start and goal is needed"));
+        return Err(settings.error_at("queries", "queries is empty; at least one start and goal is needed"));
     }
-    for query in queries {
+    for (index, query) in queries.iter().enumerate() {
         for (what, end) in [("start", &query.start), ("goal", &query.goal)] {
-            let at = world.free_point(what, end).map_err(|message| settings.error(message))?;
+            let key = format!("queries.{index}.{what}");
+            let at = world.free_point(what, end).map_err(|message| settings.error_at(&key, message))?;
             if !is_reachable(world, &at) {
                 let message = format!("the arm cannot reach the {what} {end:?} with its tool pointing down");
-                return Err(settings.error(message));
+                return Err(settings.error_at(&key, message));
             }
         }
     }
@@ -205,7 +233,7 @@ mod tests {
                 query(start, "[90, 65, 105]"),
                 ["the arm cannot reach the goal [90.0, 65.0, 105.0]", "with its tool pointing down"],
             ),
-            (query("[70, -46]", goal), ["invalid length 2", "array of length 3"]),
+            (query("[70, -46]", goal), ["`start` is an array of 2", "an array of 3"]),
             ("queries = []".to_owned(), ["queries is empty", "at least one start and goal is needed"]),
             ("step_cm = 999".to_owned(), ["tang_c1.toml: step is 999", "at most the domain's shortest side"]),
             ("step_cm = 0".to_owned(), ["step is 0", "more than 0"]),

@@ -7,6 +7,8 @@ use crate::study::prepared::lattice;
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::bars;
 use base::seed::Stream;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -16,6 +18,15 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
+    settings: Accepted::of::<RandomBars>(),
+    example: r#"
+size_cells = [30, 30]
+start = [22, 15]
+goal = [26, 28]
+count = 38
+length_cells = [3, 8]
+corner_rule = "allow"
+"#,
     build: |settings, _inputs| {
         let read: RandomBars = settings.read()?;
         let (count, range) = (read.count, read.length_cells);
@@ -26,14 +37,19 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RandomBars {
+    /// Columns and rows of the map.
     size_cells: [u32; 2],
+    /// The column and row of the start cell.
     start: [u32; 2],
+    /// The column and row of the goal cell.
     goal: [u32; 2],
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
     /// How many are drawn.
+    #[schemars(range(max = 1_000_000))]
     count: u32,
     /// Least and most length.
     length_cells: [u32; 2],

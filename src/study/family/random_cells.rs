@@ -6,9 +6,10 @@ use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::{Grid2, GridError, independent_cells};
 use base::seed::{self, Stream};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::Invalid;
 use engine::space::{LatticeWorld, World, WorldKind};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -18,12 +19,20 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
+    settings: Accepted::of::<RandomCells>(),
+    example: r#"
+size_cells = [30, 30]
+start = [22, 15]
+goal = [26, 28]
+blocked_share = 0.2
+corner_rule = "allow"
+"#,
     build: |settings, _inputs| {
         let read: RandomCells = settings.read()?;
         let share = read.blocked_share;
         if !(0.0..1.0).contains(&share) {
             let message = format!("blocked_share is {share}; 0 to below 1 is accepted");
-            return Err(settings.error(message).into());
+            return Err(settings.error_at("blocked_share", message).into());
         }
         let draw =
             move |stream: &mut Stream, size, free: &[u32]| independent_cells(stream, size, share, free);
@@ -32,13 +41,18 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RandomCells {
+    /// Columns and rows of the map.
     size_cells: [u32; 2],
+    /// The column and row of the start cell.
     start: [u32; 2],
+    /// The column and row of the goal cell.
     goal: [u32; 2],
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
+    /// The chance that a cell is blocked.
     blocked_share: f64,
 }
 
@@ -63,12 +77,13 @@ where
     /// A size that no grid has, or a start or goal outside.
     pub(super) fn new(settings: &Settings, frame: Frame, draw: D) -> Result<Self, SettingsError> {
         let ([width, height], start, goal, _) = frame;
-        let empty = Grid2::new(width, height).map_err(|e| settings.error(format!("size_cells: {e}")))?;
+        let empty = Grid2::new(width, height)
+            .map_err(|e| settings.error_at("size_cells", format!("size_cells: {e}")))?;
         let cell = |what: &str, [x, y]: [u32; 2]| {
             empty.cell(x as i32, y as i32).ok_or_else(|| {
                 let message =
                     format!("{what} is [{x}, {y}], outside the map; cells are 0..{width} by 0..{height}");
-                settings.error(message)
+                settings.error_at(what, message)
             })
         };
         let keep_free = [cell("start", start)?, cell("goal", goal)?];
@@ -92,7 +107,7 @@ pub(super) fn check_range(
         return Ok(());
     }
     let message = format!("{key} is [{least}, {most}]; [least, most] with 1 ≤ least ≤ most is accepted");
-    Err(settings.error(message))
+    Err(settings.error_at(key, message))
 }
 
 impl<D> Family for Drawn<D>

@@ -6,11 +6,12 @@ use crate::study::StudyError;
 use crate::study::prepared::{Prepared, polyhedra};
 use crate::study::verification::POLYHEDRA_COLUMNS;
 use base::seed::{self, Stream};
-use base::settings::{Settings, SettingsError};
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::geometry::{Aabb, Axis, Convex, Segment, Vec3, distance_segment_convex};
 use engine::planner::Invalid;
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -20,6 +21,17 @@ pub static ENTRY: Entry = Entry {
     revision: 2,
     prepared: polyhedra::ENTRY.name,
     columns: POLYHEDRA_COLUMNS,
+    settings: Accepted::of::<RandomPolyhedra>(),
+    example: r#"
+side_cm = 60
+step_cm = 1
+count = [1, 20]
+size_cm = [7, 16]
+shapes = ["box", "prism", "octahedron", "wedge", "pyramid"]
+gap_cm = 1
+clear_cm = 2
+queries = [{ start = [4, 5, 6], goal = [56, 54, 50] }]
+"#,
     build: |settings, _inputs| {
         let read: RandomPolyhedra = settings.read()?;
         read.check(settings)?;
@@ -31,30 +43,40 @@ pub static ENTRY: Entry = Entry {
 /// How often an obstacle is drawn again before a draw is given up.
 const TRIES: u32 = 10_000;
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RandomPolyhedra {
+    /// The side of the cube that they stand in.
     side_cm: f64,
+    /// The side of a lattice cell.
     step_cm: f64,
     /// The fewest and the most obstacles; each number in between is as likely.
+    #[schemars(inner(range(max = 10_000)))]
     count: [u32; 2],
     /// The least and the greatest extent along each axis.
     size_cm: [f64; 2],
+    /// The shapes that are drawn from, each with equal chance.
     shapes: Vec<ShapeName>,
     /// The least distance between the boxes about two obstacles; they may overlap without it.
     gap_cm: Option<f64>,
     /// How far obstacles stay from starts and goals.
     clear_cm: f64,
+    /// The queries on every draw: start and goal each.
     queries: Vec<QuerySettings>,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum ShapeName {
+    /// A box along the axes.
     Box,
+    /// A prism with a regular base.
     Prism,
+    /// A regular octahedron.
     Octahedron,
+    /// A box cut in two along a diagonal.
     Wedge,
+    /// A pyramid with a square base.
     Pyramid,
 }
 
@@ -63,21 +85,23 @@ impl RandomPolyhedra {
         let [fewest, most] = self.count;
         let [least, greatest] = self.size_cm;
         let fault = if fewest > most {
-            Some(format!("count is [{fewest}, {most}]; the fewest and the most, in this order, are accepted"))
-        } else if !(0.0 < least && least <= greatest && greatest < self.side_cm) {
-            Some(format!(
-                "size_cm is [{least}, {greatest}]; two rising sizes above 0 and below side_cm are accepted"
+            Some((
+                "count",
+                format!("count is [{fewest}, {most}]; the fewest and the most, in this order, are accepted"),
             ))
+        } else if !(0.0 < least && least <= greatest && greatest < self.side_cm) {
+            let message = format!(
+                "size_cm is [{least}, {greatest}]; two rising sizes above 0 and below side_cm are accepted"
+            );
+            Some(("size_cm", message))
         } else if self.shapes.is_empty() {
-            Some(
-                "shapes is empty; at least one of box, prism, octahedron, wedge, pyramid is needed"
-                    .to_owned(),
-            )
+            let message = "shapes is empty; at least one of box, prism, octahedron, wedge, pyramid is needed";
+            Some(("shapes", message.to_owned()))
         } else {
             None
         };
-        if let Some(message) = fault {
-            return Err(settings.error(message));
+        if let Some((key, message)) = fault {
+            return Err(settings.error_at(key, message));
         }
         let empty = self.world(Vec::new()).map_err(|invalid| settings.error(invalid.0))?;
         let queries: Vec<Query> = self.queries.iter().map(QuerySettings::query).collect();

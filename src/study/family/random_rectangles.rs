@@ -7,6 +7,8 @@ use crate::study::prepared::lattice;
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::rectangles;
 use base::seed::Stream;
+use base::settings::Accepted;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -16,6 +18,15 @@ pub static ENTRY: Entry = Entry {
     revision: 1,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
+    settings: Accepted::of::<RandomRectangles>(),
+    example: r#"
+size_cells = [30, 30]
+start = [22, 15]
+goal = [26, 28]
+count = 8
+side_cells = [2, 5]
+corner_rule = "allow"
+"#,
     build: |settings, _inputs| {
         let read: RandomRectangles = settings.read()?;
         let (count, range) = (read.count, read.side_cells);
@@ -27,14 +38,19 @@ pub static ENTRY: Entry = Entry {
     },
 };
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RandomRectangles {
+    /// Columns and rows of the map.
     size_cells: [u32; 2],
+    /// The column and row of the start cell.
     start: [u32; 2],
+    /// The column and row of the goal cell.
     goal: [u32; 2],
+    /// When a diagonal move past blocked cells is allowed.
     corner_rule: lattice::CornerSetting,
     /// How many are drawn.
+    #[schemars(range(max = 1_000_000))]
     count: u32,
     /// Least and most side.
     side_cells: [u32; 2],

@@ -1,7 +1,7 @@
 //! What a paper's file says was found, with places for our numbers.
 
 use super::Paper;
-use base::settings::SettingsError;
+use base::settings::{Faults, did_you_mean};
 use std::collections::BTreeSet;
 
 /// `text` with every `{claim}` or `{claim:form}` replaced by what `with` says of the claim in that form.
@@ -19,16 +19,17 @@ pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String 
 
 impl Paper {
     /// Every claim that the findings speak of exists.
-    pub(super) fn check_findings(&self, claims: &BTreeSet<&str>) -> Result<(), SettingsError> {
-        let mut missing = None;
-        for text in &self.source.findings {
+    pub(super) fn check_findings(&self, claims: &BTreeSet<&str>, faults: &mut Faults) {
+        for (index, text) in self.source.findings.iter().enumerate() {
             filled(text, |claim, _| {
-                missing = missing.take().or_else(|| (!claims.contains(claim)).then(|| claim.to_owned()));
+                if !claims.contains(claim) {
+                    let hint = did_you_mean(claim, claims.iter().copied());
+                    let message = format!("`findings` speaks of `{{{claim}}}`; there is no such claim{hint}");
+                    faults.add(self.document.error_at(&format!("source.findings.{index}"), message));
+                }
                 String::new()
             });
         }
-        let message = |claim| format!("`findings` speaks of `{{{claim}}}`; there is no such claim");
-        missing.map_or(Ok(()), |claim| Err(self.document.error(0..0, message(claim))))
     }
 }
 

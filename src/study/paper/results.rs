@@ -1,12 +1,12 @@
 //! Tables of our own results: rows of contenders, blocks of problems, cells of metrics.
 
 use super::Paper;
-use base::settings::SettingsError;
+use base::settings::{Faults, Spanned, none_called};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use toml::Spanned;
 
 /// A table of results.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResultsSpec {
     /// Its file name.
@@ -25,7 +25,7 @@ pub struct ResultsSpec {
 }
 
 /// A block: all rows on one group of problems.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlockSpec {
     /// Its heading.
@@ -37,7 +37,7 @@ pub struct BlockSpec {
 }
 
 /// One column.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CellSpec {
     /// The metric.
@@ -47,6 +47,7 @@ pub struct CellSpec {
     /// Its head, if the metric's own title does not say it.
     pub label: Option<String>,
     /// How many decimals it is shown with.
+    #[schemars(range(max = 15))]
     pub decimals: usize,
     /// Whether it is of the block's other problem group.
     #[serde(default)]
@@ -54,7 +55,7 @@ pub struct CellSpec {
 }
 
 /// What is shown of a metric over the trials of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Show {
     /// The median, failed trials counted as infinite.
@@ -73,13 +74,13 @@ pub enum Show {
 
 impl Paper {
     /// Every study and problem group that a table of results names exists.
-    pub(super) fn check_results(&self) -> Result<(), SettingsError> {
+    pub(super) fn check_results(&self, faults: &mut Faults) {
         for table in &self.results {
             let Some(study) = self.study(table.study.get_ref()) else {
-                let known: Vec<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
-                let message =
-                    format!("there is no study `{}`; there are {}", table.study.get_ref(), known.join(", "));
-                return Err(self.document.error(table.study.span(), message));
+                let known = self.studies.iter().map(|study| study.name.as_str());
+                let message = none_called("study", table.study.get_ref(), known);
+                faults.add(self.document.error(table.study.span(), message));
+                continue;
             };
             for named in
                 table.blocks.iter().flat_map(|block| std::iter::once(&block.problems).chain(&block.beside))
@@ -92,10 +93,9 @@ impl Paper {
                         named.get_ref(),
                         known.join(", ")
                     );
-                    return Err(self.document.error(named.span(), message));
+                    faults.add(self.document.error(named.span(), message));
                 }
             }
         }
-        Ok(())
     }
 }

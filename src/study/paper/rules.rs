@@ -1,27 +1,28 @@
 //! What must hold in a paper as a whole: names that exist, tables that fit, a ledger without gaps.
 
-use super::{ClaimSpec, Paper, TableSpec};
-use base::settings::SettingsError;
+use super::{ClaimSpec, Paper, Parts};
+use base::settings::{Document, Faults, Spanned, none_called};
 use std::collections::BTreeSet;
-use toml::Spanned;
 
 impl Paper {
-    pub(super) fn check(&self, specs: &[ClaimSpec]) -> Result<(), SettingsError> {
+    /// What is wrong with the paper as a whole goes to `faults`.
+    pub(super) fn check(&self, specs: &[ClaimSpec], faults: &mut Faults) {
         let mut seen = BTreeSet::new();
         for spec in specs {
             if !seen.insert(spec.id.get_ref()) {
                 let message = format!("claim `{}` stands twice", spec.id.get_ref());
-                return Err(self.document.error(spec.id.span(), message));
+                faults.add(self.document.error(spec.id.span(), message));
             }
         }
-        self.check_ids()?;
+        self.check_ids(faults);
         let claims: BTreeSet<&str> = self.claims.iter().map(|claim| claim.id.as_str()).collect();
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
         let figures: BTreeSet<&str> = self.figure_ids().chain(self.table_ids()).collect();
+        self.check_parts(specs, &claims, faults);
         for row in &self.ledger {
-            self.known("claim", &row.claims, &claims)?;
-            self.known("figure or table", &row.figures, &figures)?;
-            self.known("study", &row.studies, &studies)?;
+            self.known("claim", &row.claims, &claims, faults);
+            self.known("figure or table", &row.figures, &figures, faults);
+            self.known("study", &row.studies, &studies, faults);
             let answered = !(row.claims.is_empty() && row.figures.is_empty() && row.studies.is_empty());
             if answered == row.none.is_some() {
                 let message = format!(
@@ -29,53 +30,75 @@ impl Paper {
                      not both",
                     row.item.get_ref()
                 );
-                return Err(self.document.error(row.item.span(), message));
+                faults.add(self.document.error(row.item.span(), message));
             }
         }
         for row in self.tables.iter().flat_map(|table| &table.rows) {
-            self.known("claim", &row.claims, &claims)?;
+            self.known("claim", &row.claims, &claims, faults);
         }
         for table in &self.tables {
-            self.known("claim", &table.jointly, &claims)?;
+            self.known("claim", &table.jointly, &claims, faults);
         }
-        self.check_findings(&claims)?;
-        self.check_tables()?;
-        self.check_results()?;
-        self.check_readings()?;
-        self.check_numbering()
+        self.check_findings(&claims, faults);
+        self.check_tables(faults);
+        self.check_results(faults);
+        self.check_readings(faults);
+        self.check_numbering(faults);
+    }
+
+    /// A part exists, belongs to one sentence or row, and is no sentence of parts itself.
+    fn check_parts(&self, specs: &[ClaimSpec], claims: &BTreeSet<&str>, faults: &mut Faults) {
+        let mut taken: BTreeSet<&str> = BTreeSet::new();
+        for spec in specs {
+            let kinds = [&spec.all_of, &spec.any_of, &spec.means_one_of, &spec.cells];
+            for ids in kinds {
+                self.known("claim", ids, claims, faults);
+            }
+            for part in kinds.into_iter().flatten() {
+                let id = part.get_ref();
+                let is_whole = self.claim(id).is_some_and(|claim| claim.parts != Parts::None);
+                if !taken.insert(id) || is_whole {
+                    let why = if is_whole { "has parts itself" } else { "is a part already" };
+                    let message = format!("claim `{id}` {why}; a part counts with one sentence or row");
+                    faults.add(self.document.error(part.span(), message));
+                }
+            }
+        }
     }
 
     /// Ids of figures and tables are names of files: plain ones, each once.
-    fn check_ids(&self) -> Result<(), SettingsError> {
-        let figures = self.studies.iter().flat_map(|s| s.figures.iter().map(move |f| (&s.document, &f.id)));
-        let results = self.results.iter().map(|table| (&self.document, &table.id));
-        let mut placed: Vec<_> =
-            figures.chain(results).map(|(document, id)| (document, id.get_ref(), id.span())).collect();
-        for TableSpec { id, .. } in &self.tables {
-            let before = "id = ";
-            let at =
-                self.document.text().find(&format!("{before}\"{id}\"")).map_or(0, |at| at + before.len());
-            placed.push((&self.document, id, at..at + id.len()));
+    fn check_ids(&self, faults: &mut Faults) {
+        let mut placed: Vec<(&Document, String, &String)> = Vec::new();
+        for study in &self.studies {
+            let ids = study.figures.iter().enumerate();
+            placed.extend(
+                ids.map(|(index, f)| (&*study.document, format!("figure.{index}.id"), f.id.get_ref())),
+            );
         }
+        let results = self.results.iter().enumerate();
+        placed.extend(
+            results.map(|(index, t)| (&*self.document, format!("results.{index}.id"), t.id.get_ref())),
+        );
+        let tables = self.tables.iter().enumerate();
+        placed.extend(tables.map(|(index, table)| (&*self.document, format!("table.{index}.id"), &table.id)));
         let mut seen = BTreeSet::from(["numbers"]);
-        for (document, id, span) in placed {
+        for (document, place, id) in placed {
             let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
             if id.is_empty() || !id.chars().all(is_plain) {
                 let message = format!("the id `{id}` names files; a to z, 0 to 9 and _ are accepted in it");
-                return Err(document.error(span, message));
-            }
-            if !seen.insert(id) {
+                faults.add(document.error_at(&place, message));
+            } else if !seen.insert(id) {
                 let message = format!("another figure or table of the paper is called `{id}` already");
-                return Err(document.error(span, message));
+                faults.add(document.error_at(&place, message));
             }
         }
-        Ok(())
     }
 
     /// A reading's name means the same in every study of the paper.
-    fn check_readings(&self) -> Result<(), SettingsError> {
-        for (study, reading) in self.studies.iter().flat_map(|s| s.readings.iter().map(move |r| (s, r))) {
-            let all = self.readings();
+    fn check_readings(&self, faults: &mut Faults) {
+        let all = self.readings();
+        let each = self.studies.iter().flat_map(|s| s.readings.iter().enumerate().map(move |r| (s, r)));
+        for (study, (index, reading)) in each {
             let first = all.iter().find(|known| known.id == reading.id).expect("every reading is listed");
             if first.default != reading.default || !first.options.keys().eq(reading.options.keys()) {
                 let message = format!(
@@ -83,15 +106,14 @@ impl Paper {
                      mean the same everywhere",
                     reading.id
                 );
-                return Err(study.document.error(0..0, message));
+                faults.add(study.document.error_at(&format!("reading.{index}.id"), message));
             }
         }
-        Ok(())
     }
 
-    fn check_tables(&self) -> Result<(), SettingsError> {
-        for table in &self.tables {
-            for row in &table.rows {
+    fn check_tables(&self, faults: &mut Faults) {
+        for (number, table) in self.tables.iter().enumerate() {
+            for (index, row) in table.rows.iter().enumerate() {
                 let (claims, cells) = (row.claims.len(), row.cells.len());
                 if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
                     let message = format!(
@@ -101,46 +123,39 @@ impl Paper {
                         table.id,
                         table.columns.len()
                     );
-                    let span = row.claims.first().map_or(0..0, Spanned::span);
-                    return Err(self.document.error(span, message));
+                    let place = if claims > 0 { "claims" } else { "label" };
+                    faults
+                        .add(self.document.error_at(&format!("table.{number}.row.{index}.{place}"), message));
                 }
             }
         }
-        Ok(())
     }
 
-    fn known(
-        &self,
-        what: &str,
-        names: &[Spanned<String>],
-        known: &BTreeSet<&str>,
-    ) -> Result<(), SettingsError> {
+    fn known(&self, what: &str, names: &[Spanned<String>], known: &BTreeSet<&str>, faults: &mut Faults) {
         for name in names {
             if !known.contains(name.get_ref().as_str()) {
-                let list: Vec<&str> = known.iter().copied().collect();
-                let message =
-                    format!("there is no {what} `{}`; there are {}", name.get_ref(), list.join(", "));
-                return Err(self.document.error(name.span(), message));
+                let message = none_called(what, name.get_ref(), known.iter().copied());
+                faults.add(self.document.error(name.span(), message));
             }
         }
-        Ok(())
     }
 
     /// Every numbered figure, table and equation must have a row.
-    fn check_numbering(&self) -> Result<(), SettingsError> {
+    fn check_numbering(&self, faults: &mut Faults) {
         let items: BTreeSet<&str> = self.ledger.iter().map(|row| row.item.get_ref().as_str()).collect();
-        for (kind, count) in
-            [("Fig.", self.prints.figures), ("Table", self.prints.tables), ("Eq.", self.prints.equations)]
-        {
+        for (kind, key, count) in [
+            ("Fig.", "figures", self.prints.figures),
+            ("Table", "tables", self.prints.tables),
+            ("Eq.", "equations", self.prints.equations),
+        ] {
             for number in 1..=count {
                 let item = format!("{kind} {number}");
                 if !items.contains(item.as_str()) {
                     let message =
                         format!("the ledger has no row for {item}; the paper has {count} of its kind");
-                    return Err(self.document.error(0..0, message));
+                    faults.add(self.document.error_at(&format!("prints.{key}"), message));
                 }
             }
         }
-        Ok(())
     }
 }

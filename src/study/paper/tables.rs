@@ -1,10 +1,11 @@
 //! The paper's own tables as they are asked for beside ours.
 
+use base::settings::Spanned;
+use schemars::JsonSchema;
 use serde::Deserialize;
-use toml::Spanned;
 
 /// One of the paper's tables, to be set beside ours.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TableSpec {
     /// Its file name.
@@ -16,6 +17,7 @@ pub struct TableSpec {
     /// What stands below it; the paper's notes if absent.
     pub notes: Option<Vec<String>>,
     /// With how many decimals our numbers are shown; two if absent.
+    #[schemars(range(max = 15))]
     pub decimals: Option<usize>,
     /// Its rows.
     #[serde(rename = "row")]
@@ -28,7 +30,7 @@ pub struct TableSpec {
 }
 
 /// The problem that a table's own rows are from.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OursSpec {
     /// The study.
@@ -42,7 +44,7 @@ pub struct OursSpec {
 }
 
 /// A row of a table.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TableRow {
     /// Its head.

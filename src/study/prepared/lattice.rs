@@ -4,6 +4,7 @@ use super::{Entry, Prepared};
 use base::grid::{CornerRule, Grid2, components};
 use engine::planner::{Counts, Exhibit, Invalid, Value};
 use engine::space::{LatticeWorld, World};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -14,7 +15,7 @@ pub static ENTRY: Entry = Entry {
 };
 
 /// The corner rule as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CornerSetting {
     /// Every corner may be cut.

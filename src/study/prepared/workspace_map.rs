@@ -6,6 +6,7 @@ use engine::geometry::planar::{Circle, ConvexPolygon, Touch};
 use engine::kinematics::planar_2r::ElbowRule;
 use engine::planner::{Counts, Exhibit, Value};
 use engine::space::{ArmWorld, HopRule, Obstacle, World, Zone};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -17,7 +18,7 @@ pub static ENTRY: Entry = Entry {
 };
 
 /// The elbow rule as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ElbowSetting {
     /// θ2 is negative: the elbow is to the left of the line from base to tip.
@@ -36,7 +37,7 @@ impl From<ElbowSetting> for ElbowRule {
 }
 
 /// Whether touching is contact, as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TouchSetting {
     /// Touching an obstacle is a collision.
@@ -55,7 +56,7 @@ impl From<TouchSetting> for Touch {
 }
 
 /// The hop rule as settings write it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum HopSetting {
     /// Free end points make a free hop.
@@ -74,7 +75,7 @@ impl From<HopSetting> for HopRule {
 }
 
 /// The shape of an obstacle whose size is one number, its diameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ShapeSetting {
     /// A disc.

@@ -97,13 +97,16 @@ fn parse(line: &[u8]) -> Option<Line> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::key::{DrawKey, Owner, ReadingKey};
     use crate::study::record::Kept;
     use engine::planner::Exhibit;
 
     fn batch(number: u32) -> Batch {
         let values = vec![f64::from(number) / 3.0, 0.1 + 0.2, f64::MIN_POSITIVE];
+        let reading = ReadingKey::new(vec![("corners".into(), "cut".into())]);
+        let of = Owner::Draw(DrawKey { group: "a".into(), draw: number, reading }.into());
         let exhibit = Exhibit { name: "path".to_owned(), width: 1, values };
-        Batch { kept: vec![Kept { of: "a".to_owned(), exhibit }], ..Batch::default() }
+        Batch { kept: vec![Kept { of, exhibit }], ..Batch::default() }
     }
 
     #[test]

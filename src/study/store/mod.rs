@@ -3,12 +3,16 @@
 //! Every file is written beside its place under a temporary name, flushed to disk and renamed, so a reader sees
 //! the old file or the new one. The journal is the one file that grows; a torn last line is dropped on reading.
 
+mod describe;
 mod journal;
+mod read;
 mod table;
 
 pub use journal::Journal;
 
+use self::read::{Draws, Stored};
 use super::StudyError;
+use super::key::KeyColumns;
 use super::record::{Batch, Timing};
 use base::hash::sha256;
 use std::collections::BTreeMap;
@@ -23,6 +27,15 @@ pub struct Records {
     pub batch: Batch,
     /// Clock readings.
     pub times: Vec<Timing>,
+}
+
+/// The columns of a study's records besides those that every study has.
+#[derive(Debug)]
+pub struct Columns<'a> {
+    /// Those of keys.
+    pub keys: KeyColumns,
+    /// Those that its trials can fill.
+    pub values: &'a [&'static str],
 }
 
 /// The kinds of file that hold a study's records.
@@ -44,18 +57,19 @@ pub fn stage_records(
     staged: &mut Staged,
     folder: &Path,
     study: &str,
-    columns: &[&'static str],
+    columns: &Columns<'_>,
     records: &Records,
 ) -> Result<BTreeMap<String, String>, StudyError> {
+    let keys = &columns.keys;
     let parts = [
-        table::trials(&records.batch.rows, columns),
-        table::prepared(&records.batch.prepared),
-        table::exhibits(&records.batch.kept),
-        table::times(&records.times),
+        table::trials(&records.batch.rows, keys, columns.values),
+        table::prepared(&records.batch.prepared, keys),
+        table::exhibits(&records.batch.kept, keys),
+        table::times(&records.times, keys),
     ];
     let mut hashes = BTreeMap::new();
     for (part, frame) in PARTS.into_iter().zip(parts) {
-        let bytes = table::to_parquet(frame);
+        let bytes = table::to_parquet(frame, keys);
         staged.add(&part_path(folder, study, part), &bytes)?;
         hashes.insert(part.to_owned(), sha256(&bytes));
     }
@@ -71,7 +85,7 @@ pub fn read_records(
     study: &str,
     hashes: &BTreeMap<String, String>,
 ) -> Result<Records, StudyError> {
-    let open = |part: &str| -> Result<table::Stored, StudyError> {
+    let open = |part: &str| -> Result<Stored, StudyError> {
         let path = part_path(folder, study, part);
         let bytes = fs::read(&path)
             .map_err(|e| StudyError::stored(&path, format!("cannot be read ({e}); run the study again")))?;
@@ -85,15 +99,16 @@ pub fn read_records(
             );
             return Err(StudyError::stored(&path, message));
         }
-        table::Stored::open(path, bytes)
+        Stored::open(path, bytes)
     };
+    let draws = &mut Draws::default();
     Ok(Records {
         batch: Batch {
-            rows: open("trials")?.trials()?,
-            prepared: open("prepared")?.prepared()?,
-            kept: open("exhibits")?.exhibits()?,
+            rows: open("trials")?.trials(draws)?,
+            prepared: open("prepared")?.prepared(draws)?,
+            kept: open("exhibits")?.exhibits(draws)?,
         },
-        times: open("times")?.times()?,
+        times: open("times")?.times(draws)?,
     })
 }
 
@@ -171,31 +186,4 @@ pub fn remove_temporaries(folder: &Path, study: &str) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn staged_files_are_all_put_in_place_or_none_is() {
-        let folder = tempfile::tempdir().unwrap();
-        let at = |name: &str| folder.path().join(name);
-        write_whole(&at("a"), b"old").unwrap();
-        fs::create_dir(at("c")).unwrap();
-        let mut staged = Staged::default();
-        staged.add(&at("a"), b"new").unwrap();
-        staged.add(&at("b"), b"new").unwrap();
-        let error = staged.add(&at("c"), b"new").unwrap_err().to_string();
-        assert!(error.ends_with("c: writing the file: is a directory"), "{error}");
-        drop(staged);
-        let names = || {
-            let mut names: Vec<_> =
-                fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-            names.sort();
-            names
-        };
-        assert_eq!((fs::read(at("a")).unwrap(), names()), (b"old".to_vec(), vec!["a".into(), "c".into()]));
-        fs::write(at("s.trials.parquet.77.tmp"), b"half").unwrap();
-        fs::write(at("other.77.tmp"), b"half").unwrap();
-        remove_temporaries(folder.path(), "s");
-        assert_eq!(names(), ["a", "c", "other.77.tmp"]);
-    }
-}
+mod tests;

@@ -1,54 +1,47 @@
-//! Records as data frames and Parquet, and back.
+//! Records as data frames, and these as Parquet files that say what their columns mean.
 
-use crate::study::StudyError;
+use super::describe::{READING, SWEEP, described};
 use crate::study::column::{self, Kind};
-use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
-use engine::planner::{Exhibit, Value, fill_column};
+use crate::study::key::{DrawKey, KeyColumns, Owner, SweepValue, TrialKey};
+use crate::study::record::{Kept, PreparedRow, Row, Timing, Values};
+use engine::planner::Value;
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
-use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter, SerReader as _};
+use polars_io::prelude::{KeyValueMetadata, ParquetCompression, ParquetWriter};
 use std::collections::BTreeSet;
-use std::io::Cursor;
-use std::mem::take;
-use std::path::PathBuf;
+
+/// The key of a file's metadata under which its columns are described: JSON, a list of name, unit and meaning.
+pub const DESCRIPTION: &str = "columns";
 
 /// The trials as a frame; `columns` are those that the study can fill, in any order.
-pub fn trials(rows: &[Row], columns: &[&'static str]) -> DataFrame {
-    let mut frame = vec![
-        text("trial", rows, |row| Some(row.trial.as_str())),
-        text("problem", rows, |row| Some(row.problem.as_str())),
-        text("group", rows, |row| Some(row.group.as_str())),
-        whole("replicate", rows, |row| Some(u64::from(row.replicate))),
-        text("contender", rows, |row| Some(row.contender.as_str())),
-        text("sweep", rows, |row| Some(row.sweep.as_str())),
-        text("reading", rows, |row| Some(row.reading.as_str())),
-        whole("repeat", rows, |row| Some(u64::from(row.repeat))),
+pub fn trials(rows: &[Row], keys: &KeyColumns, columns: &[&'static str]) -> DataFrame {
+    let mut frame = trial_keys(rows, keys, |row| &row.key);
+    frame.extend([
         whole("seed", rows, |row| Some(row.seed)),
         text("status", rows, |row| Some(row.status.name())),
         text("reason", rows, |row| row.reason.as_deref()),
-    ];
+    ]);
     frame.extend(values(rows, |name| columns.contains(&name), |row| &row.values));
     assemble(rows.len(), frame)
 }
 
 /// The prepared objects as a frame, with the columns that any of them fills.
-pub fn prepared(rows: &[PreparedRow]) -> DataFrame {
-    let mut frame = vec![
-        text("prepared", rows, |row| Some(row.prepared.as_str())),
+pub fn prepared(rows: &[PreparedRow], keys: &KeyColumns) -> DataFrame {
+    let mut frame = draw_keys(rows, |row| &*row.key);
+    frame.extend(reading_keys(rows, keys, |row| &*row.key));
+    frame.extend([
         text("kind", rows, |row| Some(row.kind.as_str())),
-        text("group", rows, |row| Some(row.group.as_str())),
-        whole("replicate", rows, |row| Some(u64::from(row.replicate))),
-        text("reading", rows, |row| Some(row.reading.as_str())),
         whole("seed", rows, |row| Some(row.seed)),
         text("reason", rows, |row| row.reason.as_deref()),
-    ];
-    let filled: BTreeSet<&str> = rows.iter().flat_map(|row| row.values.keys().map(String::as_str)).collect();
+    ]);
+    let filled: BTreeSet<&str> =
+        rows.iter().flat_map(|row| row.values.iter().map(|(column, _)| column.name)).collect();
     frame.extend(values(rows, |name| filled.contains(name), |row| &row.values));
     assemble(rows.len(), frame)
 }
 
 /// The exhibits as a frame: one row an exhibit, its numbers as a list, row by row of `width` numbers, and the names of the
 /// columns that they stand in where these are known.
-pub fn exhibits(kept: &[Kept]) -> DataFrame {
+pub fn exhibits(kept: &[Kept], keys: &KeyColumns) -> DataFrame {
     let lists: Vec<Series> =
         kept.iter().map(|kept| Series::new("values".into(), kept.exhibit.values.as_slice())).collect();
     let values = if lists.is_empty() {
@@ -59,34 +52,39 @@ pub fn exhibits(kept: &[Kept]) -> DataFrame {
     };
     let columns: Vec<Option<String>> =
         kept.iter().map(|kept| column::of_exhibit(&kept.exhibit.name)).collect();
-    let frame = vec![
-        text("of", kept, |kept| Some(kept.of.as_str())),
+    let mut frame = keys_of(kept, keys, |kept| match &kept.of {
+        Owner::Draw(key) => (&**key, None),
+        Owner::Trial(key) => (&*key.on, Some(key)),
+    });
+    frame.extend([
         text("name", kept, |kept| Some(kept.exhibit.name.as_str())),
         whole("width", kept, |kept| Some(kept.exhibit.width as u64)),
         Series::new("columns".into(), columns).into(),
         values.into(),
-    ];
+    ]);
     assemble(kept.len(), frame)
 }
 
 /// The clock readings as a frame.
-pub fn times(times: &[Timing]) -> DataFrame {
-    let frame = vec![
-        text("trial", times, |time| Some(time.trial.as_str())),
-        text("group", times, |time| Some(time.group.as_str())),
-        text("contender", times, |time| Some(time.contender.as_str())),
-        whole("replicate", times, |time| Some(u64::from(time.replicate))),
-        whole("repeat", times, |time| Some(u64::from(time.repeat))),
+pub fn times(times: &[Timing], keys: &KeyColumns) -> DataFrame {
+    let mut frame = trial_keys(times, keys, |time| &time.trial);
+    frame.extend([
+        whole("session", times, |time| Some(u64::from(time.session))),
+        whole("clock_repeat", times, |time| Some(u64::from(time.clock_repeat))),
         whole("plan_wall_ns", times, |time| Some(time.plan_wall_ns)),
-    ];
+    ]);
     assemble(times.len(), frame)
 }
 
 /// The bytes of `frame` as a Parquet file: the same for the same frame.
-pub fn to_parquet(mut frame: DataFrame) -> Vec<u8> {
+pub fn to_parquet(mut frame: DataFrame, keys: &KeyColumns) -> Vec<u8> {
+    let names = frame.columns().iter().map(|column| column.name().as_str());
+    let meant = names.map(|name| described(name, keys).expect("every column of records is described"));
+    let json = serde_json::to_string(&meant.collect::<Vec<_>>()).expect("descriptions are strings");
     let mut bytes = Vec::new();
     ParquetWriter::new(&mut bytes)
         .with_compression(ParquetCompression::Zstd(None))
+        .with_key_value_metadata(Some(KeyValueMetadata::from_static(vec![(DESCRIPTION.to_owned(), json)])))
         .set_parallel(false)
         .finish(&mut frame)
         .expect("a frame of equally long columns is written to memory");
@@ -97,11 +95,77 @@ fn assemble(height: usize, columns: Vec<Column>) -> DataFrame {
     DataFrame::new(height, columns).expect("columns are as long as the records are many")
 }
 
+fn trial_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> &'a TrialKey) -> Vec<Column> {
+    keys_of(rows, keys, |row| (&*key(row).on, Some(key(row))))
+}
+
+/// The columns that name records which belong to a draw and, if there is one, to a trial on it.
+fn keys_of<'a, R>(
+    rows: &'a [R],
+    keys: &KeyColumns,
+    get: impl Fn(&'a R) -> (&'a DrawKey, Option<&'a TrialKey>),
+) -> Vec<Column> {
+    let trial = |row: &'a R| get(row).1;
+    let mut frame = draw_keys(rows, |row| get(row).0);
+    frame.push(text("query", rows, |row| trial(row)?.query.as_deref()));
+    frame.push(text("contender", rows, |row| Some(&*trial(row)?.contender)));
+    for (place, (setting, _)) in keys.sweeps.iter().enumerate() {
+        let cells = rows.iter().map(|row| Some(&trial(row)?.sweep.values().get(place)?.1));
+        frame.push(sweep_column(&format!("{SWEEP}{setting}"), &cells.collect::<Vec<_>>()));
+    }
+    frame.extend(reading_keys(rows, keys, |row| get(row).0));
+    frame.push(whole("repeat", rows, |row| trial(row).map(|key| u64::from(key.repeat))));
+    frame
+}
+
+fn draw_keys<'a, R>(rows: &'a [R], key: impl Fn(&'a R) -> &'a DrawKey) -> Vec<Column> {
+    let group = text("group", rows, |row| Some(&*key(row).group));
+    vec![group, whole("draw", rows, |row| Some(u64::from(key(row).draw)))]
+}
+
+fn reading_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> &'a DrawKey) -> Vec<Column> {
+    let ids = keys.readings.iter().enumerate();
+    let column = |(place, id): (usize, _)| {
+        text(&format!("{READING}{id}"), rows, |row| Some(&*key(row).reading.options().get(place)?.1))
+    };
+    ids.map(column).collect()
+}
+
+/// The values of a sweep, as numbers if they are.
+fn sweep_column(name: &str, cells: &[Option<&SweepValue>]) -> Column {
+    let some = cells.iter().flatten().next();
+    match some {
+        Some(SweepValue::Flag(_)) => Series::new(
+            name.into(),
+            picked(cells, |value| match value {
+                SweepValue::Flag(flag) => Some(*flag),
+                _ => None,
+            }),
+        ),
+        Some(SweepValue::Whole(_)) => Series::new(
+            name.into(),
+            picked(cells, |value| match value {
+                SweepValue::Whole(whole) => Some(*whole),
+                _ => None,
+            }),
+        ),
+        Some(SweepValue::Real(_)) => Series::new(name.into(), picked(cells, SweepValue::as_f64)),
+        Some(SweepValue::Text(_)) | None => {
+            Series::new(name.into(), picked(cells, |value| Some(value.to_string())))
+        }
+    }
+    .into()
+}
+
+fn picked<T>(cells: &[Option<&SweepValue>], pick: impl Fn(&SweepValue) -> Option<T>) -> Vec<Option<T>> {
+    cells.iter().map(|cell| cell.and_then(&pick)).collect()
+}
+
 fn text<'a, R>(name: &str, rows: &'a [R], get: impl Fn(&'a R) -> Option<&'a str>) -> Column {
     Series::new(name.into(), rows.iter().map(get).collect::<Vec<_>>()).into()
 }
 
-fn whole<R>(name: &str, rows: &[R], get: impl Fn(&R) -> Option<u64>) -> Column {
+fn whole<'a, R>(name: &str, rows: &'a [R], get: impl Fn(&'a R) -> Option<u64>) -> Column {
     Series::new(name.into(), rows.iter().map(get).collect::<Vec<_>>()).into()
 }
 
@@ -110,9 +174,9 @@ fn values<R>(
     is_wanted: impl Fn(&'static str) -> bool,
     get: impl Fn(&R) -> &Values,
 ) -> Vec<Column> {
-    let wanted = column::COLUMNS.iter().filter(|column| is_wanted(column.name));
-    let filled = wanted.map(|column| {
-        let cells = rows.iter().map(|row| get(row).get(column.name).copied());
+    let wanted = column::COLUMNS.iter().zip(0..).filter(|(column, _)| is_wanted(column.name));
+    let filled = wanted.map(|(column, place)| {
+        let cells = rows.iter().map(|row| get(row).at(place));
         match column.kind {
             Kind::Count => whole_cells(column.name, cells),
             Kind::Real => {
@@ -134,148 +198,4 @@ fn whole_cells(name: &str, cells: impl Iterator<Item = Option<Value>>) -> Column
         })
         .collect();
     Series::new(name.into(), cells).into()
-}
-
-/// A Parquet file that was opened.
-pub struct Stored {
-    path: PathBuf,
-    frame: DataFrame,
-}
-
-impl Stored {
-    /// The frame in `bytes`, read from `path`.
-    pub fn open(path: PathBuf, bytes: Vec<u8>) -> Result<Self, StudyError> {
-        let frame = ParquetReader::new(Cursor::new(bytes)).finish();
-        let frame = frame.map_err(|e| StudyError::stored(&path, format!("is not a Parquet file: {e}")))?;
-        Ok(Self { path, frame })
-    }
-
-    fn column(&self, name: &str) -> Result<&Column, StudyError> {
-        self.frame.column(name).map_err(|_| {
-            StudyError::stored(&self.path, format!("has no column `{name}`; run the study again"))
-        })
-    }
-
-    fn wrong(&self, name: &str) -> StudyError {
-        StudyError::stored(
-            &self.path,
-            format!("column `{name}` does not hold what it should; run the study again"),
-        )
-    }
-
-    fn maybe_texts(&self, name: &str) -> Result<Vec<Option<String>>, StudyError> {
-        let texts = self.column(name)?.str().map_err(|_| self.wrong(name))?;
-        Ok(texts.iter().map(|text| text.map(str::to_owned)).collect())
-    }
-
-    fn texts(&self, name: &str) -> Result<Vec<String>, StudyError> {
-        self.maybe_texts(name)?.into_iter().map(|text| text.ok_or_else(|| self.wrong(name))).collect()
-    }
-
-    fn maybe_wholes(&self, name: &str) -> Result<Vec<Option<u64>>, StudyError> {
-        Ok(self.column(name)?.u64().map_err(|_| self.wrong(name))?.iter().collect())
-    }
-
-    fn wholes(&self, name: &str) -> Result<Vec<u64>, StudyError> {
-        self.maybe_wholes(name)?.into_iter().map(|count| count.ok_or_else(|| self.wrong(name))).collect()
-    }
-
-    fn values(&self) -> Result<Vec<Values>, StudyError> {
-        let mut rows = vec![Values::new(); self.frame.height()];
-        for column in column::COLUMNS {
-            if self.frame.column(column.name).is_err() {
-                continue;
-            }
-            let cells: Vec<Option<Value>> = match column.kind {
-                Kind::Count => {
-                    self.maybe_wholes(column.name)?.into_iter().map(|cell| cell.map(Value::Count)).collect()
-                }
-                Kind::Real => {
-                    let cells = self.column(column.name)?.f64().map_err(|_| self.wrong(column.name))?;
-                    cells.iter().map(|cell| cell.map(Value::Real)).collect()
-                }
-            };
-            fill_column(&mut rows, column.name, &cells);
-        }
-        Ok(rows)
-    }
-
-    /// The frame as trials.
-    pub fn trials(&self) -> Result<Vec<Row>, StudyError> {
-        let texts = |name: &str| self.texts(name);
-        let (mut trial, mut problem, mut group) = (texts("trial")?, texts("problem")?, texts("group")?);
-        let (mut contender, mut sweep, mut reading) =
-            (texts("contender")?, texts("sweep")?, texts("reading")?);
-        let (status, mut reason) = (texts("status")?, self.maybe_texts("reason")?);
-        let (replicate, repeat) = (self.wholes("replicate")?, self.wholes("repeat")?);
-        let (seed, mut values) = (self.wholes("seed")?, self.values()?);
-        (0..trial.len())
-            .map(|i| {
-                Ok(Row {
-                    trial: take(&mut trial[i]),
-                    problem: take(&mut problem[i]),
-                    group: take(&mut group[i]),
-                    replicate: replicate[i] as u32,
-                    contender: take(&mut contender[i]),
-                    sweep: take(&mut sweep[i]),
-                    reading: take(&mut reading[i]),
-                    repeat: repeat[i] as u32,
-                    seed: seed[i],
-                    status: Status::find(&status[i]).ok_or_else(|| self.wrong("status"))?,
-                    reason: take(&mut reason[i]),
-                    values: take(&mut values[i]),
-                })
-            })
-            .collect()
-    }
-
-    /// The frame as prepared objects.
-    pub fn prepared(&self) -> Result<Vec<PreparedRow>, StudyError> {
-        let texts = |name: &str| self.texts(name);
-        let (mut prepared, mut kind, mut group) = (texts("prepared")?, texts("kind")?, texts("group")?);
-        let (mut reading, mut reason) = (texts("reading")?, self.maybe_texts("reason")?);
-        let (replicate, seed, mut values) = (self.wholes("replicate")?, self.wholes("seed")?, self.values()?);
-        let row = |i: usize| PreparedRow {
-            prepared: take(&mut prepared[i]),
-            kind: take(&mut kind[i]),
-            group: take(&mut group[i]),
-            replicate: replicate[i] as u32,
-            reading: take(&mut reading[i]),
-            seed: seed[i],
-            reason: take(&mut reason[i]),
-            values: take(&mut values[i]),
-        };
-        Ok((0..self.frame.height()).map(row).collect())
-    }
-
-    /// The frame as exhibits.
-    pub fn exhibits(&self) -> Result<Vec<Kept>, StudyError> {
-        let (mut of, mut name, width) = (self.texts("of")?, self.texts("name")?, self.wholes("width")?);
-        let lists = self.column("values")?.list().map_err(|_| self.wrong("values"))?.clone();
-        let mut kept = Vec::new();
-        for i in 0..of.len() {
-            let list = lists.get_as_series(i).ok_or_else(|| self.wrong("values"))?;
-            let values = list.f64().map_err(|_| self.wrong("values"))?.into_no_null_iter().collect();
-            let exhibit = Exhibit { name: take(&mut name[i]), width: width[i] as usize, values };
-            kept.push(Kept { of: take(&mut of[i]), exhibit });
-        }
-        Ok(kept)
-    }
-
-    /// The frame as clock readings.
-    pub fn times(&self) -> Result<Vec<Timing>, StudyError> {
-        let (mut trial, mut group, mut contender) =
-            (self.texts("trial")?, self.texts("group")?, self.texts("contender")?);
-        let (replicate, repeat) = (self.wholes("replicate")?, self.wholes("repeat")?);
-        let plan_wall_ns = self.wholes("plan_wall_ns")?;
-        let row = |i: usize| Timing {
-            trial: take(&mut trial[i]),
-            group: take(&mut group[i]),
-            contender: take(&mut contender[i]),
-            replicate: replicate[i] as u32,
-            repeat: repeat[i] as u32,
-            plan_wall_ns: plan_wall_ns[i],
-        };
-        Ok((0..self.frame.height()).map(row).collect())
-    }
 }

@@ -6,17 +6,18 @@
 //! exact one on pairs of segments of the same samples.
 
 use super::{Entry, Task};
-use crate::study::checked::Study;
+use crate::study::key::TrialKey;
 use crate::study::record::{Batch, Status, Values};
-use crate::study::runner::Unit;
+use crate::study::unit::Unit;
 use base::seed::{self, Stream};
-use base::settings::Settings;
+use base::settings::{Accepted, Settings};
 use engine::geometry::{
     Convex, Segment, Vec3, distance_segment_convex, distance_segment_segment, nearest_segment_convex_printed,
     nearest_segment_segment_printed,
 };
 use engine::planner::Value;
 use rand::RngExt as _;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -33,14 +34,19 @@ pub static ENTRY: Entry = Entry {
         "segment_pairs_wrong",
         "largest_excess_cm",
     ],
+    settings: Accepted::of::<FormulaError>(),
+    example: "
+samples = 500
+reach = 0.5
+",
     build: |settings: &Settings| {
         let read: FormulaError = settings.read()?;
         if read.samples == 0 {
-            return Err(settings.error("samples is 0; at least 1 is accepted"));
+            return Err(settings.error_at("samples", "samples is 0; at least 1 is accepted"));
         }
         if !(read.reach > 0.0 && read.reach.is_finite()) {
             let message = format!("reach is {}; more than 0 is accepted", read.reach);
-            return Err(settings.error(message));
+            return Err(settings.error_at("reach", message));
         }
         Ok(Box::new(read))
     },
@@ -52,10 +58,11 @@ const SAME: f64 = 1e-6;
 /// What stands in a contender's place.
 const LABEL: &str = "Printed distance";
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct FormulaError {
     /// Segments drawn beside each obstacle.
+    #[schemars(range(max = 10_000_000))]
     samples: u32,
     /// Their ends lie in the box about the obstacle, grown by this share of its extent.
     reach: f64,
@@ -100,8 +107,8 @@ impl Counted {
             ("segment_pairs", self.pairs),
             ("segment_pairs_wrong", self.pairs_wrong),
         ];
-        let counts = counts.into_iter().map(|(name, count)| (name.to_owned(), Value::Count(count)));
-        counts.chain([("largest_excess_cm".to_owned(), Value::Real(self.largest_excess))]).collect()
+        let counts = counts.into_iter().map(|(name, count)| (name, Value::Count(count)));
+        counts.chain([("largest_excess_cm", Value::Real(self.largest_excess))]).collect()
     }
 }
 
@@ -115,12 +122,12 @@ impl FormulaError {
 }
 
 impl Task for FormulaError {
-    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
-        vec![super::variant_name(unit, LABEL)]
+    fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
+        vec![super::variant_key(unit, LABEL, 0)]
     }
 
-    fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
-        let mut row = super::variant_row(unit, LABEL, "");
+    fn run(&self, unit: &Unit<'_>) -> Batch {
+        let mut row = super::variant_row(unit, LABEL);
         let prepared = unit.family.prepare(unit.seed);
         // Stored units are known by what was prepared for them: without this row every run would measure anew.
         let prepared_row = super::prepared_row(unit, prepared.as_ref());

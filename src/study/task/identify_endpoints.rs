@@ -1,15 +1,17 @@
 //! Looks for the pairs of lattice points that have printed lengths in all cases, under every variant asked for.
 
 use super::{Entry, Task};
-use crate::study::checked::Study;
 use crate::study::endpoint_variants::{self as open, Case, Question, Variant};
+use crate::study::key::{Owner, TrialKey};
 use crate::study::record::{Batch, Kept, Row, Status, Values};
-use crate::study::runner::Unit;
+use crate::study::unit::Unit;
 use base::grid::Moves;
+use base::settings::Accepted;
 use engine::length_inversion::{self, Match, NeverLowered, Pair};
 use engine::planner::{Exhibit, Value};
 use engine::search::Ties;
 use engine::space::TipLattice;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -18,17 +20,64 @@ pub static ENTRY: Entry = Entry {
     about: "which pairs of lattice points have the printed lengths in all cases, by exact single-source searches",
     revision: 3,
     columns: &["start_x_cm", "start_y_cm", "goal_x_cm", "goal_y_cm", "pairs", "pairs_on_fives", "candidates"],
+    settings: Accepted::of::<Identify>(),
+    example: r#"
+excess_steps = 3.0
+cases = [
+    { obstacles_cm = [[35, 18], [7, 35], [-13, 35], [-30, 20]], hops = [29, 31] },
+    { obstacles_cm = [[41, 10], [7, 40], [-16, 33]], hops = [17, 38] },
+]
+variants = [
+    { label = "circles", shape = "circle", diameter_cm = 10 },
+    { label = "circles, 8 cm", shape = "circle", diameter_cm = 8 },
+    { label = "circles, 9 cm", shape = "circle", diameter_cm = 9 },
+    { label = "circles, 11 cm", shape = "circle", diameter_cm = 11 },
+    { label = "circles, 12 cm", shape = "circle", diameter_cm = 12 },
+    { label = "squares", shape = "square", diameter_cm = 10 },
+    { label = "squares, 8 cm", shape = "square", diameter_cm = 8 },
+    { label = "squares, 9 cm", shape = "square", diameter_cm = 9 },
+    { label = "squares, 11 cm", shape = "square", diameter_cm = 11 },
+    { label = "squares, 12 cm", shape = "square", diameter_cm = 12 },
+    { label = "hexagons", shape = "hexagon", diameter_cm = 10 },
+    { label = "hexagons, 8 cm", shape = "hexagon", diameter_cm = 8 },
+    { label = "hexagons, 9 cm", shape = "hexagon", diameter_cm = 9 },
+    { label = "hexagons, 11 cm", shape = "hexagon", diameter_cm = 11 },
+    { label = "hexagons, 12 cm", shape = "hexagon", diameter_cm = 12 },
+    { label = "triangles", shape = "triangle", diameter_cm = 10 },
+    { label = "triangles, 8 cm", shape = "triangle", diameter_cm = 8 },
+    { label = "triangles, 9 cm", shape = "triangle", diameter_cm = 9 },
+    { label = "triangles, 11 cm", shape = "triangle", diameter_cm = 11 },
+    { label = "triangles, 12 cm", shape = "triangle", diameter_cm = 12 },
+    { label = "circles, touching free", shape = "circle", diameter_cm = 10, touching = "free" },
+    { label = "squares, touching free", shape = "square", diameter_cm = 10, touching = "free" },
+    { label = "hexagons, touching free", shape = "hexagon", diameter_cm = 10, touching = "free" },
+    { label = "triangles, touching free", shape = "triangle", diameter_cm = 10, touching = "free" },
+    { label = "circles, inner radius 10", shape = "circle", diameter_cm = 10, inner_radius_cm = 10 },
+    { label = "circles, higher elbow", shape = "circle", diameter_cm = 10, elbow = "higher" },
+    { label = "circles, corners: not between two", shape = "circle", diameter_cm = 10, corner_rule = "forbid_both" },
+    { label = "circles, corners: not past one", shape = "circle", diameter_cm = 10, corner_rule = "forbid_any" },
+    { label = "circles, hops swept", shape = "circle", diameter_cm = 10, hop_check = "continuous" },
+    { label = "squares, 10 cm across corners", shape = "square_inscribed", diameter_cm = 10 },
+    { label = "hexagons, corner on top", shape = "hexagon_turned", diameter_cm = 10 },
+    { label = "triangles, corner below", shape = "triangle_turned", diameter_cm = 10 },
+    { label = "never lowered, first in first out", shape = "circle", diameter_cm = 10, open_node = "never", ties = "fifo" },
+    { label = "never lowered, last in first out", shape = "circle", diameter_cm = 10, open_node = "never", ties = "lifo" },
+    { label = "never lowered, larger g first", shape = "circle", diameter_cm = 10, open_node = "never", ties = "larger_g" },
+    { label = "each obstacle of any shape", shape = ["circle", "square", "hexagon", "triangle"], diameter_cm = 10 },
+    { label = "each obstacle of any shape, squares across corners", shape = ["circle", "square_inscribed", "hexagon", "triangle"], diameter_cm = 10 },
+]
+"#,
     build: |settings| {
         let read: Identify = settings.read()?;
         let fault = open::fault(&read.cases, &read.variants);
-        if let Some(fault) = fault.or_else(|| open::fault_of_excess(read.excess_steps)) {
-            return Err(settings.error(fault));
+        if let Some((key, message)) = fault.or_else(|| open::fault_of_excess(read.excess_steps)) {
+            return Err(settings.error_at(&key, message));
         }
         Ok(Box::new(read))
     },
 };
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Identify {
     /// Obstacles and printed length of each case.
@@ -62,11 +111,11 @@ impl Question for Identify {
 }
 
 impl Task for Identify {
-    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
-        self.variants.iter().map(|variant| super::variant_name(unit, &variant.label)).collect()
+    fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
+        self.variants.iter().map(|variant| super::variant_key(unit, &variant.label, 0)).collect()
     }
 
-    fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch {
+    fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut batch = Batch::default();
         let prepared = unit.family.prepare(unit.seed);
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
@@ -81,14 +130,14 @@ impl Task for Identify {
             }
         };
         let answers = open::answers(self, &base, &self.cases, &variants);
-        let keeps = unit.is_kept(study, None, 0);
+        let keeps = unit.is_kept(None, 0);
         for (variant, answer) in variants.into_iter().zip(answers) {
             match answer {
                 Ok(found) => {
                     let points = points(&base.lattice, &found.pairs);
                     batch.rows.extend(rows(unit, variant, &points, found.candidates));
                     if keeps {
-                        let of = super::variant_name(unit, &variant.label);
+                        let of = Owner::Trial(super::variant_key(unit, &variant.label, 0));
                         let exhibit = Exhibit { name: "pairs".to_owned(), width: 4, values: points.concat() };
                         batch.kept.push(Kept { of, exhibit });
                     }
@@ -119,14 +168,14 @@ fn points(lattice: &TipLattice, pairs: &[Pair]) -> Vec<[f64; 4]> {
 /// One row for the variant with its counts, then one a pair; without pairs the first says so.
 fn rows(unit: &Unit<'_>, variant: &Variant, points: &[[f64; 4]], candidates: Option<usize>) -> Vec<Row> {
     let on_fives = points.iter().filter(|pair| pair.iter().all(|value| value % 5.0 == 0.0)).count();
-    let mut head = super::variant_row(unit, &variant.label, "");
+    let mut head = super::variant_row(unit, &variant.label);
     head.status = Status::Solved;
-    head.values = Values::from([
-        ("pairs".to_owned(), Value::Count(points.len() as u64)),
-        ("pairs_on_fives".to_owned(), Value::Count(on_fives as u64)),
+    head.values = Values::from_iter([
+        ("pairs", Value::Count(points.len() as u64)),
+        ("pairs_on_fives", Value::Count(on_fives as u64)),
     ]);
     if let Some(candidates) = candidates {
-        head.values.insert("candidates".to_owned(), Value::Count(candidates as u64));
+        head.values.extend([("candidates", Value::Count(candidates as u64))]);
     }
     if points.is_empty() {
         let reason = "no pair of free points has the printed lengths in all cases".to_owned();
@@ -134,14 +183,10 @@ fn rows(unit: &Unit<'_>, variant: &Variant, points: &[[f64; 4]], candidates: Opt
     }
     let columns = ["start_x_cm", "start_y_cm", "goal_x_cm", "goal_y_cm"];
     let pair_row = |(index, pair): (usize, &[f64; 4])| {
-        let mut row = super::variant_row(unit, &variant.label, &format!("pair-{index}"));
+        let mut row = super::variant_row(unit, &variant.label);
         row.status = Status::Solved;
-        row.repeat = index as u32 + 1;
-        row.values = columns
-            .into_iter()
-            .zip(pair)
-            .map(|(name, value)| (name.to_owned(), Value::Real(*value)))
-            .collect();
+        row.key.repeat = index as u32 + 1;
+        row.values = columns.into_iter().zip(pair).map(|(name, value)| (name, Value::Real(*value))).collect();
         row
     };
     std::iter::once(head).chain(points.iter().enumerate().map(pair_row)).collect()

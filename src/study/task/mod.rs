@@ -5,24 +5,25 @@ mod identify_endpoints;
 mod null_rate;
 mod plan;
 
-use super::checked::{Study, slug};
+use super::key::{SweepKey, TrialKey};
 use super::prepared::Prepared;
 use super::record::{Batch, PreparedRow, Row, Status, Values};
-use super::runner::Unit;
-use base::settings::{Settings, SettingsError};
+use super::unit::Unit;
+use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::{Invalid, Value};
 use engine::space::ArmRules;
 
 /// A task with its settings.
 pub trait Task: Send + Sync {
     /// Does one unit of work: everything that shares one prepared object.
-    fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch;
+    fn run(&self, unit: &Unit<'_>) -> Batch;
 
-    /// The names of the unit's trials: one a query, entrant and repeat, unless the task does something else.
-    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+    /// What names the unit's trials, in the order of records: one a query, entrant and repeat, unless the task does
+    /// something else.
+    fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
         let mut trials = Vec::new();
         for query in &unit.queries() {
-            for entrant in unit.entrants {
+            for entrant in &unit.entrants {
                 trials
                     .extend((0..entrant.contender.repeats).map(|repeat| unit.trial(query, entrant, repeat)));
             }
@@ -42,6 +43,10 @@ pub struct Entry {
     pub revision: u32,
     /// The columns that it fills besides those of planners and families.
     pub columns: &'static [&'static str],
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
     /// How to build it from its settings.
     pub build: fn(&Settings) -> Result<Box<dyn Task>, SettingsError>,
 }
@@ -66,11 +71,8 @@ mod tests;
 /// The row of a unit's prepared object.
 fn prepared_row(unit: &Unit<'_>, prepared: Result<&Prepared, &Invalid>) -> PreparedRow {
     PreparedRow {
-        prepared: unit.name.clone(),
+        key: unit.key.clone(),
         kind: unit.group.family.prepared.to_owned(),
-        group: unit.group.label.clone(),
-        replicate: unit.replicate,
-        reading: unit.point.name().to_owned(),
         seed: unit.seed,
         reason: prepared.err().map(|invalid| invalid.0.clone()),
         values: prepared.map(|p| named(&p.values)).unwrap_or_default(),
@@ -78,40 +80,29 @@ fn prepared_row(unit: &Unit<'_>, prepared: Result<&Prepared, &Invalid>) -> Prepa
 }
 
 fn named<'a>(values: impl IntoIterator<Item = (&'a &'static str, &'a Value)>) -> Values {
-    values.into_iter().map(|(name, value)| ((*name).to_owned(), *value)).collect()
+    values.into_iter().map(|(name, value)| (*name, *value)).collect()
 }
 
-/// The name of what a unit gives for the variant called `label`.
-fn variant_name(unit: &Unit<'_>, label: &str) -> String {
-    format!("{}/{}", unit.name, slug(label))
+/// What names what a unit gives for the variant called `label`: its own row, or one of its findings, counted from 1.
+fn variant_key(unit: &Unit<'_>, label: &str, finding: u32) -> TrialKey {
+    let (on, sweep) = (unit.key.clone(), SweepKey::default());
+    TrialKey { on, query: None, contender: label.into(), sweep, repeat: finding }
 }
 
-/// A row without values about the variant called `label`, which stands where a contender does; `part` tells rows
-/// of one variant apart.
-fn variant_row(unit: &Unit<'_>, label: &str, part: &str) -> Row {
-    let name = variant_name(unit, label);
+/// A row without values about the variant called `label`, which stands where a contender does.
+fn variant_row(unit: &Unit<'_>, label: &str) -> Row {
     Row {
-        trial: if part.is_empty() { name.clone() } else { format!("{name}/{part}") },
-        problem: name,
-        group: unit.group.label.clone(),
-        replicate: unit.replicate,
-        contender: label.to_owned(),
-        sweep: String::new(),
-        reading: unit.point.name().to_owned(),
-        repeat: 0,
+        key: variant_key(unit, label, 0),
         seed: unit.seed,
         status: Status::Crashed,
         reason: None,
-        values: Values::new(),
+        values: Values::default(),
     }
 }
 
 /// Whether what the variant called `label` gives is asked for.
 fn is_variant_wanted(unit: &Unit<'_>, label: &str) -> bool {
-    let name = variant_name(unit, label);
-    unit.is_wanted(|trial| {
-        trial.strip_prefix(&name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-    })
+    unit.is_wanted(|trial| *trial.contender == *label)
 }
 
 /// The rules of the prepared arm; why there are none.
@@ -122,7 +113,7 @@ fn arm_rules(prepared: Result<&Prepared, &Invalid>) -> Result<ArmRules, String> 
 
 /// The row of a variant that cannot be tried.
 fn invalid_variant(unit: &Unit<'_>, label: &str, reason: &str) -> Row {
-    let mut row = variant_row(unit, label, "");
+    let mut row = variant_row(unit, label);
     (row.status, row.reason) = (Status::InvalidProblem, Some(reason.to_owned()));
     row
 }

@@ -1,15 +1,18 @@
 //! How often lengths that were not printed would have been met by some pair of lattice points just as well.
 
 use super::{Entry, Task};
-use crate::study::checked::{Study, slug};
 use crate::study::endpoint_variants::{self as endpoints, Case, Question, Variant};
+use crate::study::key::TrialKey;
+use crate::study::name::slug;
 use crate::study::record::{Batch, Row, Status, Values};
-use crate::study::runner::Unit;
+use crate::study::unit::Unit;
 use base::grid::Moves;
+use base::settings::Accepted;
 use engine::length_inversion::{Match, NeverLowered, Targets, union};
 use engine::planner::Value;
 use engine::search::Ties;
 use engine::space::ArmRules;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The registry's entry.
@@ -18,14 +21,62 @@ pub static ENTRY: Entry = Entry {
     about: "the share of targets of equal parity near two printed lengths that some pair of points meets",
     revision: 5,
     columns: &["targets", "targets_hit", "hit_share_percent"],
+    settings: Accepted::of::<NullRate>(),
+    example: r#"
+window_cm = 5.0
+excess_steps = 3.0
+cases = [
+    { obstacles_cm = [[35, 18], [7, 35], [-13, 35], [-30, 20]], hops = [29, 31] },
+    { obstacles_cm = [[41, 10], [7, 40], [-16, 33]], hops = [17, 38] },
+]
+variants = [
+    { label = "circles", shape = "circle", diameter_cm = 10 },
+    { label = "circles, 8 cm", shape = "circle", diameter_cm = 8 },
+    { label = "circles, 9 cm", shape = "circle", diameter_cm = 9 },
+    { label = "circles, 11 cm", shape = "circle", diameter_cm = 11 },
+    { label = "circles, 12 cm", shape = "circle", diameter_cm = 12 },
+    { label = "squares", shape = "square", diameter_cm = 10 },
+    { label = "squares, 8 cm", shape = "square", diameter_cm = 8 },
+    { label = "squares, 9 cm", shape = "square", diameter_cm = 9 },
+    { label = "squares, 11 cm", shape = "square", diameter_cm = 11 },
+    { label = "squares, 12 cm", shape = "square", diameter_cm = 12 },
+    { label = "hexagons", shape = "hexagon", diameter_cm = 10 },
+    { label = "hexagons, 8 cm", shape = "hexagon", diameter_cm = 8 },
+    { label = "hexagons, 9 cm", shape = "hexagon", diameter_cm = 9 },
+    { label = "hexagons, 11 cm", shape = "hexagon", diameter_cm = 11 },
+    { label = "hexagons, 12 cm", shape = "hexagon", diameter_cm = 12 },
+    { label = "triangles", shape = "triangle", diameter_cm = 10 },
+    { label = "triangles, 8 cm", shape = "triangle", diameter_cm = 8 },
+    { label = "triangles, 9 cm", shape = "triangle", diameter_cm = 9 },
+    { label = "triangles, 11 cm", shape = "triangle", diameter_cm = 11 },
+    { label = "triangles, 12 cm", shape = "triangle", diameter_cm = 12 },
+    { label = "circles, touching free", shape = "circle", diameter_cm = 10, touching = "free" },
+    { label = "squares, touching free", shape = "square", diameter_cm = 10, touching = "free" },
+    { label = "hexagons, touching free", shape = "hexagon", diameter_cm = 10, touching = "free" },
+    { label = "triangles, touching free", shape = "triangle", diameter_cm = 10, touching = "free" },
+    { label = "circles, inner radius 10", shape = "circle", diameter_cm = 10, inner_radius_cm = 10 },
+    { label = "circles, higher elbow", shape = "circle", diameter_cm = 10, elbow = "higher" },
+    { label = "circles, corners: not between two", shape = "circle", diameter_cm = 10, corner_rule = "forbid_both" },
+    { label = "circles, corners: not past one", shape = "circle", diameter_cm = 10, corner_rule = "forbid_any" },
+    { label = "circles, hops swept", shape = "circle", diameter_cm = 10, hop_check = "continuous" },
+    { label = "squares, 10 cm across corners", shape = "square_inscribed", diameter_cm = 10 },
+    { label = "hexagons, corner on top", shape = "hexagon_turned", diameter_cm = 10 },
+    { label = "triangles, corner below", shape = "triangle_turned", diameter_cm = 10 },
+    { label = "never lowered, first in first out", shape = "circle", diameter_cm = 10, open_node = "never", ties = "fifo" },
+    { label = "never lowered, last in first out", shape = "circle", diameter_cm = 10, open_node = "never", ties = "lifo" },
+    { label = "never lowered, larger g first", shape = "circle", diameter_cm = 10, open_node = "never", ties = "larger_g" },
+    { label = "each obstacle of any shape", shape = ["circle", "square", "hexagon", "triangle"], diameter_cm = 10 },
+    { label = "each obstacle of any shape, squares across corners", shape = ["circle", "square_inscribed", "hexagon", "triangle"], diameter_cm = 10 },
+]
+"#,
     build: |settings| {
         let read: NullRate = settings.read()?;
         if !(read.window_cm > 0.0 && read.window_cm < 50.0) {
             let message = format!("window_cm is {}; above 0 and below 50 is accepted", read.window_cm);
-            return Err(settings.error(message));
+            return Err(settings.error_at("window_cm", message));
         }
-        if let Some(fault) = read.fault() {
-            return Err(settings.error(fault));
+        if let Some((key, message)) = read.fault() {
+            return Err(settings.error_at(&key, message));
         }
         Ok(Box::new(read))
     },
@@ -34,7 +85,7 @@ pub static ENTRY: Entry = Entry {
 /// The label of the row over all variants.
 const ANY: &str = "any of the above";
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct NullRate {
     /// Obstacles and printed length of both cases.
@@ -48,17 +99,22 @@ struct NullRate {
 }
 
 impl NullRate {
-    fn fault(&self) -> Option<String> {
+    /// The key at fault and what is wrong with it, if anything.
+    fn fault(&self) -> Option<(String, String)> {
         if let Some(fault) = endpoints::fault(&self.cases, &self.variants) {
             return Some(fault);
         }
-        if let Some(variant) = self.variants.iter().find(|variant| slug(&variant.label) == slug(ANY)) {
-            return Some(format!("variant `{}` has the name of the row over all variants", variant.label));
+        if let Some(index) = self.variants.iter().position(|variant| slug(&variant.label) == slug(ANY)) {
+            let label = &self.variants[index].label;
+            let message = format!("variant `{label}` has the name of the row over all variants");
+            return Some((format!("variants.{index}.label"), message));
         }
-        let never = self.variants.iter().find(|variant| variant.never_lowered().is_some());
+        let never = self.variants.iter().position(|variant| variant.never_lowered().is_some());
         match (never, self.excess_steps) {
-            (Some(variant), None) => {
-                Some(format!("variant `{}` never lowers open nodes; excess_steps is needed", variant.label))
+            (Some(index), None) => {
+                let label = &self.variants[index].label;
+                let message = format!("variant `{label}` never lowers open nodes; excess_steps is needed");
+                Some((format!("variants.{index}.open_node"), message))
             }
             (_, excess) => excess.and_then(endpoints::fault_of_excess),
         }
@@ -88,12 +144,12 @@ impl Question for Asked<'_> {
 }
 
 impl Task for NullRate {
-    fn trials(&self, unit: &Unit<'_>) -> Vec<String> {
+    fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {
         let labels = self.variants.iter().map(|variant| variant.label.as_str()).chain([ANY]);
-        labels.map(|label| super::variant_name(unit, label)).collect()
+        labels.map(|label| super::variant_key(unit, label, 0)).collect()
     }
 
-    fn run(&self, _study: &Study, unit: &Unit<'_>) -> Batch {
+    fn run(&self, unit: &Unit<'_>) -> Batch {
         let mut batch = Batch::default();
         let prepared = unit.family.prepare(unit.seed);
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
@@ -152,13 +208,13 @@ impl NullRate {
 }
 
 fn row(unit: &Unit<'_>, label: &str, targets: &Targets, hits: &[bool]) -> Row {
-    let mut row = super::variant_row(unit, label, "");
+    let mut row = super::variant_row(unit, label);
     let (count, hit) = (targets.count(), hits.iter().filter(|hit| **hit).count());
     row.status = Status::Solved;
-    row.values = Values::from([
-        ("targets".to_owned(), Value::Count(count as u64)),
-        ("targets_hit".to_owned(), Value::Count(hit as u64)),
-        ("hit_share_percent".to_owned(), Value::Real(100.0 * hit as f64 / count as f64)),
+    row.values = Values::from_iter([
+        ("targets", Value::Count(count as u64)),
+        ("targets_hit", Value::Count(hit as u64)),
+        ("hit_share_percent", Value::Real(100.0 * hit as f64 / count as f64)),
     ]);
     row
 }

@@ -1,51 +1,48 @@
-//! Every contender plans on every problem; the verifier judges what comes back.
+//! Every contender plans on every problem; the verifier checks what comes back.
 
 use super::{Entry, Task};
-use crate::study::checked::{Pipeline, Study};
 use crate::study::family::Query;
+use crate::study::key::Owner;
 use crate::study::prepared::Prepared;
 use crate::study::record::{Batch, Kept, Row, Status};
-use crate::study::runner::{Entrant, Unit};
+use crate::study::unit::{Entrant, Unit};
 use crate::study::verification::{self, Truth};
-use base::seed;
+use base::settings::{Accepted, NoSettings};
 use engine::planner::{Counts, Exhibit, Invalid, Plan, Request};
-use serde::Deserialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "plan",
-    about: "every contender plans on every problem; the verifier judges what comes back",
+    about: "every contender plans on every problem; the verifier checks what comes back",
     revision: 1,
     columns: &[],
+    settings: Accepted::of::<NoSettings>(),
+    example: "",
     build: |settings| {
         let NoSettings {} = settings.read()?;
         Ok(Box::new(PlanTask))
     },
 };
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct NoSettings {}
-
 struct PlanTask;
 
 impl Task for PlanTask {
-    fn run(&self, study: &Study, unit: &Unit<'_>) -> Batch {
+    fn run(&self, unit: &Unit<'_>) -> Batch {
         let prepared = unit.family.prepare(unit.seed);
         let mut batch = Batch::default();
         batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
         if let Ok(prepared) = &prepared
-            && unit.is_kept(study, None, 0)
+            && unit.is_kept(None, 0)
         {
-            batch.keep(&unit.name, prepared.exhibits.clone());
+            batch.keep(&(&unit.key).into(), prepared.exhibits.clone());
         }
         for (index, query) in unit.queries().iter().enumerate() {
             let known = unit.family.known(index);
             let truth = prepared.as_ref().ok().map(|p| verification::truth(&p.world, query));
-            for entrant in unit.entrants {
+            for &entrant in &unit.entrants {
                 for repeat in 0..entrant.contender.repeats {
-                    let trial = Trial { study, unit, query, entrant, repeat, known: &known };
+                    let trial = Trial { unit, query, entrant, repeat, known: &known };
                     match (&prepared, &truth) {
                         (Ok(prepared), Some(truth)) => trial.run(prepared, truth, &mut batch),
                         (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
@@ -59,13 +56,12 @@ impl Task for PlanTask {
 }
 
 impl Batch {
-    fn keep(&mut self, of: &str, exhibits: Vec<Exhibit>) {
-        self.kept.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.to_owned(), exhibit }));
+    fn keep(&mut self, of: &Owner, exhibits: Vec<Exhibit>) {
+        self.kept.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.clone(), exhibit }));
     }
 }
 
 struct Trial<'a> {
-    study: &'a Study,
     unit: &'a Unit<'a>,
     query: &'a Query,
     entrant: &'a Entrant<'a>,
@@ -75,13 +71,13 @@ struct Trial<'a> {
 
 impl Trial<'_> {
     fn run(&self, prepared: &Prepared, truth: &Truth, batch: &mut Batch) {
-        let seed = self.entrant.seed(self.study, &self.problem(), self.repeat);
-        let trace = self.unit.is_kept(self.study, Some(&self.entrant.contender.label), self.repeat);
+        let seed = self.entrant.seed(self.unit.terms, &self.problem(), self.repeat);
+        let trace = self.unit.is_kept(Some(&self.entrant.contender.label), self.repeat);
         let request = Request {
             world: &prepared.world,
             start: &self.query.start,
             goal: &self.query.goal,
-            expansions: self.study.budget.expansions,
+            expansions: self.unit.terms.budget.expansions,
             seed,
             trace,
         };
@@ -90,13 +86,14 @@ impl Trial<'_> {
             Err(panic) => (row.status, row.reason) = (Status::Crashed, Some(panic_text(panic.as_ref()))),
             Ok(Err(invalid)) => (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0)),
             Ok(Ok(mut plan)) => {
-                let judged = verification::judge(&request, &plan, &self.entrant.pipeline, truth);
-                (row.status, row.reason) = judged.outcome;
-                row.values.extend(super::named(plan.counts.iter().chain(&judged.values)));
+                let verified = verification::verify(&request, &plan, &self.entrant.pipeline, truth);
+                (row.status, row.reason) = verified.outcome;
+                row.values
+                    .extend(plan.counts.iter().chain(&verified.values).map(|(name, value)| (*name, *value)));
                 if trace {
-                    batch.keep(&row.trial, std::mem::take(&mut plan.exhibits));
-                    batch.keep(&row.trial, judged.exhibits);
-                    batch.keep(&row.trial, path_exhibit(&plan));
+                    batch.keep(&(&row.key).into(), std::mem::take(&mut plan.exhibits));
+                    batch.keep(&(&row.key).into(), verified.exhibits);
+                    batch.keep(&(&row.key).into(), path_exhibit(&plan));
                 }
             }
         }
@@ -104,7 +101,7 @@ impl Trial<'_> {
     }
 
     fn invalid(&self, invalid: &Invalid) -> Row {
-        let seed = self.entrant.seed(self.study, &self.problem(), self.repeat);
+        let seed = self.entrant.seed(self.unit.terms, &self.problem(), self.repeat);
         let mut row = self.row(seed);
         (row.status, row.reason) = (Status::InvalidProblem, Some(invalid.0.clone()));
         row
@@ -115,41 +112,13 @@ impl Trial<'_> {
     }
 
     fn row(&self, seed: u64) -> Row {
-        let unit = self.unit;
         Row {
-            trial: unit.trial(self.query, self.entrant, self.repeat),
-            problem: self.problem(),
-            group: unit.group.label.clone(),
-            replicate: unit.replicate,
-            contender: self.entrant.contender.label.clone(),
-            sweep: self.entrant.sweep.name.clone(),
-            reading: unit.point.name().to_owned(),
-            repeat: self.repeat,
+            key: self.unit.trial(self.query, self.entrant, self.repeat),
             seed,
             status: Status::Crashed,
             reason: None,
             values: super::named(self.known),
         }
-    }
-}
-
-impl Pipeline {
-    /// Runs the planner and, on its plan, every stage.
-    ///
-    /// # Errors
-    /// [`Invalid`] if the planner says that the query cannot be posed.
-    pub fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        let plan = self.planner.plan(request)?;
-        Ok(self.stages.iter().fold(plan, |plan, stage| stage.refine(request, plan)))
-    }
-}
-
-impl Entrant<'_> {
-    /// The seed of one run: it depends on names only, so that adding a contender moves no other.
-    pub fn seed(&self, study: &Study, problem: &str, repeat: u32) -> u64 {
-        let label = &self.contender.label;
-        let names = [&study.paper, &study.name, "contender", problem, label, &repeat.to_string()];
-        seed::derive(study.seed, &names)
     }
 }
 

@@ -108,8 +108,8 @@ repeats = 4
     let untimed = with_quick(&quick.replace("[timing]\nproblems = 3\nrepeats = 4\n", "")).unwrap();
     assert_eq!(shown(&untimed.studies.into_iter().next().unwrap().quick()), (7, None, 0.5));
     for (wrong, part) in [
-        (quick.replace("expansions = 7", "expansions = 0"), "a budget of at least 1"),
-        (quick.replace("excess_steps = 0.5", "variants = []"), "one case and one variant"),
+        (quick.replace("expansions = 7", "expansions = 0"), "a whole number from 1 to"),
+        (quick.replace("excess_steps = 0.5", "variants = []"), "variants is empty; at least one is accepted"),
         (quick.replace("budget", "budgets"), "budgets"),
     ] {
         let error = with_quick(&wrong).unwrap_err();

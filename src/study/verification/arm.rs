@@ -1,7 +1,7 @@
 //! An arm's path before the verifier.
 
-use super::{Judged, outcome};
-use crate::study::checked::Pipeline;
+use super::{Verified, outcome};
+use crate::study::contender::Pipeline;
 use engine::geometry::planar::Touch;
 use engine::kinematics::planar_2r::ElbowRule;
 use engine::planner::{Counts, Ending, Plan, Request, Value};
@@ -28,7 +28,7 @@ pub const ARM_COLUMNS: &[&str] = &[
 /// A bend of at least this much is a sharp edge: the least that an 8-connected path can make.
 const SHARP_DEG: f64 = 45.0 - 1e-6;
 
-pub(super) fn judge(world: &ArmWorld, request: &Request<'_>, plan: &Plan, pipeline: &Pipeline) -> Judged {
+pub(super) fn verify(world: &ArmWorld, request: &Request<'_>, plan: &Plan, pipeline: &Pipeline) -> Verified {
     let case = case(world, request.start, request.goal);
     let untouched = pipeline.stages.is_empty();
     let steps = pipeline.planner.steps().filter(|_| untouched);
@@ -50,7 +50,7 @@ pub(super) fn judge(world: &ArmWorld, request: &Request<'_>, plan: &Plan, pipeli
         (Ending::NoPath, Some(steps)) if pipeline.planner.is_complete() => case.refuse_no_path(steps),
         (Ending::NoPath | Ending::BudgetSpent, _) => None,
     };
-    Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+    Verified { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
 }
 
 fn measure(plan: &Plan, audit: &Audit, values: &mut Counts) {

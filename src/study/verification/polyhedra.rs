@@ -1,6 +1,6 @@
 //! Plans among polyhedra: tip paths (three numbers a point) and joint paths (six) in the verifier's terms.
 
-use super::{Judged, outcome, refuse_ending};
+use super::{Verified, outcome, refuse_ending};
 use engine::geometry::Vec3;
 use engine::kinematics::AXES;
 use engine::planner::{Counts, Ending, Plan, Request, Value};
@@ -55,8 +55,8 @@ pub fn truth(world: &PolyhedraWorld) -> Truth {
     }
 }
 
-/// Judges `plan`.
-pub fn judge(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth: &Truth) -> Judged {
+/// Verifies `plan`.
+pub fn verify(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth: &Truth) -> Verified {
     let [start, goal] = [request.start, request.goal].map(|p| [p[0], p[1], p[2]]);
     let is_joints = plan.path.first().is_some_and(|point| point.len() == AXES);
     let refusal = refuse_ending(request, plan).or_else(|| match (plan.ending, &truth.arm) {
@@ -89,7 +89,7 @@ pub fn judge(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth: 
             values.insert("bends", Value::Count(bends(&tips)));
         }
     }
-    Judged { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+    Verified { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
 }
 
 /// Points at which a path turns; steps along a straight line that are off it by rounding do not.

@@ -1,6 +1,6 @@
 //! Roadmaps in the verifier's terms.
 
-use super::Judged;
+use super::Verified;
 use crate::study::record::Status;
 use engine::geometry::{Frame, Solid, Vec3};
 use engine::kinematics::Joints;
@@ -43,8 +43,8 @@ impl Case {
         }
     }
 
-    /// Judges `plan`, made for `request`.
-    pub fn judge(&self, request: &Request<'_>, plan: &Plan) -> Judged {
+    /// Verifies `plan`, made for `request`.
+    pub fn verify(&self, request: &Request<'_>, plan: &Plan) -> Verified {
         let (mut values, mut exhibits) = (Counts::new(), Vec::new());
         let outcome = match plan.ending {
             Ending::NoPath => (Status::NoPath, Some("the planner found no path".to_owned())),
@@ -70,7 +70,7 @@ impl Case {
         if !request.trace {
             exhibits.clear();
         }
-        Judged { outcome, values, exhibits }
+        Verified { outcome, values, exhibits }
     }
 }
 

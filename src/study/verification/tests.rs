@@ -98,7 +98,7 @@ fn every_mutation_that_makes_a_plan_wrong_is_refused() {
         let (world, query) = posed(seed);
         let (request, truth) = (request(&world, &query), truth(&world, &query));
         let plan = pipeline.planner.plan(&request).unwrap();
-        let (status, reason) = judge(&request, &plan, &pipeline, &truth).outcome;
+        let (status, reason) = verify(&request, &plan, &pipeline, &truth).outcome;
         assert!([Status::Solved, Status::NoPath].contains(&status), "seed {seed}: {status}, {reason:?}");
         assert!(is_right(&request, &plan, truth.optimal()), "seed {seed}: {plan:?}");
         solved += u32::from(status == Status::Solved);
@@ -108,9 +108,9 @@ fn every_mutation_that_makes_a_plan_wrong_is_refused() {
             if is_right(&request, &wrong, truth.optimal()) {
                 continue;
             }
-            let judged = judge(&request, &wrong, &pipeline, &truth);
-            assert_eq!(judged.outcome.0, Status::Rejected, "seed {seed}, way {way}: {wrong:?}\n{query:?}");
-            assert!(!judged.values.contains_key("path_cost_cells"), "a refused path was measured");
+            let verified = verify(&request, &wrong, &pipeline, &truth);
+            assert_eq!(verified.outcome.0, Status::Rejected, "seed {seed}, way {way}: {wrong:?}\n{query:?}");
+            assert!(!verified.values.contains_key("path_cost_cells"), "a refused path was measured");
             *count += 1;
         }
     }
@@ -132,7 +132,7 @@ fn a_path_claimed_where_there_is_none_is_refused() {
         plan.ending = Ending::Solved;
         plan.path = vec![query.start.clone(), query.goal.clone()];
         plan.cost = Some(path_length(&plan.path));
-        assert_eq!(judge(&request, &plan, &pipeline, &truth).outcome.0, Status::Rejected, "seed {seed}");
+        assert_eq!(verify(&request, &plan, &pipeline, &truth).outcome.0, Status::Rejected, "seed {seed}");
         claimed += 1;
     }
     assert!(claimed > 20, "{claimed}");
@@ -150,8 +150,8 @@ fn a_detour_is_refused_of_an_optimal_planner_and_accepted_of_another() {
         if cost < least + 1e-9 {
             continue;
         }
-        assert_eq!(judge(&request, &plan, &greedy, &truth).outcome.0, Status::Solved, "seed {seed}");
-        assert_eq!(judge(&request, &plan, &optimal, &truth).outcome.0, Status::Rejected, "seed {seed}");
+        assert_eq!(verify(&request, &plan, &greedy, &truth).outcome.0, Status::Solved, "seed {seed}");
+        assert_eq!(verify(&request, &plan, &optimal, &truth).outcome.0, Status::Rejected, "seed {seed}");
         detours += 1;
     }
     assert!(detours > 10, "{detours} detours");

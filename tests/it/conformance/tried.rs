@@ -49,6 +49,8 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
     ("delete_inflections", &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'"]),
     ("direct", &[""]),
     ("joint_astar", &["delta_deg = 12.0\nneighbours = 12"]),
+    ("jps", &["", "preparation = 'each_query'"]),
+    ("jps_plus", &["", "preparation = 'each_query'"]),
     (
         "keynode_astar",
         &[
@@ -106,7 +108,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
 
 /// Planners that have nothing to show but their path.
 pub const WITHOUT_EXHIBITS: &[&str] =
-    &["astar_octile", "direct", "keynode_astar", "lattice26_astar", "visibility_edges"];
+    &["astar_octile", "direct", "jps", "jps_plus", "keynode_astar", "lattice26_astar", "visibility_edges"];
 
 /// An entry, one of its settings, and the value under which a property is not asked of it.
 pub type Exception = (&'static str, &'static str, &'static str);

@@ -1,9 +1,12 @@
-//! Closed-form inverse kinematics, one solver a file, all in [`SOLVERS`].
+//! Inverse kinematics, one solver a file, all in [`SOLVERS`]: closed forms, and a search for what none fits.
 //!
 //! A solver belongs to a family of geometries, never to a robot by name: it reads the chain's rows, and
 //! refuses a chain that its closed form does not fit.
 
+mod form;
+mod numerical;
 mod offset_wrist;
+mod reach;
 mod spherical_wrist;
 #[cfg(test)]
 mod tests;
@@ -14,12 +17,16 @@ use super::{
 };
 use crate::geometry::Frame;
 use crate::geometry::lanes::{PoseRows, Row};
-use std::{fmt::Debug, sync::Arc};
+use std::{
+    fmt::{self, Debug},
+    sync::Arc,
+};
 
 /// Which of the up to eight ways an arm takes to a pose: three signs.
 ///
 /// Two configurations on different branches are joined only through a singularity, so a motion along which
-/// the branch may not change can be refused by its ends alone.
+/// the branch may not change can be refused by its ends alone. What the signs mean is told below for the closed forms; the
+/// search has one sign of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Branch(u8);
 
@@ -42,36 +49,48 @@ impl Branch {
         self.0 & 2 == 0
     }
 
-    /// Whether the fifth angle, offset included, has a positive sine.
+    /// Whether the fifth angle, as the solver counts it, has a positive sine.
     pub fn wrist(self) -> bool {
         self.0 & 1 == 0
     }
 }
 
-/// The configurations that put an arm in one pose, at most one a branch, in the order of [`Branch::ALL`].
+/// How many configurations a pose has at most.
+const SOLUTIONS: usize = 16;
+
+/// The configurations that put an arm in one pose, in the order of [`Branch::ALL`]; at most one a branch from a closed form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solutions {
-    found: [Option<Joints>; 8],
+    /// What is beyond `count` is all zero.
+    found: [(Branch, Joints); SOLUTIONS],
+    count: usize,
 }
 
 impl Solutions {
     /// None yet.
     pub(super) fn none() -> Self {
-        Self { found: [None; 8] }
+        Self { found: [(Branch(0), [0.0; AXES]); SOLUTIONS], count: 0 }
     }
 
+    /// Adds a configuration, behind those of its branch.
+    ///
+    /// # Panics
+    /// If there are 16 already.
     pub(super) fn insert(&mut self, branch: Branch, q: Joints) {
-        self.found[usize::from(branch.0)] = Some(q);
+        let at = self.found[..self.count].partition_point(|(known, _)| *known <= branch);
+        self.found.copy_within(at..self.count, at + 1);
+        self.found[at] = (branch, q);
+        self.count += 1;
     }
 
-    /// The configuration on `branch`.
+    /// The first configuration on `branch`.
     pub fn on(&self, branch: Branch) -> Option<&Joints> {
-        self.found[usize::from(branch.0)].as_ref()
+        self.iter().find(|(found, _)| *found == branch).map(|(_, q)| q)
     }
 
-    /// Every branch that has a configuration, with it.
+    /// Every configuration with its branch.
     pub fn iter(&self) -> impl Iterator<Item = (Branch, &Joints)> {
-        Branch::ALL.iter().filter_map(|&branch| self.on(branch).map(|q| (branch, q)))
+        self.found[..self.count].iter().map(|(branch, q)| (*branch, q))
     }
 }
 
@@ -99,7 +118,7 @@ pub trait Solver: Debug + Send + Sync {
     /// a turn).
     fn folds_rad(&self, q: &Joints) -> [f64; 2];
 
-    /// The configuration on one branch that puts the flange at `flange`, given in the base.
+    /// A configuration on one branch that puts the flange at `flange`, given in the base.
     fn solve(&self, flange: &Frame, branch: Branch, reference: &Joints) -> Option<Joints>;
 
     /// [`solve`](Self::solve) for four flanges at once, `None` if the solver has no lanes.
@@ -109,7 +128,7 @@ pub trait Solver: Debug + Send + Sync {
         None
     }
 
-    /// The configurations on all branches.
+    /// The configurations on all branches: all there are, if the family [is complete](Family::is_complete).
     fn solve_all(&self, flange: &Frame, reference: &Joints) -> Solutions;
 }
 
@@ -117,70 +136,77 @@ pub trait Solver: Debug + Send + Sync {
 pub struct Family {
     /// The name that robot files use.
     pub name: &'static str,
+    /// Whether its solvers find every configuration; if not, a pose that none is found for may have some.
+    pub is_complete: bool,
     build: fn(&Chain) -> Result<Arc<dyn Solver>, KinematicsError>,
 }
 
 /// Every solver.
-pub const SOLVERS: &[Family] = &[offset_wrist::FAMILY, spherical_wrist::FAMILY];
+pub const SOLVERS: &[Family] = &[numerical::FAMILY, offset_wrist::FAMILY, spherical_wrist::FAMILY];
 
-/// The solver called `name`, for `chain`.
-///
-/// # Errors
-/// [`KinematicsError::UnknownSolver`], or [`KinematicsError::Joint`] for the first number of the chain that
-/// the solver's closed form does not allow.
-pub fn solver(name: &str, chain: &Chain) -> Result<Arc<dyn Solver>, KinematicsError> {
-    let Some(family) = SOLVERS.iter().find(|family| family.name == name) else {
-        let known = SOLVERS.iter().map(|family| family.name).collect::<Vec<_>>().join(", ");
-        return Err(KinematicsError::UnknownSolver { found: name.to_owned(), known });
-    };
-    (family.build)(chain)
+/// A solver that fits a chain.
+#[derive(Debug, Clone)]
+pub struct Choice {
+    /// The solver's name.
+    pub name: &'static str,
+    /// Whether it finds every configuration.
+    pub is_complete: bool,
+    /// Why no closed form was taken: the first number that each does not allow. Empty if one was, or none was looked for.
+    pub refused: Vec<String>,
+    pub(super) solver: Arc<dyn Solver>,
 }
 
-/// Which numbers of a chain's rows a closed form allows.
-struct Shape {
-    name: &'static str,
-    /// Sine and cosine of each twist; a right angle of either sign if `None`.
-    twists: [Option<(f64, f64)>; AXES],
-    /// Rows whose `a` must be 0.
-    a_zero: [bool; AXES],
-    /// Rows whose `d` must be 0.
-    d_zero: [bool; AXES],
+impl Choice {
+    fn new(family: &Family, solver: Arc<dyn Solver>, refused: Vec<String>) -> Self {
+        Self { name: family.name, is_complete: family.is_complete, refused, solver }
+    }
 }
 
-impl Shape {
-    /// Refuses a chain that has another shape.
-    fn check(&self, chain: &Chain) -> Result<(), KinematicsError> {
-        for (i, joint) in chain.joints().iter().enumerate() {
-            let refuse = |key, found, accepted: &str| {
-                let accepted = format!("{accepted}, for the solver `{}`", self.name);
-                Err(KinematicsError::joint(i, key, found, &accepted))
-            };
-            let (twist, expected) = (chain.twists()[i], self.twists[i]);
-            if expected.is_none() && twist.1 != 0.0 {
-                return refuse("alpha_deg", joint.alpha_rad, "90 or -90");
-            }
-            if let Some((s, c)) = expected.filter(|expected| *expected != twist) {
-                return refuse("alpha_deg", joint.alpha_rad, &libm::atan2(s, c).to_degrees().to_string());
-            }
-            if self.a_zero[i] && joint.a_m != 0.0 {
-                return refuse("a_mm", joint.a_m, "0");
-            }
-            if !self.a_zero[i] && i == 1 && joint.a_m <= 0.0 {
-                return refuse("a_mm", joint.a_m, "more than 0");
-            }
-            if self.d_zero[i] && joint.d_m != 0.0 {
-                return refuse("d_mm", joint.d_m, "0");
-            }
+/// One sentence on the solver, for people.
+impl fmt::Display for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "inverse kinematics by `{}`", self.name)?;
+        if !self.is_complete {
+            f.write_str(", which may miss configurations")?;
+        }
+        for refused in &self.refused {
+            write!(f, "; {refused}")?;
         }
         Ok(())
     }
 }
 
-/// The cosine by which two links `first` and `second` span the distance whose square is `distance2`.
+/// The solver called `name`, for `chain`.
 ///
-/// `None` out of reach; beyond it by rounding is within.
-#[inline]
-fn opening_cosine(distance2: f64, first: f64, second: f64) -> Option<f64> {
-    let cosine = (distance2 - first * first - second * second) / (2.0 * first * second);
-    (cosine.abs() <= 1.0 + 1e-12).then(|| cosine.clamp(-1.0, 1.0))
+/// # Errors
+/// [`KinematicsError::UnknownSolver`], or [`KinematicsError::Joint`] for the first number of the chain that
+/// the solver's closed form does not allow, with the solver that would be taken.
+pub fn solver(name: &str, chain: &Chain) -> Result<Choice, KinematicsError> {
+    let Some(family) = SOLVERS.iter().find(|family| family.name == name) else {
+        let known = SOLVERS.iter().map(|family| family.name).collect::<Vec<_>>().join(", ");
+        return Err(KinematicsError::UnknownSolver { found: name.to_owned(), known });
+    };
+    match (family.build)(chain) {
+        Ok(solver) => Ok(Choice::new(family, solver, Vec::new())),
+        Err(refusal) => Err(match fitting(chain) {
+            Ok(fitting) => refusal.with_accepted(&format!("; `{}` fits", fitting.name)),
+            Err(_) => refusal,
+        }),
+    }
+}
+
+/// The most special solver that fits `chain`: a closed form if one does.
+///
+/// # Errors
+/// [`KinematicsError::Joint`] if the chain has no length at all.
+pub fn fitting(chain: &Chain) -> Result<Choice, KinematicsError> {
+    let mut refused = Vec::new();
+    for family in SOLVERS.iter().filter(|family| family.is_complete) {
+        match (family.build)(chain) {
+            Ok(solver) => return Ok(Choice::new(family, solver, Vec::new())),
+            Err(refusal) => refused.push(refusal.to_string()),
+        }
+    }
+    let solver = (numerical::FAMILY.build)(chain)?;
+    Ok(Choice::new(&numerical::FAMILY, solver, refused))
 }

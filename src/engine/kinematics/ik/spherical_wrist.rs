@@ -1,38 +1,46 @@
 //! Arms whose last three axes meet in a point: up to eight configurations a pose.
 //!
-//! The chain must have `alpha = (±90°, 0, ±90°, ±90°, ±90°, 0)`, `d2 = d3 = d5 = 0`, `a4 = a5 = a6 = 0` and
-//! `a2 > 0`: six-axis arms without a shoulder offset. Then the first three joints place the wrist centre, a
-//! two-link arm in a vertical plane, and the last three turn the hand.
+//! The chain must have `alpha = (±90°, 0 or 180°, ±90°, ±90°, ±90°, any)`, `d5 = 0`, `a4 = a5 = 0` and `a2` other than 0, with
+//! `d2` and `d3` the shoulder's offset, in either row or shared out. Then the first three joints place the wrist centre, a
+//! two-link arm in a plane at the shoulder's offset from axis 1, and the last three turn the hand.
 //!
-//! What a pose leaves free: with the wrist centre on axis 1 (within 1 nm), joint 1 keeps its reference; with
-//! axes 4 and 6 in line (within 1e-9 rad), joint 4 does, and joint 6 takes the whole turn.
+//! What a pose leaves free: with axes 4 and 6 in line (the fifth sine below 1e-10), joint 4 keeps its reference, and joint 6 takes
+//! the whole turn. Joints 1 and 2: see `reach`.
 //!
 //! # Source
 //! Pieper, *The Kinematics of Manipulators under Computer Control* (1968), for the decoupling; the formulas
-//! below follow from the rows, with `σi` the sign of `alpha i` and `θi = qi + offset i`.
+//! below follow from the rows as `form` rewrites them, with `σi` the sign of `alpha i`.
 
 mod rows;
 
 use super::{
-    Branch, Chain, Family, Frame, Joints, KinematicsError, LaneSolutions, Shape, Solutions, Solver,
-    opening_cosine,
+    Branch, Chain, Family, Frame, Joints, KinematicsError, LaneSolutions, Solutions, Solver,
+    form::{Form, Length, Shape, Twist, without_rounding},
+    reach::{Fold, Heading, SINGULAR, fold, heading},
 };
 use crate::geometry::Vec3;
 use crate::geometry::lanes::{self, PoseRows, dispatch};
 use std::{f64::consts::PI, sync::Arc};
 
-/// Where axes count as in line or a centre as on an axis: radians or metres.
-const SINGULAR: f64 = 1e-9;
+pub(super) const FAMILY: Family = Family { name: "spherical_wrist", is_complete: true, build };
 
-pub(super) const FAMILY: Family = Family { name: "spherical_wrist", build };
+const SHAPE: Shape = Shape {
+    solver: FAMILY.name,
+    twists: [Twist::Right, Twist::Made(0.0, 1.0), Twist::Right, Twist::Right, Twist::Right, Twist::Any],
+    a: [Length::Any, Length::NotZero, Length::Any, Length::Zero, Length::Zero, Length::Any],
+    d: [Length::Any, Length::Any, Length::Any, Length::Any, Length::Zero, Length::Any],
+};
 
 #[derive(Debug)]
 struct SphericalWrist {
+    form: Form,
     offsets: Joints,
     d1: f64,
     a1: f64,
     a2: f64,
     d6: f64,
+    /// From axis 1 to the plane in which the arm folds, towards `(h.y, -h.x)`.
+    shoulder: f64,
     /// From the elbow to the wrist centre.
     forearm: f64,
     /// From link 3's x axis to the line from elbow to wrist centre.
@@ -42,38 +50,32 @@ struct SphericalWrist {
 }
 
 fn build(chain: &Chain) -> Result<Arc<dyn Solver>, KinematicsError> {
-    let straight = Some((0.0, 1.0));
-    let shape = Shape {
-        name: FAMILY.name,
-        twists: [None, straight, None, None, None, straight],
-        a_zero: [false, false, false, true, true, true],
-        d_zero: [false, true, true, false, true, false],
-    };
-    shape.check(chain)?;
-    let [first, second, third, fourth, _, sixth] = chain.joints();
-    let sign = |joint: usize| chain.twists()[joint].0;
+    let form = Form::new(chain, &SHAPE)?;
+    let Form { a, d, .. } = form;
+    let forearm = libm::hypot(a[2], d[3]);
+    if without_rounding(forearm) == 0.0 {
+        let accepted = "another number than 0, since the row before has no a_mm";
+        return Err(SHAPE.refusal(chain, 3, "d_mm", d[3], accepted));
+    }
+    let signs = [0, 2, 3, 4].map(|joint: usize| form.twists[joint].0);
     Ok(Arc::new(SphericalWrist {
-        offsets: chain.joints().map(|joint| joint.offset_rad),
-        d1: first.d_m,
-        a1: first.a_m,
-        a2: second.a_m,
-        d6: sixth.d_m,
-        forearm: libm::hypot(third.a_m, fourth.d_m),
-        forearm_angle: libm::atan2(sign(2) * fourth.d_m, third.a_m),
-        signs: [sign(0), sign(2), sign(3), sign(4)],
+        offsets: form.turns.offsets,
+        d1: d[0],
+        a1: a[0],
+        a2: a[1],
+        d6: d[5],
+        shoulder: without_rounding(signs[0] * (d[1] + d[2])),
+        forearm,
+        forearm_angle: libm::atan2(signs[1] * d[3], a[2]),
+        signs,
+        form,
     }))
 }
 
 /// The first joint's turn, and the triangle of shoulder, elbow and wrist centre in the arm's plane.
 struct Plane {
-    theta1: f64,
-    /// Ahead of the arm, in the plane of the floor.
-    h: [f64; 2],
-    /// The angle by which the forearm turns from the upper arm, and the angles at the shoulder from the upper
-    /// arm to the line to the wrist centre, and from level to that line.
-    bend: f64,
-    opening: f64,
-    to_wrist: f64,
+    heading: Heading,
+    fold: Fold,
 }
 
 /// The first three angles and the axes of frame 3.
@@ -88,39 +90,25 @@ impl SphericalWrist {
     /// The arm's plane, if the wrist centre is within reach.
     #[inline]
     fn plane(&self, wrist: &Vec3, front: bool, reference: &Joints) -> Option<Plane> {
-        let radius = (wrist.x * wrist.x + wrist.y * wrist.y).sqrt();
-        let side = if front { 1.0 } else { -1.0 };
-        let (theta1, h) = if radius > SINGULAR {
-            let h = [side * wrist.x / radius, side * wrist.y / radius];
-            (libm::atan2(h[1], h[0]), h)
-        } else {
-            let theta1 = reference[0] + self.offsets[0];
-            let (s, c) = libm::sincos(theta1);
-            (theta1, [c, s])
-        };
-        let u = wrist.x * h[0] + wrist.y * h[1] - self.a1;
+        let turns = &self.form.turns;
+        let heading = heading(wrist, self.shoulder, front, turns.theta(0, reference))?;
+        let u = wrist.x * heading.h[0] + wrist.y * heading.h[1] - self.a1;
         let v = self.signs[0] * (wrist.z - self.d1);
-        let cosine = opening_cosine(u * u + v * v, self.a2, self.forearm)?;
-        let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
-        Some(Plane {
-            theta1,
-            h,
-            bend: libm::atan2(sine, cosine),
-            opening: libm::atan2(self.forearm * sine, self.a2 + self.forearm * cosine),
-            to_wrist: libm::atan2(v, u),
-        })
+        let fold = fold([u, v], [self.a2, self.forearm], turns.theta(1, reference))?;
+        Some(Plane { heading, fold })
     }
 
     #[inline]
     fn reached(&self, plane: &Plane, elbow: bool) -> Reached {
         let side = if elbow { 1.0 } else { -1.0 };
-        let theta2 = plane.to_wrist - side * plane.opening;
-        let theta3 = side * plane.bend + self.forearm_angle;
+        let theta2 = plane.fold.to_point - side * plane.fold.opening;
+        let theta3 = side * plane.fold.bend + self.forearm_angle;
         let (s, c) = libm::sincos(theta2 + theta3);
         let [sign1, sign3, ..] = self.signs;
-        let ahead = |along: f64, up: f64| Vec3::new(plane.h[0] * along, plane.h[1] * along, sign1 * up);
+        let [h_x, h_y] = plane.heading.h;
+        let ahead = |along: f64, up: f64| Vec3::new(h_x * along, h_y * along, sign1 * up);
         let (x3, z3) = (ahead(c, s), ahead(s, -c) * sign3);
-        Reached { theta: [plane.theta1, theta2, theta3], x3, y3: z3.cross(&x3), z3 }
+        Reached { theta: [plane.heading.theta, theta2, theta3], x3, y3: z3.cross(&x3), z3 }
     }
 
     /// Both turns of the wrist, the one with a positive fifth sine first.
@@ -134,7 +122,7 @@ impl SphericalWrist {
         let theta5 = libm::atan2(sin5, -sign4 * sign5 * z3.dot(&z));
         let is_singular = sin5 < SINGULAR;
         let (theta4, s4, c4) = if is_singular {
-            let theta4 = reference[3] + self.offsets[3];
+            let theta4 = self.form.turns.theta(3, reference);
             let (s, c) = libm::sincos(theta4);
             (theta4, s, c)
         } else {
@@ -146,10 +134,15 @@ impl SphericalWrist {
         let theta6 = libm::atan2(y4.dot(&x), y4.dot(&y));
         let turn = if is_singular { 0.0 } else { PI };
         let joints = |last: [f64; 3]| {
-            let all = [theta[0], theta[1], theta[2], last[0], last[1], last[2]];
-            std::array::from_fn(|i| all[i] - self.offsets[i])
+            self.form.turns.joints(&[theta[0], theta[1], theta[2], last[0], last[1], last[2]])
         };
         [joints([theta4, theta5, theta6]), joints([theta4 + turn, -theta5, theta6 + turn])]
+    }
+
+    /// Lanes are written for arms without a shoulder offset, in the form that they come in.
+    fn has_lanes(&self) -> bool {
+        let as_given = self.form.turns.keep_directions() && self.form.behind.is_none();
+        self.shoulder == 0.0 && as_given
     }
 
     #[inline]
@@ -160,34 +153,39 @@ impl SphericalWrist {
 
 impl Solver for SphericalWrist {
     fn branch_of(&self, q: &Joints) -> Branch {
-        let theta: Joints = std::array::from_fn(|i| q[i] + self.offsets[i]);
+        let theta: Joints = std::array::from_fn(|i| self.form.turns.theta(i, q));
         let bend = theta[2] - self.forearm_angle;
         let ahead = self.a1 + self.a2 * libm::cos(theta[1]) + self.forearm * libm::cos(theta[1] + bend);
         Branch::new(ahead >= 0.0, libm::sin(bend) >= 0.0, libm::sin(theta[4]) >= 0.0)
     }
 
     fn folds_rad(&self, q: &Joints) -> [f64; 2] {
-        [q[2] + self.offsets[2] - self.forearm_angle, q[4] + self.offsets[4]]
+        [self.form.turns.theta(2, q) - self.forearm_angle, self.form.turns.theta(4, q)]
     }
 
     fn solve(&self, flange: &Frame, branch: Branch, reference: &Joints) -> Option<Joints> {
-        let plane = self.plane(&self.wrist_center(flange), branch.shoulder(), reference)?;
+        let flange = self.form.last_frame(flange);
+        let plane = self.plane(&self.wrist_center(&flange), branch.shoulder(), reference)?;
         let reached = self.reached(&plane, branch.elbow());
-        Some(self.wrists(&reached, flange, reference)[usize::from(!branch.wrist())])
+        Some(self.wrists(&reached, &flange, reference)[usize::from(!branch.wrist())])
     }
 
     fn solve_lanes(&self, flanges: &PoseRows, branch: Branch) -> Option<LaneSolutions> {
+        if !self.has_lanes() {
+            return None;
+        }
         let level = lanes::level();
         Some(dispatch!(level, simd => self.solve_rows(simd, flanges, branch)))
     }
 
     fn solve_all(&self, flange: &Frame, reference: &Joints) -> Solutions {
-        let (wrist, mut solutions) = (self.wrist_center(flange), Solutions::none());
+        let flange = self.form.last_frame(flange);
+        let (wrist, mut solutions) = (self.wrist_center(&flange), Solutions::none());
         for front in [true, false] {
             let Some(plane) = self.plane(&wrist, front, reference) else { continue };
             for elbow in [true, false] {
                 let reached = self.reached(&plane, elbow);
-                let [positive, negative] = self.wrists(&reached, flange, reference);
+                let [positive, negative] = self.wrists(&reached, &flange, reference);
                 solutions.insert(Branch::new(front, elbow, true), positive);
                 solutions.insert(Branch::new(front, elbow, false), negative);
             }

@@ -1,6 +1,6 @@
 //! The robot file as written, and the way from it to a checked [`Robot`].
 
-use super::{Body, Part, Robot, tool_frame};
+use super::{Body, Part, Robot, attached, tool_frame};
 use crate::{
     geometry::{Capsule, Frame, Vec3},
     kinematics::{
@@ -8,84 +8,118 @@ use crate::{
         serial::{AXES, Chain, Joint},
     },
 };
+use base::settings::{Accepted, Document, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::{ops::Range, path::Path};
-use toml::Spanned;
 
-#[derive(Deserialize)]
+/// What a robot file may hold.
+pub const ROBOT_FILE: Accepted = Accepted::of::<RobotFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RobotFile {
+    /// Its name.
     name: String,
-    solver: Spanned<String>,
+    /// The solver of inverse kinematics; without it, the most special one that fits the rows.
+    solver: Option<Spanned<String>>,
+    /// Which Denavit–Hartenberg convention rows and frames follow.
+    #[serde(default)]
+    convention: Convention,
+    /// Where the base stands.
     base: BaseEntry,
+    /// The tool at the flange.
     tool: ToolEntry,
+    /// The joints, from the base on, by Denavit-Hartenberg parameters in its convention.
     joint: Spanned<Vec<Spanned<JointEntry>>>,
+    /// Bodies: sets of capsules that stand for the arm and its tool; a study picks one.
     body: Spanned<Vec<BodyEntry>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema, Default, Clone, Copy, PartialEq)]
+#[serde(rename_all = "snake_case")]
+enum Convention {
+    /// Frames at the far ends of links: `alpha` and `a` lead from a joint's axis to the next one.
+    #[default]
+    Distal,
+    /// Frames at the near ends: `alpha` and `a` lead from the axis before to the joint's own.
+    Modified,
+}
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BaseEntry {
+    /// x, y and z of the base in the world.
     position_mm: Spanned<[f64; 3]>,
+    /// How far the base is turned about the vertical.
     yaw_deg: Spanned<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ToolEntry {
+    /// How far the tool's tip is from the flange.
     length_mm: Spanned<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct JointEntry {
+    /// The twist: the turn about x from this joint's axis to the next one's.
     alpha_deg: f64,
+    /// The link's length: the way along x to the next axis.
     a_mm: f64,
+    /// The offset: the way along this joint's axis.
     d_mm: f64,
+    /// What is added to the joint's angle.
     offset_deg: f64,
+    /// The least angle.
     lower_deg: f64,
+    /// The greatest angle.
     upper_deg: f64,
+    /// The greatest speed; given like this or as `speed_rad_s`.
     speed_deg_s: Option<f64>,
+    /// The greatest speed; given like this or as `speed_deg_s`.
     speed_rad_s: Option<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BodyEntry {
+    /// Its name.
     name: Spanned<String>,
+    /// Its capsules.
     capsule: Vec<Spanned<CapsuleEntry>>,
+    /// Pairs of capsules, by name, that must not touch.
     self_pairs: Vec<Spanned<[String; 2]>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CapsuleEntry {
+    /// Its name.
     name: String,
+    /// The link that it moves with: 0 is the base.
     link: Option<usize>,
+    /// x, y and z of one end, in the link's frame.
     from_mm: Option<[f64; 3]>,
+    /// x, y and z of the other end, in the link's frame.
     to_mm: Option<[f64; 3]>,
+    /// Instead of link and ends: where it begins and ends along the tool.
     tool_share: Option<[f64; 2]>,
+    /// Whether it counts for collisions of the arm with itself alone.
     #[serde(default)]
     self_only: bool,
+    /// The radius.
     radius_mm: f64,
 }
 
-/// The text being read, to turn a place in it into a line and a column.
-struct Source<'a> {
-    text: &'a str,
-    path: &'a Path,
-}
+/// The file being read, which knows the places in it.
+struct Source<'a>(&'a Document);
 
 impl Source<'_> {
     fn fault(&self, span: &Range<usize>, message: impl Into<String>) -> KinematicsError {
-        let before = self.text.get(..span.start).unwrap_or(self.text);
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        KinematicsError::File {
-            path: self.path.to_owned(),
-            line: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
-            message: message.into(),
-        }
+        self.0.error(span.clone(), message).into()
     }
 
     /// A function that says where an error of a lower floor comes from.
@@ -103,9 +137,9 @@ impl Source<'_> {
 }
 
 pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
-    let source = Source { text, path };
-    let file: RobotFile =
-        toml::from_str(text).map_err(|error| source.fault(&error.span().unwrap_or(0..0), error.message()))?;
+    let document = Document::new(path, text.to_owned());
+    let source = Source(&document);
+    let file: RobotFile = document.read()?;
     let base = base(&source, &file.base)?;
     let tool_length_m = 1e-3 * source.finite("tool.length_mm", &file.tool.length_mm)?;
     if tool_length_m < 0.0 {
@@ -113,16 +147,34 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
         let message = format!("tool.length_mm is {found}; accepted: 0 (no tool) or more");
         return Err(source.fault(&file.tool.length_mm.span(), message));
     }
-    let chain = chain(&source, &file.joint, base, tool_frame(tool_length_m))?;
-    let arm = Arm::new(chain, file.solver.get_ref()).map_err(|error| {
+    let (chain, far) = chain(&source, &file, base, tool_frame(tool_length_m))?;
+    let solver = file.solver.as_ref();
+    let arm = Arm::new(chain, solver.map(|name| name.get_ref().as_str())).map_err(|error| {
         let span = match &error {
             KinematicsError::Joint { joint, .. } => file.joint.get_ref()[joint - 1].span(),
-            _ => file.solver.span(),
+            _ => solver.map_or(0..0, Spanned::span),
         };
         source.fault(&span, error.to_string())
     })?;
-    let bodies = bodies(&source, &file.body, tool_length_m)?;
+    let links = Links { chain: arm.chain(), far, tool_length_m };
+    let bodies = bodies(&source, &file.body, &links)?;
     Ok(Robot { name: file.name, arm, tool_length_m, bodies })
+}
+
+/// What capsules are fixed to.
+struct Links<'a> {
+    chain: &'a Chain,
+    /// The file's frames in those of the chain, if they differ.
+    far: Option<[Frame; AXES + 1]>,
+    tool_length_m: f64,
+}
+
+impl Links<'_> {
+    /// A point given in millimetres in the file's frame of a link.
+    fn point(&self, link: usize, point_mm: &[f64; 3]) -> Vec3 {
+        let point = Vec3::from(*point_mm) * 1e-3;
+        self.far.as_ref().map_or(point, |far| far[link].point(&point))
+    }
 }
 
 fn base(source: &Source, entry: &BaseEntry) -> Result<Frame, KinematicsError> {
@@ -136,12 +188,14 @@ fn base(source: &Source, entry: &BaseEntry) -> Result<Frame, KinematicsError> {
     Ok(Frame::at(position_m) * Frame::turned(&Vec3::z(), yaw_rad))
 }
 
+/// The chain, and the file's frames in its frames if they differ.
 fn chain(
     source: &Source,
-    entries: &Spanned<Vec<Spanned<JointEntry>>>,
+    file: &RobotFile,
     base: Frame,
     tool: Frame,
-) -> Result<Chain, KinematicsError> {
+) -> Result<(Chain, Option<[Frame; AXES + 1]>), KinematicsError> {
+    let entries = &file.joint;
     let joints: Vec<Joint> =
         entries.get_ref().iter().map(|entry| joint(source, entry)).collect::<Result<_, _>>()?;
     let count = joints.len();
@@ -149,7 +203,11 @@ fn chain(
         let span = entries.get_ref().last().map_or(entries.span(), Spanned::span);
         source.fault(&span, format!("{count} joints were given; accepted: {AXES}"))
     })?;
-    Chain::new(joints, base, tool).map_err(|error| {
+    let chain = match file.convention {
+        Convention::Distal => Chain::new(joints, base, tool).map(|chain| (chain, None)),
+        Convention::Modified => Chain::modified(joints, base, tool).map(|(chain, far)| (chain, Some(far))),
+    };
+    chain.map_err(|error| {
         let at = match &error {
             KinematicsError::Joint { joint, .. } => entries.get_ref()[joint - 1].span(),
             _ => entries.span(),
@@ -183,7 +241,7 @@ fn joint(source: &Source, entry: &Spanned<JointEntry>) -> Result<Joint, Kinemati
 fn bodies(
     source: &Source,
     entries: &Spanned<Vec<BodyEntry>>,
-    tool_length_m: f64,
+    links: &Links,
 ) -> Result<Vec<Body>, KinematicsError> {
     let mut bodies: Vec<Body> = Vec::new();
     for entry in entries.get_ref() {
@@ -192,7 +250,7 @@ fn bodies(
             let message = format!("body `{name}` is given twice; accepted: a name of its own");
             return Err(source.fault(&entry.name.span(), message));
         }
-        bodies.push(body(source, entry, tool_length_m)?);
+        bodies.push(body(source, entry, links)?);
     }
     if bodies.is_empty() {
         return Err(source.fault(&entries.span(), "no body is given; accepted: at least one"));
@@ -200,7 +258,7 @@ fn bodies(
     Ok(bodies)
 }
 
-fn body(source: &Source, entry: &BodyEntry, tool_length_m: f64) -> Result<Body, KinematicsError> {
+fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, KinematicsError> {
     let mut parts: Vec<Part> = Vec::new();
     for capsule in &entry.capsule {
         let name = &capsule.get_ref().name;
@@ -208,16 +266,24 @@ fn body(source: &Source, entry: &BodyEntry, tool_length_m: f64) -> Result<Body, 
             let message = format!("capsule `{name}` is given twice; accepted: a name of its own");
             return Err(source.fault(&capsule.span(), message));
         }
-        parts.push(part(source, capsule, tool_length_m)?);
+        parts.push(part(source, capsule, links)?);
     }
     if parts.is_empty() {
         return Err(source.fault(&entry.name.span(), "the body has no capsule; accepted: at least one"));
+    }
+    if let Some((index, off_m)) = attached::first_off(&parts, links.chain) {
+        let (Part { name, link, .. }, off_mm) = (&parts[index], (off_m * 1e6).round() * 1e-3);
+        let message = format!(
+            "capsule `{name}` is {off_mm} mm off link {link}; accepted: one that reaches an axis of the link, the line \
+             between its axes, or another capsule of the link that does"
+        );
+        return Err(source.fault(&entry.capsule[index].span(), message));
     }
     let self_pairs = entry.self_pairs.iter().map(|pair| self_pair(source, &parts, pair));
     Ok(Body { name: entry.name.get_ref().clone(), self_pairs: self_pairs.collect::<Result<_, _>>()?, parts })
 }
 
-fn part(source: &Source, entry: &Spanned<CapsuleEntry>, tool_length_m: f64) -> Result<Part, KinematicsError> {
+fn part(source: &Source, entry: &Spanned<CapsuleEntry>, links: &Links) -> Result<Part, KinematicsError> {
     let CapsuleEntry { name, link, from_mm, to_mm, tool_share, self_only, radius_mm } = entry.get_ref();
     let (radius_m, at) = (radius_mm * 1e-3, source.at(entry.span()));
     match (link, from_mm, to_mm, tool_share) {
@@ -226,7 +292,7 @@ fn part(source: &Source, entry: &Spanned<CapsuleEntry>, tool_length_m: f64) -> R
                 let message = format!("capsule `{name}` is on link {link}; accepted: 0 (base) to {AXES}");
                 return Err(source.fault(&entry.span(), message));
             }
-            let (from, to) = (Vec3::from(*from_mm) * 1e-3, Vec3::from(*to_mm) * 1e-3);
+            let [from, to] = [from_mm, to_mm].map(|end_mm| links.point(*link, end_mm));
             let capsule = Capsule::new(from, to, radius_m).map_err(|error| at(error.into()))?;
             Ok(Part { name: name.clone(), link: *link, tool_share: None, self_only: *self_only, capsule })
         }
@@ -236,7 +302,7 @@ fn part(source: &Source, entry: &Spanned<CapsuleEntry>, tool_length_m: f64) -> R
                 let message = format!("{found}; accepted: two rising numbers from 0 to 1");
                 return Err(source.fault(&entry.span(), message));
             }
-            Part::of_tool(name, [*from, *to], radius_m, tool_length_m).map_err(at)
+            Part::of_tool(name, [*from, *to], radius_m, links.tool_length_m).map_err(at)
         }
         _ => {
             let message = format!(

@@ -4,9 +4,12 @@
 //! memory everything is metres and radians. A file may hold several bodies, so that a study can ask what
 //! the choice of one is worth.
 
+mod attached;
 mod file;
 #[cfg(test)]
 mod tests;
+
+pub use file::ROBOT_FILE;
 
 use super::{Arm, KinematicsError, serial::AXES};
 use crate::geometry::{Capsule, Frame, Segment, Vec3};

@@ -1,10 +1,11 @@
 //! What the paper leaves open about posture adjustment, as settings.
 
 use base::settings::{Settings, SettingsError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Settings of the stage.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Posture {
     /// Whether postures are adjusted at all; without, the arm follows the path with its first posture.
@@ -40,7 +41,7 @@ pub(super) struct Posture {
 }
 
 /// Which way the tip turns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Sign {
     /// Against the gradient of U.
@@ -50,7 +51,7 @@ pub(super) enum Sign {
 }
 
 /// What stands for the distance at contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Clamp {
     /// A millimetre.
@@ -60,7 +61,7 @@ pub(super) enum Clamp {
 }
 
 /// How distances are measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Distance {
     /// Exactly.
@@ -70,7 +71,7 @@ pub(super) enum Distance {
 }
 
 /// How the joints follow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Pose {
     /// By the closed-form inverse.
@@ -80,7 +81,7 @@ pub(super) enum Pose {
 }
 
 /// From where bounds count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Bounds {
     /// From the posture with which the node was entered.
@@ -90,7 +91,7 @@ pub(super) enum Bounds {
 }
 
 /// Which solutions are tried.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Branches {
     /// All, the one with the most clearance at the start first.
@@ -113,7 +114,7 @@ impl Posture {
         ] {
             if value.is_nan() || value <= above || (value.is_infinite() && name != "bounds_rad") {
                 let least = if above < 0.0 { "0 or more" } else { "more than 0" };
-                return Err(settings.error(format!("{name} is {value}; {least} is accepted")));
+                return Err(settings.error_at(name, format!("{name} is {value}; {least} is accepted")));
             }
         }
         Ok(read)

@@ -185,8 +185,8 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         ("0", "28.0", "", "samples is 0; at least 1 is accepted"),
         ("40", "0.0", "", "neighbour_mm is 0; a length above 0 is accepted"),
         ("40", "-1.0", "", "neighbour_mm is -1; a length above 0 is accepted"),
-        ("40", "nan", "", "neighbour_mm is NaN; a length above 0 is accepted"),
-        ("40", "inf", "", "neighbour_mm is inf; a length above 0 is accepted"),
+        ("40", "nan", "", "`neighbour_mm` is nan; a finite number is accepted"),
+        ("40", "inf", "", "`neighbour_mm` is inf; a finite number is accepted"),
         ("40", "28.0", "nearest = 0", "nearest is 0; at least 1 is accepted, or leave it out"),
     ] {
         let text =

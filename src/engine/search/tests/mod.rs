@@ -2,6 +2,7 @@
 
 mod bidirectional;
 mod first_way;
+mod jump;
 mod lattice_astar;
 mod many;
 mod octile;

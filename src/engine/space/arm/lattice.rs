@@ -7,6 +7,9 @@ use std::fmt;
 /// How far a coordinate may be from a lattice point, in steps, and still be meant as it.
 const SLACK: f64 = 1e-9;
 
+/// The most points of a lattice: every one of them is analysed before anything is planned.
+const MAX_POINTS: u64 = 1_000_000;
+
 /// Points `low + step · (column, row)` that fill a rectangle, both rims included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipLattice {
@@ -19,29 +22,38 @@ impl TipLattice {
     /// The lattice of step `step_cm` that fills the ranges `x_cm` and `y_cm`.
     ///
     /// # Errors
-    /// A sentence if the step is not positive, a range is empty, the step does not divide it, or a side has more
-    /// than 65 535 points.
-    pub fn new(x_cm: [f64; 2], y_cm: [f64; 2], step_cm: f64) -> Result<Self, String> {
+    /// The parameter at fault and a sentence if the step is not positive, a range is empty, the step does not divide it, or there are too
+    /// many points.
+    pub fn new(x_cm: [f64; 2], y_cm: [f64; 2], step_cm: f64) -> Result<Self, (&'static str, String)> {
         if !(step_cm.is_finite() && step_cm > 0.0) {
-            return Err(format!("step_cm is {step_cm}; a step above 0 is accepted"));
+            return Err(("step_cm", format!("step_cm is {step_cm}; a step above 0 is accepted")));
         }
-        let side = |name: &str, [low, high]: [f64; 2]| {
+        let side = |name: &'static str, [low, high]: [f64; 2]| {
             let steps = (high - low) / step_cm;
             if !(steps.is_finite() && steps > 0.0) {
-                return Err(format!(
-                    "{name} runs from {low} to {high}; two rising finite numbers are accepted"
-                ));
+                let message =
+                    format!("{name} runs from {low} to {high}; two rising finite numbers are accepted");
+                return Err((name, message));
             }
             if (steps - steps.round()).abs() > SLACK * steps.max(1.0) {
-                return Err(format!(
+                let message = format!(
                     "step_cm is {step_cm}, which does not divide {name} of {} cm; a whole number of steps is accepted",
                     high - low
-                ));
+                );
+                return Err(("step_cm", message));
             }
-            Ok(steps.round() as u32 + 1)
+            Ok((steps.round() as u32).saturating_add(1))
         };
         let size = [side("x_cm", x_cm)?, side("y_cm", y_cm)?];
-        Grid2::new(size[0], size[1]).map_err(|e| e.to_string())?;
+        let points = u64::from(size[0]) * u64::from(size[1]);
+        if points > MAX_POINTS {
+            let message = format!(
+                "step_cm is {step_cm}, which makes {} × {} points; {MAX_POINTS} in all are accepted",
+                size[0], size[1]
+            );
+            return Err(("step_cm", message));
+        }
+        Grid2::new(size[0], size[1]).map_err(|e| ("step_cm", e.to_string()))?;
         Ok(Self { low_cm: [x_cm[0], y_cm[0]], step_cm, size })
     }
 

@@ -218,14 +218,14 @@ fn eight_moves_are_the_hops_to_the_nearest_points() {
 
 #[test]
 fn a_lattice_and_a_query_that_do_not_fit_say_why() {
-    let lattice = |x: [f64; 2], step| TipLattice::new(x, [0.0, 50.0], step).unwrap_err();
+    let lattice = |x: [f64; 2], step| TipLattice::new(x, [0.0, 50.0], step).unwrap_err().1;
     assert_eq!(
         lattice([-50.0, 50.0], 0.3),
         "step_cm is 0.3, which does not divide x_cm of 100 cm; a whole number of steps is accepted"
     );
     assert_eq!(lattice([-50.0, 50.0], 0.0), "step_cm is 0; a step above 0 is accepted");
     assert!(lattice([50.0, -50.0], 1.0).starts_with("x_cm runs from 50 to -50; "));
-    assert!(lattice([-50.0, 50.0], 0.001).contains("65535"));
+    assert!(lattice([-50.0, 50.0], 0.001).contains("makes 100001 × 50001 points; "));
     let world = case_1(HopRule::EndPoints);
     let refused = |point: &[f64]| world.free_cell("goal", point).unwrap_err();
     assert_eq!(refused(&[35.0, 18.0]), "the goal [35.0, 18.0] lies in obstacle 1");

@@ -1,6 +1,6 @@
 //! Steps of a path on which a part may touch something between the two checked ends: they are halved and checked again.
 
-use super::line::between;
+use super::lines::between;
 use super::way::Way;
 use super::{Lines, Rejection, Standing};
 use crate::geometry::Capsule;

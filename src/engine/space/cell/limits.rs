@@ -1,6 +1,6 @@
 //! Limits between two steps of a local path: a joint that bends there may leave its range and come back.
 
-use super::line::{Lines, Rejection};
+use super::lines::{Lines, Rejection};
 use crate::geometry::Frame;
 use crate::kinematics::ik::Branch;
 use crate::kinematics::serial::Joint;

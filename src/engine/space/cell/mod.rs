@@ -8,14 +8,16 @@ mod doubt;
 mod lanes;
 mod limits;
 mod line;
+mod lines;
 mod scene;
 #[cfg(test)]
 mod tests;
 mod time_law;
 mod way;
 
-pub use line::{EdgeEnd, LineRules, Lines, Path, Pose, Rejection, Scratch};
-pub use scene::{Obstacle, Scene};
+pub use line::Scratch;
+pub use lines::{EdgeEnd, LineRules, Lines, Path, Pose, Rejection};
+pub use scene::{Obstacle, SCENE_FILE, Scene};
 pub use time_law::SpeedRule;
 
 use lanes::Outline;

@@ -1,10 +1,10 @@
 //! Scenes from files: still obstacles by name, in millimetres as drawings give them.
 
 use crate::geometry::{Capsule, Convex, Frame, GeometryError, HalfSpace, OrientedBox, Solid, Sphere, Vec3};
-use base::settings::{Document, SettingsError};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
-use toml::Spanned;
 
 /// What stands still around a robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,59 +22,81 @@ pub struct Obstacle {
     pub solid: Solid,
 }
 
-#[derive(Deserialize)]
+/// What a scene file may hold.
+pub const SCENE_FILE: Accepted = Accepted::of::<SceneFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
+    /// Its name.
     name: String,
+    /// The floor: all below it is filled; absent if there is none.
     floor: Option<Spanned<FloorEntry>>,
+    /// Boxes along the axes, which may be turned about the vertical.
     #[serde(default, rename = "box")]
     boxes: Vec<Spanned<BoxEntry>>,
+    /// Spheres.
     #[serde(default, rename = "sphere")]
     spheres: Vec<Spanned<SphereEntry>>,
+    /// Capsules: all that is near a line from one point to another.
     #[serde(default, rename = "capsule")]
     capsules: Vec<Spanned<CapsuleEntry>>,
+    /// Convex solids by their corners.
     #[serde(default, rename = "convex")]
     convexes: Vec<Spanned<ConvexEntry>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct FloorEntry {
+    /// How high its surface is.
     height_mm: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BoxEntry {
+    /// Its name.
     name: String,
+    /// x, y and z of the lowest corner, before it is turned.
     min_mm: [f64; 3],
+    /// x, y and z of the highest corner, before it is turned.
     max_mm: [f64; 3],
     /// Turn about the vertical through the middle.
     #[serde(default)]
     yaw_deg: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SphereEntry {
+    /// Its name.
     name: String,
+    /// x, y and z of the centre.
     center_mm: [f64; 3],
+    /// The radius.
     radius_mm: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CapsuleEntry {
+    /// Its name.
     name: String,
+    /// x, y and z of one end of the line.
     from_mm: [f64; 3],
+    /// x, y and z of the other end.
     to_mm: [f64; 3],
+    /// The radius.
     radius_mm: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ConvexEntry {
+    /// Its name.
     name: String,
+    /// Points whose convex hull it is.
     vertices_mm: Vec<[f64; 3]>,
 }
 
@@ -210,7 +232,7 @@ mod tests {
             ),
             (
                 "[[sphere]]\nname = 'k'\ncenter_mm = [0, nan, 0]\nradius_mm = 1\n",
-                ["s.toml:2:1", "`k`", "finite"],
+                ["s.toml:4:17", "`center_mm[1]`", "finite"],
             ),
             (
                 "[[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 0]\nradius_mm = -1\n",

@@ -12,7 +12,7 @@ mod tests;
 
 pub use arm::{CarriedArm, Contact, DOWN};
 pub use error::PolyhedraError;
-pub use scene::{Scene, read_scene};
+pub use scene::{SCENE_FILE, Scene, read_scene};
 
 use crate::geometry::{Aabb, Convex, Segment, Vec3};
 use base::grid::Grid3;
@@ -64,7 +64,7 @@ impl PolyhedraWorld {
             .map(|(index, body)| grown(body, growth).map_err(|source| obstacle(index, source)))
             .collect::<Result<_, _>>()?;
         // Room for the rounding of a side that is a whole number of steps.
-        let size = sides.map(|side| (side / step + 1e-9) as u32 + 1);
+        let size = sides.map(|side| ((side / step + 1e-9) as u32).saturating_add(1));
         let grid = Grid3::new(size.into())?;
         let near = vec![false; grid.node_count()];
         let mut world = Self { obstacles, bodies, growth, domain, step, grid, near, arm: None };

@@ -1,11 +1,11 @@
 //! Scene files: obstacles by name of their shape, or by vertices or planes.
 
 use crate::geometry::{Aabb, Axis, Convex, GeometryError, Vec3};
-use base::settings::{Document, SettingsError};
+use base::settings::{Accepted, Document, SettingsError, Spanned};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::Arc;
-use toml::Spanned;
 
 /// Obstacles and the domain they stand in, as read.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,48 +18,110 @@ pub struct Scene {
     pub domain: Aabb,
 }
 
-#[derive(Deserialize)]
+/// What a scene file may hold.
+pub const SCENE_FILE: Accepted = Accepted::of::<SceneFile>();
+
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
+    /// Its name.
     name: String,
+    /// Where it is from, for the reader of the file.
     #[expect(dead_code, reason = "for the reader of the file: every scene must say where it is from")]
     source: String,
+    /// The box that the point may be in.
     domain: DomainEntry,
+    /// The obstacles.
     #[serde(default)]
     obstacle: Vec<Spanned<Shape>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct DomainEntry {
+    /// x, y and z of its lowest corner, in centimetres.
     min: [f64; 3],
+    /// x, y and z of its highest corner, in centimetres.
     max: [f64; 3],
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
 enum Shape {
-    Box { center: [f64; 3], size: [f64; 3] },
-    Prism { axis: AxisName, center: [f64; 3], radius: f64, height: f64, sides: usize, turn_rad: f64 },
-    Octahedron { center: [f64; 3], radius: f64 },
-    Wedge { center: [f64; 3], size: [f64; 3] },
-    Pyramid { base_center: [f64; 3], side: f64, height: f64 },
-    Vertices { points: Vec<[f64; 3]> },
-    Planes { planes: Vec<PlaneEntry> },
+    /// A box along the axes.
+    Box {
+        /// x, y and z of its middle, in centimetres.
+        center: [f64; 3],
+        /// Its sides along x, y and z, in centimetres.
+        size: [f64; 3],
+    },
+    /// A prism with a regular base.
+    Prism {
+        /// The direction of its axis.
+        axis: AxisName,
+        /// x, y and z of its middle, in centimetres.
+        center: [f64; 3],
+        /// How far the base's corners are from the axis, in centimetres.
+        radius: f64,
+        /// Its length along the axis, in centimetres.
+        height: f64,
+        /// How many corners the base has.
+        sides: usize,
+        /// How far the base is turned about the axis.
+        turn_rad: f64,
+    },
+    /// A regular octahedron.
+    Octahedron {
+        /// x, y and z of its middle, in centimetres.
+        center: [f64; 3],
+        /// How far its corners are from its middle, in centimetres.
+        radius: f64,
+    },
+    /// A box cut in two along a diagonal.
+    Wedge {
+        /// x, y and z of the box's middle, in centimetres.
+        center: [f64; 3],
+        /// The box's sides along x, y and z, in centimetres.
+        size: [f64; 3],
+    },
+    /// A pyramid with a square base.
+    Pyramid {
+        /// x, y and z of the middle of its base, in centimetres.
+        base_center: [f64; 3],
+        /// The side of its base, in centimetres.
+        side: f64,
+        /// Its height, in centimetres.
+        height: f64,
+    },
+    /// The convex hull of points.
+    Vertices {
+        /// x, y and z of each point, in centimetres.
+        points: Vec<[f64; 3]>,
+    },
+    /// All that lies behind every one of some planes.
+    Planes {
+        /// The planes.
+        planes: Vec<PlaneEntry>,
+    },
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PlaneEntry {
+    /// The direction out of the solid.
     normal: [f64; 3],
+    /// How far the plane is from the origin along the normal, in lengths of the normal.
     offset: f64,
 }
 
-#[derive(Deserialize, Clone, Copy)]
+#[derive(Deserialize, JsonSchema, Clone, Copy)]
 #[serde(rename_all = "snake_case")]
 enum AxisName {
+    /// Along x.
     X,
+    /// Along y.
     Y,
+    /// Along z.
     Z,
 }
 

@@ -45,7 +45,7 @@ fn numbers_that_cannot_be_are_refused_by_name() {
     for (over, parts) in [
         ("samples = 0", ["samples is 0", "at least 1"]),
         ("radius_mm = 0", ["radius_mm is 0", "above 0"]),
-        ("step_deg = nan", ["step_deg is NaN", "finite"]),
+        ("step_deg = nan", ["`step_deg` is nan", "finite"]),
         ("speed = { tool_mm_s = -1, acceleration_mm_s2 = 1 }", ["speed.tool_mm_s is -1", "above 0"]),
         ("tool_mm = 0", ["tool_mm", "capsule"]),
         ("scene = 'data/none.toml'", ["data/none.toml", "does not exist"]),
@@ -185,12 +185,12 @@ fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
             query.name
         );
         for (index, plan) in plans.into_iter().enumerate().filter(|(_, plan)| plan.ending == Ending::Solved) {
-            let judged = case.judge(&request, &plan);
-            assert_eq!(judged.outcome.1, None, "group {}", query.name);
+            let verified = case.verify(&request, &plan);
+            assert_eq!(verified.outcome.1, None, "group {}", query.name);
             solved[index] += 1;
             for (which, mutant) in mutants(&plan).iter().enumerate() {
-                let judged = case.judge(&request, mutant);
-                assert_eq!(judged.outcome.0, crate::study::record::Status::Rejected, "mutant {which}");
+                let verified = case.verify(&request, mutant);
+                assert_eq!(verified.outcome.0, crate::study::record::Status::Rejected, "mutant {which}");
                 refused += 1;
             }
         }

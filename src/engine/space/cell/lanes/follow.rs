@@ -4,7 +4,7 @@ use crate::geometry::lanes::{LANES, Row, SLACK, dispatch, level};
 use crate::kinematics::angle::nearest_copy;
 use crate::kinematics::ik::{Branch, LaneSolutions};
 use crate::kinematics::{AXES, Joint, Joints};
-use crate::space::cell::line::{EdgeEnd, Pace, SAME_RAD, largest_change};
+use crate::space::cell::lines::{EdgeEnd, Pace, SAME_RAD, largest_change};
 use crate::space::cell::way::Way;
 use crate::space::cell::{Lines, Pose, Rejection};
 use std::f64::consts::{PI, TAU};

@@ -10,7 +10,7 @@ use crate::geometry::lanes::{
     Point, ROUGH_LANES, Rough, RoughRow, Simd, SimdBase, SimdFloat, SimdMask, far_balls,
     squared_distance_segment_segment_lanes,
 };
-use crate::space::cell::line::middle_outwards;
+use crate::space::cell::lines::middle_outwards;
 
 /// The verdict on the configurations of a path.
 pub(super) enum Look {

@@ -6,7 +6,7 @@ use crate::geometry::lanes::{Level, ROUGHNESS, levels, on_level};
 use crate::geometry::{Frame, Vec3};
 use crate::kinematics::{Chain, Robot};
 use crate::space::cell::doubt::{HALF_WAY, axis_way_m};
-use crate::space::cell::line::between;
+use crate::space::cell::lines::between;
 use crate::space::cell::tests::{draw, fu_cell, rules};
 use crate::space::cell::{Cell, EdgeEnd, LineRules, Scene, Scratch, SpeedRule, Standing};
 use base::seed::{self, Stream};

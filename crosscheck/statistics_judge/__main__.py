@@ -1,0 +1,50 @@
+"""The command line: recompute the verdicts of the papers that a request names."""
+
+import argparse
+import json
+import sys
+from multiprocessing import Pool
+from pathlib import Path
+
+from statistics_judge.judge import Said, compare, recomputed
+from statistics_judge.records import Metric, Paper, toml
+
+# Something differs.
+DIFFERS = 3
+
+
+def main() -> int:
+    """Judge every paper; one line each, and one for all that is near or differs."""
+    parser = argparse.ArgumentParser(prog="statistics_judge", description=__doc__)
+    parser.add_argument("request", type=Path, help="metrics and papers, as `replan crosscheck` writes them")
+    parser.add_argument("--jobs", type=int, default=1, help="processes (default: %(default)s)")
+    words = parser.parse_args()
+    request = json.loads(words.request.read_text(encoding="utf-8"))
+    metrics = [Metric(**metric) for metric in request["metrics"]]
+    asked = [(Path(one["experiments"]), Path(one["runs"]), metrics) for one in request["papers"]]
+    differing = 0
+    with Pool(words.jobs) as pool:
+        for name, said in pool.imap(answer, asked, chunksize=1):
+            report(name, said)
+            differing += len(said.differ)
+    return DIFFERS if differing else 0
+
+
+def answer(asked: tuple[Path, Path, list[Metric]]) -> tuple[str, Said]:
+    """One paper."""
+    paper = Paper(*asked)
+    return paper.id, compare(paper, recomputed(paper), toml(paper.runs / "verdicts.toml"))
+
+
+def report(name: str, said: Said) -> None:
+    """Say what agrees, what is near and what differs."""
+    agree = f"{said.estimates} estimates, {said.intervals} intervals and {said.classes} classes agree"
+    print(f"{name}: {agree}; {len(said.near)} near, {len(said.differ)} differ", flush=True)
+    for line in said.near:
+        print(f"  near: {line}")
+    for line in said.differ:
+        print(f"  differs: {line}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,70 @@
+"""What a criterion finds."""
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from statistics_judge.classes import OPEN
+from statistics_judge.intervals import Interval
+from statistics_judge.records import Paper
+from statistics_judge.selection import Cases, select
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Our number: with its interval, how many independent draws it rests on, cases solved and asked."""
+
+    value: float
+    n: int
+    interval: Interval | None = None
+    solved: tuple[int, int] | None = None
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a criterion found; `possible` is what it might find if chance alone moved the intervals."""
+
+    outcome: str | None
+    possible: frozenset[str | None]
+    estimate: Estimate | None = None
+    existential: bool = False
+    powerless: bool = False
+    censored: frozenset[bool] = field(default_factory=lambda: frozenset([False]))
+
+
+def certain(
+    outcome: str | None,
+    estimate: Estimate | None = None,
+    *,
+    existential: bool = False,
+    powerless: bool = False,
+) -> Found:
+    """What nothing random moves."""
+    return Found(outcome, frozenset([outcome]), estimate, existential, powerless)
+
+
+def too_few() -> Found:
+    """Undecided, without a number of ours."""
+    return certain(OPEN)
+
+
+def outcomes(of: Callable[[float, float], str | None], interval: Interval) -> frozenset[str | None]:
+    """What a function of both ends says, wherever within Monte-Carlo error they lie."""
+    ends = [(end.least, end.at, end.most) for end in interval]
+    return frozenset(of(low, high) for low, high in itertools.product(*ends) if low <= high)
+
+
+@dataclass
+class Asked:
+    """A criterion's settings in a claim."""
+
+    paper: Paper
+    claim: dict[str, Any]
+    settings: dict[str, Any]
+    session: int
+    seed: str
+
+    def cases(self, **other: str) -> Cases:
+        """The cases that it looks at."""
+        return select(self.paper, {**self.settings["of"], **other}, self.session)

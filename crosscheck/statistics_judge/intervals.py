@@ -1,0 +1,217 @@
+"""Intervals: exact ones, and bootstrap ones with what Monte-Carlo error allows another bootstrap to give.
+
+The ends of a percentile interval from B resamples are quantiles of B random numbers: order statistics, whose
+place in the distribution of resamples follows a beta distribution. How many of our own resamples lie below
+such an end is therefore beta-binomial, and between which of ours it lies is known but for a probability of
+ALARM. No normal approximation is made, and no share of the interval's width assumed.
+"""
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy import stats
+
+from statistics_judge.records import Places, Reals
+
+LEVEL = 0.95
+# Resamples of the stored intervals, and of the medians that least_of compares.
+STORED, STORED_OF_MEDIANS = 2000, 500
+# Our own.
+OWN = 8000
+# The probability that an end which nothing but chance moves is outside what is allowed.
+ALARM = 1e-5
+# Resamples are drawn so many at a time.
+CHUNK = 500
+
+Weights = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class End:
+    """One end of an interval: ours, and the least and the most that the stored one can be."""
+
+    at: float
+    least: float
+    most: float
+
+    @staticmethod
+    def exact(at: float) -> "End":
+        """An end that nothing random moves."""
+        return End(at, at, at)
+
+    def mapped(self, of: Callable[[float], float]) -> "End":
+        """What a function that rises or falls everywhere makes of it."""
+        return End(of(self.at), *sorted((of(self.least), of(self.most))))
+
+    def allows(self, stored: float) -> bool:
+        """Whether the stored end can be what it is, up to rounding."""
+        slack = 1e-9 * max(1.0, abs(self.at)) if np.isfinite(self.at) else 0.0
+        return self.least - slack <= stored <= self.most + slack
+
+
+Interval = tuple[End, End]
+
+
+def clopper_pearson(hits: int, trials: int) -> Interval:
+    """The exact interval of a share."""
+    tail = (1 - LEVEL) / 2
+    low = 0.0 if hits == 0 else float(stats.beta.ppf(tail, hits, trials - hits + 1))
+    high = 1.0 if hits == trials else float(stats.beta.ppf(1 - tail, hits + 1, trials - hits))
+    return End.exact(low), End.exact(high)
+
+
+def predictive(draws: Reals) -> Interval | None:
+    """Order statistics between which one more draw lies; none where the extremes do not reach the level."""
+    outside = 0
+    while 2 * (outside + 1) / (len(draws) + 1) <= 1 - LEVEL + 1e-12:
+        outside += 1
+    if outside == 0:
+        return None
+    ordered = np.sort(draws)
+    return End.exact(float(ordered[outside - 1])), End.exact(float(ordered[-outside]))
+
+
+def bootstrap(
+    statistic: Callable[[Weights], Reals], units: int, seed: str, stored: int = STORED
+) -> Interval | None:
+    """The percentile interval over units; `statistic` takes how often each unit is drawn, a row a resample.
+
+    None below two units, or if no resample has a value (NaN).
+    """
+    if units < 2:
+        return None
+    drawn = np.concatenate([statistic(weights) for weights in resamples(units, seed)])
+    return percentile(drawn, stored)
+
+
+def resamples(units: int, seed: str) -> list[Weights]:
+    """How often each unit is drawn in each of our resamples, some resamples at a time."""
+    rng = np.random.default_rng(list(seed.encode()))
+    rows = units * np.arange(CHUNK)[:, None]
+
+    def chunk() -> Weights:
+        drawn = rng.integers(0, units, (CHUNK, units)) + rows
+        return np.bincount(drawn.ravel(), minlength=CHUNK * units).reshape(CHUNK, units)
+
+    return [chunk() for _ in range(OWN // CHUNK)]
+
+
+def percentile(drawn: Reals, stored: int) -> Interval | None:
+    """The interval between the outer quantiles of resampled numbers."""
+    tail = (1 - LEVEL) / 2
+    known = np.sort(drawn[~np.isnan(drawn)])
+    if len(known) == 0:
+        return None
+    compared = max(1, round(stored * len(known) / len(drawn)))
+    return quantile(known, tail, compared), quantile(known, 1 - tail, compared)
+
+
+def quantile(ordered: Reals, share: float, stored: int) -> End:
+    """The type-7 quantile of ordered numbers, and where that of `stored` other ones of their kind can lie."""
+    count = len(ordered)
+    first, last = ranks(count, share, stored)
+    at = type7(ordered, share)
+    return End(at, float(ordered[max(first, 0)]), float(ordered[min(last, count - 1)]))
+
+
+@functools.cache
+def ranks(count: int, share: float, stored: int) -> tuple[int, int]:
+    """Between which of `count` resamples, from 0, the quantile of `stored` other ones lies."""
+    place = (stored - 1) * share
+    below, above = int(np.floor(place)) + 1, int(np.ceil(place)) + 1
+    first = stats.betabinom.ppf(ALARM / 2, count, below, stored - below + 1)
+    last = stats.betabinom.ppf(1 - ALARM / 2, count, above, stored - above + 1)
+    return int(first) - 1, int(last)
+
+
+def type7(ordered: Reals, share: float) -> float:
+    """The type-7 quantile; infinite numbers stay what they are."""
+    place = (len(ordered) - 1) * share
+    low, high = ordered[int(np.floor(place))], ordered[int(np.ceil(place))]
+    return float(low if low == high else low + (high - low) * (place - np.floor(place)))
+
+
+def sums_by_unit(unit: Places, units: int, *numbers: Reals) -> list[Reals]:
+    """The sum of numbers over the cases of each unit."""
+    return [np.bincount(unit, weights=of, minlength=units).astype(np.float64) for of in numbers]
+
+
+def ratio_of_sums(above: Reals, below: Reals) -> Callable[[Weights], Reals]:
+    """The sum of one number a unit over that of another; NaN where that is not positive."""
+
+    def statistic(weights: Weights) -> Reals:
+        top, bottom = weights @ above, weights @ below
+        return np.divide(top, bottom, out=np.full(len(top), np.nan), where=bottom > 0)
+
+    return statistic
+
+
+def median(unit: Places, values: Reals) -> Callable[[Weights], Reals]:
+    """The median over the cases of the units drawn; infinite numbers count."""
+    order = np.argsort(values, kind="stable")
+    ordered, owner = values[order], unit[order]
+
+    def statistic(weights: Weights) -> Reals:
+        up_to = np.cumsum(weights[:, owner], axis=1)
+        total = up_to[:, -1]
+        middles = [
+            ordered[np.minimum((up_to < place[:, None]).sum(axis=1), len(ordered) - 1)]
+            for place in ((total + 1) // 2, total // 2 + 1)
+        ]
+        # Two infinite middles have an infinite mean.
+        return np.where(total > 0, middles[0] / 2 + middles[1] / 2, np.nan)
+
+    return statistic
+
+
+def deviation(unit: Places, units: int, values: Reals) -> Callable[[Weights], Reals]:
+    """The standard deviation over the cases of the units drawn."""
+    centred = values - values.mean()
+    count, total, squares = sums_by_unit(unit, units, np.ones(len(values)), centred, centred**2)
+
+    def statistic(weights: Weights) -> Reals:
+        n, s, q = weights @ count, weights @ total, weights @ squares
+        spread = np.maximum(q - np.divide(s**2, n, out=np.zeros(len(n)), where=n > 0), 0)
+        return np.sqrt(np.divide(spread, n - 1, out=np.full(len(n), np.nan), where=n > 1))
+
+    return statistic
+
+
+def slope(unit: Places, units: int, x: Reals, y: Reals) -> Callable[[Weights], Reals]:
+    """The slope of the least-squares line through the cases of the units drawn."""
+    x, y = x - x.mean(), y - y.mean()
+    sums = sums_by_unit(unit, units, np.ones(len(x)), x, y, x * x, x * y)
+
+    def statistic(weights: Weights) -> Reals:
+        n, sx, sy, sxx, sxy = (weights @ of for of in sums)
+        spread = sxx - sx * sx / n
+        joint = sxy - sx * sy / n
+        is_spread = spread > 1e-12 * np.maximum(sxx, 1e-300)
+        return np.divide(joint, spread, out=np.full(len(n), np.nan), where=is_spread)
+
+    return statistic
+
+
+def band(curves: Reals, seed: str) -> list[Interval]:
+    """The simultaneous (sup-t) band of the mean of curves, one a row."""
+    units = len(curves)
+    drawn = np.concatenate([weights @ curves / units for weights in resamples(units, seed)])
+    mean, errors = curves.mean(axis=0), drawn.std(axis=0, ddof=1)
+    moved = errors > 0
+    greatest = (np.abs(drawn - mean)[:, moved] / errors[moved]).max(axis=1, initial=0.0)
+    multiplier = quantile(np.sort(greatest), LEVEL, STORED)
+    # The relative error of a standard deviation of either bootstrap, as far out as ALARM says.
+    apart = stats.norm.ppf(1 - ALARM / 2) * np.sqrt(1 / (2 * STORED) + 1 / (2 * OWN))
+    found = []
+    for middle, error in zip(mean, errors, strict=True):
+        half = End(
+            multiplier.at * error,
+            multiplier.least * error * (1 - apart),
+            multiplier.most * error * (1 + apart),
+        )
+        low = End(middle - half.at, middle - half.most, middle - half.least)
+        found.append((low, End(middle + half.at, middle + half.least, middle + half.most)))
+    return found

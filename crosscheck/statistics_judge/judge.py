@@ -1,0 +1,264 @@
+"""Judges a paper's claims anew, and holds what verdicts.toml says against that."""
+
+import itertools
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from statistics_judge import classes, medians, printed_cells, shares, sizes
+from statistics_judge.found import Asked, Estimate, Found
+from statistics_judge.records import Paper
+from statistics_judge.selection import labels
+
+CRITERIA: dict[str, Callable[[Asked], Found]] = {
+    "equals": shares.equals,
+    "exists": medians.exists,
+    "least_of": medians.least_of,
+    "lower": sizes.lower,
+    "on_every": shares.on_every,
+    "one_draw": printed_cells.one_draw,
+    "prints_as": printed_cells.prints_as,
+    "row_one_draw": printed_cells.row_one_draw,
+    "share": shares.share_within,
+    "trend": sizes.trend,
+    "within": sizes.within,
+}
+
+# Sessions of a clock that it takes to say anything.
+SESSIONS = 3
+
+Classes = frozenset[str | None]
+
+
+@dataclass(frozen=True)
+class Recomputed:
+    """A finding: the classes that it may have, one unless chance decides, and our number."""
+
+    criterion: str
+    classes: Classes
+    estimate: Estimate | None = None
+
+
+@dataclass
+class Claim:
+    """A claim: its findings, those of rules left open, and what it takes to combine them."""
+
+    id: str
+    findings: list[Recomputed | None]
+    names: list[str]
+    untestable: bool
+    parts: tuple[str, list[str]] | None
+
+
+@dataclass
+class Said:
+    """What a comparison gives."""
+
+    estimates: int = 0
+    intervals: int = 0
+    classes: int = 0
+    near: list[str] = field(default_factory=list)
+    differ: list[str] = field(default_factory=list)
+
+
+def recomputed(paper: Paper) -> list[Claim]:
+    """Every claim of a paper, judged anew."""
+    return [of_claim(paper, claim) for claim in paper.claims]
+
+
+def of_claim(paper: Paper, claim: dict[str, Any]) -> Claim:
+    """One claim: rules, then criteria that decide, then those that are shown, each by name."""
+    findings: list[Recomputed | None] = []
+    names = sorted(claim.get("rule", {}))
+    findings += [None] * len(names)
+    for name, settings in sorted(claim.get("check", {}).items()):
+        findings.append(of_criterion(paper, claim, name, settings, decides=True))
+        names.append(name)
+    for name, tables in sorted(claim.get("shows", {}).items()):
+        for settings in tables:
+            findings.append(of_criterion(paper, claim, name, settings, decides=False))
+            names.append(name)
+    parts = next(((kind, claim[kind]) for kind in classes.PARTS if claim.get(kind)), None)
+    if parts and parts[0] == "cells" and names:
+        # A row with criteria of its own is judged by them.
+        parts = None
+    return Claim(claim["id"], findings, names, "untestable" in claim, parts)
+
+
+def of_criterion(
+    paper: Paper, claim: dict[str, Any], name: str, settings: dict[str, Any], *, decides: bool
+) -> Recomputed:
+    """One criterion's finding with its class."""
+    criterion = CRITERIA[name]
+
+    def find(session: int) -> Found:
+        seed = f"{paper.id} {claim['id']} {name} {session}"
+        return criterion(Asked(paper, claim, settings, session, seed))
+
+    found = find(1)
+    if not decides:
+        return Recomputed(name, frozenset([None]), found.estimate)
+    studies = [paper.studies[of] for of in studies_of(settings)]
+    clock = None
+    if reads_clock(paper, settings):
+        clock = lacks_sessions(min(study.sessions for study in studies), find)
+    possible = frozenset(
+        outcome
+        and classes.of_finding(
+            outcome,
+            searched=any(study.spec.get("searched", False) for study in studies),
+            fitted=any(claim["id"] in study.spec.get("fitted_to", []) for study in studies),
+            existential=found.existential,
+            powerless=found.powerless,
+            censored=censored,
+            few=is_few(name, settings, found),
+            clock=bool(clock),
+        )
+        for outcome, censored in itertools.product(found.possible, found.censored)
+    )
+    return Recomputed(name, possible, found.estimate)
+
+
+# A bootstrap over fewer draws says nothing firm.
+FEWEST_DRAWS = 10
+
+
+def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
+    """Whether a bootstrap interval over draws rests on too few of them."""
+    resampled = name in ("lower", "trend", "within") and settings.get("statistic") != "ratio_of_groups"
+    return resampled and found.estimate is not None and found.estimate.n < FEWEST_DRAWS
+
+
+def studies_of(settings: dict[str, Any]) -> list[str]:
+    """The studies whose trials a criterion looks at."""
+    if "of" in settings:
+        return [settings["of"]["study"]]
+    return [place["study"] for place in settings["in"]]
+
+
+def reads_clock(paper: Paper, settings: dict[str, Any]) -> bool:
+    """Whether a criterion rests on our own clock."""
+    name = settings.get("metric") or settings.get("of", {}).get("metric")
+    return name is not None and paper.metric(name).clock
+
+
+def lacks_sessions(stored: int, find: Callable[[int], Found]) -> bool:
+    """Whether a clock has too few sessions, or they disagree."""
+    if stored < SESSIONS:
+        return True
+    return len({find(session).outcome for session in range(1, stored + 1)}) > 1
+
+
+def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Said:
+    """What verdicts.toml says, held against what was recomputed."""
+    said = Said()
+    if verdicts["reading"] != paper.choices:
+        said.differ.append(f"{paper.id}: verdicts.toml was judged under other readings than the defaults")
+        return said
+    stored = {one["claim"]: one for one in verdicts.get("claim", [])}
+    if list(stored) != [claim.id for claim in claims]:
+        said.differ.append(f"{paper.id}: verdicts.toml has other claims than paper.toml, or in another order")
+        return said
+    known = [compare_findings(paper.id, claim, stored[claim.id], said) for claim in claims]
+    alone = {claim.id: whole(claim, possible) for claim, possible in zip(claims, known, strict=True)}
+    for claim, possible in zip(claims, known, strict=True):
+        compare_claim(paper.id, claim, stored[claim.id], (possible, alone), said)
+    return said
+
+
+def whole(claim: Claim, possible: list[Classes]) -> Classes:
+    """The classes that a claim may have, from those of its findings."""
+    return each(lambda found: classes.combined(filter(None, found), claim.untestable), possible)
+
+
+def each(of: Callable[[list], str], possible: Iterable[Classes]) -> Classes:
+    """What a function says of every choice among possible classes."""
+    # What is certain is one choice; few are not.
+    return frozenset(of(list(choice)) for choice in itertools.product(*possible))
+
+
+def compare_findings(paper: str, claim: Claim, stored: dict[str, Any], said: Said) -> list[Classes]:
+    """The findings of one claim; gives the classes that each may have."""
+    findings = stored.get("finding", [])
+    names = [finding["criterion"] for finding in findings]
+    extra = (["none"] if claim.untestable else []) + ([claim.parts[0]] if claim.parts else [])
+    if names != claim.names + extra:
+        said.differ.append(f"{paper}: `{claim.id}` has findings {names}; {claim.names + extra} are asked for")
+        return [frozenset([finding.get("verdict")]) for finding in findings[: len(claim.names)]]
+    known = []
+    for place, (own, finding) in enumerate(zip(claim.findings, findings, strict=False)):
+        if own is None:
+            known.append(frozenset([finding.get("verdict")]))
+            continue
+        where = f"{paper}: `{claim.id}`, finding {place + 1} ({own.criterion})"
+        for line in differences(own.estimate, finding.get("ours"), said):
+            said.differ.append(f"{where}: {line}")
+        compare_class(where, finding.get("verdict"), own.classes, said)
+        known.append(own.classes)
+    return known
+
+
+def compare_claim(
+    paper: str,
+    claim: Claim,
+    stored: dict[str, Any],
+    known: tuple[list[Classes], dict[str, Classes]],
+    said: Said,
+) -> None:
+    """The class of one claim, and that of its parts."""
+    possible, alone = known
+    if claim.parts:
+        kind, ids = claim.parts
+        of_parts = each(classes.PARTS[kind], [alone[part] for part in labels(ids)])
+        finding = stored["finding"][-1] if stored.get("finding") else {}
+        compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("verdict"), of_parts, said)
+        possible = [*possible, of_parts]
+    compare_class(f"{paper}: `{claim.id}`", stored["verdict"], whole(claim, possible), said)
+
+
+def compare_class(where: str, stored: str | None, possible: Classes, said: Said) -> None:
+    """One class."""
+    named = " or ".join(sorted(str(one or "none") for one in possible))
+    if stored not in possible:
+        said.differ.append(f"{where}: its class is {stored or 'none'}; recomputed it is {named}")
+        return
+    said.classes += 1
+    if len(possible) > 1:
+        said.near.append(f"{where}: Monte-Carlo error decides whether its class is {named}")
+
+
+def differences(own: Estimate | None, stored: dict[str, Any] | None, said: Said) -> Iterator[str]:
+    """What differs between our number and the stored one."""
+    if own is None or stored is None:
+        if (own is None) != (stored is None):
+            has, finds = ("no", "one") if stored is None else ("a", "none")
+            yield f"verdicts.toml has {has} number; recomputed there is {finds}"
+        return
+    if abs(own.value - stored["value"]) <= 1e-9 * max(abs(own.value), 1.0) or own.value == stored["value"]:
+        said.estimates += 1
+    else:
+        yield f"its value is {stored['value']!r}; recomputed it is {own.value!r}"
+    if own.n != stored["n"]:
+        yield f"it rests on n = {stored['n']}; recomputed on {own.n}"
+    solved = None if own.solved is None else list(own.solved)
+    if solved != stored.get("solved"):
+        yield f"solved are {stored.get('solved')}; recomputed they are {solved}"
+    yield from interval_differences(own, stored.get("interval"), said)
+
+
+def interval_differences(own: Estimate, stored: list[float] | None, said: Said) -> Iterator[str]:
+    """What differs between our interval and the stored one."""
+    if own.interval is None or stored is None:
+        if (own.interval is None) != (stored is None):
+            ends = own.interval and [end.at for end in own.interval]
+            yield f"its interval is {stored}; recomputed it is {ends}"
+        return
+    if all(end.allows(number) for end, number in zip(own.interval, stored, strict=True)):
+        said.intervals += 1
+        return
+    low, high = own.interval
+    yield (
+        f"its interval is [{stored[0]!r}, {stored[1]!r}]; recomputed it is [{low.at!r}, {high.at!r}], "
+        f"and chance allows a low end in [{low.least!r}, {low.most!r}] "
+        f"and a high end in [{high.least!r}, {high.most!r}]"
+    )

@@ -1,0 +1,189 @@
+"""Criteria that look for the least and for one that meets: exists and least_of."""
+
+import itertools
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
+from statistics_judge.found import Asked, Estimate, Found, certain, outcomes
+from statistics_judge.intervals import STORED_OF_MEDIANS, End, Interval, bootstrap, median
+from statistics_judge.records import Places, Reals
+from statistics_judge.selection import groups_of, labels, matched, posed
+from statistics_judge.sizes import printed
+
+# What leaves out some of a contender's trials.
+NARROWED = ("query", "sweep")
+
+
+def least_of(asked: Asked) -> Found:
+    """Some contenders' medians over seeds, failures infinite, are below those of others on every problem."""
+    settings, of = asked.settings, asked.settings["of"]
+    study = asked.paper.studies[of["study"]]
+    groups = groups_of(study, of["problems"])
+    pairs = list(itertools.product(labels(settings["lower"]), labels(settings["higher"])))
+    compared = []
+    for group in groups:
+        for one, other in pairs:
+            low, high = side(asked, group, one), side(asked, group, other)
+            if low is not None and high is not None:
+                compared.append(ratio(low, high))
+    estimate = None
+    if compared:
+        # Of equally large ones the last.
+        worst = max(reversed(compared), key=lambda found: found.value)
+        interval = worst.interval
+        assert interval is not None
+        from_, to = (end.mapped(lambda r: 100 * r) for end in interval)
+        known = None if np.isinf([from_.at, to.at]).any() else (from_, to)
+        estimate = Estimate(100 * worst.value, worst.n, known)
+    if len(compared) < len(pairs) * len(groups):
+        return certain(OPEN, estimate)
+    limit = 1 - settings.get("by_percent", 0.0) / 100
+    ends = [found.interval for found in compared if found.interval is not None]
+
+    def outcome(greatest_low: float, greatest_high: float) -> str:
+        if greatest_high < limit:
+            return HOLDS
+        if greatest_low < limit:
+            return OPEN
+        return SIGN if greatest_high < 1 else FAILS
+
+    whole = greatest(low for low, _ in ends), greatest(high for _, high in ends)
+    return Found(outcome(whole[0].at, whole[1].at), outcomes(outcome, whole), estimate)
+
+
+def greatest(ends: Iterable[End]) -> End:
+    """The greatest of several ends."""
+    listed = list(ends)
+    return End(*(max(getattr(end, of) for end in listed) for of in ("at", "least", "most")))
+
+
+def side(asked: Asked, group: str, contender: str) -> Estimate | None:
+    """The median of one contender on one problem, computed once for all claims that compare it."""
+    of = asked.settings["of"]
+    known = asked.paper.studies[of["study"]].known
+    key = (group, contender, asked.paper.metric(of["metric"]).name, asked.session, *map(of.get, NARROWED))
+    if key not in known:
+        known[key] = measured_side(asked, group, contender, of)
+    return known[key]
+
+
+def measured_side(asked: Asked, group: str, contender: str, of: dict[str, Any]) -> Estimate | None:
+    """The median over seeds, failures infinite; its interval over seeds, or over readings of the clock."""
+    study, metric = asked.paper.studies[of["study"]], asked.paper.metric(of["metric"])
+    rows = posed(study, group, contender, of)
+    values = study.values(metric, asked.session)[rows]
+    if metric.clock:
+        rows, values = rows[~np.isnan(values)], values[~np.isnan(values)]
+    values = np.where(study.solved[rows] & ~np.isnan(values), values, np.inf)
+    if len(values) == 0:
+        return None
+    units = values
+    if metric.clock and len(values) == 1:
+        units = np.array(study.repeats(int(rows[0]), metric, asked.session))
+    seed = f"{study.name} {group} {contender} {metric.name}"
+    interval = bootstrap(median(np.arange(len(units)), units), len(units), seed, STORED_OF_MEDIANS)
+    own = End.exact(float(values[0]))
+    return Estimate(middle(values), len(values), interval or (own, own))
+
+
+def middle(values: Reals) -> float:
+    """The median, of infinite numbers too."""
+    ordered = np.sort(values)
+    return float(ordered[(len(ordered) - 1) // 2] / 2 + ordered[len(ordered) // 2] / 2)
+
+
+def over(above: float, below: float) -> float:
+    """A ratio; two zeros and two failures are equal."""
+    if above == below:
+        return 1.0
+    return np.inf if below == 0 else above / below
+
+
+def ratio(one: Estimate, other: Estimate) -> Estimate:
+    """One median over another; its interval from the ends of both."""
+    assert one.interval is not None and other.interval is not None
+    (a, b), (c, d) = one.interval, other.interval
+    interval: Interval = (
+        End(over(a.at, d.at), over(a.least, d.most), over(a.most, d.least)),
+        End(over(b.at, c.at), over(b.least, c.most), over(b.most, c.least)),
+    )
+    return Estimate(over(one.value, other.value), max(one.n, other.n), interval)
+
+
+def exists(asked: Asked) -> Found:
+    """Some stored trial meets the printed number, on a problem where the given claims are met."""
+    if asked.settings.get("differ"):
+        return differs(asked)
+    cell = printed(asked.paper, asked.claim)
+    values, problems, selected = seen(asked, asked.settings)
+    eligible = ~selected
+    for name in asked.settings.get("given", []):
+        claim = asked.paper.claim(name)
+        other, meets = seen(asked, claim["check"]["exists"]), printed(asked.paper, claim)
+        there = {problem for value, problem in zip(other[0], other[1], strict=True) if meets.agrees(value)}
+        eligible &= np.array([problem in there for problem in problems], dtype=bool)
+    values = values[eligible]
+    met = [value for value in values if cell.agrees(value)]
+    outcome = HOLDS if met else OPEN
+    if len(values) == 0:
+        return certain(outcome, existential=True)
+    shown = met[0] if met else values[np.argmin(np.abs(values - cell.value))]
+    return certain(outcome, Estimate(float(shown), len(values)), existential=True)
+
+
+def seen(asked: Asked, settings: dict[str, Any]) -> tuple[Reals, list[tuple], np.ndarray]:
+    """Every number that a claim is looked for among, its problem, and whether that was searched for."""
+    metric, against = asked.paper.metric(settings["metric"]), settings.get("against")
+    values: list[Reals] = []
+    problems: list[tuple] = []
+    selected: list[bool] = []
+    for place in settings["in"]:
+        study = asked.paper.studies[place["study"]]
+        measured = study.values(metric, asked.session)
+        query, names = study.query
+        for group in groups_of(study, place["problems"]):
+            for contender in labels(settings["contenders"]):
+                rows = solved_rows(study.rows(group, contender), study.solved)
+                number = measured[rows]
+                if against is not None and against != contender:
+                    bases = solved_rows(study.rows(group, against), study.solved)
+                    rows, bases = matched(study, rows, bases)
+                    number = saved(measured[bases], measured[rows])
+                elif against is not None:
+                    number = saved(number, number)
+                known = ~np.isnan(number)
+                values.append(number[known])
+                for row in rows[known]:
+                    problems.append((study.name, group, int(study.draw[row]), names[query[row]]))
+                    selected.append(place.get("selected", False))
+    return np.concatenate(values), problems, np.array(selected, dtype=bool)
+
+
+def solved_rows(rows: Places, solved: np.ndarray) -> Places:
+    """Those that were solved."""
+    return rows[solved[rows]]
+
+
+def saved(base: Reals, own: Reals) -> Reals:
+    """What is saved in per cent; NaN where the other number is not above 0."""
+    return np.divide(100 * (base - own), base, out=np.full(len(base), np.nan), where=base > 0)
+
+
+def differs(asked: Asked) -> Found:
+    """A metric is not the same on all problems of each set."""
+    settings = asked.settings
+    study, metric = asked.paper.studies[settings["in"][0]["study"]], asked.paper.metric(settings["metric"])
+    contender = labels(settings["contenders"])[0]
+    measured = study.values(metric, asked.session)
+    differ = 0
+    for groups in settings["differ"]:
+        found = [measured[study.rows(group, contender)] for group in groups]
+        found = [of[~np.isnan(of)] for of in found]
+        if all(len(of) for of in found):
+            medians = [np.median(of) for of in found]
+            differ += any(abs(of - medians[0]) > 1e-9 for of in medians)
+    outcome = {0: FAILS, len(settings["differ"]): HOLDS}.get(differ, SIGN)
+    return certain(outcome, existential=True)

@@ -1,0 +1,130 @@
+"""Criteria that hold printed cells against our draws: one_draw, prints_as and row_one_draw."""
+
+import numpy as np
+
+from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
+from statistics_judge.found import Asked, Estimate, Found, certain, too_few
+from statistics_judge.intervals import predictive, sums_by_unit
+from statistics_judge.records import Places, Reals
+from statistics_judge.selection import Cases
+from statistics_judge.sizes import printed
+
+# Points of a share that an interval covers from which on next to nothing could be refused.
+NO_POWER = 80.0
+
+
+def of_draws(cases: Cases, statistic: str) -> Reals:
+    """What each unit gives: of the metric, or of what is saved in per cent; NaN where it has no number."""
+    if statistic == "solved_percent":
+        return solved_percent(cases.unit, cases.own_solved, cases.units)
+    numbers = cases.numbers
+    known = ~np.isnan(numbers)
+    unit, numbers = cases.unit[known], numbers[known]
+    found = np.full(cases.units, np.nan)
+    if statistic == "mean":
+        total, count = sums_by_unit(unit, cases.units, numbers, np.ones(len(unit)))
+        return np.divide(total, count, out=found, where=count > 0)
+    of = {"least": np.fmin, "greatest": np.fmax}[statistic]
+    of.at(found, unit, numbers)
+    return found
+
+
+def solved_percent(unit: Places, solved: np.ndarray, units: int) -> Reals:
+    """The share of each unit's cases that are solved, in per cent; NaN where it has none."""
+    hits, count = sums_by_unit(unit, units, solved.astype(float), np.ones(len(unit)))
+    return np.divide(100 * hits, count, out=np.full(units, np.nan), where=count > 0)
+
+
+def one_draw(asked: Asked) -> Found:
+    """The printed number lies where one more draw of ours would."""
+    cases, cell = asked.cases(), printed(asked.paper, asked.claim)
+    statistic = asked.settings.get("statistic", "mean")
+    values = of_draws(cases, statistic)
+    values = np.array([cell.value if cell.agrees(value) else value for value in values[~np.isnan(values)]])
+    interval = predictive(values)
+    if interval is None:
+        return too_few()
+    low, high = (end.at for end in interval)
+    mean = float(values.mean())
+    estimate = Estimate(mean, len(values), interval, cases.solved_of_all())
+    if low <= cell.value <= high:
+        outcome = HOLDS
+    else:
+        outcome = SIGN if cases.against is not None and mean * cell.value > 0 else FAILS
+    powerless = statistic == "solved_percent" and high - low >= NO_POWER
+    return certain(outcome, estimate, powerless=powerless)
+
+
+def prints_as(asked: Asked) -> Found:
+    """A number that is the same in every trial prints as the paper's."""
+    cases, cell = asked.cases(), printed(asked.paper, asked.claim)
+    values = cases.values[~np.isnan(cases.values)]
+    if len(values) == 0:
+        return certain(OPEN)
+    low, high = float(values.min()), float(values.max())
+    agree = [cell.agrees(low), cell.agrees(high)]
+    (least, _), (most, _) = cell.ends()
+    outcome = OPEN
+    if all(agree):
+        outcome = HOLDS
+    elif not any(agree) and (float(least) > high or float(most) < low):
+        outcome = FAILS
+    return certain(outcome, Estimate(low, len(values), None, cases.solved_of_all()))
+
+
+def row_one_draw(asked: Asked) -> Found:
+    """A printed row, or several of one draw, is as near to our mean row as our own draws are."""
+    rows, cells, first = [], [], None
+    for row in asked.settings["rows"]:
+        other = {"contender": row["contender"]}
+        if "against" in row:
+            other["against"] = row["against"]
+        cases = asked.cases(**other)
+        first = first or cases.solved_of_all()
+        columns = [of_draws(cases, of) for of in row.get("statistics", [])] or along_sweep(cases)
+        drawn = np.stack(columns, axis=1)
+        cells.append(drawn[~np.isnan(drawn).any(axis=1)])
+        rows += [printed(asked.paper, asked.paper.claim(of)).value for of in row["claims"]]
+    draws = min(map(len, cells))
+    if draws < 3:
+        return too_few()
+    ours, theirs = np.concatenate([drawn[:draws] for drawn in cells], axis=1), np.array(rows)
+    far = as_far(theirs, ours)
+    rank = (far + 1) / (draws + 1)
+    level = level_rank(theirs, ours)
+    outcome = HOLDS if min(rank, level) >= asked.settings["refused_below"] else FAILS
+    return certain(outcome, Estimate(far / draws, draws, None, first))
+
+
+def along_sweep(cases: Cases) -> list[Reals]:
+    """The share of each unit's queries that is solved, in per cent, at each point of the sweep."""
+    places, names = cases.study.sweep
+    found = []
+    for point in cases.study.sweep_points():
+        at = places[cases.own] == names.index(point)
+        found.append(solved_percent(cases.unit[at], cases.own_solved[at], cases.units))
+    return found
+
+
+def distance(row: Reals, others: Reals, draws: int) -> float:
+    """How far a row is from the mean of others, in standard deviations a cell, root mean square.
+
+    A cell at which the others agree has the spread of one query in ten of one draw in all.
+    """
+    spread = np.maximum(others.std(axis=0, ddof=1), 10 / np.sqrt(draws))
+    return float(np.sqrt(np.mean(((row - others.mean(axis=0)) / spread) ** 2)))
+
+
+def as_far(row: Reals, ours: Reals) -> int:
+    """Draws that are at least as far from the mean of the others as the row is from the mean of all."""
+    draws = len(ours)
+    limit = distance(row, ours, draws) * (1 - 1e-12)
+    return sum(distance(ours[i], np.delete(ours, i, axis=0), draws) >= limit for i in range(draws))
+
+
+def level_rank(row: Reals, ours: Reals) -> float:
+    """The two-sided rank of the row's mean among those of our draws, the row counted in."""
+    levels, level = ours.mean(axis=1), row.mean()
+    slack = 1e-12 * max(1.0, abs(level))
+    below, above = int((levels <= level + slack).sum()), int((levels >= level - slack).sum())
+    return min(1.0, 2 * (min(below, above) + 1) / (len(levels) + 1))

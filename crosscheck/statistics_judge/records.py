@@ -1,0 +1,275 @@
+"""Papers, studies and stored trials as numpy arrays."""
+
+import itertools
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.parquet as pq
+
+Reals = npt.NDArray[np.float64]
+Places = npt.NDArray[np.int64]
+Flags = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A metric, as replan describes it."""
+
+    name: str
+    column: str
+    scale: float
+    better: str
+    clock: bool
+    status: bool
+
+
+class Table:
+    """One Parquet file, read column by column."""
+
+    def __init__(self, path: Path) -> None:
+        """Open the file."""
+        self.table = pq.read_table(path)
+        self.names = self.table.column_names
+
+    def words(self, name: str) -> tuple[Places, list[str]]:
+        """A column of words as places in a list of words; null is the empty word."""
+        column = pc.fill_null(pc.cast(self.table.column(name), pa.string()), "")
+        coded = pa.chunked_array(column).combine_chunks().dictionary_encode()
+        return coded.indices.to_numpy().astype(np.int64), coded.dictionary.to_pylist()
+
+    def numbers(self, name: str) -> Reals:
+        """A column of numbers; null is NaN."""
+        return pc.cast(self.table.column(name), pa.float64()).to_numpy(zero_copy_only=False).astype(float)
+
+    def sweep(self, name: str) -> list[str]:
+        """A column of a sweep's values as TOML writes them."""
+        return [str(value).lower() if isinstance(value, bool) else str(value) for value in self.listed(name)]
+
+    def listed(self, name: str) -> list[Any]:
+        """A column as Python values."""
+        return self.table.column(name).to_pylist()
+
+
+def coded(words: list[str]) -> tuple[Places, list[str]]:
+    """Words as places in a list of words."""
+    known = {word: place for place, word in enumerate(dict.fromkeys(words))}
+    return np.array([known[word] for word in words], dtype=np.int64), list(known)
+
+
+class Study:
+    """A study's spec with its stored run, as seen under one choice of readings."""
+
+    def __init__(self, path: Path, spec: dict[str, Any], runs: Path) -> None:
+        """Remember where it is; nothing is read before it is asked for."""
+        self.name, self.spec, self.runs = path.stem, spec, runs
+        self.choices: dict[str, str] = {}
+        self._columns: dict[str, Reals] = {}
+        self._clocked: dict[int, Reals] = {}
+        # What many claims ask of one contender on one problem, and who asks.
+        self.known: dict[tuple, Any] = {}
+
+    @property
+    def readings(self) -> list[dict[str, Any]]:
+        """The readings that it declares."""
+        return self.spec.get("reading", [])
+
+    @property
+    def groups(self) -> list[str]:
+        """The labels of its problem groups."""
+        return [group["label"] for group in self.spec.get("problems", [])]
+
+    def sweep_points(self) -> list[str]:
+        """The points of its sweeps, named as trials name them."""
+        sweeps = self.spec.get("sweep", [])
+        values = [[f"{sweep['key']}={spelled(value)}" for value in sweep["values"]] for sweep in sweeps]
+        return [",".join(point) for point in itertools.product(*values)]
+
+    @cached_property
+    def trials(self) -> Table:
+        """The stored trials."""
+        return Table(self.runs / f"{self.name}.trials.parquet")
+
+    @cached_property
+    def query(self) -> tuple[Places, list[str]]:
+        """The query of each trial."""
+        return self.trials.words("query")
+
+    @cached_property
+    def sweep(self) -> tuple[Places, list[str]]:
+        """The point of the sweeps of each trial."""
+        keys = [sweep["key"] for sweep in self.spec.get("sweep", [])]
+        if not keys:
+            return np.zeros(self.count, dtype=np.int64), [""]
+        columns = [self.trials.sweep(f"sweep_{key}") for key in keys]
+        return coded(
+            [
+                ",".join(f"{k}={v}" for k, v in zip(keys, row, strict=True))
+                for row in zip(*columns, strict=True)
+            ]
+        )
+
+    @property
+    def count(self) -> int:
+        """How many trials are stored."""
+        return self.trials.table.num_rows
+
+    @cached_property
+    def draw(self) -> Places:
+        """The draw of each trial."""
+        return self.trials.numbers("draw").astype(np.int64)
+
+    @cached_property
+    def repeat(self) -> Places:
+        """Which of the contender's seeds each trial has."""
+        return self.trials.numbers("repeat").astype(np.int64)
+
+    @cached_property
+    def case(self) -> Places:
+        """One number for what trials of contenders share: draw, query, point of the sweeps and seed."""
+        query, sweep = self.query[0], self.sweep[0]
+        case = self.draw
+        for part in (query, sweep, self.repeat):
+            case = case * (int(part.max(initial=0)) + 1) + part
+        return case
+
+    @cached_property
+    def status(self) -> npt.NDArray[np.str_]:
+        """How each trial ended."""
+        places, words = self.trials.words("status")
+        return np.array([*words, ""])[places]
+
+    @cached_property
+    def solved(self) -> Flags:
+        """Whether each trial was solved."""
+        return self.status == "solved"
+
+    @cached_property
+    def _places(self) -> dict[tuple[str, str], Places]:
+        groups, group_names = self.trials.words("group")
+        contenders, contender_names = self.trials.words("contender")
+        kept = np.ones(self.count, dtype=bool)
+        for reading in self.readings:
+            column = f"reading_{reading['id']}"
+            if column in self.trials.names:
+                options, names = self.trials.words(column)
+                wanted = self.choices[reading["id"]]
+                kept &= options == (names.index(wanted) if wanted in names else -1)
+        both = np.where(kept, groups * len(contender_names) + contenders, -1)
+        found = {}
+        for code in np.unique(both[kept]):
+            group, contender = divmod(int(code), len(contender_names))
+            found[group_names[group], contender_names[contender]] = np.flatnonzero(both == code)
+        return found
+
+    def rows(self, group: str, contender: str) -> Places:
+        """The trials of a contender in a problem group, in the order that they are stored in."""
+        return self._places.get((group, contender), np.empty(0, dtype=np.int64))
+
+    def column(self, name: str) -> Reals:
+        """A column of every trial; NaN where it is null, or there is no such column."""
+        if name not in self._columns:
+            known = name in self.trials.names
+            self._columns[name] = self.trials.numbers(name) if known else np.full(self.count, np.nan)
+        return self._columns[name]
+
+    def values(self, metric: Metric, session: int) -> Reals:
+        """A metric of every trial; NaN where it was not measured."""
+        if metric.status:
+            return np.isin(self.status, ["solved", "rejected"]).astype(np.float64) * metric.scale
+        if not metric.clock:
+            return self.column(metric.column) * metric.scale
+        known = self._clocked.get(session)
+        if known is None:
+            times = self.clock.get(session, {})
+            medians = [float(np.median(times[key])) if key in times else np.nan for key in self._keys]
+            self._clocked[session] = known = np.array(medians, dtype=np.float64)
+        return known * metric.scale
+
+    def repeats(self, row: int, metric: Metric, session: int) -> list[float]:
+        """Every clock reading of a trial."""
+        times = self.clock.get(session, {}).get(self._keys[row], [])
+        return [time * metric.scale for time in times]
+
+    @cached_property
+    def _keys(self) -> list[tuple]:
+        return keys_of(self.trials)
+
+    @cached_property
+    def clock(self) -> dict[int, dict[tuple, list[float]]]:
+        """Clock readings by session and trial."""
+        table = Table(self.runs / f"{self.name}.times.parquet")
+        found: dict[int, dict[tuple, list[float]]] = {}
+        columns = (keys_of(table), table.listed("session"), table.listed("plan_wall_ns"))
+        for key, session, time in zip(*columns, strict=True):
+            found.setdefault(session, {}).setdefault(key, []).append(float(time))
+        return found
+
+    @property
+    def sessions(self) -> int:
+        """How many sessions of the clock are stored."""
+        return max(self.clock, default=0)
+
+
+def spelled(value: object) -> str:
+    """A sweep's value as TOML writes it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def keys_of(table: Table) -> list[tuple]:
+    """What names the trial of each row."""
+    fixed = ["group", "draw", "query", "contender", "repeat"]
+    named = [*fixed, *(name for name in table.names if name.startswith(("sweep_", "reading_")))]
+    return list(zip(*(table.listed(name) for name in named), strict=True))
+
+
+class Paper:
+    """A paper's claims and studies."""
+
+    def __init__(self, folder: Path, runs: Path, metrics: list[Metric]) -> None:
+        """Read the specs."""
+        self.id = runs.name
+        self.claims: list[dict[str, Any]] = toml(folder / "paper.toml").get("claim", [])
+        self.studies = {study.name: study for study in studies(folder, runs)}
+        self.metrics = {metric.name: metric for metric in metrics}
+        self.runs = runs
+        options: list[dict[str, Any]] = []
+        self.choices: dict[str, str] = {}
+        for study in self.studies.values():
+            for reading in study.readings:
+                if reading["id"] not in self.choices:
+                    self.choices[reading["id"]] = reading["default"]
+                    options.append(reading["option"][reading["default"]])
+        for study in self.studies.values():
+            study.choices = self.choices
+        self.meanings = {name: own for option in options for name, own in option.get("metric", {}).items()}
+        self.digits = next((option["digits"] for option in options if "digits" in option), "unknown")
+
+    def metric(self, name: str) -> Metric:
+        """The metric that a name stands for under the default readings."""
+        return self.metrics[self.meanings.get(name, name)]
+
+    def claim(self, name: str) -> dict[str, Any]:
+        """The claim of this name."""
+        return next(claim for claim in self.claims if claim["id"] == name)
+
+
+def studies(folder: Path, runs: Path) -> Iterator[Study]:
+    """The studies beside paper.toml, in the order of their names."""
+    for path in sorted(folder.glob("*.toml")):
+        spec = toml(path)
+        if path.name not in ("paper.toml", "crosscheck.toml") and ("paper" in spec or "question" in spec):
+            yield Study(path, spec, runs)
+
+
+def toml(path: Path) -> dict[str, Any]:
+    """A TOML file."""
+    with path.open("rb") as file:
+        return tomllib.load(file)

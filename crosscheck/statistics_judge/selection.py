@@ -1,0 +1,161 @@
+"""Which trials a criterion looks at, as arrays: one entry a case, and the unit that each case belongs to."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from statistics_judge.records import Flags, Metric, Paper, Places, Reals, Study
+
+
+@dataclass
+class Cases:
+    """Trials with, if there is another contender, its trials on the same problems.
+
+    A unit is what was drawn independently: a draw with the contender's seed.
+    """
+
+    study: Study
+    metric: Metric | None
+    session: int
+    against: str | None
+    own: Places
+    base: Places | None
+    unit: Places
+    group: Places
+    units: int = field(init=False)
+    values: Reals = field(init=False)
+    bases: Reals = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Number the units without gaps and look the metric up."""
+        names, self.unit = np.unique(self.unit, return_inverse=True)
+        self.units = len(names)
+        self.values = self.solved_values(self.own)
+        self.bases = (
+            self.solved_values(self.base) if self.base is not None else np.full(len(self.own), np.nan)
+        )
+
+    def raw(self, metric: Metric) -> Reals:
+        """A metric of every case, solved or not."""
+        return self.study.values(metric, self.session)[self.own]
+
+    def solved_values(self, rows: Places) -> Reals:
+        """The metric where the trial was solved; NaN elsewhere."""
+        if self.metric is None:
+            return np.full(len(rows), np.nan)
+        measured = self.study.values(self.metric, self.session)[rows]
+        return np.where(self.study.solved[rows], measured, np.nan)
+
+    @property
+    def own_solved(self) -> Flags:
+        """Whether each case's own trial was solved."""
+        return self.study.solved[self.own]
+
+    @property
+    def base_solved(self) -> Flags:
+        """Whether the other contender's was; yes where there is none."""
+        return self.study.solved[self.base] if self.base is not None else np.ones(len(self.own), dtype=bool)
+
+    @property
+    def paired(self) -> Flags:
+        """Whether both contenders have a number."""
+        return ~np.isnan(self.values) & ~np.isnan(self.bases)
+
+    @property
+    def numbers(self) -> Reals:
+        """The metric or, against another contender, what is saved in per cent; NaN where there is neither."""
+        if self.against is None:
+            return self.values
+        positive = self.bases > 0
+        ratio = np.divide(self.values, self.bases, out=np.full(len(self.own), np.nan), where=positive)
+        return 100 * (1 - ratio)
+
+    @property
+    def censored(self) -> Flags:
+        """Whether some side has no number although it might have one: unsolved, unless neither has a path."""
+        none = self.study.status[self.own] == "no_path"
+        lacks = np.isnan(self.values)
+        if self.base is not None:
+            none &= self.study.status[self.base] == "no_path"
+            lacks |= np.isnan(self.bases)
+        return lacks & ~none & ~(self.own_solved & self.base_solved)
+
+    def solved_of_all(self) -> tuple[int, int]:
+        """Cases that everyone who is compared solves, and all."""
+        return int((self.own_solved & self.base_solved).sum()), len(self.own)
+
+    def kept(self, mask: Flags) -> "Cases":
+        """Some of the cases."""
+        base = None if self.base is None else self.base[mask]
+        return Cases(
+            self.study,
+            self.metric,
+            self.session,
+            self.against,
+            self.own[mask],
+            base,
+            self.unit[mask],
+            self.group[mask],
+        )
+
+
+def labels(written: str | list[str]) -> list[str]:
+    """One label or several."""
+    return [written] if isinstance(written, str) else list(written)
+
+
+def groups_of(study: Study, written: str | list[str]) -> list[str]:
+    """The problem groups that labels name; one that ends in `*` stands for all that begin so."""
+    found = []
+    for label in labels(written):
+        if label.endswith("*"):
+            found += [group for group in study.groups if group.startswith(label[:-1])]
+        else:
+            found.append(label)
+    return found
+
+
+def matched(study: Study, rows: Places, others: Places) -> tuple[Places, Places]:
+    """Trials of two contenders on the same cases, in the order of the first."""
+    order = np.argsort(study.case[others], kind="stable")
+    ordered = study.case[others][order]
+    at = np.searchsorted(ordered, study.case[rows])
+    at = np.minimum(at, max(len(ordered) - 1, 0))
+    is_found = ordered[at] == study.case[rows] if len(ordered) else np.zeros(len(rows), dtype=bool)
+    return rows[is_found], others[order[at[is_found]]] if len(ordered) else others
+
+
+def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
+    """The cases that the table `of` of a claim names."""
+    study = paper.studies[of["study"]]
+    metric = paper.metric(of["metric"]) if "metric" in of else None
+    against = of.get("against")
+    parts: list[tuple[int, Places, Places | None]] = []
+    for index, group in enumerate(groups_of(study, of["problems"])):
+        for contender in labels(of.get("contender", [])):
+            rows = posed(study, group, contender, of)
+            if against is None:
+                parts.append((index, rows, None))
+            else:
+                parts.append((index, *matched(study, rows, posed(study, group, against, of))))
+    own = np.concatenate([rows for _, rows, _ in parts])
+    base = None if against is None else np.concatenate([bases for _, _, bases in parts])
+    places = np.concatenate([np.full(len(rows), index) for index, rows, _ in parts])
+    draws, seeds = int(study.draw.max(initial=0)) + 1, int(study.repeat.max(initial=0)) + 1
+    unit = (places * draws + study.draw[own]) * seeds + study.repeat[own]
+    cases = Cases(study, metric, session, against, own, base, unit, places)
+    if not of.get("whole_draws", False):
+        return cases
+    unsolved = ~(cases.own_solved & cases.base_solved)
+    return cases.kept(~np.isin(cases.unit, cases.unit[unsolved]))
+
+
+def posed(study: Study, group: str, contender: str, of: dict[str, Any]) -> Places:
+    """The trials of a contender that a selection looks at: those whose problem could be posed."""
+    rows = study.rows(group, contender)
+    kept = study.status[rows] != "invalid_problem"
+    for wanted, (places, words) in ((of.get("query"), study.query), (of.get("sweep"), study.sweep)):
+        if wanted is not None:
+            kept &= places[rows] == (words.index(wanted) if wanted in words else -1)
+    return rows[kept]

@@ -1,0 +1,156 @@
+"""Criteria that count: equals, on_every and share."""
+
+import numpy as np
+
+from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
+from statistics_judge.found import Asked, Estimate, Found, certain, outcomes
+from statistics_judge.intervals import bootstrap, clopper_pearson, ratio_of_sums, sums_by_unit
+from statistics_judge.records import Flags, Places, Reals
+from statistics_judge.selection import Cases
+
+# Numbers no farther apart are equal.
+EQUAL = 1e-9
+
+
+def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
+    """A share by units with chances: exact where each has one, else by bootstrap over two units or more."""
+    asked = chances > 0
+    hits, chances = hits[asked], chances[asked]
+    if not asked.any():
+        return None
+    value = float(hits.sum() / chances.sum())
+    if (chances == 1).all():
+        return Estimate(value, len(hits), clopper_pearson(int(hits.sum()), int(chances.sum())))
+    return Estimate(value, len(hits), bootstrap(ratio_of_sums(hits, chances), len(hits), seed))
+
+
+def counted(cases: Cases, asked: Flags, hit: Flags, seed: str) -> Estimate | None:
+    """The share of cases asked that are hit, by units."""
+    unit = cases.unit[asked]
+    hits, chances = sums_by_unit(unit, cases.units, hit[asked].astype(float), np.ones(len(unit)))
+    return share(hits, chances, seed)
+
+
+def with_cases(estimate: Estimate | None, solved: tuple[int, int]) -> Estimate | None:
+    """The estimate with how many cases were solved."""
+    return estimate and Estimate(estimate.value, estimate.n, estimate.interval, solved)
+
+
+def equals(asked: Asked) -> Found:
+    """Every number is that of an oracle or of the other contender."""
+    cases = asked.cases()
+    if "truth" in asked.settings:
+        truth = cases.raw(asked.paper.metric(asked.settings["truth"]))
+        own = cases.raw(asked.paper.metric(asked.settings["of"]["metric"]))
+        known = ~np.isnan(truth)
+        own = np.where(np.isnan(own), np.inf, own)
+    else:
+        truth, own, known = cases.bases, cases.values, cases.paired
+    apart = np.abs(own - truth)
+    same = apart <= asked.settings.get("within", 0.0) + 1e-9 * np.abs(truth)
+    estimate = with_cases(counted(cases, known, same, asked.seed), (int(same[known].sum()), int(known.sum())))
+    if not known.any():
+        return certain(OPEN, estimate)
+    return certain(HOLDS if same[known].all() else FAILS, estimate)
+
+
+def on_every(asked: Asked) -> Found:
+    """It holds on every case: one counterexample ends it, and an equality leaves the sign alone."""
+    cases, that = asked.cases(), asked.settings["that"]
+    if that == "higher_share":
+        says, unit = higher_share(cases)
+        keep, spoken = says > 0, np.ones(len(says), dtype=bool)
+        hits, chances = sums_by_unit(unit, cases.units, keep.astype(float), np.ones(len(says)))
+        estimate = share(hits, chances, asked.seed)
+    else:
+        says, spoken = said(cases, that, asked.settings.get("bound", 0.0))
+        estimate = counted(cases, spoken, says > 0, asked.seed)
+    estimate = with_cases(estimate, cases.solved_of_all())
+    kept, equal, broken = (int((says[spoken] == way).sum()) for way in (1, 0, -1))
+    if kept + equal + broken == 0:
+        return certain(OPEN, estimate)
+    if broken == 0 and equal == 0:
+        return certain(HOLDS, estimate)
+    return certain(SIGN if broken == 0 and kept > 0 else FAILS, estimate)
+
+
+def said(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:
+    """How each case speaks (1 for, 0 equal, -1 against), and whether it is asked."""
+    if that == "solved":
+        return np.where(cases.own_solved, 1.0, -1.0), cases.base_solved
+    if that == "lower":
+        gap = cases.values - cases.bases
+        return np.where(gap < -EQUAL, 1.0, np.where(gap > EQUAL, -1.0, 0.0)), cases.paired
+    if that == "at_most_times":
+        return np.where(cases.values <= bound * cases.bases + EQUAL, 1.0, -1.0), cases.paired
+    if that == "above":
+        return np.where(cases.values > bound + EQUAL, 1.0, -1.0), ~np.isnan(cases.values)
+    if that != "at_most":
+        raise ValueError(f"on_every: that = {that!r} is not known here")
+    assert cases.metric is not None
+    value = cases.raw(cases.metric)
+    returned = np.isin(cases.study.status[cases.own], ["solved", "rejected"])
+    return np.where(value <= bound + EQUAL, 1.0, -1.0), returned & ~np.isnan(value)
+
+
+def higher_share(cases: Cases) -> tuple[Reals, Places]:
+    """How each unit speaks at each point of the sweep of whose share is higher, and which unit it is."""
+    points = cases.study.sweep[0][cases.own]
+    places, at = np.unique(np.stack([cases.unit, points]), axis=1, return_inverse=True)
+    gain = cases.own_solved.astype(float) - cases.base_solved.astype(float)
+    return np.sign(np.bincount(at.ravel(), weights=gain)), places[0]
+
+
+def share_within(asked: Asked) -> Found:
+    """A share lies within bounds."""
+    cases, settings = asked.cases(), asked.settings
+    hits, chances = hits_of(asked, cases)
+    if "among" in settings:
+        asked_at_all = cases.study.status[cases.own] == settings["among"]
+        hits, chances = np.where(asked_at_all, hits, 0), np.where(asked_at_all, chances, 0)
+    hits, chances = sums_by_unit(cases.unit, cases.units, hits, chances)
+    if settings["hits"] == "lower_throughout":
+        hits, chances = ((hits == chances) & (chances > 0)).astype(float), (chances > 0).astype(float)
+    estimate = with_cases(share(hits, chances, asked.seed), cases.solved_of_all())
+    if "accepted" not in settings:
+        return certain(None, estimate)
+    if estimate is None or estimate.interval is None:
+        return certain(OPEN, estimate)
+    least, most = settings["accepted"]
+
+    def outcome(low: float, high: float) -> str:
+        if least <= low and high <= most:
+            return HOLDS
+        return FAILS if high < least or low > most else OPEN
+
+    low, high = estimate.interval
+    return Found(outcome(low.at, high.at), outcomes(outcome, estimate.interval), estimate)
+
+
+def hits_of(asked: Asked, cases: Cases) -> tuple[Reals, Reals]:
+    """Hits and chances of each case."""
+    settings, kind = asked.settings, asked.settings["hits"]
+    status = cases.study.status[cases.own]
+    gap = np.where(cases.paired, cases.values - cases.bases, np.nan)
+    columns = [cases.study.column(name)[cases.own] for name in settings.get("columns", [])]
+    if kind == "events":
+        events, chances = columns[0], cases.study.column(settings["per"])[cases.own]
+        known = ~np.isnan(events) & ~np.isnan(chances)
+        return np.where(known, events, 0), np.where(known, chances, 0)
+    always = np.ones(len(status), dtype=bool)
+    if kind == "solved":
+        hit, known = status == "solved", always
+    elif kind == "rejected":
+        hit, known = status == "rejected", np.isin(status, ["solved", "rejected"])
+    elif kind == "marked":
+        hit = np.stack(columns).min(axis=0) > 0
+        known = ~np.isnan(np.stack(columns)).any(axis=0)
+    elif kind == "above":
+        hit, known = cases.values > settings["bound"] + EQUAL, ~np.isnan(cases.values)
+    elif kind in ("lower", "lower_throughout"):
+        hit, known = gap < -EQUAL, cases.paired
+    elif kind == "higher":
+        hit, known = gap > EQUAL, cases.paired
+    else:
+        raise ValueError(f"share: hits = {kind!r} is not known here")
+    return (hit & known).astype(float), known.astype(float)

@@ -1,0 +1,273 @@
+"""Criteria of sizes over draws: lower, trend and within."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
+from statistics_judge.found import Asked, Estimate, Found, outcomes, too_few
+from statistics_judge.intervals import (
+    End,
+    Interval,
+    band,
+    bootstrap,
+    deviation,
+    median,
+    ratio_of_sums,
+    slope,
+    sums_by_unit,
+)
+from statistics_judge.printed import Printed
+from statistics_judge.records import Paper, Reals
+from statistics_judge.selection import Cases
+
+# Ratios nearer to 1 are no difference.
+NO_DIFFERENCE = 1e-3
+
+Outcome = Callable[[float, float], str]
+
+
+def ratio(cases: Cases, bases: Reals, values: Reals, seed: str) -> tuple[float, Interval, int] | None:
+    """The sum of one contender's numbers over that of the other's, over the cases that have both."""
+    kept = ~np.isnan(bases) & ~np.isnan(values)
+    names, unit = np.unique(cases.unit[kept], return_inverse=True)
+    own, base = sums_by_unit(unit, len(names), values[kept], bases[kept])
+    interval = bootstrap(ratio_of_sums(own, base), len(names), seed)
+    return interval and (float(own.sum() / base.sum()), interval, len(names))
+
+
+def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
+    """Both numbers of every case, the censored ones as far apart as the largest difference seen."""
+    censored, paired = cases.censored, cases.paired
+    if not censored.any() or not paired.any():
+        return []
+    most = np.abs(cases.values - cases.bases)[paired].max()
+    middle = cases.bases[paired].mean()
+    better = cases.metric.better if cases.metric else "neither"
+    worse = {"lower": 1, "higher": -1, "neither": 0}[better]
+    found = []
+    for unknown in (1, -1):
+        way = np.full(len(censored), unknown)
+        if worse:
+            way[np.isnan(cases.values) & ~np.isnan(cases.bases)] = worse
+            way[~np.isnan(cases.values) & np.isnan(cases.bases)] = -worse
+        ends = np.maximum(middle + way * most, 0)
+        bases = np.where(paired, cases.bases, np.where(censored, middle, np.nan))
+        found.append((bases, np.where(paired, cases.values, np.where(censored, ends, np.nan))))
+    return found
+
+
+def turned(
+    cases: Cases, asked: Asked, outcome: Outcome, of: Callable[[Interval], Interval], main: Found
+) -> frozenset[bool]:
+    """Whether censored cases could turn the outcome; both where Monte-Carlo error leaves it open."""
+    always, never = False, True
+    for bases, values in filled(cases):
+        found = ratio(cases, bases, values, asked.seed + " filled")
+        if found is None:
+            continue
+        interval = of(found[1])
+        possible = outcomes(outcome, interval)
+        always |= not (possible & main.possible)
+        never &= possible | main.possible == {main.outcome}
+    return frozenset(answer for answer, ruled_out in ((True, never), (False, always)) if not ruled_out)
+
+
+def reduction(ratio: Interval) -> Interval:
+    """By how many per cent a ratio is below 1."""
+    low, high = ratio
+    return high.mapped(lambda r: 100 * (1 - r)), low.mapped(lambda r: 100 * (1 - r))
+
+
+def itself(ratio: Interval) -> Interval:
+    """The ratio."""
+    return ratio
+
+
+def change(ratio: Interval) -> Interval:
+    """By how many per cent a ratio is above 1."""
+    low, high = ratio
+    return low.mapped(lambda r: 100 * (r - 1)), high.mapped(lambda r: 100 * (r - 1))
+
+
+def lower(asked: Asked) -> Found:
+    """One contender is lower than another, or higher, by so much at least."""
+    cases = asked.cases()
+    is_higher, by = asked.settings.get("is") == "higher", asked.settings.get("by_percent", 0.0)
+    if cases.metric is None:
+        return along_sweep(asked, cases, is_higher)
+    found = ratio(cases, cases.bases, cases.values, asked.seed)
+    if found is None:
+        return too_few()
+
+    def outcome(low: float, high: float) -> str:
+        near, far = (low, high) if is_higher else (-high, -low)
+        if near > 0:
+            return HOLDS if near >= by else OPEN if far >= by else SIGN
+        if far < 0 or near == far == 0 or far < by:
+            return FAILS
+        return OPEN
+
+    interval = change(found[1])
+    estimate = Estimate(100 * (found[0] - 1), found[2], interval, cases.solved_of_all())
+    main = Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
+    censored = turned(cases, asked, outcome, change, main)
+    return Found(main.outcome, main.possible, estimate, censored=censored)
+
+
+def along_sweep(asked: Asked, cases: Cases, is_higher: bool) -> Found:
+    """The share of solved queries is higher, or lower, all along a sweep at once."""
+    points = cases.study.sweep_points()
+    places, names = cases.study.sweep
+    curves = []
+    for point in points:
+        at = places[cases.own] == names.index(point)
+        gain = cases.own_solved[at].astype(float) - cases.base_solved[at].astype(float)
+        total, count = sums_by_unit(cases.unit[at], cases.units, gain, np.ones(int(at.sum())))
+        curves.append(np.divide(100 * total, count, out=np.full(cases.units, np.nan), where=count > 0))
+    drawn = np.stack(curves, axis=1)
+    drawn = drawn[~np.isnan(drawn).any(axis=1)]
+    if len(drawn) < 2:
+        return too_few()
+    sign = 1 if is_higher else -1
+    mean = drawn.mean(axis=0)
+    intervals = band(drawn, asked.seed)
+
+    def outcome(of_low: str, of_high: str) -> str:
+        ends = [(getattr(low, of_low), getattr(high, of_high)) for low, high in intervals]
+        near = [low if is_higher else -high for low, high in ends]
+        far = [high if is_higher else -low for low, high in ends]
+        if min(near) > 0:
+            return HOLDS
+        return FAILS if min(far) < 0 else SIGN if max(near) > 0 else OPEN
+
+    place = int(np.argmin(sign * mean))
+    estimate = Estimate(float(mean[place]), len(drawn), intervals[place], cases.solved_of_all())
+    # As wide, and as narrow, as the band can be.
+    possible = frozenset(outcome(*ends) for ends in (("at", "at"), ("least", "most"), ("most", "least")))
+    return Found(outcome("at", "at"), possible, estimate)
+
+
+def trend(asked: Asked) -> Found:
+    """A metric, or what is saved, grows along a column."""
+    cases = asked.cases()
+    x, y = cases.study.column(asked.settings["over"])[cases.own], cases.numbers
+    kept = ~np.isnan(x) & ~np.isnan(y)
+    names, unit = np.unique(cases.unit[kept], return_inverse=True)
+    x, y = x[kept], y[kept]
+    if len(names) < 2 or np.ptp(x) == 0:
+        return too_few()
+    interval = bootstrap(slope(unit, len(names), x, y), len(names), asked.seed)
+    assert interval is not None
+    sign = 1 if asked.settings["rising"] else -1
+
+    def outcome(low: float, high: float) -> str:
+        if low <= 0 <= high:
+            return OPEN
+        return HOLDS if sign * low > 0 else FAILS
+
+    estimate = Estimate(float(np.polyfit(x, y, 1)[0]), len(names), interval, cases.solved_of_all())
+    return Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
+
+
+def within(asked: Asked) -> Found:
+    """The interval of a statistic lies within a margin about the printed number, or within bounds."""
+    cases, statistic = asked.cases(), asked.settings["statistic"]
+    found = of_all(cases, statistic, asked.seed)
+    if found is None or not np.isfinite(found[1][0].at):
+        return too_few()
+    value, interval, n = found
+    least, most, printed = accepted(asked)
+    middle = (least + most) / 2 if printed is None else printed
+    none = {"reduction_percent": 0.0, "ratio": 1.0, "ratio_of_groups": 1.0}.get(statistic)
+
+    def outcome(low: float, high: float) -> str:
+        if least <= low and high <= most:
+            return HOLDS
+        if low <= most and least <= high:
+            return OPEN
+        # A claim of some difference, and the interval wholly on the same side of none as it.
+        if none is None or (printed is None and least <= none <= most):
+            return FAILS
+        equal = 0.0 if none == 0 else NO_DIFFERENCE
+        is_above, is_below = low > none + equal, high < none - equal
+        return SIGN if (is_above and middle > none) or (is_below and not middle > none) else FAILS
+
+    estimate = Estimate(value, n, interval, cases.solved_of_all())
+    main = Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
+    if statistic not in ("ratio", "reduction_percent"):
+        return main
+    censored = turned(cases, asked, outcome, reduction if statistic == "reduction_percent" else itself, main)
+    return Found(main.outcome, main.possible, estimate, censored=censored)
+
+
+def of_all(cases: Cases, statistic: str, seed: str) -> tuple[float, Interval, int] | None:
+    """A statistic of all draws, its interval, and how many draws it rests on."""
+    if statistic in ("ratio", "reduction_percent"):
+        found = ratio(cases, cases.bases, cases.values, seed)
+        if found is None or statistic == "ratio":
+            return found
+        return 100 * (1 - found[0]), reduction(found[1]), found[2]
+    if statistic == "ratio_of_groups":
+        return ratio_of_groups(cases, seed)
+    values = cases.values
+    if statistic == "median":
+        values = np.where(cases.own_solved, values, np.inf)
+    kept = ~np.isnan(values)
+    names, unit = np.unique(cases.unit[kept], return_inverse=True)
+    values, units = values[kept], len(names)
+    if units < 2:
+        return None
+    if statistic == "median":
+        value, of = np.median(values), median(unit, values)
+    elif statistic == "deviation":
+        value, of = values.std(ddof=1), deviation(unit, units, values)
+    else:
+        total, count = sums_by_unit(unit, units, values, np.ones(len(values)))
+        value, of = values.mean(), ratio_of_sums(total, count)
+    interval = bootstrap(of, units, seed)
+    return interval and (float(value), interval, units)
+
+
+def ratio_of_groups(cases: Cases, seed: str) -> tuple[float, Interval, int] | None:
+    """The median on the first group over that on the second; its interval from the ends of both."""
+    if len(cases.own) == 0:
+        return None
+    sides: list[tuple[float, Interval]] = []
+    for mask in (cases.group == cases.group[0], cases.group != cases.group[0]):
+        names, unit = np.unique(cases.unit[mask], return_inverse=True)
+        values = cases.values[mask]
+        known = ~np.isnan(values)
+        if not known.any():
+            return None
+        middle = float(np.median(values[known]))
+        interval = bootstrap(median(unit[known], values[known]), len(names), f"{seed} {len(sides)}")
+        sides.append((middle, interval or (End.exact(middle), End.exact(middle))))
+    (above, (a, b)), (below, (c, d)) = sides
+    if below <= 0:
+        return None
+    low, high = divided(a, d), divided(b, c)
+    return above / below, (low, high), cases.units
+
+
+def divided(above: End, below: End) -> End:
+    """One end over another."""
+    return End(above.at / below.at, above.least / below.most, above.most / below.least)
+
+
+def accepted(asked: Asked) -> tuple[float, float, float | None]:
+    """The least and the greatest number accepted, and the printed one if a margin is about it."""
+    settings = asked.settings
+    if "accepted" in settings:
+        return settings["accepted"][0], settings["accepted"][1], None
+    if "printed_ratio" in settings:
+        above, below = (printed(asked.paper, asked.paper.claim(of)).value for of in settings["printed_ratio"])
+        middle = above / below
+    else:
+        middle = printed(asked.paper, asked.claim).value
+    return middle - settings["margin"], middle + settings["margin"], middle
+
+
+def printed(paper: Paper, claim: dict) -> Printed:
+    """A claim's printed number."""
+    return Printed(claim["printed"], claim.get("digits", paper.digits))

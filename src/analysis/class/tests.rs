@@ -1,0 +1,165 @@
+use super::*;
+
+/// Every pair of verdicts.
+fn pairs() -> impl Iterator<Item = [Verdict; 2]> {
+    Verdict::ALL.into_iter().flat_map(|one| Verdict::ALL.into_iter().map(move |two| [one, two]))
+}
+
+#[test]
+fn of_any_two_findings_a_proof_wins_then_what_is_against_then_what_is_open_then_the_weakest() {
+    for pair in pairs() {
+        let all = combined(pair, false);
+        assert_eq!(all, combined([pair[1], pair[0]], false), "{pair:?}: the order does not count");
+        assert!(pair.contains(&all), "{pair:?}: nothing is made up");
+        let least = pair.into_iter().map(Verdict::polarity).min().unwrap();
+        assert_eq!(all.polarity(), least, "{pair:?}");
+        if pair.contains(&Verdict::Impossible) {
+            assert_eq!(all, Verdict::Impossible, "{pair:?}");
+        }
+        if least == Polarity::For {
+            assert_eq!(all, pair[0].max(pair[1]), "{pair:?}: the weaker of two for it");
+        }
+    }
+}
+
+#[test]
+fn what_the_paper_leaves_out_yields_to_what_speaks_against_it_and_to_nothing_else() {
+    for verdict in Verdict::ALL {
+        let expected = if verdict.polarity() == Polarity::Against { verdict } else { Verdict::Untestable };
+        assert_eq!(combined([verdict], true), expected, "{verdict:?}");
+    }
+    assert_eq!(combined([], true), Verdict::Untestable);
+    assert_eq!(combined([], false), Verdict::Undecided, "what was only checked for possibility");
+}
+
+#[test]
+fn a_sentence_of_two_parts_takes_the_least_or_the_greatest_of_them() {
+    for pair in pairs() {
+        let polarities = pair.map(Verdict::polarity);
+        let (all, any) = (all_of(&pair), any_of(&pair));
+        assert_eq!(all.polarity(), polarities[0].min(polarities[1]), "all of {pair:?}");
+        assert_eq!(any.polarity(), polarities[0].max(polarities[1]), "any of {pair:?}");
+        for (whole, takes) in [(all, Verdict::max as fn(_, _) -> _), (any, Verdict::min)] {
+            if polarities == [Polarity::For; 2] {
+                assert_eq!(whole, takes(pair[0], pair[1]), "{pair:?}");
+            }
+        }
+        let lacking = pair == [Verdict::Untestable; 2];
+        assert_eq!(
+            all == Verdict::Untestable,
+            lacking
+                || (
+                    all.polarity(),
+                    polarities.contains(&Polarity::For),
+                    pair.contains(&Verdict::Untestable),
+                    pair.contains(&Verdict::Undecided)
+                ) == (Polarity::Open, true, true, false),
+            "{pair:?}"
+        );
+    }
+    assert_eq!([all_of(&[]), any_of(&[])], [Verdict::Undecided; 2]);
+}
+
+#[test]
+fn parts_of_which_one_is_meant_decide_nothing_unless_they_speak_one_way() {
+    for pair in pairs() {
+        let [one, two] = pair.map(Verdict::polarity);
+        let meant = one_meant(&pair);
+        let expected = if one == two { one } else { Polarity::Open };
+        assert_eq!(meant.polarity(), expected, "{pair:?}");
+        if one == two && one == Polarity::For {
+            assert_eq!(meant, pair[0].max(pair[1]), "the weaker of two for it: {pair:?}");
+        }
+        let is_proved = pair == [Verdict::Impossible; 2];
+        assert_eq!(meant == Verdict::Impossible, is_proved, "impossible only if each is: {pair:?}");
+    }
+}
+
+const OUTCOMES: [Outcome; 5] =
+    [Outcome::Holds, Outcome::SignOnly, Outcome::Open, Outcome::Fails, Outcome::Proved];
+
+/// Every combination of what lowers a class.
+fn caps() -> impl Iterator<Item = Caps> {
+    let clocks = [None, Some(Sessions::TooFew), Some(Sessions::Disagree), Some(Sessions::Agree)];
+    (0..128_u8).flat_map(move |bits| {
+        let has = move |bit: u8| bits >> bit & 1 == 1;
+        clocks.into_iter().map(move |clock| Caps {
+            searched: has(0),
+            fitted: has(1),
+            existential: has(2),
+            powerless: has(3),
+            censored: has(4),
+            without_premises: has(5),
+            few: has(6),
+            clock,
+        })
+    })
+}
+
+#[test]
+fn nothing_raises_a_class_and_nothing_turns_its_sign() {
+    for outcome in OUTCOMES {
+        let bare = of_finding(outcome, Caps::default()).unwrap();
+        for caps in caps() {
+            let Some(verdict) = of_finding(outcome, caps) else {
+                assert!(outcome == Outcome::Proved && caps.without_premises, "{outcome:?} {caps:?}");
+                continue;
+            };
+            assert!(verdict == bare || verdict.polarity() == Polarity::Open || verdict > bare, "{caps:?}");
+            let turned = (verdict.polarity(), bare.polarity());
+            let opposite = [(Polarity::For, Polarity::Against), (Polarity::Against, Polarity::For)];
+            assert!(!opposite.contains(&turned), "{outcome:?} {caps:?}");
+        }
+    }
+}
+
+/// What a cap makes of what holds, of what holds in sign alone, and of what fails.
+const CAPPED: [(Caps, [Verdict; 3]); 11] = {
+    use Verdict::{Attainable, DirectionOnly, Fitted, NotReproduced, Reproduced, Undecided};
+    const NONE: Caps = Caps {
+        searched: false,
+        fitted: false,
+        existential: false,
+        powerless: false,
+        censored: false,
+        few: false,
+        clock: None,
+        without_premises: false,
+    };
+    const OPEN: [Verdict; 3] = [Undecided; 3];
+    [
+        (NONE, [Reproduced, DirectionOnly, NotReproduced]),
+        (Caps { searched: true, ..NONE }, [Attainable, DirectionOnly, NotReproduced]),
+        (Caps { existential: true, ..NONE }, [Attainable, DirectionOnly, NotReproduced]),
+        (Caps { fitted: true, ..NONE }, [Fitted, DirectionOnly, NotReproduced]),
+        (Caps { fitted: true, searched: true, ..NONE }, [Attainable, DirectionOnly, NotReproduced]),
+        (Caps { powerless: true, ..NONE }, [Undecided, Undecided, NotReproduced]),
+        (Caps { censored: true, ..NONE }, OPEN),
+        (Caps { few: true, ..NONE }, OPEN),
+        (Caps { clock: Some(Sessions::TooFew), ..NONE }, OPEN),
+        (Caps { clock: Some(Sessions::Disagree), ..NONE }, OPEN),
+        (Caps { clock: Some(Sessions::Agree), ..NONE }, [Reproduced, DirectionOnly, NotReproduced]),
+    ]
+};
+
+#[test]
+fn each_cap_does_what_it_says() {
+    for (caps, expected) in CAPPED {
+        let found = |outcome| of_finding(outcome, caps).unwrap();
+        let measured = [Outcome::Holds, Outcome::SignOnly, Outcome::Fails].map(found);
+        assert_eq!(measured, expected, "{caps:?}");
+        assert_eq!(found(Outcome::Open), Verdict::Undecided, "{caps:?}");
+        assert_eq!(found(Outcome::Proved), Verdict::Impossible, "no measurement lowers a proof: {caps:?}");
+    }
+    let elsewhere = Caps { without_premises: true, ..Caps::default() };
+    assert_eq!(of_finding(Outcome::Proved, elsewhere), None, "a proof counts where its premises hold");
+}
+
+#[test]
+fn an_interval_that_holds_the_bound_leaves_it_open() {
+    let said = |low, high| Outcome::at_least(low, high, 0.5);
+    assert_eq!(
+        [said(0.5, 0.7), said(0.4, 0.7), said(0.1, 0.4)],
+        [Outcome::Holds, Outcome::Open, Outcome::Fails]
+    );
+}

@@ -1,0 +1,198 @@
+//! What a criterion or a rule is built from, and the names that it looks up there.
+
+use super::metric::{self, Metric};
+use super::selection_spec::Labels;
+use crate::study::paper::{self, Claim, Paper};
+use crate::study::{ReadingChoice, Study};
+use audit::printed::{Digits, Printed};
+use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
+
+/// What a criterion or rule is built from.
+#[derive(Clone, Copy)]
+pub struct Context<'a> {
+    /// The claim.
+    pub claim: &'a Claim,
+    /// Its settings in the claim.
+    pub settings: &'a Settings,
+    /// The paper.
+    pub paper: &'a Paper,
+    /// The reading that the claim is judged under.
+    pub point: &'a ReadingChoice,
+}
+
+/// How the keys start that name studies.
+const STUDY_KEYS: [&str; 2] = ["stud", "explored"];
+/// How the keys start that name problem groups.
+const PROBLEM_KEYS: [&str; 2] = ["problem", "differ"];
+/// How the keys start that name contenders.
+pub const CONTENDER_KEYS: [&str; 4] = ["contender", "against", "lower", "higher"];
+/// How the keys start that name metrics.
+const METRIC_KEYS: [&str; 3] = ["metric", "over", "truth"];
+
+impl From<paper::Digits> for Digits {
+    fn from(digits: paper::Digits) -> Self {
+        match digits {
+            paper::Digits::Rounded => Self::Rounded,
+            paper::Digits::Truncated => Self::Truncated,
+            paper::Digits::Unknown => Self::Unknown,
+        }
+    }
+}
+
+impl<'a> Context<'a> {
+    /// The claim's printed number.
+    ///
+    /// # Errors
+    /// The claim prints no number.
+    pub fn printed(&self) -> Result<Printed, SettingsError> {
+        let missing = || format!("claim `{}` prints no number, which is needed here", self.claim.id);
+        let text = self.claim.printed.as_ref().ok_or_else(|| self.settings.error(missing()))?;
+        text.parse().map_err(|e: audit::AuditError| self.settings.error(e.to_string()))
+    }
+
+    /// The printed number of another claim.
+    ///
+    /// # Errors
+    /// There is no such claim, or it prints no number.
+    pub fn printed_of(&self, id: &str) -> Result<(Printed, Digits), SettingsError> {
+        let other = self.claim_called(id)?;
+        let context = Context { claim: other, ..*self };
+        Ok((context.printed()?, context.digits()))
+    }
+
+    /// The claim called `id`.
+    ///
+    /// # Errors
+    /// There is no such claim.
+    pub fn claim_called(&self, id: &str) -> Result<&'a Claim, SettingsError> {
+        self.paper.claim(id).ok_or_else(|| {
+            let known = self.paper.claims.iter().map(|claim| claim.id.as_str());
+            self.settings.error_about("", &[""], id, none_called("claim", id, known))
+        })
+    }
+
+    /// How the claim's digits end.
+    pub fn digits(&self) -> Digits {
+        let digits = self.claim.digits.or_else(|| self.point.digits());
+        digits.unwrap_or(paper::Digits::Unknown).into()
+    }
+
+    /// The study called `name`, which must have the contenders named; `within` is the part of the settings that names them.
+    ///
+    /// # Errors
+    /// There is no such study, or it lacks a contender.
+    pub fn study(&self, within: &str, name: &str, contenders: &[&str]) -> Result<&'a Study, SettingsError> {
+        let study = self.paper.study(name).ok_or_else(|| {
+            let known = self.paper.studies.iter().map(|study| study.name.as_str());
+            self.settings.error_about(within, &STUDY_KEYS, name, none_called("study", name, known))
+        })?;
+        let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
+        let mut faults = Faults::default();
+        // A study that measures without contenders has labels of its task's own.
+        for label in contenders.iter().filter(|label| !known.is_empty() && !known.contains(label)) {
+            faults.add(self.unknown(within, "contender", &CONTENDER_KEYS, label, (study, &known)));
+        }
+        faults.done()?;
+        Ok(study)
+    }
+
+    fn unknown(
+        &self,
+        within: &str,
+        what: &str,
+        keys: &[&str],
+        label: &str,
+        (study, known): (&Study, &[&str]),
+    ) -> SettingsError {
+        let hint = did_you_mean(label, known.iter().copied());
+        let message =
+            format!("study `{}` has no {what} `{label}`{hint}; it has {}", study.name, known.join(", "));
+        self.settings.error_about(within, keys, label, message)
+    }
+
+    /// The problem groups of `study` that `labels` name, in their order; `within` is the part of the settings that names
+    /// them.
+    ///
+    /// # Errors
+    /// The study has no such group; there is no label.
+    pub fn groups(&self, within: &str, study: &Study, labels: &Labels) -> Result<Vec<String>, SettingsError> {
+        let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
+        let (mut groups, mut faults) = (Vec::new(), Faults::default());
+        for label in labels.listed() {
+            let is_meant = |group: &&&str| match label.strip_suffix('*') {
+                Some(beginning) => group.starts_with(beginning),
+                None => **group == label,
+            };
+            let meant: Vec<String> = known.iter().filter(is_meant).map(|group| (*group).to_owned()).collect();
+            if meant.is_empty() {
+                faults.add(self.unknown(within, "problem group", &PROBLEM_KEYS, &label, (study, &known)));
+            }
+            groups.extend(meant);
+        }
+        faults.done()?;
+        if groups.is_empty() {
+            return Err(self.settings.error_at(within, "`problems` needs at least one label"));
+        }
+        Ok(groups)
+    }
+
+    /// The metric that `name` stands for under the reading.
+    ///
+    /// # Errors
+    /// There is no such metric.
+    pub fn known_metric(&self, name: &str) -> Result<&'static Metric, SettingsError> {
+        metric::find(self.point.metric(name)).ok_or_else(|| {
+            let known: Vec<&str> = metric::METRICS.iter().map(|metric| metric.name).collect();
+            let hint = did_you_mean(name, known.iter().copied());
+            let message = format!(
+                "there is no metric `{name}`, nor a reading that gives the name a meaning{hint}; the metrics are {}",
+                known.join(", ")
+            );
+            self.settings.error_about("", &METRIC_KEYS, name, message)
+        })
+    }
+
+    /// The metric that `name` stands for under the reading; `study` must produce it.
+    ///
+    /// # Errors
+    /// There is no such metric, or the study does not produce it.
+    pub fn metric(&self, name: &str, study: &Study) -> Result<&'static Metric, SettingsError> {
+        let metric = self.known_metric(name)?;
+        let columns = study.columns();
+        if metric.is_produced(&columns) {
+            return Ok(metric);
+        }
+        let produced: Vec<&str> =
+            metric::METRICS.iter().filter(|metric| metric.is_produced(&columns)).map(|m| m.name).collect();
+        let message = format!(
+            "study `{}` does not produce the metric `{}`; it produces {}",
+            study.name,
+            metric.name,
+            produced.join(", ")
+        );
+        Err(self.settings.error_about("", &METRIC_KEYS, name, message))
+    }
+
+    /// The names that the stream of a bootstrap on this claim is derived from.
+    pub fn seed_names(&self) -> [&'a str; 2] {
+        [&self.paper.id, &self.claim.id]
+    }
+
+    /// An error unless `low..high` rises and lies in `least..most`.
+    ///
+    /// # Errors
+    /// They do not.
+    pub fn rising(
+        &self,
+        key: &str,
+        [low, high]: [f64; 2],
+        [least, most]: [f64; 2],
+    ) -> Result<(), SettingsError> {
+        if least <= low && low <= high && high <= most {
+            return Ok(());
+        }
+        let message =
+            format!("{key} is [{low}, {high}]; two rising numbers from {least} to {most} are accepted");
+        Err(self.settings.error_at(key, message))
+    }
+}

@@ -1,0 +1,170 @@
+//! Whether a number is, on every trial, what an oracle says, or what another contender finds.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::{Evidence, Run};
+use crate::analysis::found::Found;
+use crate::analysis::metric::Metric;
+use crate::analysis::selection::{Case, Draw, Selection};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{Share, plan};
+use crate::study::Study;
+use crate::study::record::{Row, Status};
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::Resampling;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "equals",
+    about: "is a metric, on every trial, what another metric or another contender says that it is?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "success", problems = "cell", contender = "Original A*", metric = "found" }
+truth = "connected"
+"#,
+    build: |context| Ok(Box::new(Equals::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at; with `against`, on the cases that both solve.
+    of: SelectionSpec,
+    /// The metric of the same trial that is the truth; without it the metric of the contender `against` is.
+    truth: Option<String>,
+    /// How far they may be apart, in the metric's unit, beyond a billionth of the truth.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    within: f64,
+}
+
+struct Equals<'a> {
+    of: Selection<'a>,
+    metric: &'static Metric,
+    truth: Option<&'static Metric>,
+    within: f64,
+    plan: Resampling,
+}
+
+/// Values this close are the same, relative.
+const SAME: f64 = 1e-9;
+
+impl<'a> Equals<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let of = Selection::new(context, &settings.of)?;
+        let metric = of.metric(context)?;
+        let truth = settings.truth.as_ref().map(|name| context.metric(name, of.study)).transpose()?;
+        if truth.is_some() == of.against.is_some() {
+            return Err(context.settings.error("one of `truth` and `of.against` is accepted"));
+        }
+        Ok(Self { of, metric, truth, within: settings.within, plan: plan(&context.seed_names()) })
+    }
+}
+
+/// What all trials say.
+#[derive(Default)]
+struct Tally<'e> {
+    /// Trials that are the same, and trials, by draw.
+    counts: Vec<[f64; 2]>,
+    /// The farthest apart.
+    worst: f64,
+    /// The sums of the metric and of the truth.
+    sums: [f64; 2],
+    /// The first trial that is not the same.
+    wrong: Option<&'e Row>,
+    /// Trials without an end and without a number, which could be either.
+    unended: usize,
+}
+
+impl Equals<'_> {
+    /// The truth and the number of one case; nothing if it is not asked.
+    fn pair(&self, run: &Run<'_>, case: &Case<'_>) -> Option<(f64, f64)> {
+        let Some(truth) = self.truth else { return case.pair() };
+        // What was not measured is as wrong as what is far off, unless the truth is unknown too.
+        let own = run.value(case.row, self.metric).unwrap_or(f64::INFINITY);
+        Some((run.value(case.row, truth)?, own))
+    }
+
+    fn tally<'e>(&self, run: &Run<'_>, draws: &[Draw<'e>]) -> Tally<'e> {
+        let mut all = Tally::default();
+        for draw in draws {
+            let mut count = [0.0; 2];
+            for case in &draw.cases {
+                let pair = self.pair(run, case);
+                let is_known = pair.is_some_and(|(_, own)| own.is_finite());
+                all.unended += usize::from(!is_known && case.is_unended());
+                let Some((truth, own)) = pair else { continue };
+                let apart = (own - truth).abs();
+                let is_same = apart <= self.within + SAME * truth.abs();
+                count = [count[0] + f64::from(u8::from(is_same)), count[1] + 1.0];
+                all.worst = all.worst.max(apart);
+                all.sums = [all.sums[0] + own, all.sums[1] + truth];
+                all.wrong = all.wrong.or((!is_same).then_some(case.row));
+            }
+            if count[1] > 0.0 {
+                all.counts.push(count);
+            }
+        }
+        all
+    }
+
+    /// What the metric is held against.
+    fn truth_said(&self) -> String {
+        let other = || format!("that of {}", self.of.against.as_deref().unwrap_or_default());
+        self.truth.map_or_else(other, |truth| truth.label.to_lowercase())
+    }
+}
+
+impl Criterion for Equals<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let Some(run) = self.of.run(evidence) else { return Found::default() };
+        let draws = self.of.draws(evidence);
+        let Tally { counts, worst, sums, wrong, unended } = self.tally(run, &draws);
+        let [same, all] = counts.iter().fold([0.0, 0.0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
+        let outcome = match (all > 0.0, same == all) {
+            (false, _) => Outcome::Open,
+            (true, true) => Outcome::Holds,
+            (true, false) => Outcome::Fails,
+        };
+        // That something is wrong hangs on them only if nothing else is.
+        let is_turned = outcome == Outcome::Holds || all - same <= unended as f64;
+        let (metric, truth) = (self.metric.label.to_lowercase(), self.truth_said());
+        let whole = 100.0 * (sums[0] / sums[1] - 1.0);
+        let apart = if whole.is_finite() {
+            format!("; they are {worst:.4} apart at most, and {whole:+.2} % on the whole")
+        } else {
+            String::new()
+        };
+        let mut because =
+            vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.said())];
+        let cases = draws.iter().flat_map(|draw| &draw.cases);
+        let refused = cases.filter(|case| case.row.status == Status::Rejected).count();
+        because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
+        let ours = Share::of(&counts, self.plan).map(|share| {
+            let what = format!("trials on which {metric} is {truth}");
+            share.estimate(&what).of_cases([same as usize, all as usize])
+        });
+        let trial = wrong.map(|row| run.trial(row));
+        Found {
+            outcome: Some(outcome),
+            ours,
+            trial,
+            because,
+            units: "trials",
+            censored: if is_turned { unended } else { 0 },
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}

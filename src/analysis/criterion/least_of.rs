@@ -1,0 +1,314 @@
+//! Whether some contenders' medians are below those of others on every problem, failures counted as infinite.
+//!
+//! Each comparison is a ratio of two medians with an interval; the largest ratio decides. Where it is asked for, what
+//! follows from one contender's steps including another's is stated and held against the runs, not estimated from them.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::{Evidence, Run};
+use crate::analysis::found::Found;
+use crate::analysis::inclusion::Inclusion;
+use crate::analysis::metric::Metric;
+use crate::analysis::selection::Selection;
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::LEVEL;
+use crate::analysis::verdict::Estimate;
+use crate::study::Study;
+use crate::study::record::{Row, Status};
+use base::seed;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::{self, Resampling};
+use stats::summary::median;
+use std::collections::BTreeMap;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "least_of",
+    about: "is a contender's median over seeds, failures infinite, below that of each other one on every problem?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "methods", problems = ["case 1", "case 2"], metric = "expansions" }
+lower = "Chaos 5/8"
+higher = ["A* 8"]
+by_percent = 50
+"#,
+    build: |context| Ok(Box::new(LeastOf::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at: study, problems and metric.
+    of: SelectionSpec,
+    /// Contenders each of which is claimed to be below every one of `higher`.
+    lower: crate::analysis::selection_spec::Labels,
+    /// Those that they are compared with.
+    higher: crate::analysis::selection_spec::Labels,
+    /// By how many per cent at least.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 99.9))]
+    by_percent: f64,
+    /// The metric is the length of a path, so that steps that include others' never make it longer.
+    #[serde(default)]
+    by_inclusion: bool,
+}
+
+struct LeastOf<'a> {
+    of: Selection<'a>,
+    metric: &'static Metric,
+    /// Who is claimed to be lower, and than whom.
+    pairs: Vec<(String, String)>,
+    by_percent: f64,
+    inclusions: Vec<Inclusion>,
+    seed: u64,
+}
+
+/// Fewest seeds of two contenders that draw of which medians decide: of 4 each, all of one are below all of the other's by
+/// chance once in 70 times; of 3 each once in 20 times. A contender with one seed does not draw.
+const FEWEST_SEEDS: usize = 4;
+
+/// One contender on one problem.
+struct Side {
+    values: Vec<f64>,
+    median: f64,
+    interval: [f64; 2],
+}
+
+/// One comparison: the median over the other's, its interval from the ends of both.
+struct Compared {
+    name: String,
+    trial: Option<String>,
+    medians: [f64; 2],
+    ratio: f64,
+    ends: [f64; 2],
+    /// Trials of either side.
+    trials: [usize; 2],
+    inclusion: Inclusion,
+    keeps: bool,
+}
+
+impl Compared {
+    /// Whether a contender draws and has fewer seeds.
+    fn is_few(&self, fewest: usize) -> bool {
+        self.trials.iter().any(|trials| (2..fewest).contains(trials))
+    }
+}
+
+impl<'a> LeastOf<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let (lower, higher) = (settings.lower.listed(), settings.higher.listed());
+        for (key, labels) in [("lower", &lower), ("higher", &higher)] {
+            if labels.is_empty() {
+                return Err(context.settings.error_at(key, format!("`{key}` needs at least one contender")));
+            }
+        }
+        let of = Selection::new(context, &settings.of)?;
+        let named: Vec<&str> = lower.iter().chain(&higher).map(String::as_str).collect();
+        context.study("", &of.study.name, &named)?;
+        let metric = of.metric(context)?;
+        let with = |low: &String| higher.iter().map(|high| (low.clone(), high.clone())).collect::<Vec<_>>();
+        let pairs: Vec<(String, String)> = lower.iter().flat_map(with).collect();
+        let said = |(low, high): &(String, String)| {
+            if !settings.by_inclusion {
+                return Ok(Inclusion::Open);
+            }
+            Inclusion::of(of.study, context.point, low, high)
+        };
+        let inclusions = pairs.iter().map(said).collect::<Result<_, _>>()?;
+        let seed = seed::derive(0, &context.seed_names());
+        Ok(Self { of, metric, pairs, by_percent: settings.by_percent, inclusions, seed })
+    }
+
+    /// Below this a ratio is what the claim says.
+    fn limit(&self) -> f64 {
+        1.0 - self.by_percent / 100.0
+    }
+
+    /// The metric of every trial; infinite where it failed.
+    fn values(&self, run: &Run<'_>, problem: &str, contender: &str) -> Vec<f64> {
+        let value = |row: &&Row| match (row.status, run.value(row, self.metric)) {
+            // The clock is read for some seeds only: one that was not timed has not failed.
+            (_, None) if self.metric.is_clock() => None,
+            (Status::Solved, Some(value)) => Some(value),
+            (_, _) => Some(f64::INFINITY),
+        };
+        self.of.rows(run, problem, contender).iter().filter_map(value).collect()
+    }
+
+    /// What was drawn independently: seeds, or the repeated readings of the clock where there is one seed.
+    fn units(&self, run: &Run<'_>, problem: &str, contender: &str) -> Vec<f64> {
+        let values = self.values(run, problem, contender);
+        if !self.metric.is_clock() || values.len() > 1 {
+            return values;
+        }
+        let rows = self.of.rows(run, problem, contender);
+        rows.iter().flat_map(|row| run.repeats(row, self.metric)).collect()
+    }
+
+    /// Every contender on `problem`, so that each bootstrap is made once.
+    fn sides(&self, run: &Run<'_>, problem: &str) -> BTreeMap<&str, Side> {
+        let mut sides = BTreeMap::new();
+        for contender in self.pairs.iter().flat_map(|(low, high)| [low, high]) {
+            if sides.contains_key(contender.as_str()) {
+                continue;
+            }
+            let values = self.values(run, problem, contender);
+            if let Some(median) = median(&values) {
+                let interval = self.interval(&self.units(run, problem, contender));
+                sides.insert(contender.as_str(), Side { values, median, interval });
+            }
+        }
+        sides
+    }
+
+    /// Every comparison that both sides were measured for.
+    fn compared(&self, run: &Run<'_>) -> Vec<Compared> {
+        let mut all = Vec::new();
+        for problem in &self.of.groups {
+            let sides = self.sides(run, problem);
+            let compared =
+                (0..self.pairs.len()).filter_map(|index| self.compare(run, &sides, problem, index));
+            all.extend(compared);
+        }
+        all
+    }
+
+    fn compare(
+        &self,
+        run: &Run<'_>,
+        sides: &BTreeMap<&str, Side>,
+        problem: &str,
+        index: usize,
+    ) -> Option<Compared> {
+        let (lower, higher) = &self.pairs[index];
+        let (one, other) = (sides.get(lower.as_str())?, sides.get(higher.as_str())?);
+        let ([from, to], inclusion) = ([one.interval, other.interval], self.inclusions[index]);
+        let first = self.of.rows(run, problem, lower).into_iter().next();
+        Some(Compared {
+            name: format!("{lower} against {higher}, {problem}"),
+            trial: first.map(|row| run.trial(row)),
+            medians: [one.median, other.median],
+            ratio: ratio(one.median, other.median),
+            // Wider than the interval of the ratio at either side's level, and so on the safe side.
+            ends: [ratio(from[0], to[1]), ratio(from[1], to[0])],
+            trials: [one.values.len(), other.values.len()],
+            inclusion,
+            keeps: inclusion.is_kept(&one.values, &other.values),
+        })
+    }
+
+    /// Bootstrap interval of the median over seeds; the value itself where there is one.
+    fn interval(&self, values: &[f64]) -> [f64; 2] {
+        let plan = Resampling { resamples: 500, level: LEVEL, seed: self.seed };
+        match bootstrap::median(values, plan) {
+            Some(found) => [found.interval.low, found.interval.high],
+            None => [values[0]; 2],
+        }
+    }
+
+    fn because(&self, all: &[Compared]) -> Vec<String> {
+        let label = self.metric.label.to_lowercase();
+        let met = all.iter().filter(|one| one.ratio < self.limit()).count();
+        let by = if self.by_percent > 0.0 {
+            format!(" by more than {} %", self.by_percent)
+        } else {
+            String::new()
+        };
+        let all_of = self.pairs.len() * self.of.groups.len();
+        let mut because = vec![format!("in {met} of {all_of} comparisons the median {label} is less{by}")];
+        because.extend(theorem(all));
+        because.extend(all.iter().map(|one| {
+            let [low, high] = one.medians;
+            format!("{}: {low:.4} against {high:.4}, ratio {:.3}", one.name, one.ratio)
+        }));
+        because
+    }
+}
+
+/// What comparisons say whose ratios are all claimed to be below `limit`; nothing if one breaks a theorem.
+fn outcome(all: &[Compared], limit: f64) -> Outcome {
+    if all.iter().any(|one| !one.keeps) {
+        return Outcome::Open;
+    }
+    if all.iter().all(|one| one.ends[1] < limit) {
+        return Outcome::Holds;
+    }
+    if all.iter().all(|one| one.ends[0] < limit) {
+        return Outcome::Open;
+    }
+    // Some ratio is certainly not below the margin; where every one is certainly below 1, the sign is right.
+    let is_less = all.iter().all(|one| one.ends[1] < 1.0);
+    if is_less { Outcome::SignOnly } else { Outcome::Fails }
+}
+
+fn ratio(a: f64, b: f64) -> f64 {
+    // Two zeros and two failures are equal.
+    if a == b { 1.0 } else { a / b }
+}
+
+/// What set inclusion says of the comparisons, where it says anything.
+fn theorem(all: &[Compared]) -> Option<String> {
+    let count = |kind| all.iter().filter(|one| one.inclusion == kind).count();
+    let (longer, shorter) = (count(Inclusion::NeverLonger), count(Inclusion::NeverShorter));
+    let equal = count(Inclusion::Equal);
+    let broken = all.iter().filter(|one| !one.keeps).count();
+    (longer + shorter + equal > 0).then(|| {
+        let kept = match broken {
+            0 => "the runs keep to both".to_owned(),
+            broken => format!("{broken} of them do not keep to it, so that the program is wrong"),
+        };
+        format!(
+            "by set inclusion, on any map, {longer} of {} cannot be longer (all steps of the other are its own) and {} cannot \
+             be shorter; {kept}, and only the other {} are measured",
+            all.len(),
+            shorter + equal,
+            all.len() - longer - shorter - equal
+        )
+    })
+}
+
+impl Criterion for LeastOf<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let Some(run) = self.of.run(evidence) else { return Found::default() };
+        let all = self.compared(run);
+        let is_complete = all.len() == self.pairs.len() * self.of.groups.len();
+        let outcome = if is_complete { outcome(&all, self.limit()) } else { Outcome::Open };
+        let largest = all.iter().max_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        let ours = largest.map(|one| {
+            let what = format!(
+                "% of the other's median {}, failures infinite, the largest of {}: {}",
+                self.metric.label.to_lowercase(),
+                all.len(),
+                one.name
+            );
+            let is_finite = one.ends.iter().all(|end| end.is_finite());
+            let interval = is_finite.then_some(one.ends.map(|end| 100.0 * end));
+            Estimate { interval, ..Estimate::bare(100.0 * one.ratio, what, one.trials[0].max(one.trials[1])) }
+        });
+        Found {
+            outcome: Some(outcome),
+            ours,
+            trial: largest.and_then(|one| one.trial.clone()),
+            because: self.because(&all),
+            limits: vec![100.0 * self.limit()],
+            units: "seeds",
+            needs: Some(FEWEST_SEEDS).filter(|fewest| all.iter().any(|one| one.is_few(*fewest))),
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.metric.is_clock()
+    }
+}
+
+#[cfg(test)]
+mod tests;

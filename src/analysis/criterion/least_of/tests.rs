@@ -1,0 +1,42 @@
+use super::*;
+
+fn compared(ends: [f64; 2]) -> Compared {
+    let ratio = ends[0].midpoint(ends[1]);
+    let (name, medians) = ("a".to_owned(), [ratio, 1.0]);
+    Compared {
+        name,
+        trial: None,
+        medians,
+        ratio,
+        ends,
+        trials: [20, 20],
+        inclusion: Inclusion::Open,
+        keeps: true,
+    }
+}
+
+#[test]
+fn what_lies_above_the_margin_for_certain_is_no_longer_undecided() {
+    let (half, any) = (0.5, 1.0);
+    for (ends, limit, expected) in [
+        ([0.40, 0.45], half, Outcome::Holds),
+        ([0.45, 0.55], half, Outcome::Open),
+        ([0.51, 0.53], half, Outcome::SignOnly),
+        // Nowhere near one half, and not even certainly less: contradicted, not undecided.
+        ([0.94, 1.03], half, Outcome::Fails),
+        ([1.0, 1.0], any, Outcome::Fails),
+        ([0.98, 1.02], any, Outcome::Open),
+    ] {
+        assert_eq!(outcome(&[compared(ends)], limit), expected, "{ends:?} against {limit}");
+    }
+    let mixed = [compared([0.40, 0.45]), compared([1.01, 1.02])];
+    assert_eq!(outcome(&mixed, half), Outcome::Fails);
+    let broken = Compared { keeps: false, ..compared([0.40, 0.45]) };
+    assert_eq!(outcome(&[broken], half), Outcome::Open);
+}
+
+#[test]
+fn zeros_and_failures_are_equal_to_themselves() {
+    assert_eq!([ratio(0.0, 0.0), ratio(f64::INFINITY, f64::INFINITY), ratio(1.0, 2.0)], [1.0, 1.0, 0.5]);
+    assert_eq!([ratio(1.0, f64::INFINITY), ratio(1.0, 0.0)], [0.0, f64::INFINITY]);
+}

@@ -1,0 +1,255 @@
+//! Whether one contender is lower (or higher) than another: sign and size over draws, or all along a sweep at once.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, needs, plan};
+use crate::analysis::verdict::Estimate;
+use crate::study::Study;
+use crate::study::name;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bands::{Band, sup_t};
+use stats::bootstrap::Resampling;
+use stats::interval::Interval;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "lower",
+    about: "is a contender lower than another on average over draws, or solves it more all along a sweep?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "length", problems = "cell", metric = "local_paths", contender = "Improved A*", against = "Original A*" }
+"#,
+    build: |context| Ok(Box::new(Lower::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at; without a metric the share of solved queries, along the study's sweep.
+    of: SelectionSpec,
+    /// Whether it is claimed to be lower or higher than `against`.
+    #[serde(default)]
+    is: Way,
+    /// By how many per cent at least; along a sweep it is any difference that counts.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    by_percent: f64,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum Way {
+    /// Its numbers are below the other's; it solves less.
+    #[default]
+    Lower,
+    /// Its numbers are above the other's; it solves more.
+    Higher,
+}
+
+struct Lower<'a> {
+    of: Selection<'a>,
+    way: Way,
+    by_percent: f64,
+    plan: Resampling,
+}
+
+impl<'a> Lower<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let of = Selection::new(context, &settings.of)?;
+        of.contender(context)?;
+        of.against(context)?;
+        if of.metric.is_none() && of.study.sweeps.is_empty() {
+            let message = format!("`of` needs a `metric`: study `{}` sweeps nothing", of.study.name);
+            return Err(context.settings.error_at("of", message));
+        }
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, way: settings.is, by_percent: settings.by_percent, plan })
+    }
+
+    fn change(&self, pairs: &[Vec<(f64, f64)>]) -> Option<(f64, Interval, usize)> {
+        let found = OfAll::ReductionPercent.of_pairs(pairs, self.plan)?;
+        let Interval { low, high } = found.interval;
+        Some((0.0 - found.value, Interval::new(0.0 - high, 0.0 - low), found.units))
+    }
+
+    fn outcome(&self, change: Interval) -> Outcome {
+        outcome(self.way, self.by_percent, change)
+    }
+
+    /// Over draws.
+    fn on_average(&self, evidence: &Evidence<'_>, metric: &str) -> Found {
+        let draws = self.of.draws(evidence);
+        let pairs = selection::pairs(&draws);
+        let Some((value, interval, units)) = self.change(&pairs) else {
+            return Found::too_few(pairs.len(), FEWEST_DRAWS);
+        };
+        let outcome = self.outcome(interval);
+        let all: Vec<&(f64, f64)> = pairs.iter().flatten().collect();
+        let count = |is: fn(&&&(f64, f64)) -> bool| all.iter().filter(is).count();
+        let because = format!(
+            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, bootstrap over {units} draws); lower on {}, \
+             equal on {}, higher on {} of {} cases that both solve",
+            self.of.said(),
+            interval.low,
+            interval.high,
+            count(|(base, own)| own < base),
+            count(|(base, own)| own == base),
+            count(|(base, own)| own > base),
+            all.len(),
+        );
+        let turned = |pairs: Vec<Vec<(f64, f64)>>| {
+            self.change(&pairs).is_some_and(|(_, interval, _)| self.outcome(interval) != outcome)
+        };
+        let is_turned = selection::filled(&self.of, &draws).into_iter().any(turned);
+        let what = format!("change of {metric} in %, bootstrap 95 % over draws");
+        let change = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
+        Found {
+            outcome: Some(outcome),
+            ours: Some(Estimate::new(value, interval, what, units).of_cases(solved(&draws))),
+            trial: selection::nearest(&self.of, evidence, &draws, change, value),
+            because: vec![because],
+            limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
+            units: "draws",
+            needs: needs(units),
+            censored: if is_turned { selection::censored(&draws) } else { 0 },
+            ..Found::default()
+        }
+    }
+
+    /// The curve of each draw: how many points more of its queries are solved than by the other, along the sweep.
+    fn curves(&self, draws: &[Draw<'_>]) -> Vec<Vec<f64>> {
+        let points = self.of.study.sweep_points();
+        let is_solved = |row: &crate::study::record::Row| row.status == crate::study::record::Status::Solved;
+        let at = |draw: &Draw<'_>, point: &crate::study::contender::SweepPoint| {
+            let cases: Vec<&Case<'_>> =
+                draw.cases.iter().filter(|case| case.row.key.sweep == point.key).collect();
+            let share = |of: &dyn Fn(&Case<'_>) -> bool| {
+                100.0 * cases.iter().filter(|case| of(case)).count() as f64 / cases.len() as f64
+            };
+            let base = share(&|case| case.base.is_some_and(is_solved));
+            (!cases.is_empty()).then(|| share(&|case| is_solved(case.row)) - base)
+        };
+        draws.iter().filter_map(|draw| points.iter().map(|point| at(draw, point)).collect()).collect()
+    }
+
+    /// Along the sweep.
+    fn along_sweep(&self, evidence: &Evidence<'_>) -> Found {
+        let draws = self.of.draws(evidence);
+        let curves = self.curves(&draws);
+        let Some(Band { mean, band, .. }) = sup_t(&curves, self.plan) else {
+            return Found::too_few(curves.len(), FEWEST_DRAWS);
+        };
+        let points = self.of.study.sweep_points();
+        let at = |index: usize| name::sweep(&points[index].key);
+        let sign = if self.way == Way::Higher { 1.0 } else { -1.0 };
+        let signed = |index: usize| sign * mean[index];
+        let least = (0..mean.len()).min_by(|a, b| signed(*a).total_cmp(&signed(*b))).unwrap_or(0);
+        let (outcome, beyond) = all_along(self.way, &band);
+        let because = format!(
+            "{}: the mean share of solved queries differs by {:.1} points (band {:.1} to {:.1}) at {}, where it is least on the claim's \
+             side; the simultaneous 95 % band over {} draws is on that side at {beyond} of {} points",
+            self.of.said(),
+            mean[least],
+            band[least].low,
+            band[least].high,
+            at(least),
+            curves.len(),
+            band.len(),
+        );
+        let what = format!("least mean difference in points, at {}, simultaneous 95 % band", at(least));
+        let case =
+            draws.iter().flat_map(|draw| &draw.cases).find(|case| case.row.key.sweep == points[least].key);
+        Found {
+            outcome: Some(outcome),
+            ours: Some(Estimate::new(mean[least], band[least], what, curves.len()).of_cases(solved(&draws))),
+            trial: case.and_then(|case| Some(self.of.run(evidence)?.trial(case.row))),
+            because: vec![because],
+            limits: vec![0.0],
+            units: "draws",
+            needs: needs(curves.len()),
+            ..Found::default()
+        }
+    }
+}
+
+/// What a simultaneous band says, and at how many points it lies on the claim's side.
+fn all_along(way: Way, band: &[Interval]) -> (Outcome, usize) {
+    let toward = |b: &Interval| if way == Way::Higher { (b.low, b.high) } else { (-b.high, -b.low) };
+    let beyond = band.iter().filter(|b| toward(b).0 > 0.0).count();
+    let outcome = if beyond == band.len() {
+        Outcome::Holds
+    } else if band.iter().any(|b| toward(b).1 < 0.0) {
+        Outcome::Fails
+    } else if beyond > 0 {
+        Outcome::SignOnly
+    } else {
+        Outcome::Open
+    };
+    (outcome, beyond)
+}
+
+/// What the interval of a change in per cent says of a claim that it goes one way, by so much at least.
+fn outcome(way: Way, by_percent: f64, change: Interval) -> Outcome {
+    let Interval { low, high } = change;
+    let [near, far] = if way == Way::Higher { [low, high] } else { [-high, -low] };
+    if near > 0.0 && near >= by_percent {
+        Outcome::Holds
+    } else if far < 0.0 || (near == 0.0 && far == 0.0) {
+        Outcome::Fails
+    } else if far >= by_percent {
+        Outcome::Open
+    } else if near > 0.0 {
+        Outcome::SignOnly
+    } else {
+        Outcome::Fails
+    }
+}
+
+impl Criterion for Lower<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        match self.of.metric {
+            Some(metric) => self.on_average(evidence, &metric.label.to_lowercase()),
+            None => self.along_sweep(evidence),
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_interval_of_changes_says() {
+        for (by, low, high, expected) in [
+            (0.0, -9.0, -1.0, Outcome::Holds),
+            (0.0, -9.0, 1.0, Outcome::Open),
+            (0.0, 1.0, 9.0, Outcome::Fails),
+            (0.0, 0.0, 0.0, Outcome::Fails),
+            (50.0, -70.0, -60.0, Outcome::Holds),
+            (50.0, -60.0, -40.0, Outcome::Open),
+            (50.0, -40.0, -10.0, Outcome::SignOnly),
+            (50.0, -40.0, 10.0, Outcome::Fails),
+            (50.0, 10.0, 20.0, Outcome::Fails),
+        ] {
+            assert_eq!(outcome(Way::Lower, by, Interval::new(low, high)), expected, "{by} {low} {high}");
+            let mirrored = outcome(Way::Higher, by, Interval::new(-high, -low));
+            assert_eq!(mirrored, expected, "higher by {by}: {} to {}", -high, -low);
+        }
+    }
+}

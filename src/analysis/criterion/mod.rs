@@ -1,0 +1,110 @@
+//! Criteria: how statistics of stored trials are held against what a paper says; one a file, all in [`REGISTRY`].
+//!
+//! A criterion selects trials, takes a statistic of each draw, and says what it finds; its class is decided in
+//! [`class`](super::class). Arithmetic on printed numbers alone is a [`rule`](super::rule).
+
+mod equals;
+mod exists;
+mod least_of;
+mod lower;
+mod on_every;
+mod one_draw;
+mod prints_as;
+mod row_one_draw;
+mod share;
+mod trend;
+mod within;
+
+pub use exists::{Attained, ENTRY as EXISTS};
+pub use one_draw::{Draws, draws};
+
+use super::context::Context;
+use super::evidence::Evidence;
+use super::found::Found;
+use super::selection_spec::Explored;
+use crate::study::Study;
+use base::settings::{Accepted, Settings, SettingsError};
+
+/// A criterion with its settings, every name looked up.
+pub trait Criterion {
+    /// What it finds in the stored runs as the evidence's reading, and session of the clock, show them.
+    fn find(&self, evidence: &Evidence<'_>) -> Found;
+
+    /// The studies whose trials it looks at.
+    fn studies(&self) -> Vec<&Study>;
+
+    /// Whether what it finds rests on our own clock.
+    fn is_clock(&self) -> bool {
+        false
+    }
+}
+
+/// A registered criterion.
+pub struct Entry {
+    /// The name that claims use; also its file's name.
+    pub name: &'static str,
+    /// One line for `replan list`.
+    pub about: &'static str,
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
+    /// How to build it.
+    pub build: for<'a> fn(&Context<'a>) -> Result<Box<dyn Criterion + 'a>, SettingsError>,
+}
+
+/// Every criterion, in the order of their names.
+pub static REGISTRY: &[&Entry] = &[
+    &equals::ENTRY,
+    &exists::ENTRY,
+    &least_of::ENTRY,
+    &lower::ENTRY,
+    &on_every::ENTRY,
+    &one_draw::ENTRY,
+    &prints_as::ENTRY,
+    &row_one_draw::ENTRY,
+    &share::ENTRY,
+    &trend::ENTRY,
+    &within::ENTRY,
+];
+
+/// The criterion called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    REGISTRY.iter().copied().find(|entry| entry.name == name)
+}
+
+/// A criterion with a study that explores readings in the place of its own, and that study; none if it names none.
+///
+/// # Errors
+/// What the criterion refuses of that study.
+pub fn explored<'a>(
+    entry: &Entry,
+    context: &Context<'a>,
+) -> Result<Option<(&'a Study, Settings)>, SettingsError> {
+    let Some(of) = context.settings.table().get("of").and_then(toml::Value::as_table) else {
+        return Ok(None);
+    };
+    let read = |value: &toml::Value| value.clone().try_into::<Explored>().ok();
+    let Some(wanted) = of.get("explored").and_then(read) else { return Ok(None) };
+    let (name, problems) = match wanted {
+        Explored::Study(name) => (name, None),
+        Explored::Elsewhere(place) => (place.study, Some(place.problems.listed())),
+    };
+    let study = context.study("of.explored", &name, &[])?;
+    if study.explore.is_none() {
+        let message = format!("study `{name}` explores no readings; it needs a table `explore`");
+        return Err(context.settings.error_at("of.explored", message));
+    }
+    let mut elsewhere = of.clone();
+    elsewhere.remove("explored");
+    elsewhere.insert("study".to_owned(), name.into());
+    if let Some(problems) = problems {
+        elsewhere.insert("problems".to_owned(), problems.into());
+    }
+    let mut table = context.settings.table().clone();
+    table.insert("of".to_owned(), elsewhere.into());
+    let settings = Settings::composed(format!("claim `{}`, explored", context.claim.id), table);
+    (entry.build)(&Context { settings: &settings, ..*context })
+        .map_err(|error| context.settings.error_at("of.explored", error.to_string()))?;
+    Ok(Some((study, settings)))
+}

@@ -1,0 +1,228 @@
+//! Whether something holds on every case, or in every draw: one counterexample ends it.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::{Evidence, Run};
+use crate::analysis::found::Found;
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{Share, plan};
+use crate::analysis::verdict::Estimate;
+use crate::study::Study;
+use crate::study::key::SweepKey;
+use crate::study::record::{Row, Status};
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::Resampling;
+use stats::paired::EQUAL;
+use std::collections::BTreeMap;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "on_every",
+    about: "does it hold on every case that a contender is lower, within a bound, or solves what another solves?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "environments", problems = "E*", contender = "Improved A*", against = "A*", metric = "nodes" }
+that = "lower"
+"#,
+    build: |context| Ok(Box::new(OnEvery::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at.
+    of: SelectionSpec,
+    /// What is to hold on each.
+    that: That,
+    /// The bound of `at_most`, `above` and `at_most_times`.
+    bound: Option<f64>,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum That {
+    /// The metric is below the other contender's, on every case that both solve.
+    Lower,
+    /// The metric is at most `bound` times the other contender's, on every case that both solve.
+    AtMostTimes,
+    /// The metric is at most `bound` on every path that comes back, those that the verifier refuses too.
+    AtMost,
+    /// The metric is above `bound` on every case that is solved.
+    Above,
+    /// It is solved wherever the other contender solves it.
+    Solved,
+    /// The share of a draw's queries that are solved is above the other contender's, at every point of the sweep.
+    HigherShare,
+}
+
+struct OnEvery<'a> {
+    of: Selection<'a>,
+    that: That,
+    bound: f64,
+    plan: Resampling,
+}
+
+/// How one case, or one draw at a point of the sweep, speaks.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Says {
+    /// For it.
+    For,
+    /// Neither way: equal.
+    Equal,
+    /// Against it.
+    Against,
+}
+
+impl<'a> OnEvery<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let of = Selection::new(context, &settings.of)?;
+        let that = settings.that;
+        let is_bounded = matches!(that, That::AtMost | That::Above | That::AtMostTimes);
+        if is_bounded != settings.bound.is_some() {
+            let needs = if is_bounded { "needs a `bound`" } else { "takes no `bound`" };
+            return Err(context.settings.error_at("that", format!("this kind of `that` {needs}")));
+        }
+        if !matches!(that, That::AtMost | That::Above) {
+            of.against(context)?;
+        }
+        if !matches!(that, That::Solved | That::HigherShare) {
+            of.metric(context)?;
+        }
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, that, bound: settings.bound.unwrap_or_default(), plan })
+    }
+
+    /// How a case speaks; nothing if it is not asked.
+    fn says(&self, run: &Run<'_>, case: &Case<'_>) -> Option<Says> {
+        let holds = |holds| if holds { Says::For } else { Says::Against };
+        let side = |gap: f64| match gap {
+            gap if gap < -EQUAL => Says::For,
+            gap if gap > EQUAL => Says::Against,
+            _ => Says::Equal,
+        };
+        match self.that {
+            That::Lower => case.pair().map(|(base, own)| side(own - base)),
+            That::AtMostTimes => case.pair().map(|(base, own)| holds(own <= self.bound * base + EQUAL)),
+            That::Above => case.value.map(|value| holds(value > self.bound + EQUAL)),
+            That::AtMost => {
+                let is_returned = matches!(case.row.status, Status::Solved | Status::Rejected);
+                let value = run.value(case.row, self.of.metric?).filter(|_| is_returned);
+                value.map(|value| holds(value <= self.bound + EQUAL))
+            }
+            That::Solved => {
+                let solved = |row: &Row| row.status == Status::Solved;
+                case.base.filter(|base| solved(base)).map(|_| holds(solved(case.row)))
+            }
+            That::HigherShare => None,
+        }
+    }
+
+    /// What is to hold, in words.
+    fn claim(&self) -> String {
+        let metric = self.of.metric.map_or_else(String::new, |metric| metric.title().to_lowercase());
+        match self.that {
+            That::Lower => format!("{metric} is lower"),
+            That::AtMostTimes => format!("{metric} is at most {} times the other's", self.bound),
+            That::AtMost => format!("{metric} is at most {}", self.bound),
+            That::Above => format!("{metric} is above {}", self.bound),
+            That::Solved => "it is solved where the other solves it".to_owned(),
+            That::HigherShare => "the share of queries solved is higher".to_owned(),
+        }
+    }
+
+    /// How every draw speaks at every point of the sweep, with a trial of each.
+    fn shares<'e>(draws: &'e [Draw<'e>]) -> Vec<Vec<(Says, &'e Row)>> {
+        let solved = |row: &Row| u32::from(row.status == Status::Solved);
+        let of_draw = |draw: &'e Draw<'e>| {
+            let mut points: BTreeMap<&SweepKey, ([u32; 2], &Row)> = BTreeMap::new();
+            for case in &draw.cases {
+                let (count, _) = points.entry(&case.row.key.sweep).or_insert(([0; 2], case.row));
+                count[0] += solved(case.row);
+                count[1] += case.base.map_or(0, solved);
+            }
+            let says = |[own, base]: [u32; 2]| match own.cmp(&base) {
+                std::cmp::Ordering::Greater => Says::For,
+                std::cmp::Ordering::Equal => Says::Equal,
+                std::cmp::Ordering::Less => Says::Against,
+            };
+            points.into_values().map(|(count, row)| (says(count), row)).collect()
+        };
+        draws.iter().map(of_draw).collect()
+    }
+
+    /// How many cases did not come to an end; that a case is not solved is itself an answer where that is what is asked.
+    fn unended(&self, draws: &[Draw<'_>]) -> usize {
+        if matches!(self.that, That::Solved | That::HigherShare) { 0 } else { selection::unended(draws) }
+    }
+
+    fn said_by<'e>(&self, run: &Run<'_>, draws: &'e [Draw<'e>]) -> Vec<Vec<(Says, &'e Row)>> {
+        if self.that == That::HigherShare {
+            return Self::shares(draws);
+        }
+        let of_draw = |draw: &'e Draw<'e>| {
+            draw.cases.iter().filter_map(|case| Some((self.says(run, case)?, case.row))).collect()
+        };
+        draws.iter().map(of_draw).collect()
+    }
+}
+
+impl OnEvery<'_> {
+    /// The share of cases that speak for it.
+    fn share(&self, said: &[Vec<(Says, &Row)>]) -> Option<Estimate> {
+        let kept = |draw: &Vec<(Says, &Row)>| draw.iter().filter(|(says, _)| *says == Says::For).count();
+        let counts = said.iter().map(|draw| [kept(draw) as f64, draw.len() as f64]);
+        let share = Share::of(&counts.collect::<Vec<_>>(), self.plan)?;
+        Some(share.estimate(&format!("cases on which {}", self.claim())))
+    }
+}
+
+impl Criterion for OnEvery<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let Some(run) = self.of.run(evidence) else { return Found::default() };
+        let draws = self.of.draws(evidence);
+        let said = self.said_by(run, &draws);
+        let all = || said.iter().flatten();
+        let count = |wanted: Says| all().filter(|(says, _)| *says == wanted).count();
+        let (kept, equal, broken) = (count(Says::For), count(Says::Equal), count(Says::Against));
+        let outcome = match (kept, equal, broken) {
+            (0, 0, 0) => Outcome::Open,
+            (_, 0, 0) => Outcome::Holds,
+            // Never the other way round, but not always so either.
+            (1.., _, 0) => Outcome::SignOnly,
+            _ => Outcome::Fails,
+        };
+        let counterexample = all().find(|(says, _)| *says == Says::Against);
+        let shown = counterexample.or_else(|| all().find(|(says, _)| *says == Says::Equal));
+        let equally = if equal > 0 { format!(", equal on {equal}") } else { String::new() };
+        let because = format!(
+            "{}: {} on {kept} of {} cases{equally}, the contrary on {broken}",
+            self.of.said(),
+            self.claim(),
+            kept + equal + broken
+        );
+        let undone = if broken == 0 && self.that != That::Solved { selection::censored(&draws) } else { 0 };
+        let left = (undone > 0).then(|| format!("{undone} more cases have no number to compare"));
+        Found {
+            outcome: Some(outcome),
+            ours: self.share(&said).map(|ours| ours.of_cases(solved(&draws))),
+            trial: shown.map(|(_, row)| run.trial(row)),
+            because: std::iter::once(because).chain(left).collect(),
+            units: "cases",
+            censored: if outcome == Outcome::Fails { 0 } else { self.unended(&draws) },
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}

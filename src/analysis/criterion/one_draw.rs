@@ -1,0 +1,234 @@
+//! Whether a printed number could be that of one more of our draws: a printed cell is one draw, not a mean.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
+use crate::analysis::selection::{self, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{LEVEL, OfDraw};
+use crate::analysis::verdict::Estimate;
+use crate::study::Study;
+use audit::printed::{Digits, Printed};
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::interval::Interval;
+use stats::proportion::{Rank, predictive};
+use stats::summary::{mean, median};
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "one_draw",
+    about: "does the printed number lie where one more draw of ours would, with 95 % probability?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "success", problems = "cell", contender = "Original A*", sweep = "samples=100" }
+statistic = "solved_percent"
+"#,
+    build: |context| Ok(Box::new(OneDraw::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at; with `against`, what is saved against it in per cent.
+    of: SelectionSpec,
+    /// What is taken of each draw.
+    #[serde(default)]
+    statistic: OfDraw,
+    /// What these draws are, where several sets are shown beside each other.
+    label: Option<String>,
+    /// What the draws take for granted besides.
+    #[serde(default)]
+    premises: Vec<String>,
+}
+
+/// Draws of one kind.
+#[derive(Debug, Clone)]
+pub struct Draws {
+    /// What they are.
+    pub label: String,
+    /// The statistic of each; printed twins of the claim's number are set to it.
+    pub values: Vec<f64>,
+    /// Draws without a number.
+    pub unsolved: usize,
+    /// Accepted maps and maps tried, where draws were conditioned.
+    pub acceptance: Option<[u64; 2]>,
+}
+
+struct OneDraw<'a> {
+    of: Selection<'a>,
+    statistic: OfDraw,
+    label: Option<String>,
+    premises: Vec<String>,
+    printed: Printed,
+    digits: Digits,
+}
+
+/// The draws that the claim of `context` is held against, one set a criterion of this name that it decides or shows by.
+///
+/// # Errors
+/// A settings error of the criterion.
+pub fn draws(context: &Context<'_>, evidence: &Evidence<'_>) -> Result<Vec<Draws>, SettingsError> {
+    let asked = context.claim.criteria().filter(|(name, _)| *name == ENTRY.name);
+    asked
+        .map(|(_, settings)| {
+            let one = OneDraw::new(&Context { settings, ..*context })?;
+            Ok(one.values(evidence, &one.of.draws(evidence)))
+        })
+        .collect()
+}
+
+/// Percentages that an interval covers from which on it refuses next to nothing, and decides nothing either.
+const NO_POWER_POINTS: f64 = 80.0;
+
+impl<'a> OneDraw<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let Settings { of, statistic, label, premises } = context.settings.read::<Settings>()?;
+        let of = Selection::new(context, &of)?;
+        of.contender(context)?;
+        if statistic != OfDraw::SolvedPercent {
+            of.metric(context)?;
+        }
+        Ok(Self { of, statistic, label, premises, printed: context.printed()?, digits: context.digits() })
+    }
+
+    /// What is taken of each draw, in words.
+    fn title(&self) -> String {
+        match (self.of.metric, &self.of.against) {
+            (Some(metric), Some(_)) => {
+                format!(
+                    "{} saving in {} over a draw's queries, %",
+                    self.statistic.name(),
+                    metric.label.to_lowercase()
+                )
+            }
+            (Some(metric), None) => format!("{} {}", self.statistic.name(), metric.title().to_lowercase()),
+            (None, _) => format!("{}, %", self.statistic.name()),
+        }
+    }
+
+    /// What the interval of one more draw says, of draws with this mean.
+    fn outcome(&self, interval: Interval, mean: f64) -> Outcome {
+        let printed = self.printed.value();
+        match interval.contains(printed) {
+            true => Outcome::Holds,
+            // Both are savings, or both are losses.
+            false if self.of.against.is_some() && mean * printed > 0.0 => Outcome::SignOnly,
+            false => Outcome::Fails,
+        }
+    }
+
+    /// How many cases without an end could turn what was found: draws without a number are taken to lie above all others,
+    /// then below; where solved queries are counted, they are counted as solved.
+    fn censored(&self, drawn: &[Draw<'_>], found: Outcome) -> usize {
+        let number = |draw: &Draw<'_>, lost: f64| {
+            let unended = draw.cases.iter().filter(|case| case.is_unended()).count();
+            let own = self.statistic.of(draw);
+            if self.statistic == OfDraw::SolvedPercent && lost > 0.0 {
+                return own.map(|own| own + 100.0 * unended as f64 / draw.cases.len() as f64);
+            }
+            own.or((unended > 0).then_some(lost))
+        };
+        let interval = |lost: f64| {
+            let filled: Vec<f64> = drawn.iter().filter_map(|draw| number(draw, lost)).collect();
+            predictive(&filled, LEVEL)
+        };
+        let [Some(below), Some(above)] = [f64::NEG_INFINITY, f64::INFINITY].map(interval) else { return 0 };
+        let printed = self.printed.value();
+        // It may be ordinary if it lies between the two, and must be if it lies within both.
+        let may_hold = below.low <= printed && printed <= above.high;
+        let must_hold = below.contains(printed) && above.contains(printed);
+        let turned = if found == Outcome::Holds { !must_hold } else { may_hold };
+        let unended = selection::unended(drawn);
+        if turned && unended > 0 { unended } else { 0 }
+    }
+
+    fn values(&self, evidence: &Evidence<'_>, drawn: &[Draw<'_>]) -> Draws {
+        let twin = |value: f64| {
+            if self.printed.agrees(value, self.digits) { self.printed.value() } else { value }
+        };
+        let values: Vec<f64> = drawn.iter().filter_map(|draw| self.statistic.of(draw)).map(twin).collect();
+        let unsolved = drawn.len() - values.len();
+        let tried: Vec<u64> = self.of.run(evidence).map_or_else(Vec::new, |run| {
+            let prepared = self.of.groups.iter().flat_map(|group| run.prepared(group));
+            prepared.filter_map(|row| Some(row.values.get("tries")?.as_f64() as u64)).collect()
+        });
+        let acceptance = (!tried.is_empty()).then(|| [tried.len() as u64, tried.iter().sum()]);
+        Draws { label: self.label.clone().unwrap_or_else(|| self.of.said()), values, unsolved, acceptance }
+    }
+}
+
+/// The rank of `printed` among `draws` in words.
+fn said(draws: &Draws, printed: &Printed) -> String {
+    let rank = Rank::of(printed.value(), &draws.values);
+    let Some((share, interval)) = rank.share_at_most().zip(rank.interval_at_most(LEVEL)) else {
+        return format!("{}: no draw has a number", draws.label);
+    };
+    let middle = median(&draws.values).map_or(String::new(), |median| format!("median {median:.2}"));
+    let range = predictive(&draws.values, LEVEL).map_or(String::new(), |range| {
+        format!(", one more draw lies in [{:.2}, {:.2}] with 95 % probability", range.low, range.high)
+    });
+    let unsolved =
+        if draws.unsolved > 0 { format!(" ({} more have none)", draws.unsolved) } else { String::new() };
+    let accepted = draws.acceptance.map_or(String::new(), |[accepted, tried]| {
+        let percent = 100.0 * accepted as f64 / tried as f64;
+        format!(", {accepted} accepted of {tried} maps tried ({percent:.3} %)")
+    });
+    format!(
+        "{}: {middle}{range}; printed {printed}, with {:.1} % of {} draws{unsolved} at or below it ({:.1} to {:.1} %), {} equal to it{accepted}",
+        draws.label,
+        100.0 * share,
+        draws.values.len(),
+        100.0 * interval.low,
+        100.0 * interval.high,
+        rank.equal,
+    )
+}
+
+impl Criterion for OneDraw<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let drawn = self.of.draws(evidence);
+        let draws = self.values(evidence, &drawn);
+        let (Some(interval), Some(mean)) = (predictive(&draws.values, LEVEL), mean(&draws.values)) else {
+            return Found { premises: self.premises.clone(), ..Found::too_few(draws.values.len(), 39) };
+        };
+        let outcome = self.outcome(interval, mean);
+        let powerless =
+            self.statistic == OfDraw::SolvedPercent && interval.high - interval.low >= NO_POWER_POINTS;
+        let mut because = vec![said(&draws, &self.printed)];
+        because.extend(powerless.then(|| {
+            format!(
+                "no power: the interval covers {NO_POWER_POINTS} points or more of the 100 there are, so hardly any printed value \
+                 could be refused; no number of draws of ours narrows it, for what is printed is one draw"
+            )
+        }));
+        let what = format!("{}: mean, 95 % predictive interval of one more draw", self.title());
+        let apart = |draw: &&Draw<'_>| {
+            self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - self.printed.value()).abs())
+        };
+        let nearest = drawn.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let trial = nearest.and_then(|draw| Some(self.of.run(evidence)?.trial(draw.cases.first()?.row)));
+        Found {
+            outcome: Some(outcome),
+            ours: Some(Estimate::new(mean, interval, what, draws.values.len()).of_cases(solved(&drawn))),
+            trial,
+            because,
+            premises: self.premises.clone(),
+            powerless,
+            censored: self.censored(&drawn, outcome),
+            units: "draws",
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}

@@ -1,0 +1,97 @@
+//! Whether a number that was measured prints as the paper's.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
+use crate::analysis::metric::Metric;
+use crate::analysis::selection::{self, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::verdict::Estimate;
+use crate::study::Study;
+use audit::printed::{Digits, Printed};
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "prints_as",
+    about: "does a number that is the same in every trial print as the paper's?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "methods", problems = "case 1", contender = "A* 8", metric = "path_length_cm" }
+"#,
+    build: |context| Ok(Box::new(PrintsAs::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at.
+    of: SelectionSpec,
+}
+
+struct PrintsAs<'a> {
+    of: Selection<'a>,
+    metric: &'static Metric,
+    printed: Printed,
+    digits: Digits,
+}
+
+impl<'a> PrintsAs<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let of = Selection::new(context, &settings.of)?;
+        of.contender(context)?;
+        let metric = of.metric(context)?;
+        Ok(Self { metric, of, printed: context.printed()?, digits: context.digits() })
+    }
+}
+
+impl Criterion for PrintsAs<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let draws = self.of.draws(evidence);
+        let (who, metric) = (self.of.said(), self.metric.label.to_lowercase());
+        let measured: Vec<_> = draws.iter().flat_map(|draw| &draw.cases).collect();
+        let values: Vec<f64> = measured.iter().filter_map(|case| case.value).collect();
+        let [Some(low), Some(high)] =
+            [f64::min as fn(_, _) -> _, f64::max].map(|of| values.iter().copied().reduce(of))
+        else {
+            return Found::open(format!("{who}: {metric} was not measured"));
+        };
+        let agree = [low, high].map(|value| self.printed.agrees(value, self.digits));
+        let outcome = match agree {
+            [true, true] => Outcome::Holds,
+            [false, false]
+                if self.printed.interval(self.digits).low > high
+                    || self.printed.interval(self.digits).high < low =>
+            {
+                Outcome::Fails
+            }
+            _ => Outcome::Open,
+        };
+        let verb = if agree == [true, true] { "prints as" } else { "does not print as" };
+        let number = if low == high { format!("{low:.6}") } else { format!("{low:.6} to {high:.6}") };
+        let first = measured.iter().find(|case| case.value.is_some());
+        let trial = first.and_then(|case| Some(self.of.run(evidence)?.trial(case.row)));
+        let ours = Estimate::bare(low, format!("{metric} of {}", self.of.contenders[0]), values.len());
+        Found {
+            outcome: Some(outcome),
+            ours: Some(ours.of_cases(solved(&draws))),
+            trial,
+            censored: if outcome == Outcome::Holds { selection::unended(&draws) } else { 0 },
+            because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.printed)],
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}

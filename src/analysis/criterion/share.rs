@@ -1,0 +1,277 @@
+//! A share with its interval: of trials solved or with a mark, of events, of draws on which something holds throughout.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{Share, needs, plan};
+use crate::study::Study;
+use crate::study::column;
+use crate::study::record::{Row, Status};
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::Resampling;
+use stats::interval::Interval;
+use stats::paired::EQUAL;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "share",
+    about: "does a share lie within bounds: of trials solved or with a mark, of events, of draws?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "postures", problems = ["C1", "C2"], contender = "A*" }
+hits = "solved"
+accepted = [0.995, 1.0]
+"#,
+    build: |context| Ok(Box::new(Counted::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at.
+    of: SelectionSpec,
+    /// What is counted.
+    hits: Hits,
+    /// The columns that are all above 0 where it is hit (`marked`), or the one that counts events (`events`).
+    #[serde(default)]
+    columns: Vec<String>,
+    /// The column that counts the chances for `events`.
+    per: Option<String>,
+    /// The number that the metric is above (`above`).
+    bound: Option<f64>,
+    /// The status that trials must have to be asked at all.
+    among: Option<Status>,
+    /// The least and the greatest share under which the claim holds; without, it is shown and decides nothing.
+    accepted: Option<[f64; 2]>,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum Hits {
+    /// Trials that are solved.
+    Solved,
+    /// Paths that the verifier refuses, of those that come back.
+    Rejected,
+    /// Trials with marks.
+    Marked,
+    /// Events, of the chances that `per` counts.
+    Events,
+    /// Solved trials whose metric is above `bound`.
+    Above,
+    /// Cases that both solve, with the metric below the other contender's.
+    Lower,
+    /// Cases that both solve, with the metric above the other contender's.
+    Higher,
+    /// Draws with the metric below the other contender's on every case that both solve.
+    LowerThroughout,
+}
+
+impl Hits {
+    fn said(self) -> &'static str {
+        match self {
+            Self::Solved => "trials solved",
+            Self::Rejected => "paths refused by the verifier",
+            Self::Marked => "trials marked",
+            Self::Events => "events",
+            Self::Above => "trials above",
+            Self::Lower => "cases on which it is lower",
+            Self::Higher => "cases on which it is higher",
+            Self::LowerThroughout => "draws on every case of which it is lower",
+        }
+    }
+}
+
+struct Counted<'a> {
+    of: Selection<'a>,
+    settings: Settings,
+    plan: Resampling,
+}
+
+impl<'a> Counted<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let of = Selection::new(context, &settings.of)?;
+        let hits = settings.hits;
+        for name in settings.columns.iter().chain(&settings.per) {
+            if column::find(name).is_none() {
+                return Err(context.settings.error_about(
+                    "",
+                    &["columns", "per"],
+                    name,
+                    format!("there is no column `{name}`"),
+                ));
+            }
+        }
+        let needs_columns = matches!(hits, Hits::Marked | Hits::Events);
+        if needs_columns == settings.columns.is_empty() || (hits == Hits::Events) != settings.per.is_some() {
+            let message = "`marked` and `events` take `columns`, and `events` takes `per`; nothing else does";
+            return Err(context.settings.error_at("hits", message));
+        }
+        if (hits == Hits::Above) != settings.bound.is_some() {
+            return Err(context.settings.error_at("hits", "`above` takes a `bound`; nothing else does"));
+        }
+        if matches!(hits, Hits::Above | Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
+            of.metric(context)?;
+        }
+        if matches!(hits, Hits::Lower | Hits::Higher | Hits::LowerThroughout) {
+            of.against(context)?;
+        }
+        if let Some(accepted) = settings.accepted {
+            context.rising("accepted", accepted, [0.0, 1.0])?;
+        }
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, settings, plan })
+    }
+
+    /// Hits and chances of one case; none if it is not asked.
+    fn counts(&self, case: &Case<'_>) -> Option<[f64; 2]> {
+        let row: &Row = case.row;
+        if self.settings.among.is_some_and(|status| row.status != status) {
+            return None;
+        }
+        let hit = |is: bool| Some([f64::from(u8::from(is)), 1.0]);
+        let gap = || case.pair().map(|(base, own)| own - base);
+        match self.settings.hits {
+            Hits::Solved => hit(row.status == Status::Solved),
+            Hits::Rejected => {
+                let is_returned = matches!(row.status, Status::Solved | Status::Rejected);
+                hit(row.status == Status::Rejected).filter(|_| is_returned)
+            }
+            Hits::Marked => {
+                let marks: Option<Vec<f64>> =
+                    self.settings.columns.iter().map(|name| row.value(name)).collect();
+                hit(marks?.iter().all(|mark| *mark > 0.0))
+            }
+            Hits::Events => {
+                let chances = row.value(self.settings.per.as_deref()?)?;
+                Some([row.value(&self.settings.columns[0])?, chances])
+            }
+            Hits::Above => hit(case.value? > self.settings.bound? + EQUAL),
+            Hits::Lower | Hits::LowerThroughout => hit(gap()? < -EQUAL),
+            Hits::Higher => hit(gap()? > EQUAL),
+        }
+    }
+
+    /// Hits and chances of one draw; its cases without an end as what they are, or all as hits or as misses.
+    fn of_draw(&self, draw: &Draw<'_>, unended: Option<bool>) -> [f64; 2] {
+        let of_case = |case: &Case<'_>| match unended.filter(|_| case.is_unended()) {
+            Some(is_hit) => Some([f64::from(u8::from(is_hit)), 1.0]),
+            None => self.counts(case),
+        };
+        let counts = draw.cases.iter().filter_map(of_case);
+        let [hits, chances] = counts.fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        if self.settings.hits == Hits::LowerThroughout && chances > 0.0 {
+            return [f64::from(u8::from(hits == chances)), 1.0];
+        }
+        [hits, chances]
+    }
+
+    /// How many cases without an end could turn what was found: all are counted as hits, then all as misses. They are no
+    /// answer where marks or events are counted, or trials of one status alone are asked.
+    fn censored(&self, draws: &[Draw<'_>], outcome: Option<Outcome>) -> usize {
+        let is_asked = !matches!(self.settings.hits, Hits::Marked | Hits::Events);
+        if !is_asked || self.settings.among.is_some() || selection::unended(draws) == 0 {
+            return 0;
+        }
+        let interval = |is_hit: bool| {
+            let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw, Some(is_hit))).collect();
+            Share::of(&counts, self.plan).and_then(|share| share.interval)
+        };
+        // All that the share may be: anything from the one interval to the other.
+        let widest = interval(false).zip(interval(true)).map(|(none, all)| Interval::new(none.low, all.high));
+        let turned = widest.is_some_and(|widest| self.outcome(widest) != outcome);
+        if turned { selection::unended(draws) } else { 0 }
+    }
+
+    fn outcome(&self, interval: Interval) -> Option<Outcome> {
+        let [low, high] = self.settings.accepted?;
+        let accepted = Interval::new(low, high);
+        Some(if accepted.contains(interval.low) && accepted.contains(interval.high) {
+            Outcome::Holds
+        } else if accepted.meets(interval) {
+            Outcome::Open
+        } else {
+            Outcome::Fails
+        })
+    }
+
+    /// A trial of what there is too little or too much of or, where the share is accepted, of the rarer kind.
+    fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>], share: f64) -> Option<String> {
+        let is_miss_shown = match self.settings.accepted {
+            Some([low, _]) if share < low => true,
+            Some([_, high]) if share > high => false,
+            _ => share > 0.5,
+        };
+        let counted = || draws.iter().flat_map(|draw| &draw.cases).filter(|case| self.counts(case).is_some());
+        let is_shown = |case: &&Case<'_>| {
+            self.counts(case).is_some_and(|[hits, chances]| (hits < chances) == is_miss_shown)
+        };
+        let case = counted().find(is_shown).or_else(|| counted().next())?;
+        Some(self.of.run(evidence)?.trial(case.row))
+    }
+}
+
+impl Counted<'_> {
+    /// What is counted, in words.
+    fn said(&self) -> String {
+        let named = match self.settings.bound {
+            Some(bound) => {
+                format!("{} {bound}", self.of.metric.map_or("", |metric| metric.label).to_lowercase())
+            }
+            None => self.settings.columns.join(" and "),
+        };
+        let hits = self.settings.hits.said();
+        if named.is_empty() { hits.to_owned() } else { format!("{hits} ({named})") }
+    }
+
+    fn because(&self, share: &Share, [hits, chances]: [f64; 2]) -> String {
+        let [low, high] = share.interval.map_or([f64::NAN; 2], |i| [100.0 * i.low, 100.0 * i.high]);
+        let interval =
+            if low.is_nan() { String::new() } else { format!(" (95 % interval {low:.2} to {high:.2})") };
+        let accepted = self.settings.accepted.map_or_else(String::new, |[least, most]| {
+            format!("; accepted {} to {} %", 100.0 * least, 100.0 * most)
+        });
+        let (who, what, percent) = (self.of.said(), self.said(), 100.0 * share.value);
+        format!("{who}: {what} {hits} of {chances}, {percent:.2} %{interval}{accepted}")
+    }
+}
+
+impl Criterion for Counted<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let draws = self.of.draws(evidence);
+        let counts: Vec<[f64; 2]> = draws.iter().map(|draw| self.of_draw(draw, None)).collect();
+        let Some(share) = Share::of(&counts, self.plan) else {
+            let because = format!("{}: nothing to count {} among", self.of.said(), self.said());
+            return Found { outcome: self.settings.accepted.map(|_| Outcome::Open), ..Found::open(because) };
+        };
+        let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        let undecided = self.settings.accepted.map(|_| Outcome::Open);
+        let outcome = share.interval.map_or(undecided, |interval| self.outcome(interval));
+        let is_exact = counts.iter().all(|[_, chances]| *chances <= 1.0);
+        Found {
+            outcome,
+            ours: Some(share.estimate(&self.said()).of_cases(solved(&draws))),
+            trial: self.shown(evidence, &draws, share.value),
+            because: vec![self.because(&share, total)],
+            limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
+            units: "draws",
+            censored: self.censored(&draws, outcome),
+            needs: needs(share.draws).filter(|_| !is_exact),
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}

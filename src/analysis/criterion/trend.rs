@@ -1,0 +1,174 @@
+//! Whether a metric, or a saving, grows along a column.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
+use crate::analysis::metric::Metric;
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{FEWEST_DRAWS, needs, plan};
+use crate::analysis::verdict::Estimate;
+use crate::study::Study;
+use crate::study::column;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::Resampling;
+use stats::interval::Interval;
+use stats::{pooled, summary};
+use std::collections::BTreeMap;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "trend",
+    about: "does a metric, or what a contender saves, grow along a column? the slope over draws, with medians",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "random", problems = ["disjoint", "overlapping"], contender = "A*", metric = "nodes" }
+over = "obstacles"
+rising = true
+"#,
+    build: |context| Ok(Box::new(Trend::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at; with `against`, what is saved against it in per cent.
+    of: SelectionSpec,
+    /// The column along which it is claimed to change.
+    over: String,
+    /// Whether it is claimed to grow; to fall otherwise.
+    rising: bool,
+}
+
+struct Trend<'a> {
+    of: Selection<'a>,
+    metric: &'static Metric,
+    over: String,
+    rising: bool,
+    plan: Resampling,
+}
+
+impl<'a> Trend<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let of = Selection::new(context, &settings.of)?;
+        let metric = of.metric(context)?;
+        if column::find(&settings.over).is_none() {
+            let message = format!("there is no column `{}` to look along", settings.over);
+            return Err(context.settings.error_at("over", message));
+        }
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, metric, over: settings.over, rising: settings.rising, plan })
+    }
+
+    /// How many cases without an end could turn what was found: each is given the least number seen or the greatest one,
+    /// whichever goes against a slope that rises, then against one that falls.
+    fn censored(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
+        let seen: Vec<(f64, f64)> =
+            draws.iter().flat_map(|draw| &draw.cases).filter_map(|case| self.point(case)).collect();
+        let middle = summary::mean(&seen.iter().map(|(x, _)| *x).collect::<Vec<_>>());
+        let ends = [f64::min as fn(_, _) -> _, f64::max].map(|of| seen.iter().map(|(_, y)| *y).reduce(of));
+        let (Some(middle), [Some(least), Some(most)]) = (middle, ends) else { return 0 };
+        let number = |case: &Case<'_>, rising: bool| {
+            let place = case.row.value(&self.over).filter(|_| case.is_unended());
+            self.point(case).or_else(|| place.map(|x| (x, if (x > middle) == rising { most } else { least })))
+        };
+        let turned = [true, false].into_iter().any(|rising| {
+            let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|c| number(c, rising)).collect();
+            let points: Vec<Vec<(f64, f64)>> =
+                draws.iter().map(of_draw).filter(|p: &Vec<_>| !p.is_empty()).collect();
+            pooled::slope(&points, self.plan).is_some_and(|found| self.outcome(found.interval) != outcome)
+        });
+        if turned { selection::unended(draws) } else { 0 }
+    }
+
+    fn point(&self, case: &Case<'_>) -> Option<(f64, f64)> {
+        let number = if case.base.is_some() { case.saving_percent() } else { case.value };
+        Some((case.row.value(&self.over)?, number?))
+    }
+
+    fn outcome(&self, slope: Interval) -> Outcome {
+        let (against, along) = if self.rising { (slope.high, slope.low) } else { (-slope.low, -slope.high) };
+        if along > 0.0 {
+            Outcome::Holds
+        } else if against < 0.0 {
+            Outcome::Fails
+        } else {
+            Outcome::Open
+        }
+    }
+
+    /// The points of each draw that has any.
+    fn points(&self, draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
+        let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|case| self.point(case)).collect();
+        draws.iter().map(of_draw).filter(|points: &Vec<_>| !points.is_empty()).collect()
+    }
+
+    /// Medians in the lower, middle and upper third of the column, beside the slope: a slope alone may be one outlier's.
+    fn medians(points: &[(f64, f64)]) -> String {
+        let places: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
+        let cuts: Vec<f64> = [1.0, 2.0]
+            .into_iter()
+            .filter_map(|third| summary::quantile_type7(&places, third / 3.0))
+            .collect();
+        let mut thirds: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+        for (x, y) in points {
+            thirds.entry(cuts.iter().filter(|cut| x > cut).count()).or_default().push(*y);
+        }
+        let medians = thirds.values().filter_map(|numbers| summary::median(numbers));
+        medians.map(|median| format!("{median:.3}")).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl Criterion for Trend<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let draws = self.of.draws(evidence);
+        let points = self.points(&draws);
+        let Some(found) = pooled::slope(&points, self.plan) else {
+            return Found::too_few(points.len(), FEWEST_DRAWS);
+        };
+        let outcome = self.outcome(found.interval);
+        let metric = self.metric.label.to_lowercase();
+        let (subject, unit) = match &self.of.against {
+            Some(_) => (format!("saving in {metric}"), "points"),
+            None => (metric, self.metric.unit),
+        };
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let because = format!(
+            "{}: {subject} along {} changes by {:+.4}{unit} each (95 % interval {:+.4} to {:+.4}, {} draws); medians by thirds of {} {}",
+            self.of.said(),
+            self.over,
+            found.value,
+            found.interval.low,
+            found.interval.high,
+            found.units,
+            self.over,
+            Self::medians(&points.concat()),
+        );
+        let what = format!("slope of {subject} along {}:{unit} each, bootstrap 95 % over draws", self.over);
+        let against = draws.iter().flat_map(|draw| &draw.cases).find(|case| self.point(case).is_some());
+        Found {
+            outcome: Some(outcome),
+            ours: Some(Estimate::of(found, what).of_cases(solved(&draws))),
+            trial: against.and_then(|case| Some(self.of.run(evidence)?.trial(case.row))),
+            because: vec![because],
+            limits: vec![0.0],
+            units: "draws",
+            censored: self.censored(&draws, outcome),
+            needs: needs(found.units),
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}

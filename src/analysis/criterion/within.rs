@@ -1,0 +1,191 @@
+//! Whether the interval of a statistic lies within a margin about the printed number, or within accepted bounds.
+
+use super::{Criterion, Entry};
+use crate::analysis::class::Outcome;
+use crate::analysis::context::Context;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::found::Found;
+use crate::analysis::metric::Metric;
+use crate::analysis::selection::{self, Draw, Selection, solved};
+use crate::analysis::selection_spec::SelectionSpec;
+use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, needs, plan};
+use crate::analysis::verdict::Estimate;
+use crate::study::Study;
+use base::settings::{Accepted, SettingsError};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::{Estimate as Estimated, Resampling};
+use stats::interval::Interval;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "within",
+    about: "does the interval of a mean, median, deviation, ratio or reduction lie within a margin or within bounds?",
+    settings: Accepted::of::<Settings>(),
+    example: r#"
+of = { study = "environments", problems = "E*", contender = "Improved A*", against = "A*", metric = "nodes" }
+statistic = "ratio"
+accepted = [0.0, 0.5]
+"#,
+    build: |context| Ok(Box::new(Within::new(context)?)),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    /// The trials that are looked at.
+    of: SelectionSpec,
+    /// What is taken of all draws.
+    statistic: OfAll,
+    /// How far the statistic may be from the printed number, in its unit.
+    #[schemars(range(min = 0.0))]
+    margin: Option<f64>,
+    /// Two claims whose printed numbers' ratio the margin is about, in place of the claim's own number.
+    printed_ratio: Option<[String; 2]>,
+    /// The least and the greatest number of the statistic under which the claim holds; without `margin`.
+    accepted: Option<[f64; 2]>,
+}
+
+struct Within<'a> {
+    of: Selection<'a>,
+    metric: &'static Metric,
+    statistic: OfAll,
+    accepted: Interval,
+    /// The printed number, if it is what the margin is about.
+    printed: Option<f64>,
+    plan: Resampling,
+}
+
+/// Means nearer to each other than by this share are equal: neither is the lower one.
+const EQUAL: f64 = 1e-3;
+
+impl<'a> Within<'a> {
+    fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
+        let settings: Settings = context.settings.read()?;
+        let of = Selection::new(context, &settings.of)?;
+        let metric = of.metric(context)?;
+        of.contender(context)?;
+        if settings.statistic.is_paired() {
+            of.against(context)?;
+        }
+        if settings.statistic == OfAll::RatioOfGroups && of.groups.len() != 2 {
+            let message = format!("`of` names {} problem groups; two are accepted", of.groups.len());
+            return Err(context.settings.error_at("of.problems", message));
+        }
+        let (accepted, printed) = match (settings.margin, settings.accepted) {
+            (Some(margin), None) => {
+                let printed = match &settings.printed_ratio {
+                    Some([above, below]) => {
+                        context.printed_of(above)?.0.value() / context.printed_of(below)?.0.value()
+                    }
+                    None => context.printed()?.value(),
+                };
+                (Interval::new(printed - margin, printed + margin), Some(printed))
+            }
+            (None, Some([low, high])) => {
+                context.rising("accepted", [low, high], [f64::MIN, f64::MAX])?;
+                (Interval::new(low, high), None)
+            }
+            _ => return Err(context.settings.error("one of `margin` and `accepted` is accepted")),
+        };
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, metric, statistic: settings.statistic, accepted, printed, plan })
+    }
+
+    /// What an interval says of the claim.
+    fn outcome(&self, found: Interval) -> Outcome {
+        let accepted = self.accepted;
+        if accepted.contains(found.low) && accepted.contains(found.high) {
+            return Outcome::Holds;
+        }
+        if accepted.meets(found) {
+            return Outcome::Open;
+        }
+        let middle = self.printed.unwrap_or_else(|| accepted.low.midpoint(accepted.high));
+        let is_same_side = self.statistic.no_difference().is_some_and(|none| {
+            let equal = if none == 0.0 { 0.0 } else { EQUAL };
+            let is_outside = !accepted.contains(none) || self.printed.is_some();
+            let side = |low: f64, high: f64| low > none + equal || high < none - equal;
+            is_outside && side(found.low, found.high) && (found.low > none) == (middle > none)
+        });
+        if is_same_side { Outcome::SignOnly } else { Outcome::Fails }
+    }
+
+    /// Two groups of one draw each give numbers, not intervals.
+    fn needs(&self, draws: usize, units: usize) -> Option<usize> {
+        let is_exact = self.statistic == OfAll::RatioOfGroups && draws == 2;
+        needs(units).filter(|_| !is_exact)
+    }
+
+    fn estimated(&self, draws: &[Draw<'_>]) -> Option<Estimated> {
+        self.statistic.of(draws, self.plan)
+    }
+
+    /// How many cases without a number could turn what was found.
+    fn censored(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
+        if !self.statistic.is_paired() {
+            return 0;
+        }
+        let turned = selection::filled(&self.of, draws).into_iter().any(|pairs| {
+            let found = self.statistic.of_pairs(&pairs, self.plan);
+            found.is_some_and(|found| self.outcome(found.interval) != outcome)
+        });
+        if turned { selection::censored(draws) } else { 0 }
+    }
+}
+
+impl Criterion for Within<'_> {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        let draws = self.of.draws(evidence);
+        let Some(found) = self.estimated(&draws).filter(|found| found.interval.low.is_finite()) else {
+            return Found::too_few(draws.len(), FEWEST_DRAWS);
+        };
+        let outcome = self.outcome(found.interval);
+        let metric = self.metric.label.to_lowercase();
+        let what = format!("{} of {metric}, bootstrap 95 % over draws", self.statistic.name());
+        let Interval { low, high } = found.interval;
+        let accepted = match self.printed {
+            Some(printed) => format!("printed {printed}, margin {}", self.accepted.high - printed),
+            None => format!("accepted {} to {}", self.accepted.low, self.accepted.high),
+        };
+        let because = format!(
+            "{}: {} of {metric} {:.4} (95 % interval {low:.4} to {high:.4}, {} draws); {accepted}",
+            self.of.said(),
+            self.statistic.name(),
+            found.value,
+            found.units,
+        );
+        let ours = Estimate::new(found.value, found.interval, what, found.units).of_cases(solved(&draws));
+        Found {
+            outcome: Some(outcome),
+            ours: Some(ours),
+            trial: self.shown(evidence, &draws, found.value),
+            because: vec![because],
+            limits: vec![self.accepted.low, self.accepted.high],
+            units: "draws",
+            censored: self.censored(&draws, outcome),
+            needs: self.needs(draws.len(), found.units),
+            ..Found::default()
+        }
+    }
+
+    fn studies(&self) -> Vec<&Study> {
+        vec![self.of.study]
+    }
+
+    fn is_clock(&self) -> bool {
+        self.of.is_clock()
+    }
+}
+
+impl Within<'_> {
+    /// The trial whose own number is nearest to the statistic.
+    fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>], value: f64) -> Option<String> {
+        let own = |case: &selection::Case<'_>| match self.statistic {
+            OfAll::Ratio => case.pair().filter(|(base, _)| *base > 0.0).map(|(base, own)| own / base),
+            OfAll::ReductionPercent => case.saving_percent(),
+            _ => case.value,
+        };
+        selection::nearest(&self.of, evidence, draws, own, value)
+    }
+}

@@ -1,0 +1,48 @@
+//! What a criterion or a rule finds, before its class is decided.
+
+use super::class::Outcome;
+use super::verdict::Estimate;
+
+/// What was found about a claim, before its class is decided.
+#[derive(Debug, Default)]
+pub struct Found {
+    /// What it amounts to; none if it is only shown, or can only refuse and does not.
+    pub outcome: Option<Outcome>,
+    /// Our number.
+    pub ours: Option<Estimate>,
+    /// The trial that shows it, as `--trial` takes it.
+    pub trial: Option<String>,
+    /// The reading it was found under, if that is not the one that the claim is judged under.
+    pub reading: Option<String>,
+    /// The computation, step by step.
+    pub because: Vec<String>,
+    /// What it takes for granted.
+    pub premises: Vec<String>,
+    /// Where an interval around our number would have to lie beyond to decide.
+    pub limits: Vec<f64>,
+    /// What takes more of to narrow that interval.
+    pub units: &'static str,
+    /// The claim is met by one input among many.
+    pub existential: bool,
+    /// Hardly any printed value could have been refused.
+    pub powerless: bool,
+    /// How many cases without a number could turn it.
+    pub censored: usize,
+    /// The reading is none under which the premises of a proof hold.
+    pub without_premises: bool,
+    /// The draws that it takes at least, where there are fewer.
+    pub needs: Option<usize>,
+}
+
+impl Found {
+    /// Undecided for this reason.
+    pub fn open(because: impl Into<String>) -> Self {
+        Self { outcome: Some(Outcome::Open), because: vec![because.into()], ..Self::default() }
+    }
+
+    /// Undecided because `draws` draws are fewer than `needs`.
+    pub fn too_few(draws: usize, needs: usize) -> Self {
+        let because = format!("{draws} draws have what is compared; at least {needs} are needed");
+        Self { needs: Some(needs), ..Self::open(because) }
+    }
+}

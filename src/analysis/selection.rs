@@ -1,0 +1,322 @@
+//! Which trials a criterion, a figure or a table looks at: resolved once, then asked of the runs under any reading.
+
+use super::context::Context;
+use super::evidence::{Cases, Evidence, Run};
+use super::metric::{Better, Metric};
+use super::selection_spec::SelectionSpec;
+use crate::study::Study;
+use crate::study::key::SweepKey;
+use crate::study::name;
+use crate::study::record::{Row, Status};
+use base::settings::{Faults, SettingsError};
+use std::collections::BTreeMap;
+
+/// A selection whose every name was found.
+pub struct Selection<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// The problem groups, in the order that they are named in.
+    pub groups: Vec<String>,
+    /// The contenders.
+    pub contenders: Vec<String>,
+    /// The contender that they are held against.
+    pub against: Option<String>,
+    /// The metric; absent if statuses alone are looked at.
+    pub metric: Option<&'static Metric>,
+    /// The one query.
+    pub query: Option<String>,
+    /// The one point of the sweeps.
+    pub sweep: Option<SweepKey>,
+    /// Whether only draws count of which everything is solved.
+    pub whole_draws: bool,
+}
+
+/// One trial, and the trial that it is held against.
+#[derive(Clone, Copy)]
+pub struct Case<'e> {
+    /// The trial.
+    pub row: &'e Row,
+    /// The trial of the other contender on the same problem.
+    pub base: Option<&'e Row>,
+    /// The metric, if the trial was solved and it was measured.
+    pub value: Option<f64>,
+    /// The metric of the other trial, likewise.
+    pub base_value: Option<f64>,
+}
+
+/// What was drawn independently (a map, a roadmap, a seed of a contender that draws), with all that was asked of it.
+pub struct Draw<'e> {
+    /// The problem group.
+    pub group: &'e str,
+    /// Its trials.
+    pub cases: Vec<Case<'e>>,
+}
+
+impl Case<'_> {
+    /// Both numbers, the other contender's first.
+    pub fn pair(&self) -> Option<(f64, f64)> {
+        self.base_value.zip(self.value)
+    }
+
+    /// What is saved against the other contender, in per cent; none if its number is not above 0.
+    pub fn saving_percent(&self) -> Option<f64> {
+        self.pair().filter(|(base, _)| *base > 0.0).map(|(base, own)| 100.0 * (1.0 - own / base))
+    }
+
+    /// Whether some side has no number although it might have one: not because there is no path for either.
+    pub fn is_censored(&self) -> bool {
+        let no_path = |row: &Row| row.status == Status::NoPath;
+        match self.base {
+            Some(base) => {
+                self.pair().is_none() && !(no_path(self.row) && no_path(base)) && !self.is_unmeasured()
+            }
+            None => self.value.is_none() && !no_path(self.row) && !self.is_unmeasured(),
+        }
+    }
+
+    /// Whether some side did not come to an end: what it would have given is not known.
+    pub fn is_unended(&self) -> bool {
+        let is_cut = |row: &Row| matches!(row.status, Status::BudgetSpent | Status::Crashed);
+        is_cut(self.row) || self.base.is_some_and(is_cut)
+    }
+
+    /// Whether both sides are solved, and one was not measured: the clock is read for some trials only.
+    fn is_unmeasured(&self) -> bool {
+        let solved = |row: &Row| row.status == Status::Solved;
+        solved(self.row) && self.base.is_none_or(solved)
+    }
+}
+
+impl<'a> Selection<'a> {
+    /// All trials of `contenders` on `groups` of `study`.
+    pub fn of(study: &'a Study, groups: &[String], contenders: &[String]) -> Self {
+        let (groups, contenders) = (groups.to_vec(), contenders.to_vec());
+        let (against, metric, query, sweep, whole_draws) = (None, None, None, None, false);
+        Self { study, groups, contenders, against, metric, query, sweep, whole_draws }
+    }
+
+    /// The selection `of`, of which every name is looked up.
+    ///
+    /// # Errors
+    /// A study, problem group, contender, metric or sweep point that does not exist, at its own place.
+    pub fn new(context: &Context<'a>, of: &SelectionSpec) -> Result<Self, SettingsError> {
+        let contenders = of.contender.listed();
+        let named: Vec<&str> = contenders.iter().chain(&of.against).map(String::as_str).collect();
+        let study = context.study("of", &of.study, &[])?;
+        let mut faults = Faults::default();
+        faults.keep(context.study("of", &of.study, &named));
+        let groups = faults.keep(context.groups("of", study, &of.problems)).unwrap_or_default();
+        faults.done()?;
+        let metric = of.metric.as_ref().map(|name| context.metric(name, study)).transpose()?;
+        let sweep = of.sweep.as_ref().map(|text| {
+            study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
+                let known: Vec<String> =
+                    study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
+                let message =
+                    format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
+                context.settings.error_at("of.sweep", message)
+            })
+        });
+        let sweep = sweep.transpose()?;
+        let (against, query, whole_draws) = (of.against.clone(), of.query.clone(), of.whole_draws);
+        Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_draws })
+    }
+
+    /// The one contender.
+    ///
+    /// # Errors
+    /// There is none, or more.
+    pub fn contender(&self, context: &Context<'_>) -> Result<&str, SettingsError> {
+        match &self.contenders[..] {
+            [one] => Ok(one),
+            all => Err(context
+                .settings
+                .error_at("of.contender", format!("`of` names {} contenders; one is accepted", all.len()))),
+        }
+    }
+
+    /// The contender that it is held against.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn against(&self, context: &Context<'_>) -> Result<&str, SettingsError> {
+        let missing =
+            || context.settings.error_at("of", "`of` needs `against`: the contender that it is held against");
+        self.against.as_deref().ok_or_else(missing)
+    }
+
+    /// The metric.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn metric(&self, context: &Context<'_>) -> Result<&'static Metric, SettingsError> {
+        self.metric.ok_or_else(|| context.settings.error_at("of", "`of` needs a `metric`"))
+    }
+
+    /// Whether it reads a clock.
+    pub fn is_clock(&self) -> bool {
+        self.metric.is_some_and(Metric::is_clock)
+    }
+
+    /// The stored run that it looks at.
+    pub fn run<'e, 'p>(&self, evidence: &'e Evidence<'p>) -> Option<&'e Run<'p>> {
+        evidence.run(&self.study.name)
+    }
+
+    /// The trials of its contenders, by draw; problems that could not be posed are left out, and so, if only whole draws
+    /// count, are draws of which something is not solved.
+    pub fn draws<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Draw<'e>> {
+        let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
+        let mut draws: Vec<Draw<'e>> = Vec::new();
+        let reader = self.metric.map(|metric| run.reader(metric));
+        let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| row.status == Status::Solved)?);
+        for group in &self.groups {
+            let bases = self.against.as_ref().map(|against| Cases::of(self.rows(run, group, against)));
+            let mut places: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+            for row in self.contenders.iter().flat_map(|contender| self.rows(run, group, contender)) {
+                let base = bases.as_ref().and_then(|bases| bases.same(row));
+                if self.against.is_some() && base.is_none() {
+                    continue;
+                }
+                let place = *places.entry((row.draw(), row.key.repeat)).or_insert(draws.len());
+                if place == draws.len() {
+                    draws.push(Draw { group: &row.key.on.group, cases: Vec::new() });
+                }
+                let case = Case { row, base, value: value(Some(row)), base_value: value(base) };
+                draws[place].cases.push(case);
+            }
+        }
+        draws.retain(|draw| !self.whole_draws || draw.is_whole());
+        draws
+    }
+
+    /// The trials of `contender` in one group that are looked at.
+    pub fn rows<'e>(&self, run: &'e Run<'_>, group: &str, contender: &str) -> Vec<&'e Row> {
+        let mut rows = run.rows(group, contender);
+        rows.retain(|row| {
+            row.status != Status::InvalidProblem
+                && self.query.as_ref().is_none_or(|query| row.query() == query)
+                && self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep)
+        });
+        rows
+    }
+
+    /// What is looked at, in a sentence: `A against B on X, Y of study`.
+    pub fn said(&self) -> String {
+        let who = self.contenders.join(", ");
+        let against = self.against.as_ref().map_or_else(String::new, |other| format!(" against {other}"));
+        let query = self.query.as_ref().map_or_else(String::new, |query| format!(", query {query}"));
+        let at = self.sweep.as_ref().map_or_else(String::new, |key| format!(", {}", name::sweep(key)));
+        format!("{who}{against} on {} of {}{query}{at}", self.groups_said(), self.study.name)
+    }
+
+    fn groups_said(&self) -> String {
+        if self.groups.len() > 3 {
+            return format!("{} problem groups", self.groups.len());
+        }
+        self.groups.join(", ")
+    }
+}
+
+impl Draw<'_> {
+    /// What it holds of one contender.
+    #[must_use]
+    pub fn by(&self, contender: &str) -> Self {
+        let is_own = |case: &&Case<'_>| *case.row.key.contender == *contender;
+        Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
+    }
+
+    /// The numbers of its cases.
+    pub fn values(&self) -> Vec<f64> {
+        self.cases.iter().filter_map(|case| case.value).collect()
+    }
+
+    /// Whether all that is compared is solved on it.
+    pub fn is_whole(&self) -> bool {
+        let solved = |row: &Row| row.status == Status::Solved;
+        self.cases.iter().all(|case| solved(case.row) && case.base.is_none_or(solved))
+    }
+}
+
+/// How many queries of a problem group can be posed on its first draw, and how many it has.
+pub fn posed(run: &Run<'_>, group: &str) -> [usize; 2] {
+    let mut queries: BTreeMap<&str, bool> = BTreeMap::new();
+    for contender in &run.study.contenders {
+        for row in run.rows(group, &contender.label).iter().filter(|row| row.draw() == 0) {
+            *queries.entry(row.query()).or_default() |= row.status != Status::InvalidProblem;
+        }
+    }
+    [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
+}
+
+/// Of all cases those that are solved by everyone who is compared, and all.
+pub fn solved(draws: &[Draw<'_>]) -> [usize; 2] {
+    let is_solved = |row: &Row| row.status == Status::Solved;
+    let cases = || draws.iter().flat_map(|draw| &draw.cases);
+    let both = cases().filter(|case| is_solved(case.row) && case.base.is_none_or(is_solved));
+    [both.count(), cases().count()]
+}
+
+/// Cases that have no number on some side although they might.
+pub fn censored(draws: &[Draw<'_>]) -> usize {
+    draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_censored()).count()
+}
+
+/// Cases that did not come to an end on some side.
+pub fn unended(draws: &[Draw<'_>]) -> usize {
+    draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_unended()).count()
+}
+
+/// Both numbers of every case that has them, the other contender's first, by draw; draws without any are left out.
+pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
+    let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(Case::pair).collect::<Vec<_>>();
+    draws.iter().map(of_draw).filter(|pairs| !pairs.is_empty()).collect()
+}
+
+/// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
+/// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
+/// way and once the other. What is found every time does not hang on them. Nothing where nothing is censored.
+pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
+    let seen = || draws.iter().flat_map(|draw| &draw.cases).filter_map(Case::pair);
+    let count = seen().count();
+    let greatest = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
+    let most = greatest * count as f64;
+    if censored(draws) == 0 || count == 0 {
+        return Vec::new();
+    }
+    let middle = seen().map(|(base, _)| base).sum::<f64>() / count as f64;
+    let worse = match selection.metric.map(|metric| metric.better) {
+        Some(Better::Lower) => 1.0,
+        Some(Better::Higher) => -1.0,
+        Some(Better::Neither) | None => 0.0,
+    };
+    let number = |case: &Case<'_>, unknown: f64| {
+        let way = match (case.base_value, case.value) {
+            _ if worse == 0.0 => unknown,
+            (Some(_), None) => worse,
+            (None, Some(_)) => -worse,
+            _ => unknown,
+        };
+        let filled = || (middle, (middle + way * most).max(0.0));
+        case.pair().or_else(|| case.is_censored().then(filled))
+    };
+    let all = |unknown: f64| {
+        let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|case| number(case, unknown)).collect();
+        draws.iter().map(of_draw).filter(|pairs: &Vec<_>| !pairs.is_empty()).collect()
+    };
+    vec![all(1.0), all(-1.0)]
+}
+
+/// The trial whose number, as `of` takes it, is nearest to `value`.
+pub fn nearest(
+    selection: &Selection<'_>,
+    evidence: &Evidence<'_>,
+    draws: &[Draw<'_>],
+    of: impl Fn(&Case<'_>) -> Option<f64>,
+    value: f64,
+) -> Option<String> {
+    let cases = draws.iter().flat_map(|draw| &draw.cases);
+    let apart = cases.filter_map(|case| Some((case.row, (of(case)? - value).abs())));
+    let (row, _) = apart.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(selection.run(evidence)?.trial(row))
+}

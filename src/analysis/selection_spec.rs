@@ -1,0 +1,76 @@
+//! Selections as claims write them.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A selection as claims write it.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SelectionSpec {
+    /// The study whose records are looked at.
+    pub study: String,
+    /// The problem group, by its label, or several; a label that ends in `*` stands for all that begin so.
+    pub problems: Labels,
+    /// The contender, by its label, or several.
+    #[serde(default)]
+    pub contender: Labels,
+    /// The contender that it is held against, on the same problems.
+    pub against: Option<String>,
+    /// The metric: a name that `replan list metrics` gives, or one that a reading gives a meaning.
+    pub metric: Option<String>,
+    /// The one query of each draw that is looked at; all if absent.
+    pub query: Option<String>,
+    /// The one point of the study's sweeps, as trials name it: `samples=100`; all if absent.
+    pub sweep: Option<String>,
+    /// Only draws count of which everyone who is compared solves every query.
+    #[serde(default)]
+    pub whole_draws: bool,
+    /// A study that explores readings: the same is asked of it under each of them, and shown.
+    pub explored: Option<Explored>,
+}
+
+/// One label, or several.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "a label, or a list of labels, is accepted")]
+pub enum Labels {
+    /// One label.
+    One(String),
+    /// Several labels.
+    Several(Vec<String>),
+}
+
+impl Default for Labels {
+    fn default() -> Self {
+        Self::Several(Vec::new())
+    }
+}
+
+impl Labels {
+    /// The labels as they are written.
+    pub fn listed(&self) -> Vec<String> {
+        match self {
+            Self::One(label) => vec![label.clone()],
+            Self::Several(labels) => labels.clone(),
+        }
+    }
+}
+
+/// Where readings are explored.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "the name of a study, or a table with `study` and `problems`, is accepted")]
+pub enum Explored {
+    /// A study with the same problem groups.
+    Study(String),
+    /// A study with other ones.
+    Elsewhere(ExploredIn),
+}
+
+/// A study that explores readings on problem groups of its own.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExploredIn {
+    /// The study.
+    pub study: String,
+    /// Its problem groups.
+    pub problems: Labels,
+}

@@ -1,0 +1,89 @@
+//! What would settle a claim that is undecided: more draws, more sessions of the clock, or what the paper leaves out.
+
+use super::class::{Caps, SESSIONS, Sessions};
+use super::found::Found;
+use stats::proportion::units_for_margin;
+
+/// What would settle what was found, in a sentence.
+pub fn settles(found: &Found, caps: Caps) -> String {
+    match caps.clock {
+        Some(Sessions::TooFew) => {
+            return format!(
+                "{SESSIONS} sessions of the clock that agree: one session's interval does not know by how much sessions differ"
+            );
+        }
+        Some(Sessions::Disagree) => {
+            return "a clock whose sessions agree: those that are stored do not".to_owned();
+        }
+        Some(Sessions::Agree) | None => {}
+    }
+    if caps.censored {
+        return format!("results of the {} cases without a number, which could turn it", found.censored);
+    }
+    if caps.powerless {
+        return "a paper that prints more than one draw: no number of ours narrows what one draw may be"
+            .to_owned();
+    }
+    if let Some(needed) = found.needs {
+        return format!("{needed} draws at least");
+    }
+    if found.existential {
+        return "the paper's own input, on which one trial would do".to_owned();
+    }
+    more_draws(found)
+        .unwrap_or_else(|| "the paper's own inputs: what is measured here stands neither way".to_owned())
+}
+
+/// How many units would tell our number from the limit that its interval holds; none if no number would.
+fn more_draws(found: &Found) -> Option<String> {
+    let ours = found.ours.as_ref()?;
+    let [low, high] = ours.interval?;
+    let straddled = found.limits.iter().filter(|limit| (low..=high).contains(*limit));
+    let margin = straddled.map(|limit| (ours.value - limit).abs()).fold(f64::INFINITY, f64::min);
+    if margin == 0.0 || !margin.is_finite() {
+        return None;
+    }
+    let needed = units_for_margin((high - low) / 2.0, ours.n, margin);
+    Some(format!("about {needed} {}, not {}, if our number is what it seems to be", found.units, ours.n))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::verdict::Estimate;
+    use stats::interval::Interval;
+
+    fn found([low, value, high]: [f64; 3]) -> Found {
+        let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 10));
+        Found { ours, limits: vec![0.5, 1.0], units: "trials", ..Found::default() }
+    }
+
+    #[test]
+    fn an_interval_around_a_limit_asks_for_more_units() {
+        let said = |ends| settles(&found(ends), Caps::default());
+        // Half a width of 1/4 against a distance of 1/8: four times as many.
+        assert!(
+            said([0.25, 0.375, 0.75]).starts_with("about 40 trials, not 10"),
+            "{}",
+            said([0.25, 0.375, 0.75])
+        );
+        for no_number in [[0.4, 0.5, 0.6], [0.6, 0.7, 0.8]] {
+            assert!(said(no_number).starts_with("the paper's own inputs"), "{no_number:?}");
+        }
+    }
+
+    #[test]
+    fn what_stands_in_the_way_is_named_before_the_number_of_draws() {
+        let found = Found { censored: 7, ..found([0.25, 0.375, 0.75]) };
+        for (caps, expected) in [
+            (Caps { censored: true, ..Caps::default() }, "7 cases"),
+            (Caps { powerless: true, ..Caps::default() }, "more than one draw"),
+            (Caps { clock: Some(Sessions::TooFew), ..Caps::default() }, "3 sessions"),
+            (Caps { clock: Some(Sessions::Disagree), ..Caps::default() }, "sessions agree"),
+        ] {
+            assert!(settles(&found, caps).contains(expected), "{caps:?}: {}", settles(&found, caps));
+        }
+        let few = Found { needs: Some(39), ..Found::default() };
+        assert_eq!(settles(&few, Caps::default()), "39 draws at least");
+    }
+}

@@ -1,0 +1,313 @@
+//! Statistics, each defined once: of one draw, and of all draws of a selection with their intervals.
+//!
+//! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
+
+use super::selection::{Case, Draw};
+use super::verdict::Estimate as VerdictEstimate;
+use crate::study::record::{Row, Status};
+use base::seed;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bands::{Band, sup_t};
+use stats::bootstrap::{Estimate, Resampling, percentile};
+use stats::interval::Interval;
+use stats::pooled;
+use stats::proportion::clopper_pearson;
+use stats::summary;
+pub use stats::summary::{mean, median, quantile_type7 as quantile};
+use std::collections::BTreeMap;
+
+/// Level of every interval.
+pub const LEVEL: f64 = 0.95;
+
+/// Fewest draws of which a bootstrap interval decides anything: one end of the percentile interval of a mean of normal draws
+/// then lies on the wrong side of the truth with a probability of 4.8 %, in place of 2.5 %; of 5 draws it is 7.7 %.
+pub const FEWEST_DRAWS: usize = 10;
+
+/// The draws that are needed, where there are fewer.
+pub fn needs(draws: usize) -> Option<usize> {
+    (draws < FEWEST_DRAWS).then_some(FEWEST_DRAWS)
+}
+
+/// A bootstrap as every verdict makes it, with the stream of draws that belongs to `names`.
+pub fn plan(names: &[&str]) -> Resampling {
+    Resampling { resamples: 2000, level: LEVEL, seed: seed::derive(0, names) }
+}
+
+/// What one draw gives.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OfDraw {
+    /// The mean over its solved queries.
+    #[default]
+    Mean,
+    /// The least over its solved queries.
+    Least,
+    /// The greatest over its solved queries.
+    Greatest,
+    /// The share of its queries that are solved, in per cent.
+    SolvedPercent,
+}
+
+impl OfDraw {
+    /// Its name in captions, tables and reasons.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mean => "mean",
+            Self::Least => "least",
+            Self::Greatest => "greatest",
+            Self::SolvedPercent => "share solved",
+        }
+    }
+
+    /// The number that `draw` gives, of the metric or, with another contender, of what is saved against it in per cent.
+    pub fn of(self, draw: &Draw<'_>) -> Option<f64> {
+        if self == Self::SolvedPercent {
+            let solved = draw.cases.iter().filter(|case| case.row.status == Status::Solved).count();
+            return (!draw.cases.is_empty()).then(|| 100.0 * solved as f64 / draw.cases.len() as f64);
+        }
+        let number = |case: &Case<'_>| if case.base.is_some() { case.saving_percent() } else { case.value };
+        let numbers: Vec<f64> = draw.cases.iter().filter_map(number).collect();
+        let folded = |from, of: fn(f64, f64) -> f64| {
+            (!numbers.is_empty()).then(|| numbers.iter().copied().fold(from, of))
+        };
+        match self {
+            Self::Least => folded(f64::INFINITY, f64::min),
+            Self::Greatest => folded(f64::NEG_INFINITY, f64::max),
+            Self::Mean | Self::SolvedPercent => summary::mean(&numbers),
+        }
+    }
+}
+
+/// What all draws of a selection give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OfAll {
+    /// The mean over all solved cases.
+    Mean,
+    /// The median over all cases, failures infinite.
+    Median,
+    /// The standard deviation over all solved cases.
+    Deviation,
+    /// By how many per cent the sum over the cases that both solve is below the other contender's.
+    ReductionPercent,
+    /// The sum over the cases that both solve over the other contender's.
+    Ratio,
+    /// The median on the first of two problem groups over that on the second.
+    RatioOfGroups,
+}
+
+impl OfAll {
+    /// Its name in captions, tables and reasons.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mean => "mean",
+            Self::Median => "median, failures infinite,",
+            Self::Deviation => "standard deviation",
+            Self::ReductionPercent => "reduction in % of the mean",
+            Self::Ratio => "ratio of the means",
+            Self::RatioOfGroups => "ratio of the medians on two groups",
+        }
+    }
+
+    /// Whether it sets two contenders beside each other.
+    pub fn is_paired(self) -> bool {
+        matches!(self, Self::ReductionPercent | Self::Ratio)
+    }
+
+    /// The number that means no difference, if it sets two contenders beside each other.
+    pub fn no_difference(self) -> Option<f64> {
+        match self {
+            Self::ReductionPercent => Some(0.0),
+            Self::Ratio | Self::RatioOfGroups => Some(1.0),
+            Self::Mean | Self::Median | Self::Deviation => None,
+        }
+    }
+
+    /// The number with its bootstrap interval over draws; none below two.
+    pub fn of(self, draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
+        if self.is_paired() {
+            return self.of_pairs(&super::selection::pairs(draws), plan);
+        }
+        if self == Self::RatioOfGroups {
+            return of_groups(draws, plan);
+        }
+        let values: Vec<Vec<f64>> = draws.iter().map(|draw| self.values(draw)).collect();
+        let values: Vec<Vec<f64>> = values.into_iter().filter(|values| !values.is_empty()).collect();
+        let sums = || values.iter().map(|draw| [draw.iter().sum(), draw.len() as f64]).collect::<Vec<_>>();
+        match self {
+            Self::Median => pooled::median(&values, plan),
+            Self::Deviation => pooled::deviation(&values, plan),
+            _ => pooled::ratio_of_sums(&sums(), plan),
+        }
+    }
+
+    /// That of pairs by draw, the other contender's number first.
+    pub fn of_pairs(self, pairs: &[Vec<(f64, f64)>], plan: Resampling) -> Option<Estimate> {
+        let sums = |pairs: &Vec<(f64, f64)>| {
+            pairs.iter().fold([0.0, 0.0], |[own, base], pair| [own + pair.1, base + pair.0])
+        };
+        let ratio = pooled::ratio_of_sums(&pairs.iter().map(sums).collect::<Vec<_>>(), plan)?;
+        if self == Self::Ratio {
+            return Some(ratio);
+        }
+        let percent = |ratio: f64| 100.0 * (1.0 - ratio);
+        let interval = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
+        Some(Estimate { value: percent(ratio.value), interval, ..ratio })
+    }
+
+    fn values(self, draw: &Draw<'_>) -> Vec<f64> {
+        let value = |case: &Case<'_>| match (self, case.value) {
+            (Self::Median, None) if case.row.status != Status::Solved => Some(f64::INFINITY),
+            (_, value) => value,
+        };
+        draw.cases.iter().filter_map(value).collect()
+    }
+}
+
+/// The median on the first group over that on the second, the interval from the ends of both; of a single draw the number
+/// itself.
+fn of_groups(draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
+    let first = draws.first()?.group;
+    let side = |is_first: bool| {
+        let own = draws.iter().filter(|draw| (draw.group == first) == is_first);
+        let values: Vec<Vec<f64>> =
+            own.map(|draw| draw.cases.iter().filter_map(|case| case.value).collect()).collect();
+        let median = summary::median(&values.concat())?;
+        let found = pooled::median(&values, plan);
+        Some((median, found.map_or(Interval::new(median, median), |found| found.interval)))
+    };
+    let ((above, one), (below, other)) = (side(true)?, side(false).filter(|(median, _)| *median > 0.0)?);
+    let interval = Interval::new(one.low / other.high, one.high / other.low);
+    Some(Estimate { value: above / below, interval, units: draws.len(), undefined: 0 })
+}
+
+/// The mean of one number a draw, with its interval; none below two.
+pub fn mean_of_draws(values: &[f64], plan: Resampling) -> Option<Estimate> {
+    stats::bootstrap::mean(values, plan)
+}
+
+/// The mean of the draws' curves with a band that holds all of it at once; none below two.
+pub fn band_of_draws(curves: &[Vec<f64>], plan: Resampling) -> Option<Band> {
+    sup_t(curves, plan)
+}
+
+/// How far the mean of the draws' curves is from `printed`, as the root of the mean square; none below two.
+pub fn distance_of_draws(curves: &[Vec<f64>], printed: &[f64], plan: Resampling) -> Option<Estimate> {
+    let distance = |draws: &[&Vec<f64>]| {
+        let mean = |cell: usize| draws.iter().map(|draw| draw[cell]).sum::<f64>() / draws.len() as f64;
+        let squares = printed.iter().enumerate().map(|(cell, value)| (mean(cell) - value).powi(2));
+        (!draws.is_empty()).then(|| (squares.sum::<f64>() / printed.len() as f64).sqrt())
+    };
+    percentile(curves, distance, plan)
+}
+
+/// The numbers of `cells` at each place, draw by draw, for as many draws as every place has.
+pub fn curves_of_draws(cells: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let draws = cells.iter().map(Vec::len).min().unwrap_or(0);
+    (0..draws).map(|draw| cells.iter().map(|cell| cell[draw]).collect()).collect()
+}
+
+/// By how many points the share solved of a draw's queries differs between two selections; queries that cannot be posed in
+/// either are left out of both.
+pub fn differences_percent([base, other]: [&[Draw<'_>]; 2]) -> Vec<f64> {
+    let solved = |row: &Row| f64::from(u8::from(row.status == Status::Solved));
+    let case = |row: &Row| (row.draw(), row.key.repeat, row.query().to_owned());
+    let cases = |of: usize| [base, other][of].iter().flat_map(|draw| &draw.cases);
+    let bases: BTreeMap<_, f64> = cases(0).map(|own| (case(own.row), solved(own.row))).collect();
+    let mut draws: BTreeMap<(u32, u32), Vec<f64>> = BTreeMap::new();
+    for own in cases(1) {
+        if let Some(base) = bases.get(&case(own.row)) {
+            let unit = (own.row.draw(), own.row.key.repeat);
+            draws.entry(unit).or_default().push(100.0 * (solved(own.row) - base));
+        }
+    }
+    draws.values().filter_map(|draw| summary::mean(draw)).collect()
+}
+
+/// The mean of the second numbers that go with each first.
+pub fn means_along(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut along: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
+    for [x, y] in points {
+        along.entry(x.to_bits()).or_default().push(*y);
+    }
+    along.iter().filter_map(|(x, ys)| Some([f64::from_bits(*x), summary::mean(ys)?])).collect()
+}
+
+/// Where a box of `values` stands: the ends of its whiskers (5 and 95 %), quartiles and median.
+pub fn box_of(values: &[f64]) -> [f64; 5] {
+    [0.05, 0.25, 0.5, 0.75, 0.95].map(|share| summary::quantile_type7(values, share).unwrap_or(f64::NAN))
+}
+
+/// Below which number each share of `values` lies: quantiles at every half per cent, as good as every step to the eye and a
+/// tenth of the bytes.
+pub fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
+    let shares = (0..=200).map(|step| f64::from(step) / 200.0);
+    shares.filter_map(|share| Some([summary::quantile_type7(values, share)?, share])).collect()
+}
+
+/// A share of chances that are hit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// The share.
+    pub value: f64,
+    /// Its interval; none for a single draw of several chances.
+    pub interval: Option<Interval>,
+    /// How many draws it rests on.
+    pub draws: usize,
+}
+
+impl Share {
+    /// That of `counts`, the hits and chances of each draw; none without chances. The interval is exact where every draw
+    /// has one chance, else by bootstrap over draws.
+    pub fn of(counts: &[[f64; 2]], plan: Resampling) -> Option<Self> {
+        let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
+        let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
+        let interval = if counts.iter().all(|count| count[1] == 1.0) {
+            clopper_pearson(hits as usize, counts.len(), LEVEL)
+        } else {
+            pooled::ratio_of_sums(&counts, plan).map(|found| found.interval)
+        };
+        (chances > 0.0).then(|| Self { value: hits / chances, interval, draws: counts.len() })
+    }
+
+    /// It as our number beside a printed one: the share of `what`.
+    pub fn estimate(&self, what: &str) -> VerdictEstimate {
+        match self.interval {
+            Some(interval) => {
+                VerdictEstimate::new(self.value, interval, format!("share of {what}, 95 %"), self.draws)
+            }
+            None => VerdictEstimate::bare(self.value, format!("share of {what}"), self.draws),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_of_single_chances_is_exact_and_draws_of_several_are_units() {
+        let plan = plan(&["a test"]);
+        let exact = Share::of(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]], plan).unwrap();
+        let interval = exact.interval.unwrap();
+        assert_eq!((exact.value, exact.draws), (0.75, 4));
+        assert!((interval.low - 0.1941).abs() < 1e-4 && (interval.high - 0.9937).abs() < 1e-4, "{exact:?}");
+        // Draws that agree within themselves: as uncertain as their number says, not as that of their queries.
+        let draws: Vec<[f64; 2]> = (0..10).map(|i| [if i % 2 == 0 { 100.0 } else { 0.0 }, 100.0]).collect();
+        let of_draws = Share::of(&draws, plan).unwrap();
+        assert!(of_draws.value == 0.5 && of_draws.interval.unwrap().half_width() > 0.25, "{of_draws:?}");
+        let single = Share::of(&[[3.0, 4.0]], plan).unwrap();
+        assert_eq!((single.value, single.interval), (0.75, None), "one draw has no interval");
+        assert!(Share::of(&[[0.0, 0.0]], plan).is_none() && Share::of(&[], plan).is_none());
+    }
+
+    #[test]
+    fn a_reduction_and_a_ratio_say_the_same() {
+        let pairs: Vec<Vec<(f64, f64)>> = (1..20).map(|i| vec![(f64::from(i), 0.5 * f64::from(i))]).collect();
+        let [reduction, ratio] =
+            [OfAll::ReductionPercent, OfAll::Ratio].map(|of| of.of_pairs(&pairs, plan(&["x"])).unwrap());
+        assert!((reduction.value - 50.0).abs() < 1e-9 && (ratio.value - 0.5).abs() < 1e-9);
+        assert!(reduction.interval.low <= reduction.interval.high, "{:?}", reduction.interval);
+    }
+}

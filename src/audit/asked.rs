@@ -1,0 +1,51 @@
+//! What a relation asks: the check that it names, and the test that this check makes of it.
+
+use super::checks::{Entry, REGISTRY, Test, find};
+use super::input::Input;
+use super::meaning::{rounding, roundings};
+use super::printed::Digits;
+use super::relation::Relation;
+use super::table::{Fault, Place};
+use std::collections::BTreeMap;
+use toml::Value;
+
+/// The relation with these keys.
+///
+/// # Errors
+/// If it names no check, or one that has no form in TOML, or a key that the check does not have.
+pub fn read(mut keys: BTreeMap<String, Value>, digits: Digits, place: Place) -> Result<Relation, Fault> {
+    let fault = |message: String| Fault::new(place, message);
+    let mut text = |key: &str| match keys.remove(key) {
+        Some(Value::String(text)) => Ok(text),
+        None => Ok(String::new()),
+        Some(other) => Err(fault(format!("`{key}` is {other}; a text in quotes is accepted"))),
+    };
+    let (check, name, read) = (text("check")?, text("name")?, text("rounding")?);
+    let known = || {
+        let forms = REGISTRY.iter().filter(|entry| entry.relation.is_some()).map(|entry| entry.name);
+        forms.collect::<Vec<_>>().join(", ")
+    };
+    let form = find(&check).and_then(|entry| entry.relation.as_ref());
+    let form = form.ok_or_else(|| fault(format!("check `{check}` is no relation; accepted: {}", known())))?;
+    let digits = match read.as_str() {
+        "" => digits,
+        other => rounding(other)
+            .ok_or_else(|| fault(format!("rounding `{other}` is not known; accepted: {}", roundings())))?,
+    };
+    if let Some(key) = keys.keys().find(|key| !form.keys.contains(&key.as_str())) {
+        let message = format!("check `{check}` has no key `{key}`; it has {}", form.keys.join(", "));
+        return Err(fault(message));
+    }
+    Ok(Relation { check, name, place, digits, keys })
+}
+
+/// The test that a relation asks for.
+///
+/// # Errors
+/// What the check refuses of the relation.
+pub fn test(relation: &Relation, input: &Input) -> Result<(&'static Entry, Box<dyn Test>), Fault> {
+    let entry = find(&relation.check)
+        .ok_or_else(|| relation.fault(format!("there is no check `{}`", relation.check)))?;
+    let form = entry.relation.as_ref().ok_or_else(|| relation.fault("it has no form in TOML"))?;
+    Ok((entry, (form.build)(relation, input)?))
+}

@@ -1,0 +1,177 @@
+//! Whether a polyline through cell centres has the printed length and the printed sum of turns, at any angles.
+
+use super::arguments::digits;
+use super::lattice::between;
+use super::{Entry, FromRelation, Test, none};
+use crate::exact::{Exact, Print, floor, whole};
+use crate::input::Input;
+use crate::relation::Relation;
+use crate::table::{Fault, Quoted};
+use crate::turns::{Convention, Polyline, TurnQuery, shortest_polyline};
+use crate::{Cell, distance};
+use stats::interval::Interval;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "any_angle_turns",
+    about: "has any polyline through cell centres the printed length and the printed sum of turns?",
+    example: "turn sum 229.17 with length 13.70 from 22:15 to 26:28",
+    premises: "bends are cell centres; the sum is of changes of direction, or of the angles between segments; a signal, since the search is by floats",
+    source: "best-first search from both ends (crate::turns); the same as the papers' claims",
+    tests: none,
+    relation: Some(FromRelation { keys: &["turns", "length", "from", "to", "grid", "angles"], build }),
+};
+
+/// How far beyond the straight line paths are looked for, and how long that may be, cells: work grows threefold for each
+/// half cell of the first.
+const BEYOND: f64 = 2.5;
+const APART: f64 = 30.0;
+
+struct AnyAngle {
+    /// The turn sum, then the length.
+    numbers: [Quoted; 2],
+    ends: [Cell; 2],
+    size: [i32; 2],
+    is_bounded: bool,
+    conventions: Vec<Convention>,
+    /// What was found, by the prints, since a search takes long.
+    found: RefCell<BTreeMap<String, Option<Polyline>>>,
+}
+
+fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
+    let missing = || {
+        relation
+            .fault("`from` and `to` are needed, points \"X:Y\" a whole number of cells apart, 1 to 30 in all")
+    };
+    let (from, to) = relation.point("from")?.zip(relation.point("to")?).ok_or_else(missing)?;
+    let displacement = between(from, to).ok_or_else(missing)?;
+    if displacement == [0, 0] || distance([0, 0], displacement) > APART {
+        return Err(missing());
+    }
+    let conventions = match relation.word("angles", &["either", "exterior", "interior"])? {
+        "exterior" => vec![Convention::Exterior],
+        "interior" => vec![Convention::Interior],
+        _ => vec![Convention::Exterior, Convention::Interior],
+    };
+    let grid = relation.point("grid")?;
+    let (start, size) = placed(from, grid).ok_or_else(|| relation.fault(GRID))?;
+    let goal = [start[0] + displacement[0], start[1] + displacement[1]];
+    if [start, goal].iter().any(|end| (0..2).any(|axis| !(0..size[axis]).contains(&end[axis]))) {
+        return Err(relation.fault(GRID));
+    }
+    let numbers = [relation.number("turns", input)?, relation.number("length", input)?];
+    let found = RefCell::default();
+    Ok(Box::new(AnyAngle {
+        numbers,
+        ends: [start, goal],
+        size,
+        is_bounded: grid.is_some(),
+        conventions,
+        found,
+    }))
+}
+
+const GRID: &str = "`grid` is \"COLUMNS:ROWS\", 1 to 200 each, with both ends in it";
+
+/// The cell that the path starts from and the grid's size; without a grid there is room for every path around it.
+fn placed(from: [Exact; 2], grid: Option<[Exact; 2]>) -> Option<(Cell, [i32; 2])> {
+    let room = (2.0 * (APART + BEYOND)) as i32;
+    let Some(grid) = grid else { return Some(([room; 2], [2 * room; 2])) };
+    let cell = |point: Exact| i32::try_from(floor(point)).ok();
+    let size = [cell(grid[0])?, cell(grid[1])?];
+    let is_size = grid.iter().all(|side| *side >= whole(1) && *side <= whole(200));
+    is_size.then_some(([cell(from[0])?, cell(from[1])?], size))
+}
+
+impl AnyAngle {
+    /// A polyline with both; none if there is none. The outer none is for lengths that are not looked at.
+    #[expect(clippy::option_option, reason = "none found and not looked for are different answers")]
+    fn polyline(&self, prints: &[Print]) -> Option<Option<Polyline>> {
+        let [turn_deg, length] = [prints[0], prints[1]].map(|print| print.printed.interval(print.digits));
+        let is_asked = (0..2).all(|at| prints[at].printed == self.numbers[at].print.printed);
+        if !is_asked || length.high > distance(self.ends[0], self.ends[1]) + BEYOND {
+            return None;
+        }
+        let key = format!("{turn_deg:?} {length:?}");
+        if let Some(known) = self.found.borrow().get(&key) {
+            return Some(known.clone());
+        }
+        let found = self.conventions.iter().find_map(|convention| self.search(*convention, turn_deg, length));
+        self.found.borrow_mut().insert(key, found.clone());
+        Some(found)
+    }
+
+    fn search(&self, convention: Convention, turn_deg: Interval, length: Interval) -> Option<Polyline> {
+        let [start, goal] = self.ends;
+        let query = |length| TurnQuery {
+            size: self.size,
+            starts: vec![start],
+            goals: vec![goal],
+            convention,
+            turn_deg,
+            length,
+        };
+        // The turn sum alone is asked first: that search keeps much less.
+        let alone = shortest_polyline(&query(Interval::new(0.0, length.high)))?;
+        if alone.length >= length.low { Some(alone) } else { shortest_polyline(&query(length)) }
+    }
+}
+
+impl Test for AnyAngle {
+    fn numbers(&self) -> &[Quoted] {
+        &self.numbers
+    }
+
+    fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        Some(self.polyline(prints)?.is_some())
+    }
+
+    fn said(&self, prints: &[Print], _is_possible: bool) -> String {
+        let [turns, length] = [prints[0], prints[1]].map(|print| print.printed);
+        match self.polyline(prints) {
+            None => {
+                format!("length {length} is more than {BEYOND} cells above the straight line, or another one")
+            }
+            Some(None) => {
+                format!("no polyline through cell centres is {length} long and turns by {turns}° in all")
+            }
+            Some(Some(found)) => {
+                let [start, goal] = self.ends;
+                let at = |cell: &Cell| format!("({}, {})", cell[0] - start[0], cell[1] - start[1]);
+                let cells: Vec<String> = found.cells.iter().map(at).collect();
+                let [dx, dy] = [goal[0] - start[0], goal[1] - start[1]];
+                let shown = cells.join(" ");
+                format!(
+                    "{length} and {turns}° are met together over ({dx}, {dy}) cells, by {shown} from the start"
+                )
+            }
+        }
+    }
+
+    fn premises(&self) -> Vec<String> {
+        let named = |convention: &Convention| match convention {
+            Convention::Exterior => "changes of direction",
+            Convention::Interior => "angles between segments",
+        };
+        let conventions: Vec<&str> = self.conventions.iter().map(named).collect();
+        let [columns, rows] = self.size;
+        let grid =
+            if self.is_bounded { format!("a grid of {columns} by {rows} cells") } else { "any grid".into() };
+        vec![
+            format!("the path is a polyline whose bends are cell centres of {grid}; obstacles are left out"),
+            format!("the sum is of {}", conventions.join(" or of ")),
+            digits(&self.numbers),
+        ]
+    }
+
+    /// Empty: each print asks for a search of its own, so that power is not computed.
+    fn window(&self) -> Option<[Exact; 2]> {
+        Some([whole(1), whole(0)])
+    }
+
+    fn is_about_digits(&self) -> bool {
+        false
+    }
+}

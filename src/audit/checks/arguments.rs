@@ -1,0 +1,76 @@
+//! What several checks say or do alike.
+
+use crate::exact::{Exact, Print, Span, decimal, mul, spelled, whole};
+use crate::input::Input;
+use crate::meaning::Kind;
+use crate::printed::Digits;
+use crate::table::{Column, Quoted, Table, quoted};
+use serde_json::{Value, json};
+
+/// How the digits are read, as a premise.
+pub fn digits(numbers: &[Quoted]) -> String {
+    let read = numbers.first().map_or(Digits::Any, |number| number.print.digits);
+    match read {
+        Digits::Any => "digits end in any usual way: rounded, cut off, up or down".to_owned(),
+        other => format!("digits end by {}", other.name()),
+    }
+}
+
+/// Gives every number in columns that `is_meant` picks.
+pub fn each_number(
+    input: &Input,
+    is_meant: impl Fn(&Column) -> bool,
+    give: &mut dyn FnMut(&Table, &Column, usize, Quoted),
+) {
+    // Where rows are statistics, a cell is none of the values.
+    let has_values =
+        |table: &Table| table.columns.iter().all(|column| column.meaning.kind != Kind::Statistics);
+    for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| has_values(table)) {
+        for (at, column) in table.columns.iter().enumerate().filter(|(_, column)| is_meant(column)) {
+            for row in 0..table.rows.len() {
+                if let Some(number) = quoted(index, table, row, at) {
+                    give(table, column, row, number);
+                }
+            }
+        }
+    }
+}
+
+/// A value for people: as a whole number, or with up to `decimals` decimals and no zeros at the end.
+pub fn shown(value: Exact, decimals: usize) -> String {
+    let text = decimal(value, decimals);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// A span for people.
+pub fn shown_span(span: &Span, decimals: usize) -> String {
+    format!("{} to {}", shown(span.low, decimals), shown(span.high, decimals))
+}
+
+/// The multiples of `step` on either side of a span that holds none, as a step of a proof; the one fact is that nothing
+/// stands between them.
+pub fn gap(span: &Span, step: Exact) -> Option<Value> {
+    let (above, below) = span.times(step.recip())?.integers();
+    Some(json!({ "step": spelled(step), "below": below.to_string(), "above": above.to_string() }))
+}
+
+/// A count of units as an exact number.
+pub fn count(n: u64) -> Exact {
+    whole(n)
+}
+
+/// The prints' spans.
+pub fn spans(prints: &[Print]) -> Vec<Span> {
+    prints.iter().map(|print| print.span()).collect()
+}
+
+/// `k` times a step, for people.
+pub fn multiple(step: Exact, k: i128, decimals: usize) -> String {
+    mul(step, whole(k)).map_or_else(|| "too long a number".to_owned(), |value| shown(value, decimals))
+}
+
+/// From 0 to twice what is printed, and 100 units of the last place at least.
+pub fn up_to_twice(print: Print) -> Option<[Exact; 2]> {
+    let least = Exact::new(100, i128::from(print.printed.scale()));
+    Some([whole(0), mul(whole(2), print.value())?.max(least)])
+}

@@ -1,0 +1,138 @@
+//! Whether mean and deviation of values that are 0 or the whole fit each other: one is a function of the other.
+
+use super::arguments::{count, digits, shown};
+use super::{Entry, Proof, Test};
+use crate::exact::{Exact, Print, add, div, mul, spelled, whole};
+use crate::input::Input;
+use crate::meaning::Divisor;
+use crate::relation::Named as _;
+use crate::sample::Sample;
+use crate::statistic::Statistic;
+use crate::table::Quoted;
+use serde_json::json;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "debit",
+    about: "do mean and deviation of values that are 0 or 1 fit each other and n?",
+    example: "success [share of 20, ±sd] = 0.25 ± 0.30",
+    premises: "every value is 0 or the whole; mean and deviation are of the same n values",
+    source: "Heathers & Brown, DEBIT: A Simple Consistency Test for Binary Data (2019)",
+    tests,
+    relation: None,
+};
+
+struct Debit {
+    /// The deviation, then the mean.
+    numbers: [Quoted; 2],
+    n: u64,
+    all: Exact,
+    divisor: Divisor,
+}
+
+/// Counts that are looked through one by one.
+const COUNTS: i128 = 20_000;
+
+fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
+    input.each_sample(&mut |sample| {
+        if sample.is_binary()
+            && !sample.is_count
+            && sample.trials.is_none()
+            && let Some(test) = of_sample(sample)
+        {
+            give(Box::new(test));
+        }
+    });
+}
+
+fn of_sample(sample: &Sample) -> Option<Debit> {
+    let numbers = [sample.get(Statistic::Sd)?.clone(), sample.get(Statistic::Mean)?.clone()];
+    let n = sample.n.filter(|n| *n > 1)?;
+    Some(Debit { numbers, n, all: sample.most?, divisor: sample.divisor })
+}
+
+impl Debit {
+    /// The counts that print the mean, each with its variances.
+    fn variances(&self, mean: Print) -> Option<Vec<(i128, Vec<Exact>)>> {
+        let (first, last) = mean.span().times(div(count(self.n), self.all)?)?.integers();
+        let (first, last) = (first.max(0), last.min(i128::from(self.n)));
+        if last - first >= COUNTS {
+            return None;
+        }
+        (first..=last).map(|k| Some((k, self.variances_of(k)?))).collect()
+    }
+
+    fn variances_of(&self, k: i128) -> Option<Vec<Exact>> {
+        let n = i128::from(self.n);
+        let about = mul(mul(self.all, self.all)?, Exact::new(k.checked_mul(n - k)?, n))?;
+        let divisors = match self.divisor {
+            Divisor::Sample => vec![n - 1],
+            Divisor::Population => vec![n],
+            Divisor::Either => vec![n - 1, n],
+        };
+        divisors.into_iter().map(|divisor| div(about, whole(divisor))).collect()
+    }
+}
+
+impl Test for Debit {
+    fn numbers(&self) -> &[Quoted] {
+        &self.numbers
+    }
+
+    fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        let span = prints[0].span();
+        if span.not_negative().is_empty() {
+            return Some(false);
+        }
+        let squared = span.squared()?;
+        let all = self.variances(prints[1])?;
+        Some(all.iter().any(|(_, variances)| variances.iter().any(|variance| squared.contains(*variance))))
+    }
+
+    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+        let [sd, mean] = [prints[0].printed, prints[1].printed];
+        let root = |value: Exact| (*value.numer() as f64 / *value.denom() as f64).sqrt();
+        let listed = self.variances(prints[1]).unwrap_or_default();
+        let shown_ones = listed.iter().take(3).map(|(k, variances)| {
+            let roots: Vec<String> =
+                variances.iter().map(|variance| format!("{:.4}", root(*variance))).collect();
+            format!("{k} of {} gives {}", self.n, roots.join(" or "))
+        });
+        let shown_ones: Vec<String> = shown_ones.collect();
+        let verb = if is_possible { "is" } else { "is not" };
+        let detail =
+            if shown_ones.is_empty() { "no count prints the mean".to_owned() } else { shown_ones.join("; ") };
+        format!(
+            "deviation {sd} {verb} that of {} values of 0 or {} with mean {mean}: {detail}",
+            self.n,
+            shown(self.all, 0)
+        )
+    }
+
+    fn premises(&self) -> Vec<String> {
+        vec![
+            format!("mean and deviation are of the same {} values, each 0 or {}", self.n, self.all),
+            digits(&self.numbers),
+        ]
+    }
+
+    fn window(&self) -> Option<[Exact; 2]> {
+        // No deviation is above half of the whole, but for n − 1.
+        Some([whole(0), mul(add(self.all, whole(0))?, Exact::new(3, 4))?])
+    }
+
+    fn proof(&self, prints: &[Print]) -> Option<Proof> {
+        let divisors = match self.divisor {
+            Divisor::Sample => vec![self.n - 1],
+            Divisor::Population => vec![self.n],
+            Divisor::Either => vec![self.n - 1, self.n],
+        };
+        let divisors: Vec<String> = divisors.iter().map(ToString::to_string).collect();
+        let given = json!({ "n": self.n.to_string(), "whole": spelled(self.all), "divisors": divisors });
+        let step = |(k, variances): &(i128, Vec<Exact>)| {
+            let variances: Vec<String> = variances.iter().map(|variance| spelled(*variance)).collect();
+            json!({ "count": k.to_string(), "variances": variances })
+        };
+        Some(Proof { given, steps: self.variances(prints[1])?.iter().map(step).collect() })
+    }
+}

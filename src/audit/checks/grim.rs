@@ -1,0 +1,154 @@
+//! Whether a mean of whole numbers, or a share of trials, can be what is printed, given how many there were.
+
+use super::arguments::{count, digits, gap, multiple, shown};
+use super::{Entry, FromRelation, Proof, Test};
+use crate::exact::{Exact, Print, Span, div, mul, spelled, whole};
+use crate::input::Input;
+use crate::relation::{Named as _, Relation};
+use crate::sample::Sample;
+use crate::statistic::Statistic;
+use crate::table::{Fault, Quoted};
+use crate::witness::{Budget, Witness};
+use serde_json::json;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "grim",
+    about: "can a mean of whole numbers, or a share of trials, be what is printed, given n?",
+    example: "success [% of 250] = 33.3",
+    premises: "n is the number of values behind the mean; each is a multiple of the grain; none is left out or weighted",
+    source: "Brown & Heathers, The GRIM Test, Social Psychological and Personality Science 8 (2017) 363-369 (preprint 2016)",
+    tests,
+    relation: Some(FromRelation { keys: &["value", "n", "whole", "grain", "least", "most"], build }),
+};
+
+struct Grim {
+    numbers: [Quoted; 1],
+    /// Printed values are multiples of this …
+    step: Exact,
+    /// … that many values are behind it …
+    n: u64,
+    /// … each a multiple of this …
+    grain: Exact,
+    /// … of which the sum is printed, or else the mean …
+    is_count: bool,
+    /// … and they lie between these ends.
+    value_ends: [Option<Exact>; 2],
+    /// What is printed lies between these.
+    ends: [Option<Exact>; 2],
+    values: String,
+}
+
+fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
+    input.each_sample(&mut |sample| {
+        if let Some(test) = of_sample(sample) {
+            give(Box::new(test));
+        }
+    });
+}
+
+fn of_sample(sample: &Sample) -> Option<Grim> {
+    let (n, grain) = (sample.n?, sample.grain?);
+    let number = sample.get(Statistic::Mean)?.clone();
+    let (step, factor) = if sample.is_count { (grain, count(n)) } else { (div(grain, count(n))?, whole(1)) };
+    let value_ends = [sample.least, sample.most];
+    let ends = value_ends.map(|end| end.and_then(|end| mul(end, factor)));
+    let (numbers, is_count, values) = ([number], sample.is_count, sample.values());
+    Some(Grim { numbers, step, n, grain, is_count, value_ends, ends, values })
+}
+
+fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
+    let n = relation.needed("n")?;
+    let whole_is = relation.exact("whole")?;
+    let grain = whole_is.or(relation.exact("grain")?).unwrap_or(whole(1));
+    let step = Some(grain).filter(|grain| *grain > whole(0)).and_then(|grain| div(grain, count(n)));
+    let step = step.ok_or_else(|| relation.fault("`grain` and `whole` must be above 0"))?;
+    let ends = match whole_is {
+        Some(end) => [Some(whole(0)), Some(end)],
+        None => [relation.exact("least")?, relation.exact("most")?],
+    };
+    let values = format!("{n} values, each a multiple of {grain}");
+    let numbers = [relation.number("value", input)?];
+    Ok(Box::new(Grim { numbers, step, n, grain, is_count: false, value_ends: ends, ends, values }))
+}
+
+impl Grim {
+    /// The printed number's span, cut to where the mean can be.
+    fn span(&self, print: Print) -> Span {
+        print.span().cut(self.ends)
+    }
+
+    fn counts(&self, print: Print) -> Option<(i128, i128)> {
+        let span = self.span(print);
+        if span.is_empty() { Some((1, 0)) } else { Some(span.times(self.step.recip())?.integers()) }
+    }
+}
+
+impl Test for Grim {
+    fn numbers(&self) -> &[Quoted] {
+        &self.numbers
+    }
+
+    fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        let (first, last) = self.counts(prints[0])?;
+        Some(first <= last)
+    }
+
+    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+        let printed = prints[0].printed;
+        let Some((first, last)) = self.counts(prints[0]) else { return format!("{printed} was not checked") };
+        let places = printed.decimals() as usize + 2;
+        let at = |k: i128| format!("{k} × {} = {}", shown(self.step, 6), multiple(self.step, k, places));
+        if is_possible {
+            let more = if last > first { format!(" to {last}") } else { String::new() };
+            return format!("{printed} is printed by {}{more}", at(first));
+        }
+        if self.span(prints[0]).is_empty() {
+            return format!("{printed} is outside of what {} can give", self.values);
+        }
+        format!("{printed} is the mean of no {}: next to it are {} and {}", self.values, at(last), at(first))
+    }
+
+    fn premises(&self) -> Vec<String> {
+        vec![
+            format!("the number is made of {}; none is left out and none is weighted", self.values),
+            digits(&self.numbers),
+        ]
+    }
+
+    fn window(&self) -> Option<[Exact; 2]> {
+        Some([self.ends[0]?, self.ends[1]?])
+    }
+
+    fn power_key(&self) -> Option<String> {
+        self.window().map(|window| format!("{} {window:?}", self.step))
+    }
+
+    fn proof(&self, prints: &[Print]) -> Option<Proof> {
+        let span = self.span(prints[0]);
+        let end = |end: Option<Exact>| end.map(spelled);
+        let given = json!({
+            "n": self.n.to_string(),
+            "grain": spelled(self.grain),
+            "is_count": self.is_count,
+            "least": end(self.value_ends[0]),
+            "most": end(self.value_ends[1]),
+        });
+        let [least, most] = self.ends;
+        let outside = || json!([{ "outside": [end(least), end(most)] }]);
+        let steps = if span.is_empty() { outside() } else { json!([gap(&span, self.step)?]) };
+        Some(Proof { given, steps })
+    }
+
+    fn witness(&self, prints: &[Print], budget: &mut Budget) -> Option<Witness> {
+        let (first, last) = self.counts(prints[0])?;
+        let before = budget.steps;
+        let mut vectors = Vec::new();
+        let mut k = first;
+        while k <= last && vectors.len() < budget.most && budget.step() {
+            vectors.push(format!("{k} × {} of {}", spelled(self.step), self.n));
+            k += 1;
+        }
+        Some(Witness { vectors, is_all: k > last, steps: [before - budget.steps, before] })
+    }
+}

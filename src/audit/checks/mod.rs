@@ -1,0 +1,151 @@
+//! The checks: one a file, each with its example, premises and source.
+//!
+//! A check turns samples, tables and relations into [`Test`]s. A test knows the printed numbers that it is about and decides
+//! whether any data can print them; everything else (readings of digits, power, mend, ranking) is asked by
+//! [`report`](super::report) in one way for all.
+
+use super::exact::{Exact, Print};
+use super::input::Input;
+use super::relation::Relation;
+use super::table::{Fault, Quoted};
+use super::witness::{Budget, Witness};
+use serde_json::Value;
+
+mod any_angle_turns;
+pub mod arguments;
+mod bold;
+mod clock;
+mod debit;
+mod expansions;
+mod grim;
+mod grimmer;
+mod interval;
+mod lattice;
+mod order;
+mod p_value;
+mod path_bound;
+mod quantile;
+mod ratio;
+mod ratio_label;
+mod reduction;
+mod rises;
+mod sd_range;
+mod seed_spread;
+mod shares_sum;
+mod speedup;
+mod sum_of_means;
+mod total_over_mean;
+mod turn_sum;
+
+/// What a test found in exact numbers, for the certificate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    /// What was given beside the printed numbers: n, a grain, a step.
+    pub given: Value,
+    /// Why nothing prints these numbers, in steps that can be verified one by one.
+    pub steps: Value,
+}
+
+/// One application of a check to printed numbers.
+pub trait Test {
+    /// The numbers that it is about; power is stated for the first.
+    fn numbers(&self) -> &[Quoted];
+
+    /// Whether any data could print `prints`, given in the order of [`numbers`](Self::numbers); none if exact arithmetic or
+    /// the search's bound does not reach.
+    fn is_possible(&self, prints: &[Print]) -> Option<bool>;
+
+    /// What holds, with the numbers that show it.
+    fn said(&self, prints: &[Print], is_possible: bool) -> String;
+
+    /// The premises that the answer rests on.
+    fn premises(&self) -> Vec<String>;
+
+    /// The range in which the first number can be printed at all; if none, as far to either side as it is from 0, and 100
+    /// units of the last place at least.
+    fn window(&self) -> Option<[Exact; 2]> {
+        None
+    }
+
+    /// A key under which power is the same, so that it is computed once.
+    fn power_key(&self) -> Option<String> {
+        None
+    }
+
+    /// The proof that nothing prints `prints`; none if the check gives a signal and proves nothing.
+    fn proof(&self, _prints: &[Print]) -> Option<Proof> {
+        None
+    }
+
+    /// Data that print `prints`; none if the check has none to show.
+    fn witness(&self, _prints: &[Print], _budget: &mut Budget) -> Option<Witness> {
+        None
+    }
+
+    /// Whether another reading of the digits could matter.
+    fn is_about_digits(&self) -> bool {
+        true
+    }
+}
+
+/// How a relation of a TOML file becomes a test.
+pub struct FromRelation {
+    /// The keys that it has beside `check`, `name` and `rounding`.
+    pub keys: &'static [&'static str],
+    /// Builds the test.
+    pub build: fn(&Relation, &Input) -> Result<Box<dyn Test>, Fault>,
+}
+
+/// A check in the registry.
+pub struct Entry {
+    /// Its name, which is its file's.
+    pub name: &'static str,
+    /// The question that it answers.
+    pub about: &'static str,
+    /// An input that it refuses.
+    pub example: &'static str,
+    /// What is assumed.
+    pub premises: &'static str,
+    /// Where the mathematics is from.
+    pub source: &'static str,
+    /// Gives every test that tables and samples call for.
+    pub tests: fn(&Input, &mut dyn FnMut(Box<dyn Test>)),
+    /// The form in TOML, if it has one.
+    pub relation: Option<FromRelation>,
+}
+
+/// Every check, in the order of their names.
+pub static REGISTRY: &[&Entry] = &[
+    &any_angle_turns::ENTRY,
+    &bold::ENTRY,
+    &clock::ENTRY,
+    &debit::ENTRY,
+    &expansions::ENTRY,
+    &grim::ENTRY,
+    &grimmer::ENTRY,
+    &interval::ENTRY,
+    &lattice::ENTRY,
+    &order::ENTRY,
+    &p_value::ENTRY,
+    &path_bound::ENTRY,
+    &quantile::ENTRY,
+    &ratio::ENTRY,
+    &ratio_label::ENTRY,
+    &reduction::ENTRY,
+    &rises::ENTRY,
+    &sd_range::ENTRY,
+    &seed_spread::ENTRY,
+    &shares_sum::ENTRY,
+    &speedup::ENTRY,
+    &sum_of_means::ENTRY,
+    &total_over_mean::ENTRY,
+    &turn_sum::ENTRY,
+];
+
+/// The check called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    REGISTRY.iter().find(|entry| entry.name == name).copied()
+}
+
+/// Gives no test: for checks that only relations ask for.
+fn none(_input: &Input, _give: &mut dyn FnMut(Box<dyn Test>)) {}

@@ -1,0 +1,30 @@
+//! Whether a printed percentage reduction is that of two printed cells.
+
+use super::ratio::Formed;
+use super::{Entry, FromRelation, Test, none};
+use crate::form::Form;
+use crate::input::Input;
+use crate::relation::Relation;
+use crate::table::Fault;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "reduction",
+    about: "is a printed percentage reduction that of the two printed cells?",
+    example: "percent 6.6 from 17.65 to 16.40",
+    premises: "the percentage was computed from the two cells",
+    source: "interval arithmetic",
+    tests: none,
+    relation: Some(FromRelation { keys: &["percent", "from", "to", "base"], build }),
+};
+
+fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
+    let numbers =
+        [relation.number("percent", input)?, relation.number("from", input)?, relation.number("to", input)?];
+    let forms = match relation.word("base", &["from", "to", "either"])? {
+        "to" => vec![Form::OfSecond],
+        "either" => vec![Form::OfFirst, Form::OfSecond],
+        _ => vec![Form::OfFirst],
+    };
+    Ok(Box::new(Formed { numbers, forms, premise: ENTRY.premises }))
+}

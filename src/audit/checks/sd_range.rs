@@ -1,0 +1,145 @@
+//! Whether a deviation is possible between the least and the greatest value.
+
+use super::arguments::{count, digits, shown, up_to_twice};
+use super::{Entry, Proof, Test};
+use crate::exact::{Exact, Print, Span, add, div, mul, spelled, sub, whole};
+use crate::input::Input;
+use crate::meaning::Divisor;
+use crate::relation::Named as _;
+use crate::sample::Sample;
+use crate::statistic::Statistic;
+use crate::table::Quoted;
+use serde_json::json;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "sd_range",
+    about: "is SD² ≤ (max − mean)(mean − min), and not too small for the range?",
+    example: "mean 2.0, sd 3.0, min 1.0, max 4.0",
+    premises: "all four are of the same values; the least and the greatest printed are among them",
+    source: "Bhatia & Davis, American Mathematical Monthly 107 (2000) 353-357; Nagy (1918) for the lower bound",
+    tests,
+    relation: None,
+};
+
+struct SdRange {
+    /// Deviation, mean, and the least and the greatest where they are printed.
+    numbers: Vec<Quoted>,
+    /// The ends where they are only known.
+    ends: Option<[Exact; 2]>,
+    n: Option<u64>,
+    divisor: Divisor,
+}
+
+fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
+    input.each_sample(&mut |sample| of_sample(sample).into_iter().for_each(|test| give(Box::new(test))));
+}
+
+fn of_sample(sample: &Sample) -> Option<SdRange> {
+    let mut numbers = vec![sample.get(Statistic::Sd)?.clone(), sample.get(Statistic::Mean)?.clone()];
+    let ends = match (sample.get(Statistic::Min), sample.get(Statistic::Max)) {
+        (Some(min), Some(max)) => {
+            numbers.extend([min.clone(), max.clone()]);
+            None
+        }
+        _ if sample.is_count => return None,
+        _ => Some([sample.least?, sample.most?]),
+    };
+    Some(SdRange { numbers, ends, n: sample.n.filter(|n| *n > 1), divisor: sample.divisor })
+}
+
+impl SdRange {
+    fn range(&self, prints: &[Print]) -> [Span; 2] {
+        match self.ends {
+            Some(ends) => ends.map(Span::point),
+            None => [prints[2].span(), prints[3].span()],
+        }
+    }
+
+    /// By how much the variance may exceed the population's.
+    fn factor(&self) -> Option<Exact> {
+        match (self.divisor, self.n) {
+            (Divisor::Population, _) => Some(whole(1)),
+            (_, Some(n)) => div(count(n), count(n - 1)),
+            (_, None) => Some(whole(2)),
+        }
+    }
+
+    /// The greatest variance there can be.
+    fn most(&self, prints: &[Print]) -> Option<Exact> {
+        let [min, max] = self.range(prints);
+        let mean = prints[1].span();
+        let centre = div(add(min.low, max.high)?, whole(2))?;
+        let at = centre.max(mean.low).min(mean.high);
+        let product = mul(sub(max.high, at)?, sub(at, min.low)?)?;
+        mul(product.max(whole(0)), self.factor()?)
+    }
+
+    /// The least variance there can be if both ends are attained; none if that is not known.
+    fn least(&self, prints: &[Print]) -> Option<Exact> {
+        let (n, None) = (self.n?, self.ends) else { return None };
+        let [min, max] = self.range(prints);
+        let range = sub(max.low, min.high)?.max(whole(0));
+        let divisor = if self.divisor == Divisor::Sample { n - 1 } else { n };
+        div(mul(range, range)?, mul(whole(2), count(divisor))?)
+    }
+}
+
+impl Test for SdRange {
+    fn numbers(&self) -> &[Quoted] {
+        &self.numbers
+    }
+
+    fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        let squared = prints[0].span().squared()?;
+        let is_enough = self.least(prints).is_none_or(|least| least <= squared.high);
+        Some(squared.low <= self.most(prints)? && is_enough)
+    }
+
+    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+        let root = |value: Exact| (*value.numer() as f64 / *value.denom() as f64).sqrt();
+        let sd = prints[0].printed;
+        let places = sd.decimals() as usize + 2;
+        let end =
+            |value: Option<Exact>| value.map_or("?".to_owned(), |value| format!("{:.places$}", root(value)));
+        let [min, max] = self.range(prints);
+        let verb = if is_possible { "is within" } else { "is outside" };
+        let least = self.least(prints).map_or("0".to_owned(), |least| end(Some(least)));
+        format!(
+            "deviation {sd} {verb} {least} to {}, which mean {} between {} and {} allows",
+            end(self.most(prints)),
+            prints[1].printed,
+            shown(min.low, 6),
+            shown(max.high, 6)
+        )
+    }
+
+    fn premises(&self) -> Vec<String> {
+        let n = self.n.map_or(String::new(), |n| format!(" {n}"));
+        vec![format!("mean, deviation and range are of the same{n} values"), digits(&self.numbers)]
+    }
+
+    fn window(&self) -> Option<[Exact; 2]> {
+        up_to_twice(self.numbers[0].print)
+    }
+
+    fn proof(&self, prints: &[Print]) -> Option<Proof> {
+        let squared = prints[0].span().squared()?;
+        let most = self.most(prints)?;
+        let given = json!({
+            "n": self.n.map(|n| n.to_string()),
+            "divisor": match self.divisor {
+                Divisor::Sample => "sample",
+                Divisor::Population => "population",
+                Divisor::Either => "either",
+            },
+            "ends": self.ends.map(|ends| ends.map(spelled)),
+        });
+        let steps = if squared.low > most {
+            json!([{ "squared_at_least": spelled(squared.low), "most": spelled(most) }])
+        } else {
+            json!([{ "squared_at_most": spelled(squared.high), "least": spelled(self.least(prints)?) }])
+        };
+        Some(Proof { given, steps })
+    }
+}

@@ -1,0 +1,319 @@
+//! Exact arithmetic on printed numbers: rationals of 128-bit integers and the spans of values that print alike.
+//!
+//! Every operation is checked: where 128 bits do not suffice it gives `None`, and whoever asked says that the number was
+//! not checked. Nothing is decided by a float.
+
+use super::printed::{Digits, Printed};
+use num_rational::Ratio;
+use num_traits::{CheckedAdd as _, CheckedDiv as _, CheckedMul as _, CheckedSub as _};
+use serde_json::{Value, json};
+
+/// An exact rational number.
+pub type Exact = Ratio<i128>;
+
+/// A printed number and how its digits are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Print {
+    /// What is printed.
+    pub printed: Printed,
+    /// How its digits end.
+    pub digits: Digits,
+}
+
+/// True values between two exact ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Span {
+    /// The lower end …
+    pub low: Exact,
+    /// … and whether it is a member.
+    pub low_closed: bool,
+    /// The upper end …
+    pub high: Exact,
+    /// … and whether it is a member.
+    pub high_closed: bool,
+}
+
+/// The whole number `n`.
+pub fn whole(n: impl Into<i128>) -> Exact {
+    Exact::from_integer(n.into())
+}
+
+/// `a + b`, if 128 bits suffice.
+pub fn add(a: Exact, b: Exact) -> Option<Exact> {
+    a.checked_add(&b)
+}
+
+/// `a − b`, if 128 bits suffice.
+pub fn sub(a: Exact, b: Exact) -> Option<Exact> {
+    a.checked_sub(&b)
+}
+
+/// `a b`, if 128 bits suffice.
+pub fn mul(a: Exact, b: Exact) -> Option<Exact> {
+    a.checked_mul(&b)
+}
+
+/// `a / b`, if `b` is not 0 and 128 bits suffice.
+pub fn div(a: Exact, b: Exact) -> Option<Exact> {
+    if b == whole(0) { None } else { a.checked_div(&b) }
+}
+
+/// The greatest integer not above `a`.
+pub fn floor(a: Exact) -> i128 {
+    a.numer().div_euclid(*a.denom())
+}
+
+/// The least integer not below `a`.
+pub fn ceil(a: Exact) -> i128 {
+    let rest = i128::from(a.numer().rem_euclid(*a.denom()) > 0);
+    floor(a) + rest
+}
+
+/// As certificates write it: `3/8`, or `3` for a whole number.
+pub fn spelled(a: Exact) -> String {
+    a.to_string()
+}
+
+/// A value in decimals for people, rounded to `decimals` places.
+pub fn decimal(a: Exact, decimals: usize) -> String {
+    format!("{:.decimals$}", *a.numer() as f64 / *a.denom() as f64)
+}
+
+/// The rational that a decimal (`0.25`, `-3`) or a fraction (`1/64`) spells; none if it is neither.
+pub fn parse(text: &str) -> Option<Exact> {
+    let number = |text: &str| -> Option<Exact> {
+        let printed: Printed = text.trim().parse().ok()?;
+        Some(Exact::new(i128::from(printed.units()), i128::from(printed.scale())))
+    };
+    match text.split_once('/') {
+        Some((above, below)) => div(number(above)?, number(below)?),
+        None => number(text),
+    }
+}
+
+impl Print {
+    /// The number that the digits say.
+    pub fn value(self) -> Exact {
+        Exact::new(i128::from(self.printed.units()), i128::from(self.printed.scale()))
+    }
+
+    /// The true values that print so.
+    pub fn span(self) -> Span {
+        let ends = self.printed.half_units(self.digits);
+        let half = 2 * i128::from(self.printed.scale());
+        Span {
+            low: Exact::new(i128::from(ends.low), half),
+            low_closed: ends.low_closed,
+            high: Exact::new(i128::from(ends.high), half),
+            high_closed: ends.high_closed,
+        }
+    }
+}
+
+impl Span {
+    /// The one value `at`.
+    pub fn point(at: Exact) -> Self {
+        Self::closed(at, at)
+    }
+
+    /// Everything from `low` to `high`, both included.
+    pub fn closed(low: Exact, high: Exact) -> Self {
+        Self { low, low_closed: true, high, high_closed: true }
+    }
+
+    /// Whether `x` is a member.
+    pub fn contains(&self, x: Exact) -> bool {
+        (self.low < x || self.low_closed && self.low == x)
+            && (x < self.high || self.high_closed && self.high == x)
+    }
+
+    /// Whether it has no member.
+    pub fn is_empty(&self) -> bool {
+        self.low > self.high || self.low == self.high && !(self.low_closed && self.high_closed)
+    }
+
+    /// What both hold; it may be empty.
+    #[must_use]
+    pub fn meet(&self, other: &Self) -> Self {
+        let (low, low_closed) = match self.low.cmp(&other.low) {
+            std::cmp::Ordering::Less => (other.low, other.low_closed),
+            std::cmp::Ordering::Equal => (self.low, self.low_closed && other.low_closed),
+            std::cmp::Ordering::Greater => (self.low, self.low_closed),
+        };
+        let (high, high_closed) = match self.high.cmp(&other.high) {
+            std::cmp::Ordering::Less => (self.high, self.high_closed),
+            std::cmp::Ordering::Equal => (self.high, self.high_closed && other.high_closed),
+            std::cmp::Ordering::Greater => (other.high, other.high_closed),
+        };
+        Self { low, low_closed, high, high_closed }
+    }
+
+    /// The members that are not outside of the ends given.
+    #[must_use]
+    pub fn cut(&self, [least, most]: [Option<Exact>; 2]) -> Self {
+        let mut cut = *self;
+        if let Some(least) = least.filter(|least| *least > cut.low) {
+            (cut.low, cut.low_closed) = (least, true);
+        }
+        if let Some(most) = most.filter(|most| *most < cut.high) {
+            (cut.high, cut.high_closed) = (most, true);
+        }
+        cut
+    }
+
+    /// Whether the two have a member in common.
+    pub fn meets(&self, other: &Self) -> bool {
+        !self.meet(other).is_empty()
+    }
+
+    /// The sums of a member of each.
+    pub fn plus(&self, other: &Self) -> Option<Self> {
+        Some(Self {
+            low: add(self.low, other.low)?,
+            low_closed: self.low_closed && other.low_closed,
+            high: add(self.high, other.high)?,
+            high_closed: self.high_closed && other.high_closed,
+        })
+    }
+
+    /// Every member times `factor`, which is above 0.
+    pub fn times(&self, factor: Exact) -> Option<Self> {
+        Some(Self { low: mul(self.low, factor)?, high: mul(self.high, factor)?, ..*self })
+    }
+
+    /// The quotients of a member by one of `other`, of which those above 0 count; none if the lower end here is
+    /// negative or `other` may be 0, where the quotient is unbounded.
+    pub fn over(&self, other: &Self) -> Option<Self> {
+        if self.low < whole(0) || other.low <= whole(0) {
+            return None;
+        }
+        Some(Self {
+            low: div(self.low, other.high)?,
+            low_closed: self.low_closed && other.high_closed,
+            high: div(self.high, other.low)?,
+            high_closed: self.high_closed && other.low_closed,
+        })
+    }
+
+    /// The squares of the members that are not negative; none of it if there are no such members.
+    pub fn squared(&self) -> Option<Self> {
+        let cut = self.not_negative();
+        Some(Self { low: mul(cut.low, cut.low)?, high: mul(cut.high, cut.high)?, ..cut })
+    }
+
+    /// The members that are not negative.
+    #[must_use]
+    pub fn not_negative(&self) -> Self {
+        if self.low < whole(0) { Self { low: whole(0), low_closed: true, ..*self } } else { *self }
+    }
+
+    /// The first and the last whole number among the members; the first is above the last if there is none.
+    pub fn integers(&self) -> (i128, i128) {
+        let (mut first, mut last) = (ceil(self.low), floor(self.high));
+        if !self.low_closed && whole(first) == self.low {
+            first += 1;
+        }
+        if !self.high_closed && whole(last) == self.high {
+            last -= 1;
+        }
+        (first, last)
+    }
+
+    /// Whether a multiple of `step`, which is above 0, is a member.
+    pub fn has_multiple_of(&self, step: Exact) -> Option<bool> {
+        let (first, last) = self.times(step.recip())?.integers();
+        Some(first <= last)
+    }
+}
+
+/// A span as `["[", "1/2", "3/4", ")"]`: a bracket for an end that is a member, a parenthesis for one that is not.
+pub fn span(span: &Span) -> Value {
+    json!([
+        if span.low_closed { "[" } else { "(" },
+        spelled(span.low),
+        spelled(span.high),
+        if span.high_closed { "]" } else { ")" },
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn span(text: &str, digits: Digits) -> Span {
+        Print { printed: text.parse().unwrap(), digits }.span()
+    }
+
+    #[test]
+    fn a_span_holds_exactly_the_values_that_each_rounding_prints_so() {
+        // The oracle rounds integers: v in thousandths, printed to tenths.
+        let oracle = |v: i64, digits: Digits| -> i64 {
+            let (down, rest) = (v.div_euclid(100), v.rem_euclid(100));
+            let up = down + i64::from(rest > 0);
+            let away = if v >= 0 { down + 1 } else { down };
+            let nearest = |tie: i64| match rest.cmp(&50) {
+                std::cmp::Ordering::Less => down,
+                std::cmp::Ordering::Equal => tie,
+                std::cmp::Ordering::Greater => down + 1,
+            };
+            match digits {
+                Digits::HalfUp => nearest(away),
+                Digits::HalfEven => nearest(if down % 2 == 0 { down } else { down + 1 }),
+                Digits::Floor => down,
+                Digits::Ceiling => up,
+                _ => {
+                    if v >= 0 {
+                        down
+                    } else {
+                        up
+                    }
+                }
+            }
+        };
+        let ways = [Digits::HalfUp, Digits::HalfEven, Digits::Floor, Digits::Ceiling, Digits::Truncated];
+        for v in -700..=700_i64 {
+            for digits in ways {
+                for units in -8..=8_i64 {
+                    let print = Print { printed: Printed::from_units(units, 1), digits };
+                    let is_member = print.span().contains(Exact::new(i128::from(v), 1000));
+                    assert_eq!(is_member, oracle(v, digits) == units, "{v} as {units} by {digits:?}");
+                    let any = Print { digits: Digits::Any, ..print };
+                    assert!(!is_member || any.span().contains(Exact::new(i128::from(v), 1000)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn whole_numbers_at_open_ends_are_left_out() {
+        assert_eq!(span("3", Digits::Any).integers(), (3, 3));
+        assert_eq!(span("0.5", Digits::Any).integers(), (1, 0));
+        assert_eq!(span("0.9", Digits::Any).integers(), (1, 0));
+        assert_eq!(span("0.9", Digits::Ceiling).integers(), (1, 0));
+        assert_eq!(span("1.0", Digits::Ceiling).integers(), (1, 1));
+        assert_eq!(span("-1.5", Digits::Rounded).times(whole(2)).unwrap().integers(), (-3, -3));
+        assert_eq!(span("33.3", Digits::Any).has_multiple_of(Exact::new(100, 250)), Some(false));
+        assert_eq!(span("33.2", Digits::Any).has_multiple_of(Exact::new(100, 250)), Some(true));
+    }
+
+    #[test]
+    fn decimals_and_fractions_are_read_exactly() {
+        for (text, value) in
+            [("1/64", Some(Exact::new(1, 64))), ("0.25", Some(Exact::new(1, 4))), ("-3", Some(whole(-3)))]
+        {
+            assert_eq!(parse(text), value, "{text}");
+        }
+        for text in ["", "1/0", "1/2/3", "x", "1e3"] {
+            assert_eq!(parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_too_long_for_exact_arithmetic_are_none_and_not_a_panic() {
+        let long = Exact::new(i128::MAX, 3);
+        assert_eq!(
+            (mul(long, long), add(long, Exact::new(i128::MAX, 7)), div(long, whole(0))),
+            (None, None, None)
+        );
+    }
+}

@@ -1,0 +1,90 @@
+//! What an audit is made of: tables, samples, named cells, and relations between them.
+
+use super::exact::Print;
+use super::meaning::Meaning;
+use super::printed::{Digits, Printed};
+use super::relation::{Named, Relation};
+use super::sample::{self, Sample};
+use super::statistic::Statistic;
+use super::table::{Place, Quoted, Table, quoted};
+use std::collections::BTreeMap;
+
+/// Everything that was read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Input {
+    /// The tables.
+    pub tables: Vec<Table>,
+    /// Samples that were written down as such.
+    pub samples: Vec<Sample>,
+    /// Relations between printed numbers.
+    pub relations: Vec<Relation>,
+    /// Cells by name.
+    cells: BTreeMap<String, Quoted>,
+}
+
+impl Input {
+    /// The input that consists of these tables. Cells of tables with a name are called `table/row/column`.
+    pub fn of_tables(tables: Vec<Table>) -> Self {
+        Self { tables, ..Self::default() }
+    }
+
+    /// Whether there is nothing to look at.
+    pub fn is_empty(&self) -> bool {
+        self.tables.is_empty() && self.samples.is_empty() && self.relations.is_empty()
+    }
+
+    /// Names a cell.
+    pub fn name(&mut self, name: String, printed: Printed, digits: Digits, place: Place) {
+        let quoted = Quoted { name: name.clone(), place, print: Print { printed, digits }, cell: None };
+        self.cells.insert(name, quoted);
+    }
+
+    /// Takes a sample by its statistics.
+    pub fn take_sample(
+        &mut self,
+        name: &str,
+        meaning: &Meaning,
+        statistics: &[(Statistic, Printed)],
+        place: Place,
+    ) {
+        let quoted = |(statistic, printed): &(Statistic, Printed)| {
+            let print = Print { printed: *printed, digits: meaning.digits };
+            let name = format!("{} of {name}", statistic.name());
+            (*statistic, Quoted { name, place, print, cell: None })
+        };
+        let numbers = statistics.iter().map(quoted).collect();
+        self.samples.push(sample::of_meaning(name, meaning, sample::number(meaning), numbers));
+    }
+}
+
+impl Named for Input {
+    fn cell(&self, name: &str) -> Option<Quoted> {
+        self.cells.get(name).cloned().or_else(|| {
+            self.tables.iter().enumerate().find_map(|(index, table)| {
+                let rest = name.strip_prefix(table.name.as_str())?.strip_prefix('/')?;
+                (0..table.rows.len()).find_map(|row| {
+                    let column =
+                        table.column(rest.strip_prefix(table.row_name(row).as_str())?.strip_prefix('/')?)?;
+                    quoted(index, table, row, column)
+                })
+            })
+        })
+    }
+
+    fn sample(&self, name: &str) -> Option<Sample> {
+        let mut found = None;
+        self.each_sample(&mut |sample| {
+            if sample.name == name || sample.path == name {
+                found = Some(sample.clone());
+            }
+        });
+        found
+    }
+
+    fn each_sample(&self, give: &mut dyn FnMut(&Sample)) {
+        self.samples.iter().for_each(&mut *give);
+        for (index, table) in self.tables.iter().enumerate() {
+            sample::each(index, table, give);
+        }
+    }
+}

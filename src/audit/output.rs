@@ -1,0 +1,206 @@
+//! A report for people, a line a finding, and for programs, as JSON.
+
+use super::checks::REGISTRY;
+use super::input::Input;
+use super::meaning::{ITEMS, Kind};
+use super::reader;
+use super::report::{Class, Finding, Report};
+use super::table::Table;
+use super::witness::Witness;
+use serde_json::{Value, json};
+
+/// A finding in one line: place, class, name, what was found, and how far to trust it.
+pub fn line(source: &str, finding: &Finding) -> String {
+    let mut line =
+        format!("{source}:{}: {}: {}: {}", finding.place, finding.class.name(), finding.name, finding.said);
+    let mut notes = vec![finding.check.to_owned()];
+    if let Some(power) = finding.power {
+        notes.push(format!("refuses {:.0} % of {} prints", 100.0 * power.share(), power.tried));
+    }
+    match &finding.mend {
+        Some(mend) => {
+            notes.push(format!("least change: {} from {} to {}", mend.name, mend.from, mend.to));
+            notes.extend(mend.changes_ranking.map(|changes| {
+                if changes { "the ranking changes with it" } else { "the ranking stays" }.to_owned()
+            }));
+        }
+        None if finding.class == Class::Impossible => {
+            notes.push("no small change of one number mends it".to_owned());
+        }
+        None => {}
+    }
+    if finding.class != Class::Possible {
+        notes.push(format!("if {}", finding.premises.join("; ")));
+    }
+    line += &format!(" [{}]", notes.join("; "));
+    if let Some(witness) = &finding.witness {
+        line += &format!(" {}", witness_line(witness));
+    }
+    line
+}
+
+fn witness_line(witness: &Witness) -> String {
+    let [taken, budget] = witness.steps;
+    let how = if witness.is_all { "all" } else { "some" };
+    format!("data ({how} of them, {taken} of {budget} steps): {}", witness.vectors.join(" | "))
+}
+
+/// What each check did, a line a check.
+pub fn summary(report: &Report) -> Vec<String> {
+    let line = |(name, tally): (&&str, &super::report::Tally)| {
+        let power = match tally.powers {
+            0 => "power not computed".to_owned(),
+            powers => {
+                format!("refuses {:.0} % of prints on average", 100.0 * tally.power_sum / powers as f64)
+            }
+        };
+        let mut counts = vec![format!("{} impossible", tally.impossible)];
+        if tally.signals > 0 {
+            counts.push(format!("{} signals", tally.signals));
+        }
+        if tally.unchecked > 0 {
+            counts.push(format!("{} not decided", tally.unchecked));
+        }
+        format!("{name}: {} looked at, {}; {power}", tally.applied, counts.join(", "))
+    };
+    report.tally.iter().map(line).collect()
+}
+
+/// What was guessed, with a header to correct.
+pub fn guesses(source: &str, input: &Input) -> Vec<String> {
+    let guessed = input.tables.iter().filter_map(|table| {
+        let names: Vec<&str> = table
+            .columns
+            .iter()
+            .filter(|column| column.written.is_none() && column.meaning.kind != Kind::Skip)
+            .map(|column| column.name.as_str())
+            .collect();
+        let header = reader::stub(table).join(" | ");
+        (!names.is_empty()).then(|| {
+            format!(
+                "{source}:{}: guessed what {} are; correct the header: | {header} |",
+                table.line,
+                names.join(", ")
+            )
+        })
+    });
+    guessed.collect()
+}
+
+/// The whole report, with the header of every table of which a column was guessed.
+pub fn json(source: &str, input: &Input, report: &Report) -> Value {
+    let findings: Vec<Value> = report.findings.iter().map(finding).collect();
+    let checks: Vec<Value> = report
+        .tally
+        .iter()
+        .map(|(name, tally)| {
+            json!({
+                "check": name,
+                "applied": tally.applied,
+                "impossible": tally.impossible,
+                "signals": tally.signals,
+                "not_decided": tally.unchecked,
+                "mean_power": (tally.powers > 0).then(|| tally.power_sum / tally.powers as f64),
+            })
+        })
+        .collect();
+    let is_guessed = |table: &&Table| table.columns.iter().any(|column| column.written.is_none());
+    let guessed = input
+        .tables
+        .iter()
+        .filter(is_guessed)
+        .map(|table| json!({ "line": table.line, "header": reader::stub(table) }));
+    let guessed: Vec<Value> = guessed.collect();
+    json!({ "source": source, "guessed": guessed, "findings": findings, "checks": checks })
+}
+
+fn finding(finding: &Finding) -> Value {
+    json!({
+        "check": finding.check,
+        "class": finding.class.name(),
+        "line": finding.place.line,
+        "cell": finding.place.cell,
+        "name": finding.name,
+        "said": finding.said,
+        "premises": finding.premises,
+        "readings": finding.readings,
+        "power": finding.power.map(|power| json!({
+            "share": power.share(),
+            "refused": power.refused,
+            "tried": power.tried,
+            "from": power.low.to_string(),
+            "to": power.high.to_string(),
+        })),
+        "mend": finding.mend.as_ref().map(|mend| json!({
+            "name": mend.name,
+            "from": mend.from.to_string(),
+            "to": mend.to.to_string(),
+            "changes_ranking": mend.changes_ranking,
+        })),
+        "certificate": finding.certificate,
+        "witness": finding.witness.as_ref().map(|witness| json!({
+            "vectors": witness.vectors,
+            "is_all": witness.is_all,
+            "steps_taken": witness.steps[0],
+            "steps_allowed": witness.steps[1],
+        })),
+    })
+}
+
+/// Every check and every item of an annotation, for `--list`.
+pub fn list() -> String {
+    let mut text = String::from("Checks:\n");
+    for entry in REGISTRY {
+        text += &format!("  {}: {}\n", entry.name, entry.about);
+        text += &format!(
+            "      refuses: {}\n      if: {}\n      source: {}\n",
+            entry.example, entry.premises, entry.source
+        );
+        if let Some(form) = &entry.relation {
+            text += &format!(
+                "      in TOML: [[relation]] check = \"{}\", {}\n",
+                entry.name,
+                form.keys.join(", ")
+            );
+        }
+    }
+    text += "\nItems of an annotation, `name [item, item]`:\n";
+    for (item, says) in ITEMS {
+        text += &format!("  {item}\n      {says}\n");
+    }
+    text
+}
+
+/// Checks of which what is possible is worth a line on the page of public tables.
+const POSSIBLE: [&str; 6] = ["clock", "grim", "lattice", "ratio_label", "reduction", "total_over_mean"];
+
+/// What is impossible or a signal, and what each check did, as a section of Markdown under `title`.
+pub fn section(title: &str, about: &str, report: &Report) -> String {
+    let mut text = format!("## {title}\n\n{}\n\n", about.trim());
+    let found = report.findings.iter().filter(|finding| finding.class < Class::Possible);
+    for finding in found {
+        text += &format!(
+            "- **{}** ({}): {}: {}",
+            finding.class.name(),
+            finding.check,
+            finding.name,
+            finding.said
+        );
+        if let Some(power) = finding.power {
+            text += &format!(". The check refuses {:.0} % of prints here", 100.0 * power.share());
+        }
+        if let Some(mend) = &finding.mend {
+            text += &format!("; the least change is {} from {} to {}", mend.name, mend.from, mend.to);
+        }
+        text += &format!(". Premises: {}.\n", finding.premises.join("; "));
+    }
+    let possible = report.findings.iter().filter(|finding| finding.class == Class::Possible);
+    for finding in possible.filter(|finding| POSSIBLE.contains(&finding.check)) {
+        text += &format!("- possible ({}): {}: {}.\n", finding.check, finding.name, finding.said);
+    }
+    text += "\nIn all:\n\n";
+    for line in summary(report) {
+        text += &format!("- {line}\n");
+    }
+    text + "\n"
+}

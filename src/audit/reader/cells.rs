@@ -1,0 +1,188 @@
+//! What stands in a cell: a number, a number with its spread, or nothing.
+
+use crate::printed::Printed;
+
+/// What a cell of a column of numbers holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Number {
+    /// Nothing: empty, a dash, `n/a`.
+    Missing,
+    /// A number, and what stands after `±` or in brackets.
+    Plain {
+        /// The number.
+        value: Printed,
+        /// What stands after `±` or in brackets.
+        spread: Option<Printed>,
+    },
+}
+
+/// What marks a cell without a number.
+const MISSING: [&str; 8] = ["", "-", "–", "—", "n/a", "na", "nan", "none"];
+
+/// A cell's text without emphasis and mathematics, and whether it was bold.
+pub fn plain(text: &str) -> (String, bool) {
+    let mut text = text.trim();
+    let mut is_bold = false;
+    loop {
+        let inner = [
+            ("**", "**", true),
+            ("__", "__", true),
+            ("<b>", "</b>", true),
+            ("\\textbf{", "}", true),
+            ("$", "$", false),
+        ]
+        .into_iter()
+        .find_map(|(open, close, bold)| Some((text.strip_prefix(open)?.strip_suffix(close)?, bold)));
+        let Some((inner, bold)) = inner else { return (text.replace("\\|", "|"), is_bold) };
+        text = inner.trim();
+        is_bold |= bold;
+    }
+}
+
+/// Reads a number, `1.2 ± 0.07`, `1.2 (0.07)`, with or without `%`.
+///
+/// # Errors
+/// What is wrong and what is accepted, in words.
+pub fn number(text: &str) -> Result<Number, String> {
+    let text = text.trim();
+    if MISSING.contains(&text.to_lowercase().as_str()) {
+        return Ok(Number::Missing);
+    }
+    let bracketed = || text.strip_suffix(')').and_then(|text| text.split_once('('));
+    let pair = ["±", "+/-", "+-", "\\pm"].iter().find_map(|mark| text.split_once(mark)).or_else(bracketed);
+    match pair {
+        Some((value, spread)) => {
+            Ok(Number::Plain { value: one(value, text)?, spread: Some(one(spread, text)?) })
+        }
+        None => Ok(Number::Plain { value: one(text, text)?, spread: None }),
+    }
+}
+
+/// One number; `cell` is the whole text, for the message.
+fn one(text: &str, cell: &str) -> Result<Printed, String> {
+    let text = text.trim();
+    let text = text.strip_suffix("\\%").or_else(|| text.strip_suffix('%')).unwrap_or(text).trim();
+    let text = text.strip_prefix('+').unwrap_or(text);
+    text.parse().map_err(|_| {
+        let shown: String = cell.chars().take(40).collect();
+        format!(
+            "`{shown}` {}; accepted: 14.65, -0.5, 1.2 ± 0.07, 1.2 (0.07), or - for nothing",
+            complaint(text)
+        )
+    })
+}
+
+/// What is wrong with a text that is no number.
+fn complaint(text: &str) -> &'static str {
+    let is_number =
+        |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let without = |marks: &[char]| text.trim_start_matches(['-', '−']).replace(marks, "");
+    if text.bytes().filter(u8::is_ascii_digit).count() > 15 && is_number(&without(&[])) {
+        return "has more than 15 digits";
+    }
+    let commas = text.matches(',').count();
+    if commas > 0 && is_number(&without(&[','])) {
+        let (_, rest) = text.rsplit_once(',').unwrap_or_default();
+        return match (commas, text.contains('.'), rest.len()) {
+            (1, false, 3) => "may have a thousands separator or a decimal comma; write 1234 or 1.234",
+            (1, false, _) => "has a decimal comma; write a point",
+            _ => "has thousands separators; write the number without",
+        };
+    }
+    if is_number(&without(&[' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '’', '_'])) {
+        return "has thousands separators; write the number without";
+    }
+    if text.parse::<f64>().is_ok_and(f64::is_finite) && text.contains(['e', 'E']) {
+        return "has an exponent, which hides digits; write the number out";
+    }
+    "is no number"
+}
+
+/// The number with as many decimals as `significant` digits give, where trailing zeros were left out.
+pub fn with_digits(printed: Printed, significant: Option<u32>) -> Printed {
+    let Some(significant) = significant else { return printed };
+    // Digits before the first one that counts: 0.097 has its first at the second decimal.
+    let units = printed.units().unsigned_abs();
+    let length = if units == 0 { printed.decimals() + 1 } else { units.ilog10() + 1 };
+    let decimals = i64::from(significant) - i64::from(length) + i64::from(printed.decimals());
+    let Ok(decimals) = u32::try_from(decimals) else { return printed };
+    let more = decimals.saturating_sub(printed.decimals());
+    let units = 10_i64.checked_pow(more).and_then(|scale| printed.units().checked_mul(scale));
+    match units {
+        Some(units) if decimals <= 15 && units.unsigned_abs() < 10_u64.pow(15) => {
+            Printed::from_units(units, printed.decimals() + more)
+        }
+        _ => printed,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> String {
+        match number(text) {
+            Ok(Number::Missing) => "missing".to_owned(),
+            Ok(Number::Plain { value, spread }) => {
+                spread.map_or_else(|| value.to_string(), |spread| format!("{value} ± {spread}"))
+            }
+            Err(message) => message,
+        }
+    }
+
+    #[test]
+    fn numbers_keep_their_trailing_zeros_and_spreads() {
+        for (text, said) in [
+            ("14.650", "14.650"),
+            ("−0.5", "-0.5"),
+            ("99.7%", "99.7"),
+            ("1.2 ± 0.07", "1.2 ± 0.07"),
+            ("1.2±0.07 %", "1.2 ± 0.07"),
+            ("1.20 +/- 0.07", "1.20 ± 0.07"),
+            ("1.2 (0.07)", "1.2 ± 0.07"),
+            ("—", "missing"),
+            ("N/A", "missing"),
+        ] {
+            assert_eq!(read(text), said, "{text}");
+        }
+        assert_eq!(plain(" **$1.2$** "), ("1.2".to_owned(), true));
+        assert_eq!(plain("\\textbf{3}"), ("3".to_owned(), true));
+    }
+
+    #[test]
+    fn what_is_no_number_says_why() {
+        for (text, said) in [
+            ("1,234", "thousands separator or a decimal comma"),
+            ("1,234,567", "has thousands separators"),
+            ("1,234.5", "has thousands separators"),
+            ("1 234", "has thousands separators"),
+            ("1\u{2009}234", "has thousands separators"),
+            ("12,5", "has a decimal comma"),
+            ("1e-3", "has an exponent"),
+            ("1234567890123456", "more than 15 digits"),
+            ("fast", "is no number"),
+            ("1.2 ± ", "is no number"),
+            ("(", "is no number"),
+        ] {
+            let found = number(text).unwrap_err();
+            assert!(found.contains(said) && found.contains("accepted"), "{text}: {found}");
+        }
+    }
+
+    #[test]
+    fn significant_digits_give_back_the_zeros_left_out() {
+        let shown = |text: &str| with_digits(text.parse().unwrap(), Some(6)).to_string();
+        for (text, full) in [
+            ("2.5", "2.50000"),
+            ("216", "216.000"),
+            ("0.968027", "0.968027"),
+            ("0.5", "0.500000"),
+            ("108226", "108226"),
+            ("1234567", "1234567"),
+            ("16823.6", "16823.6"),
+            ("0", "0.00000"),
+        ] {
+            assert_eq!(shown(text), full);
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! TOML with tables, cells, samples and relations between them.
+
+use super::Raw;
+use crate::asked;
+use crate::input::Input;
+use crate::meaning::{self, Meaning};
+use crate::printed::Digits;
+use crate::statistic::Statistic;
+use crate::table::{Fault, Place};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::{Spanned, Value};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    /// Said of the whole file; not used.
+    #[serde(default, rename = "about")]
+    _about: String,
+    rounding: Option<Spanned<String>>,
+    #[serde(default)]
+    cells: BTreeMap<String, Spanned<String>>,
+    #[serde(default)]
+    table: Vec<TableText>,
+    #[serde(default)]
+    sample: Vec<Spanned<BTreeMap<String, Value>>>,
+    #[serde(default)]
+    relation: Vec<Spanned<BTreeMap<String, Value>>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TableText {
+    name: Spanned<String>,
+    text: Spanned<String>,
+}
+
+/// Reads the document; none, with a fault, if it is no TOML or has other fields.
+pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
+    let line = |at: usize| Place {
+        line: 1 + text.get(..at).map_or(0, |before| before.matches('\n').count()),
+        cell: 0,
+    };
+    let document: Document = match toml::from_str(text) {
+        Ok(document) => document,
+        Err(error) => {
+            let place = line(error.span().map_or(0, |span| span.start));
+            faults.push(Fault::new(place, error.message().to_owned()));
+            return None;
+        }
+    };
+    let digits = digits_of(document.rounding.as_ref(), line, faults);
+    let raw = |table: &TableText| raw_of(table, line(table.text.span().start), faults);
+    let raws: Vec<Raw> = document.table.iter().filter_map(raw).collect();
+    let mut input = Input::of_tables(super::tables(raws, faults));
+    for (name, cell) in document.cells {
+        let place = line(cell.span().start);
+        match super::cells::number(cell.get_ref()) {
+            Ok(super::Number::Plain { value, spread: None }) => input.name(name, value, digits, place),
+            Ok(_) => faults.push(Fault::new(place, format!("cell `{name}`: one number is accepted here"))),
+            Err(message) => faults.push(Fault::new(place, format!("cell `{name}`: {message}"))),
+        }
+    }
+    for sample in document.sample {
+        let place = line(sample.span().start);
+        if let Err(message) = take_sample(&mut input, sample.into_inner(), digits, place) {
+            faults.push(Fault::new(place, message));
+        }
+    }
+    for relation in document.relation {
+        let place = line(relation.span().start);
+        match asked::read(relation.into_inner(), digits, place) {
+            Ok(relation) => input.relations.push(relation),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    Some(input)
+}
+
+/// The table whose text starts at `place`; none, with a fault, if it is not one Markdown table.
+fn raw_of(table: &TableText, place: Place, faults: &mut Vec<Fault>) -> Option<Raw> {
+    // The text of a string in three quotes starts a line below its quotes.
+    let mut found = super::markdown::raw(table.text.get_ref(), place.line + 1, faults);
+    let name = table.name.get_ref();
+    match found.pop() {
+        Some(raw) if found.is_empty() => Some(Raw { name: name.clone(), ..raw }),
+        _ => {
+            faults.push(Fault::new(place, format!("table `{name}`: its text must hold one Markdown table")));
+            None
+        }
+    }
+}
+
+/// How digits end where nothing else is said; unknown words are faults at the place that `line` gives.
+fn digits_of(
+    rounding: Option<&Spanned<String>>,
+    line: impl Fn(usize) -> Place,
+    faults: &mut Vec<Fault>,
+) -> Digits {
+    let Some(name) = rounding else { return Digits::Any };
+    meaning::rounding(name.get_ref()).unwrap_or_else(|| {
+        let message =
+            format!("rounding `{}` is not known; accepted: {}", name.get_ref(), meaning::roundings());
+        faults.push(Fault::new(line(name.span().start), message));
+        Digits::Any
+    })
+}
+
+/// Takes a sample: its name, what it is, and its statistics.
+fn take_sample(
+    input: &mut Input,
+    mut keys: BTreeMap<String, Value>,
+    digits: Digits,
+    place: Place,
+) -> Result<(), String> {
+    let text = |value: Option<Value>| match value {
+        None => Ok(String::new()),
+        Some(Value::String(text)) => Ok(text),
+        Some(other) => Err(format!("`{other}` is no text in quotes")),
+    };
+    let name = text(keys.remove("name"))?;
+    let mut meaning = Meaning::parse(&text(keys.remove("is"))?)?;
+    if meaning.digits == Digits::Any {
+        meaning.digits = digits;
+    }
+    let mut statistics = Vec::new();
+    for (key, value) in keys {
+        let statistic = Statistic::named(&key).ok_or_else(|| {
+            format!("sample `{name}` has the key `{key}`; accepted: name, is, mean, sd, se, min, q25, median, q75, max, total")
+        })?;
+        let text = text(Some(value))?;
+        match super::cells::number(&text)? {
+            super::Number::Plain { value, spread: None } => {
+                statistics.push((statistic, super::cells::with_digits(value, meaning.significant)));
+            }
+            _ => return Err(format!("sample `{name}`: `{key}` must be one number in quotes")),
+        }
+    }
+    if statistics.is_empty() {
+        return Err(format!("sample `{name}` has no statistic; a mean, sd, min, … is needed"));
+    }
+    input.take_sample(&name, &meaning, &statistics, place);
+    Ok(())
+}

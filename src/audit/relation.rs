@@ -1,0 +1,184 @@
+//! A relation of a TOML file: a check asked of numbers by name.
+
+use super::exact::{self, Exact, Print};
+use super::meaning::natural;
+use super::printed::Digits;
+use super::reader::{Number, number};
+use super::sample::Sample;
+use super::table::{Fault, Place, Quoted};
+use std::collections::BTreeMap;
+use toml::Value;
+
+/// What relations name.
+pub trait Named {
+    /// The cell of this name: one that was named, or `table/row/column`.
+    fn cell(&self, name: &str) -> Option<Quoted>;
+
+    /// The sample in a column of a table of statistics: `table/column`.
+    fn sample(&self, name: &str) -> Option<Sample>;
+
+    /// Gives every sample: those written down, and those in the rows and columns of tables.
+    fn each_sample(&self, give: &mut dyn FnMut(&Sample));
+}
+
+/// A check asked of numbers by name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Relation {
+    /// The check's name.
+    pub check: String,
+    /// What it is called; may be empty.
+    pub name: String,
+    /// Where it stands.
+    pub place: Place,
+    /// How digits end.
+    pub digits: Digits,
+    /// Its other keys.
+    pub(super) keys: BTreeMap<String, Value>,
+}
+
+impl Relation {
+    /// A fault at its place.
+    pub fn fault(&self, message: impl std::fmt::Display) -> Fault {
+        Fault::new(self.place, format!("relation `{}`: {message}", self.check))
+    }
+
+    /// Whether it has a key.
+    pub fn has(&self, key: &str) -> bool {
+        self.keys.contains_key(key)
+    }
+
+    /// A text; none without the key.
+    ///
+    /// # Errors
+    /// If it is no text.
+    pub fn text(&self, key: &str) -> Result<Option<&str>, Fault> {
+        match self.keys.get(key) {
+            None => Ok(None),
+            Some(Value::String(text)) => Ok(Some(text)),
+            Some(other) => Err(self.fault(format!("`{key}` is {other}; a text in quotes is accepted"))),
+        }
+    }
+
+    /// One of some words; the first without the key.
+    ///
+    /// # Errors
+    /// If it is another.
+    pub fn word(&self, key: &str, accepted: &[&'static str]) -> Result<&'static str, Fault> {
+        let Some(text) = self.text(key)? else { return Ok(accepted[0]) };
+        let found = accepted.iter().find(|word| **word == text).copied();
+        found.ok_or_else(|| self.fault(format!("`{key}` is `{text}`; accepted: {}", accepted.join(", "))))
+    }
+
+    /// A whole number above 0; none without the key.
+    ///
+    /// # Errors
+    /// If it is none.
+    pub fn natural(&self, key: &str) -> Result<Option<u64>, Fault> {
+        let Some(value) = self.keys.get(key) else { return Ok(None) };
+        let found = value.as_integer().and_then(|number| natural(&number.to_string()));
+        let accepted = "a whole number from 1 to 1000000000 is accepted";
+        found.map(Some).ok_or_else(|| self.fault(format!("`{key}` is {value}; {accepted}")))
+    }
+
+    /// As [`natural`](Self::natural), and it must be there.
+    ///
+    /// # Errors
+    /// If it is not there or no such number.
+    pub fn needed(&self, key: &str) -> Result<u64, Fault> {
+        self.natural(key)?
+            .ok_or_else(|| self.fault(format!("`{key}` is missing; a whole number is accepted")))
+    }
+
+    /// An exact number, written as a text or a whole number; none without the key.
+    ///
+    /// # Errors
+    /// If it is none.
+    pub fn exact(&self, key: &str) -> Result<Option<Exact>, Fault> {
+        let Some(value) = self.keys.get(key) else { return Ok(None) };
+        let found = match value {
+            Value::String(text) => exact::parse(text),
+            Value::Integer(number) => Some(exact::whole(*number)),
+            _ => None,
+        };
+        let accepted = "a decimal or a fraction in quotes is accepted, so that its digits stay";
+        found.map(Some).ok_or_else(|| self.fault(format!("`{key}` is {value}; {accepted}")))
+    }
+
+    /// A point `"X:Y"`; none without the key.
+    ///
+    /// # Errors
+    /// If it is none.
+    pub fn point(&self, key: &str) -> Result<Option<[Exact; 2]>, Fault> {
+        let Some(text) = self.text(key)? else { return Ok(None) };
+        let found = super::meaning::point(text);
+        found.map(Some).ok_or_else(|| self.fault(format!("`{key}` is `{text}`; a point \"X:Y\" is accepted")))
+    }
+
+    /// A printed number, by name or as it stands.
+    ///
+    /// # Errors
+    /// If it is missing, names no cell, or is no number.
+    pub fn number(&self, key: &str, named: &dyn Named) -> Result<Quoted, Fault> {
+        let text = self.text(key)?.ok_or_else(|| {
+            self.fault(format!(
+                "`{key}` is missing; a printed number or the name of a cell in quotes is accepted"
+            ))
+        })?;
+        self.resolve(key, text, named)
+    }
+
+    /// Printed numbers, each by name or as it stands.
+    ///
+    /// # Errors
+    /// If the list is missing, or one of them names no cell or is no number.
+    pub fn numbers(&self, key: &str, named: &dyn Named) -> Result<Vec<Quoted>, Fault> {
+        let list = self.keys.get(key).and_then(Value::as_array).filter(|list| !list.is_empty());
+        let accepted = "a list of printed numbers or names of cells in quotes is accepted";
+        let list = list.ok_or_else(|| self.fault(format!("`{key}` is missing or no list; {accepted}")))?;
+        let one = |value: &Value| {
+            let text =
+                value.as_str().ok_or_else(|| self.fault(format!("`{key}` holds {value}; {accepted}")))?;
+            self.resolve(key, text, named)
+        };
+        list.iter().map(one).collect()
+    }
+
+    /// Printed numbers, if the key is there.
+    ///
+    /// # Errors
+    /// As [`numbers`](Self::numbers).
+    pub fn numbers_if(&self, key: &str, named: &dyn Named) -> Result<Vec<Quoted>, Fault> {
+        if self.has(key) { self.numbers(key, named) } else { Ok(Vec::new()) }
+    }
+
+    /// A sample, by name.
+    ///
+    /// # Errors
+    /// If the key is missing or names none.
+    pub fn sample(&self, key: &str, named: &dyn Named) -> Result<Sample, Fault> {
+        let name = self.text(key)?.unwrap_or_default();
+        named.sample(name).ok_or_else(|| {
+            let mut known = Vec::new();
+            named.each_sample(&mut |sample| known.push(sample.path.clone()));
+            known.truncate(20);
+            self.fault(format!("`{key}` is `{name}`, which names no sample; there are: {}", known.join(", ")))
+        })
+    }
+
+    fn resolve(&self, key: &str, text: &str, named: &dyn Named) -> Result<Quoted, Fault> {
+        if let Some(quoted) = named.cell(text) {
+            return Ok(quoted);
+        }
+        let name = if self.name.is_empty() { key.to_owned() } else { format!("{key} of {}", self.name) };
+        match number(text) {
+            Ok(Number::Plain { value, spread: None }) => {
+                let print = Print { printed: value, digits: self.digits };
+                Ok(Quoted { name, place: self.place, print, cell: None })
+            }
+            _ => {
+                Err(self
+                    .fault(format!("`{key}` is `{text}`, which is neither a number nor the name of a cell")))
+            }
+        }
+    }
+}

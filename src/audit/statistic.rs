@@ -1,0 +1,59 @@
+//! Statistics of a sample, and the words that name them.
+
+use super::exact::{self, whole};
+
+/// A statistic of a sample.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Statistic {
+    /// The least value.
+    Min,
+    /// The quantile at a share in ten-thousandths.
+    Quantile(u32),
+    /// The greatest value.
+    Max,
+    /// The arithmetic mean.
+    Mean,
+    /// The standard deviation.
+    Sd,
+    /// The standard error of the mean.
+    Se,
+    /// The sum.
+    Total,
+}
+
+impl Statistic {
+    /// The statistic that a word such as `mean`, `std`, `25%`, `q95` names.
+    pub fn named(word: &str) -> Option<Self> {
+        let word = word.trim().to_lowercase();
+        Some(match word.as_str() {
+            "mean" | "avg" | "average" => Self::Mean,
+            "sd" | "std" | "std." | "stddev" => Self::Sd,
+            "se" | "sem" => Self::Se,
+            "min" | "minimum" => Self::Min,
+            "max" | "maximum" => Self::Max,
+            "median" => Self::Quantile(5000),
+            "total" | "sum" => Self::Total,
+            other => {
+                let share = other.strip_suffix('%').or_else(|| other.strip_prefix('q'))?;
+                let share =
+                    exact::parse(share.trim()).filter(|share| *share > whole(0) && *share < whole(100))?;
+                let parts = exact::mul(share, whole(100)).filter(|parts| *parts.denom() == 1)?;
+                Self::Quantile(u32::try_from(*parts.numer()).ok()?)
+            }
+        })
+    }
+
+    /// In words.
+    pub fn name(self) -> String {
+        match self {
+            Self::Min => "minimum".to_owned(),
+            Self::Max => "maximum".to_owned(),
+            Self::Mean => "mean".to_owned(),
+            Self::Sd => "standard deviation".to_owned(),
+            Self::Se => "standard error".to_owned(),
+            Self::Total => "total".to_owned(),
+            Self::Quantile(5000) => "median".to_owned(),
+            Self::Quantile(parts) => format!("{} % quantile", f64::from(parts) / 100.0),
+        }
+    }
+}

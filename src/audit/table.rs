@@ -1,0 +1,123 @@
+//! Tables as they are printed: cells as strings with their places, and what each column is said to be.
+
+use super::exact::Print;
+use super::meaning::Meaning;
+use super::printed::Printed;
+use std::fmt;
+
+/// Where something stands in a text: the line, from 1, and the cell in it, from 1; cell 0 is the line itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// Line, from 1.
+    pub line: usize,
+    /// Cell in the line, from 1; 0 for the whole line.
+    pub cell: usize,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.cell == 0 { write!(f, "{}", self.line) } else { write!(f, "{}:{}", self.line, self.cell) }
+    }
+}
+
+/// Something in the input that cannot be read, with its place, what was found and what is accepted.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// Where.
+    pub place: Place,
+    /// What was found and what is accepted.
+    pub message: String,
+}
+
+impl Fault {
+    /// A fault at a place.
+    pub fn new(place: Place, message: impl Into<String>) -> Self {
+        Self { place, message: message.into() }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.message)
+    }
+}
+
+/// A cell as printed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Where it stands.
+    pub place: Place,
+    /// Its text, without marks of emphasis.
+    pub text: String,
+    /// Whether it is printed bold.
+    pub is_bold: bool,
+    /// The number before any `±` or bracket; none for text and for what is missing.
+    pub value: Option<Printed>,
+    /// The number after `±` or in brackets.
+    pub spread: Option<Printed>,
+}
+
+/// A column with what it is said, or guessed, to be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name, without the annotation.
+    pub name: String,
+    /// What it is.
+    pub meaning: Meaning,
+    /// The annotation that says so; none if it was guessed.
+    pub written: Option<String>,
+}
+
+/// A table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// Its name: the heading above it, or what the TOML calls it; may be empty.
+    pub name: String,
+    /// The line of its header.
+    pub line: usize,
+    /// Its columns.
+    pub columns: Vec<Column>,
+    /// Its rows, each with as many cells as there are columns.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// The number in a cell with the reading of its digits; none if the cell holds none.
+    pub fn print(&self, row: usize, column: usize) -> Option<Print> {
+        let value = self.rows.get(row)?.get(column)?.value?;
+        Some(Print { printed: value, digits: self.columns[column].meaning.digits })
+    }
+
+    /// What a row is called: its first cell that is no number, or its number.
+    pub fn row_name(&self, row: usize) -> String {
+        let cells = self.rows.get(row).map_or(&[][..], Vec::as_slice);
+        let text = cells.iter().find(|cell| cell.value.is_none() && !cell.text.is_empty());
+        text.map_or_else(|| format!("row {}", row + 1), |cell| cell.text.clone())
+    }
+
+    /// The column of this name.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column.name == name)
+    }
+}
+
+/// A printed number with its name and place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quoted {
+    /// What it is called in findings: `success of RRT`.
+    pub name: String,
+    /// Where it stands.
+    pub place: Place,
+    /// Its digits.
+    pub print: Print,
+    /// Its table, row and column, where it has some.
+    pub cell: Option<[usize; 3]>,
+}
+
+/// The number in a cell with its name.
+pub fn quoted(index: usize, table: &Table, row: usize, column: usize) -> Option<Quoted> {
+    let print = table.print(row, column)?;
+    let of = if table.name.is_empty() { String::new() } else { format!("{}: ", table.name) };
+    let name = format!("{of}{} of {}", table.columns[column].name, table.row_name(row));
+    Some(Quoted { name, place: table.rows[row][column].place, print, cell: Some([index, row, column]) })
+}

@@ -1,0 +1,174 @@
+//! A TOML file in memory: its text, what it says, and where each value stands.
+
+use super::validate::{Fault, faults};
+use super::{Faults, SettingsError, schema_of};
+use schemars::JsonSchema;
+use serde::de::{DeserializeOwned, IntoDeserializer as _};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A TOML file held in memory with its path. It is parsed once, however often its tables are read.
+///
+/// Its text stays until the program ends: what was parsed refers to it, and the TOML library has no parsed value that
+/// owns its text.
+#[derive(Debug)]
+pub struct Document {
+    path: PathBuf,
+    text: &'static str,
+    parsed: OnceLock<Result<Spanned<DeValue<'static>>, toml::de::Error>>,
+}
+
+impl PartialEq for Document {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.path, self.text) == (&other.path, other.text)
+    }
+}
+
+impl Document {
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    /// [`SettingsError::Unreadable`] if it is missing, not readable, or not UTF-8 (with the first bad byte).
+    pub fn open(path: &Path) -> Result<Arc<Self>, SettingsError> {
+        let unreadable = |reason: String| SettingsError::Unreadable { path: path.to_owned(), reason };
+        let bytes = std::fs::read(path).map_err(|e| unreadable(e.to_string()))?;
+        let text = String::from_utf8(bytes).map_err(|e| {
+            let at = e.utf8_error().valid_up_to();
+            unreadable(format!("byte {at} is not UTF-8; TOML files are UTF-8 text"))
+        })?;
+        Ok(Self::new(path, text))
+    }
+
+    /// A document with the given text, as if read from `path`.
+    pub fn new(path: &Path, text: String) -> Arc<Self> {
+        Arc::new(Self { path: path.to_owned(), text: text.leak(), parsed: OnceLock::new() })
+    }
+
+    /// The path it was read from.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The text as read.
+    pub fn text(&self) -> &str {
+        self.text
+    }
+
+    /// The whole document as a `T`, held against the schema of `T` first.
+    ///
+    /// # Errors
+    /// A syntax error, or every unknown key, missing key and value that is not accepted, each at its own place.
+    pub fn read<T: DeserializeOwned + JsonSchema + 'static>(&self) -> Result<T, SettingsError> {
+        if self.text.trim().is_empty() {
+            return Err(self.error(0..0, "the file is empty; a TOML table is expected"));
+        }
+        self.read_value(self.parsed()?)
+    }
+
+    /// The whole document as a `T` that has no schema: what the program itself wrote.
+    ///
+    /// # Errors
+    /// The first syntax error, unknown key, missing key or value of the wrong kind.
+    pub fn read_stored<T: DeserializeOwned>(&self) -> Result<T, SettingsError> {
+        let value = self.parsed()?;
+        T::deserialize(value.clone().into_deserializer()).map_err(|e| self.toml_error(&e, value.span()))
+    }
+
+    /// Everything in the document that `schema` does not accept.
+    ///
+    /// # Errors
+    /// A syntax error, or every fault at its own place.
+    pub fn validate(&self, schema: &serde_json::Value) -> Result<(), SettingsError> {
+        self.refuse(faults(schema, self.parsed()?))
+    }
+
+    /// Whether the document has `key` at its top; `false` if it is not TOML.
+    pub fn has(&self, key: &str) -> bool {
+        self.parsed().is_ok_and(|value| value.get_ref().get(key).is_some())
+    }
+
+    /// An error at the byte range `span` of this document.
+    pub fn error(&self, span: Range<usize>, message: impl Into<String>) -> SettingsError {
+        let start = span.start.min(self.text.len());
+        let before = &self.text[..start];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        SettingsError::At {
+            path: self.path.clone(),
+            line: before.matches('\n').count() + 1,
+            column: self.text[line_start..start].chars().count() + 1,
+            message: message.into(),
+            excerpt: printable(self.text[line_start..].lines().next().unwrap_or_default().trim_end()),
+        }
+    }
+
+    /// An error at the value that `path` leads to, by keys and by the numbers of elements from 0: `ledger.0.item`.
+    /// As far as the document does not have it, the place is that of the innermost value it has.
+    pub fn error_at(&self, path: &str, message: impl Into<String>) -> SettingsError {
+        let span = self.parsed().map_or(0..0, |value| span_of(value, path));
+        self.error(span, message)
+    }
+
+    pub(super) fn parsed(&self) -> Result<&Spanned<DeValue<'static>>, SettingsError> {
+        self.parsed.get_or_init(|| parse(self.text)).as_ref().map_err(|e| self.toml_error(e, 0..0))
+    }
+
+    pub(super) fn read_value<T: DeserializeOwned + JsonSchema + 'static>(
+        &self,
+        value: &Spanned<DeValue<'static>>,
+    ) -> Result<T, SettingsError> {
+        self.refuse(faults(&schema_of::<T>(), value))?;
+        T::deserialize(value.clone().into_deserializer()).map_err(|e| self.toml_error(&e, value.span()))
+    }
+
+    fn refuse(&self, found: Vec<Fault>) -> Result<(), SettingsError> {
+        let mut all = Faults::default();
+        for fault in found {
+            all.add(self.error(fault.span, fault.message));
+        }
+        all.done()
+    }
+
+    fn toml_error(&self, error: &toml::de::Error, fallback: Range<usize>) -> SettingsError {
+        self.error(error.span().unwrap_or(fallback), in_words(error.message()))
+    }
+}
+
+/// A parser's message on one line.
+pub(super) fn in_words(message: &str) -> String {
+    message.trim().replace('\n', "; ")
+}
+
+/// `line` with control characters replaced, so that a binary file taken for TOML cannot steer a terminal.
+fn printable(line: &str) -> String {
+    line.chars().map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
+pub(super) fn parse(text: &str) -> Result<Spanned<DeValue<'_>>, toml::de::Error> {
+    let whole = DeTable::parse(text)?;
+    Ok(Spanned::new(whole.span(), DeValue::Table(whole.into_inner())))
+}
+
+/// Where the value that `path` leads to stands inside `value`.
+pub(super) fn span_of(value: &Spanned<DeValue<'_>>, path: &str) -> Range<usize> {
+    part_of(value, path).span()
+}
+
+/// The value that `path` leads to inside `value`, or the innermost on the way that there is.
+pub(super) fn part_of<'a, 't>(value: &'a Spanned<DeValue<'t>>, path: &str) -> &'a Spanned<DeValue<'t>> {
+    let mut found = value;
+    for step in path.split('.') {
+        let next = match found.get_ref() {
+            DeValue::Table(table) => table.get(step),
+            DeValue::Array(array) => step.parse::<usize>().ok().and_then(|index| array.get(index)),
+            _ => None,
+        };
+        match next {
+            Some(next) => found = next,
+            None => break,
+        }
+    }
+    found
+}

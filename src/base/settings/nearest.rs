@@ -1,0 +1,30 @@
+//! What somebody may have meant who wrote a name that does not exist.
+
+/// ` (did you mean X?)` with the known name nearest to `written`, or nothing if none is near.
+///
+/// Near is at most a third of the letters added, left out, changed or swapped with their neighbour, whatever their case; a
+/// name that begins with what was written is near.
+pub fn did_you_mean<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(written, known).map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"))
+}
+
+/// The known name nearest to `written`, if one is near.
+pub(super) fn nearest<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = written.to_lowercase();
+    let length = lower.chars().count();
+    let apart = |name: &str| {
+        let name = name.to_lowercase();
+        // A name that was not written out is nearer than one with other letters.
+        if length > 2 && name.starts_with(&lower) { 0 } else { strsim::damerau_levenshtein(&lower, &name) }
+    };
+    let nearest = known.into_iter().map(|name| (apart(name), name)).min();
+    nearest.filter(|(apart, _)| *apart <= length / 3).map(|(_, name)| name)
+}
+
+/// The message that `written` is no name of the kind `what`: with the nearest name and all there are.
+pub fn none_called<'a>(what: &str, written: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<&str> = known.into_iter().collect();
+    let hint = did_you_mean(written, known.iter().copied());
+    let known = if known.is_empty() { "none at all".to_owned() } else { known.join(", ") };
+    format!("there is no {what} `{written}`{hint}; there are {known}")
+}

@@ -1,0 +1,216 @@
+//! A part of a JSON Schema, as far as our types use the language.
+
+use serde_json::Value;
+
+/// A part of a schema, and the whole that its references are into.
+#[derive(Clone, Copy)]
+pub(super) struct Node<'a> {
+    root: &'a Value,
+    value: &'a Value,
+}
+
+/// The smallest and the largest whole number of the formats that say no bounds themselves.
+const INTEGERS: [(&str, f64, f64); 6] = [
+    ("uint32", 0.0, 4_294_967_295.0),
+    ("uint64", 0.0, f64::INFINITY),
+    ("uint", 0.0, f64::INFINITY),
+    ("int32", -2_147_483_648.0, 2_147_483_647.0),
+    ("int64", f64::NEG_INFINITY, f64::INFINITY),
+    ("int", f64::NEG_INFINITY, f64::INFINITY),
+];
+
+impl<'a> Node<'a> {
+    pub(super) fn root(root: &'a Value) -> Self {
+        Self { root, value: root }.resolved()
+    }
+
+    /// The part itself, after its reference was followed.
+    fn resolved(self) -> Self {
+        let Some(name) = self.text("$ref") else { return self };
+        let name = name.strip_prefix("#/$defs/").expect("our schemas refer to their own definitions alone");
+        let value =
+            self.root.get("$defs").and_then(|all| all.get(name)).expect("what is referred to is defined");
+        Self { value, ..self }.resolved()
+    }
+
+    fn at(self, value: &'a Value) -> Self {
+        Self { value, ..self }.resolved()
+    }
+
+    pub(super) fn get(self, key: &str) -> Option<&'a Value> {
+        self.value.get(key)
+    }
+
+    pub(super) fn text(self, key: &str) -> Option<&'a str> {
+        self.get(key)?.as_str()
+    }
+
+    pub(super) fn part(self, key: &str) -> Option<Self> {
+        self.get(key).map(|value| self.at(value))
+    }
+
+    pub(super) fn list(self, key: &str) -> impl Iterator<Item = Self> {
+        self.get(key).and_then(Value::as_array).into_iter().flatten().map(move |value| self.at(value))
+    }
+
+    /// Whether it is `false`: nothing is accepted.
+    pub(super) fn refuses_all(self) -> bool {
+        self.value == &Value::Bool(false)
+    }
+
+    /// Keys of a table that have a meaning of their own; each part as it is, with its own description.
+    pub(super) fn properties(self) -> impl Iterator<Item = (&'a str, Self)> {
+        let all = self.get("properties").and_then(Value::as_object).into_iter().flatten();
+        all.map(move |(key, value)| (key.as_str(), Self { value, ..self }))
+    }
+
+    pub(super) fn property(self, key: &str) -> Option<Self> {
+        let value = self.get("properties")?.get(key)?;
+        Some(self.at(value))
+    }
+
+    pub(super) fn required(self) -> impl Iterator<Item = &'a str> {
+        self.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str)
+    }
+
+    /// The ways to fulfil it, if there are several; TOML has no null, so that it is none.
+    pub(super) fn branches(self) -> Vec<Self> {
+        let all = self.list("anyOf").chain(self.list("oneOf"));
+        let all = all.filter(|branch| branch.text("type") != Some("null"));
+        all.flat_map(|branch| match branch.branches() {
+            inner if inner.is_empty() => vec![branch],
+            inner => inner,
+        })
+        .collect()
+    }
+
+    /// The words it is limited to; none if it is not.
+    pub(super) fn words(self) -> Vec<&'a str> {
+        let listed = self.get("enum").and_then(Value::as_array).into_iter().flatten();
+        listed.chain(self.get("const")).filter_map(Value::as_str).collect()
+    }
+
+    /// The kinds of value it takes, null left out; empty if it takes any.
+    pub(super) fn kinds(self) -> Vec<&'a str> {
+        let kinds = match self.get("type") {
+            Some(Value::String(kind)) => vec![kind.as_str()],
+            Some(Value::Array(kinds)) => kinds.iter().filter_map(Value::as_str).collect(),
+            _ => Vec::new(),
+        };
+        kinds.into_iter().filter(|kind| *kind != "null").collect()
+    }
+
+    /// The least and the largest number, both accepted.
+    pub(super) fn bounds(self) -> (f64, f64) {
+        let format = self.text("format");
+        let width = INTEGERS.iter().find(|(name, ..)| Some(*name) == format);
+        let (low, high) = width.map_or((f64::NEG_INFINITY, f64::INFINITY), |(_, low, high)| (*low, *high));
+        let said = |key: &str| self.get(key).and_then(Value::as_f64);
+        (
+            said("minimum").map_or(low, |least| least.max(low)),
+            said("maximum").map_or(high, |most| most.min(high)),
+        )
+    }
+
+    /// The numbers between which it lies, neither accepted.
+    pub(super) fn open_bounds(self) -> (f64, f64) {
+        let said = |key: &str| self.get(key).and_then(Value::as_f64);
+        (
+            said("exclusiveMinimum").unwrap_or(f64::NEG_INFINITY),
+            said("exclusiveMaximum").unwrap_or(f64::INFINITY),
+        )
+    }
+
+    /// How many elements an array has at least and at most.
+    pub(super) fn counts(self) -> (u64, u64) {
+        let said = |key: &str| self.get(key).and_then(Value::as_u64);
+        (said("minItems").unwrap_or(0), said("maxItems").unwrap_or(u64::MAX))
+    }
+
+    /// What is accepted, in words.
+    pub(super) fn accepted(self) -> String {
+        let branches = self.branches();
+        if !branches.is_empty() {
+            let mut all: Vec<String> = Vec::new();
+            for branch in branches.into_iter().map(Self::accepted) {
+                if !all.contains(&branch) {
+                    all.push(branch);
+                }
+            }
+            return either(&all);
+        }
+        let words = self.words();
+        if !words.is_empty() {
+            return either(&words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>());
+        }
+        let kinds: Vec<String> = self.kinds().into_iter().map(|kind| self.of_kind(kind)).collect();
+        if kinds.is_empty() { "any value".to_owned() } else { either(&kinds) }
+    }
+
+    fn of_kind(self, kind: &str) -> String {
+        match kind {
+            "integer" => self.number("a whole number"),
+            "number" => self.number("a number"),
+            "boolean" => "true or false".to_owned(),
+            "string" => "text in quotes".to_owned(),
+            "array" => self.array(),
+            "object" => self.table(),
+            other => other.to_owned(),
+        }
+    }
+
+    fn number(self, what: &str) -> String {
+        let ((low, high), (above, below)) = (self.bounds(), self.open_bounds());
+        let lower = match () {
+            () if above >= low && above.is_finite() => Some(format!("above {above}")),
+            () if low.is_finite() => Some(format!("from {low}")),
+            () => None,
+        };
+        let upper = match () {
+            () if below <= high && below.is_finite() => Some(format!("below {below}")),
+            () if high.is_finite() => Some(format!("to {high}")),
+            () => None,
+        };
+        match (lower, upper) {
+            (None, None) => what.to_owned(),
+            (Some(lower), None) if lower.starts_with("from") => format!("{what} of {low} or more"),
+            (None, Some(upper)) if upper.starts_with("to") => format!("{what} of {high} or less"),
+            (lower, upper) => {
+                let bounds: Vec<String> = lower.into_iter().chain(upper).collect();
+                format!("{what} {}", bounds.join(" "))
+            }
+        }
+    }
+
+    fn array(self) -> String {
+        let each: Vec<String> = self.list("prefixItems").map(Self::accepted).collect();
+        if !each.is_empty() {
+            return format!("an array of {}", each.join(" and "));
+        }
+        let of = self.part("items").map_or_else(String::new, |item| format!(" ({} each)", item.accepted()));
+        match self.counts() {
+            (0, u64::MAX) => format!("an array{of}"),
+            (least, u64::MAX) => format!("an array of {least} or more{of}"),
+            (least, most) if least == most => format!("an array of {least}{of}"),
+            (least, most) => format!("an array of {least} to {most}{of}"),
+        }
+    }
+
+    fn table(self) -> String {
+        let keys: Vec<String> = self.properties().map(|(key, _)| format!("`{key}`")).collect();
+        match self.part("additionalProperties").filter(|part| part.value.is_object()) {
+            Some(part) if keys.is_empty() => format!("a table of names, each {}", part.accepted()),
+            _ if keys.is_empty() => "a table".to_owned(),
+            _ => format!("a table with {}", keys.join(", ")),
+        }
+    }
+}
+
+fn either(all: &[String]) -> String {
+    match all {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first, second] => format!("{first} or {second}"),
+        [many @ .., last] => format!("{} or {last}", many.join(", ")),
+    }
+}

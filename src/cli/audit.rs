@@ -1,0 +1,187 @@
+//! `replan audit`: is this table possible?
+
+use super::{Failure, render};
+use ::audit::reader::{self, Format};
+use ::audit::report::{Options, Report};
+use ::audit::witness::Budget;
+use ::audit::{coverage, output};
+use clap::Args;
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Asks of a printed table, by arithmetic alone, whether any data could have given it.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Audit {
+    /// A table (CSV, Markdown) or relations (TOML); `-` for standard input
+    #[arg(required_unless_present_any = ["list", "coverage"])]
+    file: Option<PathBuf>,
+    /// How the input is written; by its ending or looks if absent
+    #[arg(long, value_name = "FORMAT", value_parser = ["csv", "md", "toml"])]
+    format: Option<String>,
+    /// Print the whole report, certificates included, as JSON
+    #[arg(long)]
+    json: bool,
+    /// Show data behind what is possible, this many vectors a number at most
+    #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "20")]
+    witness: Option<usize>,
+    /// Try data in an order drawn from this seed, for a sample instead of the first ones
+    #[arg(long, value_name = "SEED", requires = "witness")]
+    seed: Option<u64>,
+    /// Steps that the search for data may take a number
+    #[arg(long, value_name = "STEPS", default_value_t = 100_000, requires = "witness")]
+    budget: u64,
+    /// Write the certificate of every impossible finding into this folder
+    #[arg(long, value_name = "DIR")]
+    certificates: Option<PathBuf>,
+    /// Write the table's header with every guess, to be corrected
+    #[arg(long, value_name = "FILE")]
+    stub: Option<PathBuf>,
+    /// List the checks and the items of annotations
+    #[arg(long)]
+    list: bool,
+    /// Look for numbers in this LaTeX text that no macro backs, and for stale macros
+    #[arg(long, value_name = "TEX", requires = "macros")]
+    coverage: Option<PathBuf>,
+    /// The macros that the text uses: plots/PAPER/numbers.tex or a copy of it
+    #[arg(long, value_name = "TEX")]
+    macros: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "Examples:
+  replan audit results.md                       | method | success [% of 250] | time [mean s, n=250] |
+  replan audit results.csv --json
+  replan audit claims.toml --witness
+  replan audit --coverage paper.tex --macros plots/zhang/numbers.tex
+Exit code 3: something is impossible under the premises named, or a number is backed by no macro.";
+
+impl Audit {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        if self.list {
+            say!("{}", output::list().trim_end());
+            return Ok(());
+        }
+        if let (Some(text), Some(macros)) = (&self.coverage, &self.macros) {
+            covered(text, macros)?;
+        }
+        self.file.as_deref().map_or(Ok(()), |file| self.judged(file))
+    }
+
+    fn judged(&self, file: &Path) -> Result<(), Failure> {
+        let source = if file == Path::new("-") { "stdin".to_owned() } else { file.display().to_string() };
+        let text = read(file)?;
+        let by_ending = file.extension().and_then(|ending| Format::of_ending(&ending.to_string_lossy()));
+        let asked = self.format.as_deref().and_then(Format::of_ending);
+        let format = asked.or(by_ending).unwrap_or_else(|| Format::of_text(&text));
+        let told = |faults: Vec<audit::table::Fault>| {
+            let lines: Vec<String> = faults.iter().map(|fault| format!("{source}:{fault}")).collect();
+            Failure::input(lines.join("\n"))
+        };
+        let input = reader::read(&text, format).map_err(told)?;
+        if let Some(stub) = &self.stub {
+            let header = |table| format!("| {} |\n", reader::stub(table).join(" | "));
+            write(stub, &input.tables.iter().map(header).collect::<String>())?;
+        }
+        let witness = self.witness.map(|most| Budget { most, steps: self.budget, seed: self.seed });
+        let options = Options { keeps_possible: self.json, witness, ..Options::default() };
+        let report = audit::report::audit(&input, &options).map_err(told)?;
+        if let Some(folder) = &self.certificates {
+            write_certificates(folder, &report)?;
+        }
+        if self.json {
+            say!("{:#}", output::json(&source, &input, &report));
+        } else {
+            let findings = report.findings.iter().map(|finding| output::line(&source, finding));
+            let lines = output::guesses(&source, &input).into_iter().chain(findings);
+            for line in lines.chain(output::summary(&report)) {
+                say!("{line}");
+            }
+        }
+        let impossible = report.tally.values().map(|tally| tally.impossible).sum::<usize>();
+        match impossible {
+            0 => Ok(()),
+            found => {
+                Err(Failure::stale(format!("{source}: {found} findings are impossible under their premises")))
+            }
+        }
+    }
+}
+
+/// The files that `text` includes by `\\input` or `\\include`, but for the macros that replan writes.
+fn included(text: &str) -> Vec<String> {
+    let lines = text.lines().map(|line| line.split('%').next().unwrap_or_default());
+    let parts = lines.flat_map(|line| line.split('\\').skip(1));
+    let named = parts.filter_map(|part| {
+        let inside = part.strip_prefix("input{").or_else(|| part.strip_prefix("include{"))?;
+        Some(inside.split('}').next()?.to_owned())
+    });
+    named.filter(|name| !name.trim_end_matches(".tex").ends_with("numbers")).collect()
+}
+
+/// Tells what `text` holds that no macro backs, and which macros are not what the stored run gives now.
+fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
+    let given = read(macros)?;
+    let current = match paper(&given) {
+        Some(paper) => render::macros(paper)?,
+        None => None,
+    };
+    if current.is_none() {
+        let why = "its first line names no paper of this folder, so that stale values were not looked for";
+        eprintln!("replan: {}: {why}", macros.display());
+    }
+    let written = read(text)?;
+    let unread = included(&written);
+    for file in &unread {
+        say!("{}: `{file}` is included and was not read; ask about it by itself", text.display());
+    }
+    let remarks = coverage::coverage(&written, &given, current.as_deref());
+    for remark in &remarks {
+        let file = if remark.in_macros { macros } else { text };
+        say!("{}:{remark}", file.display());
+    }
+    match remarks.len() + unread.len() {
+        0 => Ok(()),
+        found => Err(Failure::stale(format!("{}: {found} numbers or macros to look at", text.display()))),
+    }
+}
+
+/// The paper that macros were made for, which their first line names.
+fn paper(macros: &str) -> Option<&str> {
+    macros.lines().next()?.split_once("replan render ")?.1.split_whitespace().next()
+}
+
+fn write_certificates(folder: &Path, report: &Report) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| about(folder, &error))?;
+    let proved = report.findings.iter().filter_map(|finding| Some((finding, finding.certificate.as_ref()?)));
+    for (index, (finding, certificate)) in proved.enumerate() {
+        let path = folder.join(format!("{:03}_{}_{}.json", index + 1, finding.place.line, finding.check));
+        write(&path, &format!("{certificate:#}\n"))?;
+    }
+    Ok(())
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    fs::write(path, text).map_err(|error| about(path, &error))
+}
+
+fn about(path: &Path, error: &std::io::Error) -> Failure {
+    Failure { code: 1, message: format!("{}: {error}", path.display()) }
+}
+
+fn read(path: &Path) -> Result<String, Failure> {
+    let mut bytes = Vec::new();
+    let done = if path == Path::new("-") {
+        std::io::stdin().lock().read_to_end(&mut bytes).map(|_| ())
+    } else {
+        fs::read(path).map(|read| bytes = read)
+    };
+    done.map_err(|error| {
+        Failure::input(format!("{}: {error}; a readable text file is expected", path.display()))
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Failure::input(format!("{}: byte {at} is not UTF-8; UTF-8 text is expected", path.display()))
+    })
+}

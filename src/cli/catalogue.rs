@@ -1,0 +1,142 @@
+//! Everything registered, in one form: for `replan list`, for the schemas of files, and for tests of both.
+
+use crate::analysis::{criterion, rule};
+use crate::render::figure;
+use crate::study::files::{self, FileKind};
+use crate::study::{family, paper, prepared, task};
+use base::settings::Accepted;
+use engine::planner::{self, Build};
+
+/// Something that specs name.
+pub struct Item {
+    /// Its name.
+    pub name: &'static str,
+    /// One line on it.
+    pub about: &'static str,
+    /// Its settings, if it is a thing that is set.
+    pub settings: Option<Accepted>,
+    /// Settings that it can be built from; empty if it needs none.
+    pub example: &'static str,
+    /// The columns that it fills.
+    pub columns: &'static [&'static str],
+}
+
+fn planners_or_stages(first: bool) -> Vec<Item> {
+    let fits = |entry: &&planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
+    let item = |e: &planner::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: Some(e.settings),
+        example: e.example,
+        columns: e.columns,
+    };
+    planner::REGISTRY.iter().copied().filter(fits).map(item).collect()
+}
+
+/// Planners: the first in a contender's pipeline.
+pub fn planners() -> Vec<Item> {
+    planners_or_stages(true)
+}
+
+/// Stages: the others.
+pub fn stages() -> Vec<Item> {
+    planners_or_stages(false)
+}
+
+/// Families of problems.
+pub fn families() -> Vec<Item> {
+    let item = |e: &&family::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: Some(e.settings),
+        example: e.example,
+        columns: e.columns,
+    };
+    family::REGISTRY.iter().map(item).collect()
+}
+
+/// Tasks.
+pub fn tasks() -> Vec<Item> {
+    let item = |e: &&task::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: Some(e.settings),
+        example: e.example,
+        columns: e.columns,
+    };
+    task::REGISTRY.iter().map(item).collect()
+}
+
+/// Criteria of claims.
+pub fn criteria() -> Vec<Item> {
+    let item = |e: &&criterion::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: Some(e.settings),
+        example: e.example,
+        columns: &[],
+    };
+    criterion::REGISTRY.iter().map(item).collect()
+}
+
+/// Rules of arithmetic on printed numbers.
+pub fn rules() -> Vec<Item> {
+    let item = |e: &&rule::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: Some(e.settings),
+        example: e.example,
+        columns: &[],
+    };
+    rule::REGISTRY.iter().map(item).collect()
+}
+
+/// Kinds of figure.
+pub fn figures() -> Vec<Item> {
+    let item = |e: &&figure::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: Some(e.settings),
+        example: e.example,
+        columns: &[],
+    };
+    figure::REGISTRY.iter().map(item).collect()
+}
+
+/// Kinds of prepared object, which have no settings of their own: their family's make them.
+pub fn prepared() -> Vec<Item> {
+    let item = |e: &&prepared::Entry| Item {
+        name: e.name,
+        about: e.about,
+        settings: None,
+        example: "",
+        columns: e.columns,
+    };
+    prepared::REGISTRY.iter().map(item).collect()
+}
+
+/// Kinds of TOML file that replan reads, in the order of their names.
+pub fn files() -> Vec<Item> {
+    let named = [
+        FileKind {
+            name: "crosscheck",
+            about: "what an independent judge is asked: crosscheck.toml in a paper's folder",
+            accepted: crate::crosscheck::FILE,
+        },
+        FileKind {
+            name: "paper",
+            about: "a paper's source, ledger, claims and tables: paper.toml in its folder",
+            accepted: paper::FILE,
+        },
+    ];
+    let item = |kind: &FileKind| Item {
+        name: kind.name,
+        about: kind.about,
+        settings: Some(kind.accepted),
+        example: "",
+        columns: &[],
+    };
+    let mut all: Vec<Item> = named.iter().chain(files::KINDS).map(item).collect();
+    all.sort_by_key(|item| item.name);
+    all
+}

@@ -1,0 +1,68 @@
+//! What `replan list` says of one thing: its meaning, each of its keys, and an example, within 80 columns.
+
+use super::catalogue::Item;
+use base::settings::describe::{Default, Field, fields};
+
+/// Terminals have at least this many columns.
+const COLUMNS: usize = 80;
+
+/// `first` and then the words of `text`, on lines of 80 columns, those after the first indented by `indent`.
+pub fn wrapped(first: &str, text: &str, indent: usize) -> String {
+    let mut lines = Vec::new();
+    let mut line = first.to_owned();
+    let mut is_fresh = true;
+    for word in text.split_whitespace() {
+        if !is_fresh && line.chars().count() + 1 + word.chars().count() > COLUMNS {
+            lines.push(std::mem::replace(&mut line, " ".repeat(indent)));
+            is_fresh = true;
+        }
+        if !is_fresh {
+            line.push(' ');
+        }
+        line += word;
+        is_fresh = false;
+    }
+    lines.push(line);
+    lines.join("\n")
+}
+
+/// Everything that is known of `item`.
+pub fn explained(item: &Item) -> String {
+    let mut parts = vec![item.name.to_owned(), wrapped("  ", item.about, 2)];
+    if !item.columns.is_empty() {
+        parts.push(wrapped("  It fills the columns ", &format!("{}.", item.columns.join(", ")), 2));
+    }
+    match item.settings.map(|accepted| fields(&accepted.schema())) {
+        Some(keys) if keys.is_empty() => parts.push("\nIt has no settings.".to_owned()),
+        Some(keys) => {
+            parts.push("\nKeys".to_owned());
+            parts.extend(keys.iter().map(key));
+        }
+        None => {
+            parts.push("\nIt has no settings of its own; the family of the problems has them.".to_owned());
+        }
+    }
+    if !item.example.is_empty() {
+        parts.push("\nExample".to_owned());
+        parts.extend(item.example.trim().lines().map(|line| format!("  {line}")));
+    }
+    parts.join("\n")
+}
+
+fn key(field: &Field) -> String {
+    let unit = field.unit.map_or_else(String::new, |unit| format!(" ({unit})"));
+    let default = match &field.default {
+        Default::Required => "; required".to_owned(),
+        Default::Value(value) => format!("; {value} if left out"),
+        Default::Absent => "; may be left out".to_owned(),
+    };
+    let mut lines =
+        vec![wrapped(&format!("  {}: ", field.name), &format!("{}{unit}{default}", field.accepted), 6)];
+    if !field.meaning.is_empty() {
+        lines.push(wrapped("      ", &field.meaning, 6));
+    }
+    for (word, about) in &field.words {
+        lines.push(wrapped(&format!("      \"{word}\": "), about, 10));
+    }
+    lines.join("\n")
+}

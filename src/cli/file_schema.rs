@@ -1,0 +1,135 @@
+//! The JSON Schema of every kind of TOML file, made from the same types that read the files.
+//!
+//! In those of papers and studies the settings of whatever a table names are that entry's own, so that an editor completes
+//! them and `replan check` finds what is wrong in all tables of all files at once.
+
+use super::catalogue::{self, Item};
+use base::settings::{Document, Faults, SettingsError, generator};
+use serde_json::{Map, Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The schema of the kind of file called `kind`; of a table without any rule if there is no such kind.
+pub fn of(kind: &str) -> Value {
+    let mut schema = match kind {
+        "study" => study(),
+        "paper" => paper(),
+        other => {
+            let kinds = catalogue::files();
+            let found = kinds.iter().find(|item| item.name == other).and_then(|item| item.settings);
+            found.map_or(Value::Bool(true), |accepted| (*accepted.schema()).clone())
+        }
+    };
+    if let Some(root) = schema.as_object_mut() {
+        root.insert("title".to_owned(), json!(format!("replan: {}", kind.replace('_', " "))));
+    }
+    schema
+}
+
+fn study() -> Value {
+    let mut generator = generator();
+    let mut parts = |items: &[Item]| -> Vec<(&'static str, Value)> {
+        let part = |item: &Item| Some((item.name, item.settings?.within(&mut generator)));
+        items.iter().filter_map(part).collect()
+    };
+    let (planners, stages) = (parts(&catalogue::planners()), parts(&catalogue::stages()));
+    let (families, tasks) = (parts(&catalogue::families()), parts(&catalogue::tasks()));
+    let figures = parts(&catalogue::figures());
+    let kind =
+        catalogue::files().into_iter().find(|item| item.name == "study").and_then(|item| item.settings);
+    let mut root = kind.map_or(Value::Null, |accepted| accepted.whole_with(generator));
+    // Sweeps and readings fill in what a contender or a group leaves out: nothing is required there.
+    choose(&mut root, Some("ContenderSpec"), ("planner", "settings"), &planners, false);
+    choose(&mut root, Some("StageSpec"), ("stage", "settings"), &stages, false);
+    choose(&mut root, Some("ProblemsSpec"), ("family", "settings"), &families, false);
+    choose(&mut root, None, ("task", "task_settings"), &tasks, false);
+    choose(&mut root, Some("FigureSpec"), ("kind", "settings"), &figures, true);
+    root
+}
+
+fn paper() -> Value {
+    let mut generator = generator();
+    let mut parts = |items: &[Item]| -> Map<String, Value> {
+        let part = |item: &Item| Some((item.name.to_owned(), item.settings?.within(&mut generator)));
+        items.iter().filter_map(part).collect()
+    };
+    let (criteria, rules) = (parts(&catalogue::criteria()), parts(&catalogue::rules()));
+    let several = |part: Value| json!({ "type": "array", "items": part });
+    let shown = criteria.iter().map(|(name, part)| (name.clone(), several(part.clone()))).collect();
+    let kind =
+        catalogue::files().into_iter().find(|item| item.name == "paper").and_then(|item| item.settings);
+    let mut root = kind.map_or(Value::Null, |accepted| accepted.whole_with(generator));
+    for (key, entries) in [("check", criteria), ("shows", shown), ("rule", rules)] {
+        let place = format!("/$defs/ClaimSpec/properties/{key}");
+        if let Some(table) = root.pointer_mut(&place).and_then(Value::as_object_mut) {
+            table.insert("properties".to_owned(), Value::Object(entries));
+            table.insert("additionalProperties".to_owned(), Value::Bool(false));
+        }
+    }
+    root
+}
+
+/// Makes the table `holder` (the whole file if none) take, under the key `settings`, those of the entry that its key
+/// `name` names.
+fn choose(
+    root: &mut Value,
+    holder: Option<&str>,
+    (name, settings): (&str, &str),
+    entries: &[(&'static str, Value)],
+    whole: bool,
+) {
+    let names: Vec<&str> = entries.iter().map(|(name, _)| *name).collect();
+    let mut rules = Vec::new();
+    for (entry, part) in entries {
+        let part = if whole { part.clone() } else { without_required(root, part) };
+        rules.push(json!({
+            "if": { "properties": { name: { "const": entry } }, "required": [name] },
+            "then": { "properties": { settings: part } },
+        }));
+    }
+    let place = holder.map_or_else(String::new, |holder| format!("/$defs/{holder}"));
+    let Some(table) = root.pointer_mut(&place).and_then(Value::as_object_mut) else { return };
+    if let Some(key) =
+        table.get_mut("properties").and_then(|keys| keys.get_mut(name)).and_then(Value::as_object_mut)
+    {
+        key.insert("type".to_owned(), json!("string"));
+        key.insert("enum".to_owned(), json!(names));
+    }
+    table.insert("allOf".to_owned(), Value::Array(rules));
+}
+
+/// A copy of the part that misses no key.
+fn without_required(root: &Value, part: &Value) -> Value {
+    let place = part.get("$ref").and_then(Value::as_str).and_then(|name| name.strip_prefix('#'));
+    let mut copy = place.and_then(|place| root.pointer(place)).unwrap_or(part).clone();
+    if let Some(table) = copy.as_object_mut() {
+        table.remove("required");
+    }
+    copy
+}
+
+/// What else the files of the paper in `folder` have that their schemas do not accept, besides `found`, which may have
+/// kept the program from looking any further.
+pub fn with_the_rest(found: SettingsError, folder: &Path) -> SettingsError {
+    let mut faults = Faults::default();
+    faults.add(found);
+    let entries = fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
+    let mut files: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    files.sort();
+    for path in files {
+        let kind = match path.file_stem().and_then(|stem| stem.to_str()) {
+            Some("paper") => "paper",
+            Some("crosscheck") => "crosscheck",
+            _ => "study",
+        };
+        let Ok(document) = Document::open(&path) else { continue };
+        if kind == "study" && !document.has("paper") {
+            continue;
+        }
+        if let Err(more) = document.validate(&of(kind)) {
+            faults.add_elsewhere(more);
+        }
+    }
+    faults.error()
+}

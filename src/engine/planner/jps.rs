@@ -1,0 +1,56 @@
+//! Jump point search, online: runs are scanned in blocks, intermediate jump points are pruned (B + P).
+//!
+//! Counters and ties are defined with [`JumpSearch`](crate::search::JumpSearch). Every corner rule is supported. The planner
+//! needs bits of rows and columns ([`JumpLines`]), about one byte for each cell; `prepared_bytes` counts them. They are
+//! made in one pass over the map and shared by all queries. With `preparation = "each_query"` every query makes them
+//! anew: in a study that has both contenders, the difference of their clock readings is the cost of preparation.
+//!
+//! # Source
+//! Harabor & Grastien, *Online graph pruning for pathfinding on grid maps*, AAAI 2011; *Improving jump point search*,
+//! ICAPS 2014, sections 4 and 5.
+
+use super::jump_points::{COLUMNS, JumpPoints, Preparation};
+use super::lattice::Posed;
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::space::{JumpLines, WorldKind};
+use base::settings::Accepted;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "jps",
+    about: "jump point search, online, with block-based scanning and intermediate pruning: least cost",
+    revision: 1,
+    needs: WorldKind::Lattice,
+    columns: COLUMNS,
+    settings: Accepted::of::<JumpPoints>(),
+    example: "preparation = \"kept\"",
+    build: Build::Planner(|settings| {
+        let read: JumpPoints = settings.read()?;
+        Ok(Box::new(Jps(read)))
+    }),
+};
+
+struct Jps(JumpPoints);
+
+impl Planner for Jps {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let posed = Posed::new(request)?;
+        let made;
+        let lines = match self.0.preparation {
+            Preparation::Kept => posed.world.jump_lines(),
+            Preparation::EachQuery => {
+                made = JumpLines::new(posed.world);
+                &made
+            }
+        };
+        self.0.plan(&posed, request, lines, lines.bytes())
+    }
+
+    fn is_optimal(&self) -> bool {
+        true
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,57 @@
+//! Jump point search with preprocessing: JPS+, with intermediate pruning.
+//!
+//! It expands what [`jps`](super::jps) expands, in the same order, and looks distances up instead of scanning for them.
+//! Every corner rule is supported. The table ([`JumpTable`]) takes 16 bytes for each cell; `prepared_bytes` counts them.
+//! It belongs to the world and is made when it is first asked for, so that all contenders share it. No clock reading
+//! counts it: a study plans every query once before it times it. With `preparation = "each_query"` every query makes
+//! the table anew: in a study that has both contenders, the difference of their clock readings is the cost of
+//! preprocessing.
+//!
+//! # Source
+//! Harabor & Grastien, *Improving jump point search*, ICAPS 2014, sections 5 and 6.
+
+use super::jump_points::{COLUMNS, JumpPoints, Preparation};
+use super::lattice::Posed;
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::space::{JumpTable, WorldKind};
+use base::settings::Accepted;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "jps_plus",
+    about: "jump point search over a table of distances to jump points, made once for each map: least cost",
+    revision: 1,
+    needs: WorldKind::Lattice,
+    columns: COLUMNS,
+    settings: Accepted::of::<JumpPoints>(),
+    example: "preparation = \"kept\"",
+    build: Build::Planner(|settings| {
+        let read: JumpPoints = settings.read()?;
+        Ok(Box::new(JpsPlus(read)))
+    }),
+};
+
+struct JpsPlus(JumpPoints);
+
+impl Planner for JpsPlus {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let posed = Posed::new(request)?;
+        let made;
+        let table = match self.0.preparation {
+            Preparation::Kept => posed.world.jump_table(),
+            Preparation::EachQuery => {
+                made = JumpTable::new(posed.world);
+                &made
+            }
+        };
+        self.0.plan(&posed, request, table, table.bytes())
+    }
+
+    fn is_optimal(&self) -> bool {
+        true
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+}

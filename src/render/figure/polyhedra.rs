@@ -1,0 +1,305 @@
+//! Scenes of solid, depth-sorted polyhedra: tip paths, or the whole arm along its path with the last posture solid; one row
+//! a contender, one panel a view.
+
+use super::{Entry, Kind, Scene, Shown, ask};
+use crate::render::RenderError;
+use crate::render::chart::legend::cell_key;
+use crate::render::chart::{Axis, Key, Panel, Sheet, Swatch, Trim};
+use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark, Vec3};
+use crate::render::style::{
+    BLACK, BLUE, Dash, GREEN, ORANGE, PURPLE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
+};
+use crate::study::key::{DrawKey, SweepKey};
+use crate::study::record::{Row, Status};
+use base::settings::Accepted;
+use engine::planner::Exhibit;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "polyhedra",
+    about: "tip paths, or the whole arm along its path, among solid polyhedra; one row a contender, one panel a view",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problem = "E1"
+contenders = ["A*", "Improved A*"]
+views = ["corner"]
+"#,
+    build: |settings, study, _paper| {
+        let read: Read = settings.read()?;
+        super::check_labels(settings, study, &read.contenders, [&read.problem])?;
+        for (key, count) in [("contenders", read.contenders.len()), ("views", read.views.len())] {
+            if count == 0 {
+                return Err(settings.error_at(key, format!("{key} is empty; at least one is accepted")));
+            }
+        }
+        let sweep = read.sweep.as_ref().map(|text| ask::sweep(settings, study, text)).transpose()?;
+        Ok(Box::new(Polyhedra { read, sweep }))
+    },
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Read {
+    /// The problem group; its first draw is shown, or the first that only the first contender solves.
+    problem: String,
+    /// The query, where a draw has several.
+    query: Option<String>,
+    /// Whether the whole arm is drawn along its path; else the path of its tip alone.
+    #[serde(default)]
+    arm: bool,
+    /// Whether the draw is the first that only the first contender solves, if there is one whose arm is stored.
+    #[serde(default)]
+    first_alone: bool,
+    /// One row each.
+    contenders: Vec<String>,
+    /// One panel each.
+    views: Vec<View>,
+    /// The sweeps' values of the trial that is shown, as `setting=value,…`; the first trial if absent.
+    sweep: Option<String>,
+}
+
+struct Polyhedra {
+    read: Read,
+    /// The point of the sweeps that is shown; the first trial if absent.
+    sweep: Option<SweepKey>,
+}
+
+/// From where a scene is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum View {
+    /// From the front, a little from above: x to the right.
+    Front,
+    /// From the side: y to the left, towards the front.
+    Side,
+    /// From a corner, above.
+    Corner,
+}
+
+impl View {
+    fn camera(self) -> Camera {
+        match self {
+            Self::Front => Camera::parallel(-80.0, 14.0),
+            Self::Side => Camera::parallel(-10.0, 14.0),
+            Self::Corner => Camera::parallel(-52.0, 24.0),
+        }
+    }
+
+    /// Its name in a panel's title.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Side => "side",
+            Self::Corner => "corner",
+        }
+    }
+}
+
+impl Kind for Polyhedra {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        Shown::first(&self.read.problem, &self.read.contenders)
+    }
+
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let Read { contenders, views, arm: is_arm, .. } = &self.read;
+        // One view each: contenders stand side by side.
+        let columns = if views.len() == 1 { contenders.len() } else { views.len() };
+        let mut sheet = Sheet::new(Width::Double, columns, if *is_arm { 220.0 } else { 205.0 });
+        if *is_arm {
+            sheet = sheet.noted("Rod radii are assumed.");
+        }
+        for contender in contenders {
+            let row = self.row(scene, contender)?;
+            for view in views {
+                let mut solids = Solids::default();
+                add_obstacles(&mut solids, scene, &row.key.on, !is_arm)?;
+                let keys =
+                    if *is_arm { arm(&mut solids, scene, row)? } else { paths(&mut solids, scene, row)? };
+                let seen = if views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
+                let title = format!("{}: {}{seen}", row.key.contender, self.said(row));
+                sheet.add(panel(title, solids, *view, keys)?);
+            }
+        }
+        Ok(sheet)
+    }
+}
+
+impl Polyhedra {
+    /// What became of the trial, for the panel's title.
+    fn said(&self, row: &Row) -> String {
+        if !self.read.arm {
+            let length =
+                row.value("path_length_cm").map_or_else(|| "–".to_owned(), |cm| format!("{cm:.1} cm"));
+            return format!("{length}, {} nodes", ask::number(row, "opened", 0));
+        }
+        match (row.status, row.value("followed_share")) {
+            (Status::Solved, _) => "goal reached".to_owned(),
+            (_, Some(share)) => format!("stopped after {:.0} % of the path", 100.0 * share),
+            (status, None) => status.to_string(),
+        }
+    }
+
+    /// The first draw with a stored arm that only the first contender solves.
+    fn chosen(&self, scene: &Scene<'_>) -> Option<u32> {
+        let rows = |contender: &String| scene.run.rows(&self.read.problem, contender).into_iter();
+        let (first, others) = self.read.contenders.split_first()?;
+        let fails = |replicate: u32, other: &String| {
+            rows(other).any(|row| row.draw() == replicate && row.status != Status::Solved)
+        };
+        let is_chosen = |row: &&Row| {
+            row.status == Status::Solved
+                && scene.run.exhibit(&row.key, "rods").is_some()
+                && others.iter().all(|other| fails(row.draw(), other))
+        };
+        rows(first).find(is_chosen).map(Row::draw)
+    }
+
+    fn row<'a>(&self, scene: &'a Scene<'_>, contender: &str) -> Result<&'a Row, RenderError> {
+        let rows = scene.run.rows(&self.read.problem, contender);
+        let chosen = if self.read.first_alone { self.chosen(scene) } else { None };
+        let is_asked = |row: &&Row| {
+            self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep)
+                && self.read.query.as_ref().is_none_or(|query| row.query() == query)
+                && chosen.is_none_or(|replicate| row.draw() == replicate)
+        };
+        rows.into_iter().find(is_asked).ok_or_else(|| RenderError::NotStored {
+            what: format!("a trial of `{contender}` on `{}`", self.read.problem),
+        })
+    }
+}
+
+/// From the first posture to the last.
+fn shade(share: f64) -> Rgb {
+    ORANGE.mixed(WHITE, 0.6 * (1.0 - share))
+}
+
+/// The line of a rod's axis.
+fn axis(share: f64) -> Stroke {
+    Stroke::solid(shade(share), 2.4)
+}
+
+fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, RenderError> {
+    let rods = ask::exhibit(scene, &row.key, "rods")?;
+    let last = rods.values.chunks(rods.width).map(|rod| rod[0]).fold(1.0, f64::max);
+    for rod in rods.values.chunks(rods.width) {
+        let (from, to) = ([rod[1], rod[2], rod[3]], [rod[4], rod[5], rod[6]]);
+        // Solid rods of many postures cut each other into more facets than a picture can hold.
+        if rod[0] < last {
+            solids.polyline(vec![from, to], axis(rod[0] / last));
+        } else {
+            solids.capsule(from, to, rod[7], Paint::solid(shade(1.0)));
+        }
+    }
+    let along =
+        Key { swatch: Swatch::Line(axis(0.0), None), label: "axes of the rods on the way".to_owned() };
+    let mut keys = vec![along, cell_key("arm at the end", shade(1.0))];
+    for (name, label, color) in
+        [("tip_path", "path to be followed", PURPLE), ("tip_trail", "way of the tip", VERMILLION)]
+    {
+        if let Some(found) = scene.run.exhibit(&row.key, name) {
+            let stroke = Stroke::solid(color, 1.3);
+            solids.polyline(points(found), stroke);
+            keys.push(Key { swatch: Swatch::Line(stroke, None), label: label.to_owned() });
+        }
+    }
+    let trail = points(ask::exhibit(scene, &row.key, "tip_trail")?);
+    if let Some(start) = trail.first() {
+        solids.capsule(*start, *start, 1.6, Paint::solid(GREEN));
+        keys.push(cell_key("start", GREEN));
+    }
+    Ok(keys)
+}
+
+/// Adds the path as searched and as returned, with their ends.
+fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, RenderError> {
+    let mut keys = Vec::new();
+    let mut line = |solids: &mut Solids, name: &str, label: &str, stroke: Stroke| {
+        if let Some(found) = scene.run.exhibit(&row.key, name) {
+            solids.polyline(points(found), stroke);
+            keys.push(Key { swatch: Swatch::Line(stroke, None), label: label.to_owned() });
+        }
+    };
+    line(solids, "raw_path", "path as searched", Stroke::solid(BLUE, 0.8).dashed(Dash::Dashed));
+    line(solids, "path", "returned path", Stroke::solid(VERMILLION, 1.5));
+    let path = points(ask::exhibit(scene, &row.key, "path")?);
+    for (at, color, label) in [(path.first(), GREEN, "start"), (path.last(), PURPLE, "goal")] {
+        if let Some(at) = at {
+            solids.capsule(*at, *at, 1.6, Paint::solid(color));
+            keys.push(cell_key(label, color));
+        }
+    }
+    Ok(keys)
+}
+
+/// The points of an exhibit three numbers wide.
+fn points(exhibit: &Exhibit) -> Vec<Vec3> {
+    exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1], point[2]]).collect()
+}
+
+/// Adds the obstacles of the prepared object `of`, and with `frame` the edges of the domain.
+fn add_obstacles(
+    solids: &mut Solids,
+    scene: &Scene<'_>,
+    of: &Arc<DrawKey>,
+    frame: bool,
+) -> Result<(), RenderError> {
+    let vertices = points(ask::exhibit(scene, of, "bodies_vertices")?);
+    let listed = ask::exhibit(scene, of, "bodies_faces")?;
+    let mut faces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for pair in listed.values.chunks(listed.width) {
+        faces.entry(pair[0] as usize).or_default().push(pair[1] as usize);
+    }
+    for (vertices, faces) in bodies(&vertices, faces.into_values().collect()) {
+        solids.polyhedron(vertices, faces, Paint::sheer(SKY.mixed(WHITE, 0.25), 0.82));
+    }
+    if frame {
+        let corners = points(ask::exhibit(scene, of, "domain")?);
+        for edge in edges(corners[0], corners[1]) {
+            solids.polyline(edge.to_vec(), Stroke::solid(BLACK.mixed(WHITE, 0.7), 0.4));
+        }
+    }
+    Ok(())
+}
+
+/// Faces that share vertices, taken together with vertices numbered from 0.
+fn bodies(vertices: &[Vec3], faces: Vec<Vec<usize>>) -> Vec<(Vec<Vec3>, Vec<Vec<usize>>)> {
+    let mut solids: Vec<(usize, usize, Vec<Vec<usize>>)> = Vec::new();
+    for face in faces {
+        let (low, high) = (face.iter().min().copied(), face.iter().max().copied());
+        let (low, high) = (low.unwrap_or(0), high.unwrap_or(0));
+        match solids.last_mut().filter(|solid| low <= solid.1) {
+            Some(solid) => {
+                (solid.0, solid.1) = (solid.0.min(low), solid.1.max(high));
+                solid.2.push(face);
+            }
+            None => solids.push((low, high, vec![face])),
+        }
+    }
+    let own = |(low, high, faces): (usize, usize, Vec<Vec<usize>>)| {
+        let faces = faces.into_iter().map(|face| face.into_iter().map(|v| v - low).collect()).collect();
+        (vertices[low..=high].to_vec(), faces)
+    };
+    solids.into_iter().map(own).collect()
+}
+
+/// The twelve edges of a box.
+fn edges(low: Vec3, high: Vec3) -> Vec<[Vec3; 2]> {
+    let corner =
+        |index: usize| [0, 1, 2].map(|axis| if index >> axis & 1 == 0 { low[axis] } else { high[axis] });
+    let pairs = (0..8).flat_map(|index| (0..3).map(move |axis| (index, index | 1 << axis)));
+    pairs.filter(|(from, to)| from != to).map(|(from, to)| [corner(from), corner(to)]).collect()
+}
+
+/// A panel that shows `scene`.
+fn panel(title: String, scene: Solids, view: View, mut keys: Vec<Key>) -> Result<Panel, RenderError> {
+    let bare = || Axis::linear("", 0.0, 1.0);
+    let mut panel = Panel::new(title, bare()?, bare()?).trimmed(Trim::Bare);
+    keys.push(cell_key("obstacle", SKY.mixed(WHITE, 0.25)));
+    let bar = Some(ScaleBar { length: 20.0, label: "20 cm".to_owned() });
+    panel.add(SceneMark { scene, camera: view.camera(), bar, keys });
+    Ok(panel)
+}

@@ -1,0 +1,248 @@
+//! A work cell from two sides: its robot at several poses, or the ways of its tool.
+
+use super::{Entry, Kind, Scene, Shown, ask};
+use crate::analysis::metric;
+use crate::analysis::selection::{Case, Selection};
+use crate::analysis::statistic::median;
+use crate::render::RenderError;
+use crate::render::chart::legend::cell_key;
+use crate::render::chart::{Axis, Key, Panel, Sheet, Trim};
+use crate::render::latex::{Cell, Column, Table};
+use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
+use crate::render::style::{Dash, GREY, Rgb, Stroke, WHITE, Width, YELLOW, series_color};
+use crate::study::key::DrawKey;
+use base::settings::Accepted;
+use engine::planner::Exhibit;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "work_cell",
+    about: "a work cell from two sides: its robot at several poses, or the ways of its tool by contenders on one query",
+    settings: Accepted::of::<WorkCell>(),
+    example: r#"
+problems = "cell"
+poses = [["4/start", "H"], ["1/start", "P1"], ["3/start", "P2"], ["2/goal", "P3"], ["7/start", "P5"], ["9/start", "P6"]]
+at_once = 3
+"#,
+    build: |settings, study, _paper| {
+        let read: WorkCell = settings.read()?;
+        ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
+        if read.poses.is_empty() == read.contenders.is_empty() {
+            return Err(settings.error("either poses or contenders are accepted"));
+        }
+        Ok(Box::new(read))
+    },
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct WorkCell {
+    /// The problem group, by its label.
+    problems: String,
+    /// Ends of queries, as `name/start` or `name/goal`, each with what it is called.
+    #[serde(default)]
+    poses: Vec<[String; 2]>,
+    /// How many of them are shown in one picture.
+    #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 1000))]
+    at_once: usize,
+    /// Contenders whose ways on `query` are shown, on the first draw on which all of them find one.
+    #[serde(default)]
+    contenders: Vec<String>,
+    /// The query of the ways, by its name.
+    #[serde(default)]
+    query: String,
+}
+
+fn one() -> usize {
+    1
+}
+
+/// From where cells are seen.
+const VIEWS: [(&str, Camera); 2] = [
+    ("from the front right", Camera::parallel(-42.0, 24.0)),
+    ("from above left", Camera::parallel(35.0, 48.0)),
+];
+
+/// How many parts at the head of a body hardly move from pose to pose.
+const FIXED_PARTS: usize = 2;
+
+/// The paint of obstacles.
+fn obstacle() -> Rgb {
+    YELLOW.mixed(GREY, 0.35).mixed(WHITE, 0.35)
+}
+
+/// The cell of a draw: floor and obstacles.
+fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderError> {
+    let mut solids = Solids::default();
+    let boxes = ask::exhibit(scene, draw, "boxes")?;
+    let floor =
+        [[-450.0, -1000.0, 0.0], [1450.0, -1000.0, 0.0], [1450.0, 1000.0, 0.0], [-450.0, 1000.0, 0.0]];
+    solids.sheet(floor.to_vec(), Paint { outlined: true, ..Paint::solid(GREY.mixed(WHITE, 0.82)) });
+    for corners in boxes.values.chunks(boxes.width) {
+        let vertices = corners.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        solids.polyhedron(
+            vertices,
+            faces.iter().map(|face| face.to_vec()).collect(),
+            Paint::solid(obstacle()),
+        );
+    }
+    let rounds = ask::exhibit(scene, draw, "rounds")?;
+    add_capsules(&mut solids, rounds, Paint::solid(obstacle()));
+    Ok(solids)
+}
+
+/// Adds capsules given by their ends and radius.
+fn add_capsules(solids: &mut Solids, capsules: &Exhibit, paint: Paint) {
+    for c in capsules.values.chunks(capsules.width) {
+        solids.capsule([c[0], c[1], c[2]], [c[3], c[4], c[5]], c[6], paint);
+    }
+}
+
+/// A panel that shows `solids`.
+fn panel(title: &str, solids: Solids, camera: Camera, keys: Vec<Key>) -> Result<Panel, RenderError> {
+    let unused = || Axis::linear("", 0.0, 1.0);
+    let mut panel = Panel::new(title, unused()?, unused()?).trimmed(Trim::Bare);
+    let bar = Some(ScaleBar { length: 500.0, label: "500 mm".to_owned() });
+    panel.add(SceneMark { scene: solids, camera, bar, keys });
+    Ok(panel)
+}
+
+impl WorkCell {
+    /// The robot at its poses.
+    fn poses(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let draw = ask::draw(scene, &self.problems, 0)?;
+        let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);
+        let named: Vec<(usize, &[String; 2])> = self.poses.iter().enumerate().collect();
+        for shown in named.chunks(self.at_once.max(1)) {
+            for (title, camera) in VIEWS {
+                let mut solids = furnished(scene, draw)?;
+                let mut keys = vec![cell_key("obstacles", obstacle())];
+                for (place, (index, [pose, name])) in shown.iter().enumerate() {
+                    let color = series_color(*index).mixed(WHITE, 0.35);
+                    let body = ask::exhibit(scene, draw, &format!("body {pose}"))?;
+                    // Base and turret stand where they stand at every pose: one of each is drawn.
+                    let fixed = if place == 0 { 0 } else { FIXED_PARTS * body.width };
+                    let parts = Exhibit { values: body.values[fixed..].to_vec(), ..body.clone() };
+                    add_capsules(&mut solids, &parts, Paint { outlined: false, ..Paint::solid(color) });
+                    if let Some(tip) = body.values.chunks(body.width).next_back() {
+                        solids.tag([tip[3], tip[4], tip[5]], name);
+                    }
+                    keys.push(cell_key(format!("robot at {name}"), color));
+                }
+                sheet.add(panel(title, solids, camera, keys)?);
+            }
+        }
+        Ok(sheet)
+    }
+
+    /// The ways of the tool, one column a contender.
+    fn ways(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let replicate = ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
+        let mut sheet = Sheet::new(Width::Double, self.contenders.len(), 200.0);
+        if let Some(rank) = self.rank(scene, replicate) {
+            sheet = sheet.titled(rank);
+        }
+        for view in 0..VIEWS.len() {
+            for index in 0..self.contenders.len() {
+                sheet.add(self.way(scene, replicate, index, view)?);
+            }
+        }
+        Ok(sheet)
+    }
+
+    fn way(
+        &self,
+        scene: &Scene<'_>,
+        replicate: u32,
+        index: usize,
+        view: usize,
+    ) -> Result<Panel, RenderError> {
+        let draw = ask::draw(scene, &self.problems, replicate)?;
+        let (contender, (seen, camera)) = (&self.contenders[index], VIEWS[view]);
+        let mut solids = furnished(scene, draw)?;
+        let body = ask::exhibit(scene, draw, &format!("body {}/start", self.query))?;
+        let pale = Paint { outlined: false, ..Paint::solid(GREY.mixed(WHITE, 0.45)) };
+        add_capsules(&mut solids, body, pale);
+        let row = ask::trial(scene, &self.problems, replicate, Some(&self.query), contender)?;
+        let stops = ask::exhibit(scene, &row.key, "trajectory")?;
+        let points: Vec<[f64; 3]> =
+            stops.values.chunks(stops.width).map(|stop| [stop[7], stop[8], stop[9]]).collect();
+        let color = series_color(ask::series(scene, contender, index));
+        for (name, at) in [("start", points.first()), ("goal", points.last())] {
+            if let Some(at) = at {
+                solids.tag(*at, name);
+            }
+        }
+        solids.overlay(points.clone(), Stroke::solid(color, 0.7).dashed(Dash::Dotted));
+        solids.polyline(points, Stroke::solid(color, 1.8));
+        let number = |column: &str| row.value(column).unwrap_or(f64::NAN);
+        let title = if view == 0 {
+            let [length, legs] = ["path_length_mm", "local_paths"].map(number);
+            format!("{contender}: {length:.0} mm, {legs} local paths")
+        } else {
+            format!("the same {seen}")
+        };
+        panel(&title, solids, camera, Vec::new())
+    }
+
+    /// What the picked draw's saving is among those of all draws, in words.
+    fn rank(&self, scene: &Scene<'_>, draw: u32) -> Option<String> {
+        let metric = metric::find("path_length_mm");
+        let all = ask::trials(scene.run, &self.problems, self.contenders.last()?);
+        let (against, query) = (self.contenders.first().cloned(), Some(self.query.clone()));
+        let draws = Selection { against, metric, query, ..all }.draws(scene.evidence);
+        let cases = || draws.iter().flat_map(|draw| &draw.cases);
+        let own = cases().find(|case| case.row.draw() == draw)?.saving_percent()?;
+        let all: Vec<f64> = cases().filter_map(Case::saving_percent).collect();
+        let below = all.iter().filter(|saving| **saving < own).count();
+        Some(format!(
+            "saving {own:.1} %: {below} of {} roadmaps save less, the median saves {:.1} %",
+            all.len(),
+            median(&all)?
+        ))
+    }
+}
+
+impl Kind for WorkCell {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        match &self.contenders[..] {
+            [] => Shown::prepared(&self.problems),
+            contenders => Shown::first(&self.problems, contenders),
+        }
+    }
+
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        if self.contenders.is_empty() { self.poses(scene) } else { self.ways(scene) }
+    }
+
+    fn table(&self, scene: &Scene<'_>, label: &str, caption: &str) -> Result<Option<Table>, RenderError> {
+        if self.poses.is_empty() {
+            return Ok(None);
+        }
+        let draw = ask::draw(scene, &self.problems, 0)?;
+        let kinds = [Column::Left, Column::Left, Column::Right, Column::Right, Column::Right, Column::Right];
+        let mut table = Table::new(label, caption, &kinds);
+        let heads = ["group", "", "joint angles (°)", "flange (mm)", "tip (mm)", "direction"];
+        table.head(heads.map(Cell::from).to_vec());
+        for exhibit in scene.run.exhibits(draw) {
+            let Some((group, end)) = exhibit.name.strip_prefix("pose ").and_then(|name| name.split_once('/'))
+            else {
+                continue;
+            };
+            let numbers = |from: usize, to: usize, decimals: usize| {
+                let of = |value: &f64| crate::render::chart::axis::number(*value, decimals);
+                exhibit.values[from..to].iter().map(of).collect::<Vec<_>>().join(", ")
+            };
+            let group = if end == "start" { group } else { "" };
+            let cells = [numbers(0, 6, 0), numbers(6, 9, 1), numbers(9, 12, 1), numbers(12, 15, 3)];
+            let row = [group.to_owned(), end.to_owned()].into_iter().chain(cells);
+            table.row(row.map(Cell::from).collect());
+        }
+        Ok(Some(table))
+    }
+}

@@ -1,0 +1,132 @@
+//! Contenders: pipelines of a planner and stages under a label, at one point of the sweeps.
+
+use super::key::{SweepKey, SweepValue};
+use super::name;
+use super::reading::ReadingChoice;
+use base::settings::{Settings, SettingsError};
+use engine::planner::{self, Build, Invalid, Plan, Planner, Request, Stage};
+use std::collections::BTreeMap;
+use std::mem::discriminant;
+use std::ops::Range;
+use toml::Table;
+
+/// A pipeline under a label.
+#[derive(Debug, Clone)]
+pub struct Contender {
+    /// Its name in records and tables.
+    pub label: String,
+    /// How many seeds it runs on each problem.
+    pub repeats: u32,
+    /// Whether the spec asks for more than one seed: the trials' names then carry a number.
+    pub is_numbered: bool,
+    /// The planner, then the stages that tidy its plan.
+    pub stages: Vec<StageUse>,
+    /// Readings, with the option, that its settings take in place of the one in hand.
+    pub departs: BTreeMap<String, String>,
+}
+
+/// An entry of the planner registry with its settings.
+#[derive(Debug, Clone)]
+pub struct StageUse {
+    /// The entry.
+    pub entry: &'static planner::Entry,
+    /// Where the study names it.
+    pub named: Range<usize>,
+    /// Its settings.
+    pub settings: Settings,
+}
+
+/// A contender that is ready to run.
+pub struct Pipeline {
+    /// The planner.
+    pub planner: Box<dyn Planner>,
+    /// The stages that tidy its plan.
+    pub stages: Vec<Box<dyn Stage>>,
+}
+
+impl Contender {
+    /// The pipeline under the reading `point` with the sweep's settings laid on top.
+    ///
+    /// # Errors
+    /// A settings error of an entry.
+    pub fn pipeline(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Result<Pipeline, SettingsError> {
+        let mut planner = None;
+        let mut stages = Vec::new();
+        for stage in &self.stages {
+            let settings = stage.effective(point, sweep);
+            match stage.entry.build {
+                Build::Planner(build) => planner = Some(build(&settings)?),
+                Build::Stage(build) => stages.push(build(&settings)?),
+            }
+        }
+        let planner = planner.expect("a checked contender starts with a planner");
+        Ok(Pipeline { planner, stages })
+    }
+}
+
+impl StageUse {
+    /// Its settings with the reading's and the sweep's laid on top.
+    pub fn effective(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Settings {
+        let read = point
+            .over_stage(self.entry.name)
+            .fold(self.settings.clone(), |settings, (over, origin)| settings.overlaid(over, origin));
+        match sweep.over.get(self.entry.name) {
+            Some(table) => read.overlaid(table, &format!("sweep {}", name::sweep(&sweep.key))),
+            None => read,
+        }
+    }
+}
+
+/// A factor that the paper varies.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    /// The setting.
+    pub key: String,
+    /// The planner or stage whose setting it is.
+    pub of: String,
+    /// Its values, in the paper's order.
+    pub values: Vec<toml::Value>,
+}
+
+impl Sweep {
+    /// Its values as records have them: all of one kind, words where kinds are mixed; `None` for a value that is neither a
+    /// number nor a word nor a truth value.
+    pub fn key_values(&self) -> Option<Vec<SweepValue>> {
+        let value = |value: &toml::Value| match value {
+            toml::Value::Boolean(flag) => Some(SweepValue::Flag(*flag)),
+            toml::Value::Integer(whole) => Some(SweepValue::Whole(*whole)),
+            toml::Value::Float(real) => Some(SweepValue::Real(*real)),
+            toml::Value::String(text) => Some(SweepValue::Text(text.as_str().into())),
+            _ => None,
+        };
+        let mut values = self.values.iter().map(value).collect::<Option<Vec<_>>>()?;
+        let is_one_kind = values.windows(2).all(|two| discriminant(&two[0]) == discriminant(&two[1]));
+        let are_numbers = values.iter().all(|value| value.as_f64().is_some());
+        for value in values.iter_mut().filter(|_| !is_one_kind) {
+            *value = match value.as_f64().filter(|_| are_numbers) {
+                Some(number) => SweepValue::Real(number),
+                None => SweepValue::Text(value.to_string().into()),
+            };
+        }
+        Some(values)
+    }
+}
+
+/// One value of every sweep.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SweepPoint {
+    /// What names it in records; empty without sweeps.
+    pub key: SweepKey,
+    pub(super) over: BTreeMap<String, Table>,
+}
+
+impl Pipeline {
+    /// Runs the planner and, on its plan, every stage.
+    ///
+    /// # Errors
+    /// [`Invalid`] if the planner says that the query cannot be posed.
+    pub fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        let plan = self.planner.plan(request)?;
+        Ok(self.stages.iter().fold(plan, |plan, stage| stage.refine(request, plan)))
+    }
+}

@@ -1,0 +1,38 @@
+//! What a spec leaves out and what holds there, for the manifest: nobody has to look a default up to know what was run.
+
+use super::checked::Study;
+use base::settings::Settings;
+use toml::{Table, Value};
+
+/// Every default that `study` runs by, in the order of the spec: `contender `A*`, astar: ties = "fifo"`.
+pub fn defaults(study: &Study) -> Vec<String> {
+    let mut all = Vec::new();
+    let spec: Table = study.document.read_stored().unwrap_or_default();
+    if spec.get("quick").is_none_or(|quick| quick.get("replicates").is_none()) {
+        all.push(format!("quick: replicates = {}", study.quick.replicates));
+    }
+    for (table, what, key) in
+        [("problems", "problem group", "replicates"), ("contender", "contender", "repeats")]
+    {
+        let entries = spec.get(table).and_then(Value::as_array).into_iter().flatten();
+        let without = entries.filter(|entry| entry.get(key).is_none());
+        let label = |entry: &Value| Some(entry.get("label")?.as_str()?.to_owned());
+        all.extend(without.filter_map(label).map(|label| format!("{what} `{label}`: {key} = 1")));
+    }
+    let task = study.task_settings.clone().completed(study.task.settings);
+    all.extend(said(&format!("task {}", study.task.name), &task));
+    for group in &study.groups {
+        all.extend(said(&format!("problem group `{}`, {}", group.label, group.family.name), &group.settings));
+    }
+    for contender in &study.contenders {
+        for stage in &contender.stages {
+            let whose = format!("contender `{}`, {}", contender.label, stage.entry.name);
+            all.extend(said(&whose, &stage.settings));
+        }
+    }
+    all
+}
+
+fn said(whose: &str, settings: &Settings) -> Vec<String> {
+    settings.filled().map(|(key, value)| format!("{whose}: {key} = {value}")).collect()
+}

@@ -1,0 +1,95 @@
+//! What a problem family poses, and what it says of itself.
+
+use crate::study::StudyError;
+use crate::study::inputs::Inputs;
+use crate::study::prepared::Prepared;
+use base::settings::{Accepted, Settings, SettingsError};
+use engine::planner::{Counts, Invalid};
+use engine::space::roadmap::Extent;
+use engine::space::{World, WorldKind};
+use std::path::PathBuf;
+
+/// One question asked of a prepared object.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Query {
+    /// Its name within the draw; empty where a draw has one query only.
+    pub name: String,
+    /// The start configuration.
+    pub start: Vec<f64>,
+    /// The goal configuration.
+    pub goal: Vec<f64>,
+}
+
+/// A family with its settings.
+pub trait Family: Send + Sync {
+    /// The kind of world its problems are posed in.
+    fn world(&self) -> WorldKind;
+
+    /// The prepared object that belongs to `seed`.
+    ///
+    /// # Errors
+    /// [`Invalid`] if this draw cannot be posed; its trials are then rows with that status.
+    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid>;
+
+    /// The world of [`prepare`](Self::prepare) alone, for those who draw many and keep few.
+    ///
+    /// # Errors
+    /// As [`prepare`](Self::prepare).
+    fn draw(&self, seed: u64) -> Result<World, Invalid> {
+        self.prepare(seed).map(|prepared| prepared.world)
+    }
+
+    /// The queries asked of every draw.
+    fn queries(&self) -> &[Query];
+
+    /// The queries asked of the draw that belongs to `seed`: those of every draw, unless the family draws them too.
+    fn queries_for(&self, seed: u64) -> Vec<Query> {
+        let _ = seed;
+        self.queries().to_vec()
+    }
+
+    /// That every start and goal written in its settings or files can be stood at.
+    ///
+    /// # Errors
+    /// The first that cannot, at its place.
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        Ok(())
+    }
+
+    /// How large its roadmaps are, if it poses problems on roadmaps.
+    fn extent(&self) -> Option<Extent> {
+        None
+    }
+
+    /// What the problem itself says about its query number `query`, for every trial's row: an optimum printed with
+    /// it, say.
+    fn known(&self, _query: usize) -> Counts {
+        Counts::new()
+    }
+
+    /// The files that were read for it.
+    fn inputs(&self) -> &[PathBuf] {
+        &[]
+    }
+}
+
+/// A registered family.
+#[derive(Debug)]
+pub struct Entry {
+    /// The name that specs use; also its file's name.
+    pub name: &'static str,
+    /// One line for `replan list`.
+    pub about: &'static str,
+    /// Raised whenever a change moves what it draws.
+    pub revision: u32,
+    /// The kind of prepared object it builds.
+    pub prepared: &'static str,
+    /// The columns that every trial on its problems has.
+    pub columns: &'static [&'static str],
+    /// The shape of its settings, which documents them.
+    pub settings: Accepted,
+    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
+    pub example: &'static str,
+    /// How to build it from its settings.
+    pub build: fn(&Settings, &Inputs) -> Result<Box<dyn Family>, StudyError>,
+}

@@ -1,0 +1,72 @@
+//! Groups of problems drawn from one family.
+
+use super::error::StudyError;
+use super::family::{Entry, Family};
+use super::inputs::Inputs;
+use super::reading::ReadingChoice;
+use base::settings::Settings;
+use std::sync::Arc;
+use toml::Table;
+
+/// A group of problems.
+#[derive(Debug, Clone)]
+pub struct Group {
+    /// Its name in records.
+    pub label: String,
+    /// The family they are drawn from.
+    pub family: &'static Entry,
+    /// How many independent draws.
+    pub replicates: u32,
+    /// The name of its draws, if it shares them with other groups.
+    pub draw: Option<String>,
+    /// Whether the spec asks for more than one draw: their names then carry a number.
+    pub is_numbered: bool,
+    /// The family's settings.
+    pub settings: Settings,
+}
+
+impl Group {
+    /// The family under the reading `point`.
+    ///
+    /// # Errors
+    /// A settings error of the family, or an input file that is missing or wrong.
+    pub fn family(&self, point: &ReadingChoice, inputs: &Inputs) -> Result<Box<dyn Family>, StudyError> {
+        (self.family.build)(&self.settings_under(point), inputs)
+    }
+
+    fn settings_under(&self, point: &ReadingChoice) -> Settings {
+        point
+            .over_problem()
+            .fold(self.settings.clone(), |settings, (over, origin)| settings.overlaid(over, origin))
+    }
+}
+
+/// Families that were built: most readings change no problem, so that one family serves many of them.
+#[derive(Default)]
+pub struct Families {
+    built: Vec<(&'static Entry, Table, Arc<dyn Family>)>,
+}
+
+impl Families {
+    /// The family of `group` under the reading `point`, built if it was not yet.
+    ///
+    /// # Errors
+    /// Those of [`Group::family`].
+    pub fn of(
+        &mut self,
+        group: &Group,
+        point: &ReadingChoice,
+        inputs: &Inputs,
+    ) -> Result<Arc<dyn Family>, StudyError> {
+        let settings = group.settings_under(point);
+        let is_it = |(entry, table, _): &&(&'static Entry, Table, Arc<dyn Family>)| {
+            std::ptr::eq(*entry, group.family) && table == settings.table()
+        };
+        if let Some((_, _, family)) = self.built.iter().find(is_it) {
+            return Ok(family.clone());
+        }
+        let family: Arc<dyn Family> = (group.family.build)(&settings, inputs)?.into();
+        self.built.push((group.family, settings.table().clone(), family.clone()));
+        Ok(family)
+    }
+}

@@ -1,0 +1,220 @@
+//! What names a record: typed columns, never a text that is taken apart again.
+//!
+//! Labels are shared, not copied: a study has millions of keys and few labels.
+
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+use std::fmt;
+use std::sync::Arc;
+
+/// A label that many keys share.
+pub type Text = Arc<str>;
+
+/// The option taken of each reading that touches trials, defaults written out, in the order of the study's readings.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct ReadingKey(Arc<[(Text, Text)]>);
+
+impl ReadingKey {
+    /// The key of these options, by reading.
+    pub fn new(options: Vec<(Text, Text)>) -> Self {
+        Self(options.into())
+    }
+
+    /// Each reading and the option taken.
+    pub fn options(&self) -> &[(Text, Text)] {
+        &self.0
+    }
+}
+
+impl Ord for ReadingKey {
+    fn cmp(&self, other: &Self) -> Ordering {
+        if Arc::ptr_eq(&self.0, &other.0) { Ordering::Equal } else { self.0.cmp(&other.0) }
+    }
+}
+
+impl PartialOrd for ReadingKey {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// What names a prepared object: a draw of a problem group under a reading.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct DrawKey {
+    /// The problem group's label.
+    pub group: Text,
+    /// Which independent draw of the group: the unit of replication.
+    pub draw: u32,
+    /// The reading.
+    pub reading: ReadingKey,
+}
+
+/// The value of a sweep.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum SweepValue {
+    /// Yes or no.
+    Flag(bool),
+    /// A whole number.
+    Whole(i64),
+    /// A number.
+    Real(f64),
+    /// A word.
+    Text(Text),
+}
+
+impl SweepValue {
+    /// The number, if it is one.
+    pub fn as_f64(&self) -> Option<f64> {
+        match self {
+            Self::Whole(whole) => Some(*whole as f64),
+            Self::Real(real) => Some(*real),
+            Self::Flag(_) | Self::Text(_) => None,
+        }
+    }
+}
+
+/// As TOML writes it, words without quotes.
+impl fmt::Display for SweepValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Flag(flag) => flag.fmt(f),
+            Self::Whole(whole) => whole.fmt(f),
+            Self::Real(real) => toml::Value::Float(*real).fmt(f),
+            Self::Text(text) => text.fmt(f),
+        }
+    }
+}
+
+impl Ord for SweepValue {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let kind = |value: &Self| match value {
+            Self::Flag(_) => 0,
+            Self::Whole(_) => 1,
+            Self::Real(_) => 2,
+            Self::Text(_) => 3,
+        };
+        match (self, other) {
+            (Self::Flag(a), Self::Flag(b)) => a.cmp(b),
+            (Self::Whole(a), Self::Whole(b)) => a.cmp(b),
+            (Self::Real(a), Self::Real(b)) => a.total_cmp(b),
+            (Self::Text(a), Self::Text(b)) => a.cmp(b),
+            _ => kind(self).cmp(&kind(other)),
+        }
+    }
+}
+
+impl PartialOrd for SweepValue {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for SweepValue {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for SweepValue {}
+
+/// The value of each sweep, in the order of the study's sweeps; empty without sweeps.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct SweepKey(Arc<[(Text, SweepValue)]>);
+
+impl SweepKey {
+    /// The key of these values, by the setting that each sweep fills.
+    pub fn new(values: Vec<(Text, SweepValue)>) -> Self {
+        Self(values.into())
+    }
+
+    /// Each sweep's setting and its value.
+    pub fn values(&self) -> &[(Text, SweepValue)] {
+        &self.0
+    }
+
+    /// Whether it is the same point; that of most trials is shared, and found out at once.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self == other
+    }
+
+    /// The value of the sweep over the setting `key`.
+    pub fn value(&self, key: &str) -> Option<&SweepValue> {
+        self.0.iter().find(|(name, _)| **name == *key).map(|(_, value)| value)
+    }
+}
+
+impl Ord for SweepKey {
+    fn cmp(&self, other: &Self) -> Ordering {
+        if Arc::ptr_eq(&self.0, &other.0) { Ordering::Equal } else { self.0.cmp(&other.0) }
+    }
+}
+
+impl PartialOrd for SweepKey {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// What names a trial.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TrialKey {
+    /// The prepared object that it ran on.
+    pub on: Arc<DrawKey>,
+    /// The query; none where a draw has one query only.
+    pub query: Option<Text>,
+    /// The contender's label, or the variant's in a study that has variants.
+    pub contender: Text,
+    /// The sweeps' values.
+    pub sweep: SweepKey,
+    /// Which of the contender's seeds; which finding of a variant, counted from 1.
+    pub repeat: u32,
+}
+
+impl Ord for TrialKey {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let on = || if Arc::ptr_eq(&self.on, &other.on) { Ordering::Equal } else { self.on.cmp(&other.on) };
+        on().then_with(|| self.query.cmp(&other.query))
+            .then_with(|| self.contender.cmp(&other.contender))
+            .then_with(|| self.sweep.cmp(&other.sweep))
+            .then(self.repeat.cmp(&other.repeat))
+    }
+}
+
+impl PartialOrd for TrialKey {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// The columns of keys that a study adds to those that every study has.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct KeyColumns {
+    /// The setting of each sweep, and the planner or stage whose setting it is.
+    pub sweeps: Vec<(Text, Text)>,
+    /// Each reading that touches trials.
+    pub readings: Vec<Text>,
+}
+
+/// Whose an exhibit is. Trials come after the object that they ran on.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Owner {
+    /// A prepared object.
+    Draw(Arc<DrawKey>),
+    /// A trial.
+    Trial(TrialKey),
+}
+
+impl From<&Arc<DrawKey>> for Owner {
+    fn from(key: &Arc<DrawKey>) -> Self {
+        Self::Draw(key.clone())
+    }
+}
+
+impl From<&TrialKey> for Owner {
+    fn from(key: &TrialKey) -> Self {
+        Self::Trial(key.clone())
+    }
+}

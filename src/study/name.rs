@@ -1,0 +1,165 @@
+//! Names that people see, made from typed keys here and nowhere else, and never taken apart again.
+
+pub use base::slug::slug;
+
+use super::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
+use std::collections::BTreeMap;
+
+/// How a study's records are named: what is left out of a name because it goes without saying.
+#[derive(Debug, Clone, Default)]
+pub struct Names {
+    /// Problem groups: the draws of one that has more than one carry a number.
+    groups: BTreeMap<String, Labelled>,
+    /// Contenders: the trials of one that has more than one seed carry a number. What is none of these is a variant.
+    contenders: BTreeMap<String, Labelled>,
+    /// The option of each reading that a name leaves out.
+    defaults: BTreeMap<String, String>,
+}
+
+/// A label as names have it.
+#[derive(Debug, Clone)]
+struct Labelled {
+    slug: String,
+    is_numbered: bool,
+}
+
+impl Names {
+    /// From the labels of groups and contenders, each with whether it is numbered, and the default of each reading.
+    pub fn new<'a>(
+        groups: impl Iterator<Item = (&'a str, bool)>,
+        contenders: impl Iterator<Item = (&'a str, bool)>,
+        defaults: impl Iterator<Item = (&'a str, &'a str)>,
+    ) -> Self {
+        let labelled = |(label, is_numbered): (&str, bool)| {
+            (label.to_owned(), Labelled { slug: slug(label), is_numbered })
+        };
+        Self {
+            groups: groups.map(labelled).collect(),
+            contenders: contenders.map(labelled).collect(),
+            defaults: defaults.map(|(id, option)| (id.to_owned(), option.to_owned())).collect(),
+        }
+    }
+
+    /// `group[/draw][/reading]`.
+    pub fn prepared(&self, key: &DrawKey) -> String {
+        self.problem(key, None) + &self.reading_part(&key.reading)
+    }
+
+    /// `group[/draw][/query]`: what is to be solved, whatever the reading.
+    pub fn problem(&self, key: &DrawKey, query: Option<&str>) -> String {
+        let group = self.groups.get(&*key.group);
+        let mut name = group.map_or_else(|| slug(&key.group), |group| group.slug.clone());
+        if group.is_some_and(|group| group.is_numbered) {
+            name += &format!("/{}", key.draw);
+        }
+        if let Some(query) = query {
+            name += &format!("/{query}");
+        }
+        name
+    }
+
+    /// `group[/draw][/query]/contender[/sweep][/repeat][/reading]`.
+    pub fn trial(&self, key: &TrialKey) -> String {
+        let mut name = self.problem(&key.on, key.query.as_deref());
+        let contender = self.contenders.get(&*key.contender);
+        name.push('/');
+        name += &contender.map_or_else(|| slug(&key.contender), |contender| contender.slug.clone());
+        if !key.sweep.values().is_empty() {
+            name += &format!("/{}", sweep(&key.sweep));
+        }
+        match (contender.map(|contender| contender.is_numbered), key.repeat) {
+            (Some(true), repeat) => name += &format!("/{repeat}"),
+            (None, repeat @ 1..) => name += &format!("/pair-{}", repeat - 1),
+            (Some(false), _) | (None, 0) => {}
+        }
+        name + &self.reading_part(&key.on.reading)
+    }
+
+    /// The name of what an exhibit belongs to.
+    pub fn owner(&self, owner: &Owner) -> String {
+        match owner {
+            Owner::Draw(key) => self.prepared(key),
+            Owner::Trial(key) => self.trial(key),
+        }
+    }
+
+    /// The options that are not the defaults; `default` if there is none.
+    pub fn reading(&self, key: &ReadingKey) -> String {
+        let is_other =
+            |(id, option): &(&str, &str)| self.defaults.get(*id).is_none_or(|usual| usual != option);
+        let options = key.options().iter().map(|(id, option)| (&**id, &**option));
+        choice(options.filter(is_other))
+    }
+
+    fn reading_part(&self, key: &ReadingKey) -> String {
+        let is_default =
+            |(id, option): &(Text, Text)| self.defaults.get(&**id).is_some_and(|usual| **usual == **option);
+        if key.options().iter().all(is_default) { String::new() } else { format!("/{}", self.reading(key)) }
+    }
+}
+
+/// `reading=option,…` of the options that are not the defaults; `default` if there is none.
+pub fn choice<'a>(other: impl Iterator<Item = (&'a str, &'a str)>) -> String {
+    let parts: Vec<String> = other.map(|(id, option)| format!("{id}={option}")).collect();
+    if parts.is_empty() { "default".to_owned() } else { parts.join(",") }
+}
+
+/// `setting=value,…`.
+pub fn sweep(key: &SweepKey) -> String {
+    let parts: Vec<String> = key.values().iter().map(sweep_value).collect();
+    parts.join(",")
+}
+
+/// `setting=value`.
+pub fn sweep_value((setting, value): &(Text, SweepValue)) -> String {
+    format!("{setting}={value}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+
+    /// One numbered group and one that is not, two contenders, two readings.
+    fn names() -> Names {
+        Names::new(
+            [("Maps, drawn", true), ("W1", false)].into_iter(),
+            [("A*", false), ("Chaos", true)].into_iter(),
+            [("corners", "allow"), ("ties", "fifo")].into_iter(),
+        )
+    }
+
+    fn key(group: &str, draw: u32, corners: &str, contender: &str, repeat: u32) -> TrialKey {
+        let options = [("corners", corners), ("ties", "fifo")];
+        let reading = ReadingKey::new(options.map(|(id, option)| (id.into(), option.into())).into());
+        let on = Arc::new(DrawKey { group: group.into(), draw, reading });
+        TrialKey { on, query: None, contender: contender.into(), sweep: SweepKey::default(), repeat }
+    }
+
+    #[test]
+    fn a_name_leaves_out_what_goes_without_saying() {
+        let sweep = SweepKey::new(vec![
+            ("weight".into(), SweepValue::Real(12.0)),
+            ("samples".into(), SweepValue::Whole(100)),
+            ("kind".into(), SweepValue::Text("a".into())),
+        ]);
+        let swept =
+            TrialKey { sweep, query: Some("7".into()), ..key("Maps, drawn", 3, "forbid", "Chaos", 2) };
+        for (key, name) in [
+            (key("W1", 0, "allow", "A*", 0), "w1/a-star"),
+            (key("Maps, drawn", 3, "allow", "A*", 0), "maps-drawn/3/a-star"),
+            (key("W1", 0, "allow", "Chaos", 0), "w1/chaos/0"),
+            (key("W1", 0, "forbid", "A*", 0), "w1/a-star/corners=forbid"),
+            (key("W1", 0, "allow", "a variant", 0), "w1/a-variant"),
+            (key("W1", 0, "allow", "a variant", 1), "w1/a-variant/pair-0"),
+            (swept, "maps-drawn/3/7/chaos/weight=12.0,samples=100,kind=a/2/corners=forbid"),
+        ] {
+            assert_eq!(names().trial(&key), name);
+        }
+        let drawn = key("Maps, drawn", 3, "forbid", "A*", 0);
+        assert_eq!(names().prepared(&drawn.on), "maps-drawn/3/corners=forbid");
+        assert_eq!(names().problem(&drawn.on, Some("7")), "maps-drawn/3/7");
+        assert_eq!(names().reading(&drawn.on.reading), "corners=forbid");
+        assert_eq!(names().reading(&key("W1", 0, "allow", "A*", 0).on.reading), "default");
+    }
+}

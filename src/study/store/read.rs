@@ -1,0 +1,291 @@
+//! Parquet files as records.
+//!
+//! A label that stands in many cells becomes one shared text: cells are numbered first, and keys are put together from the
+//! numbers.
+
+use super::describe::{READING, SWEEP};
+use crate::study::StudyError;
+use crate::study::column::{self, Kind};
+use crate::study::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
+use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
+use engine::planner::{Exhibit, Value};
+use polars::prelude::{Column, DataFrame, DataType};
+use polars_io::prelude::{ParquetReader, SerReader as _};
+use std::collections::BTreeMap;
+use std::io::Cursor;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Draws that several files of a study name.
+#[derive(Default)]
+pub struct Draws(BTreeMap<DrawKey, Arc<DrawKey>>);
+
+impl Draws {
+    fn shared(&mut self, key: DrawKey) -> Arc<DrawKey> {
+        if let Some(known) = self.0.get(&key) {
+            return known.clone();
+        }
+        let shared = Arc::new(key.clone());
+        self.0.insert(key, shared.clone());
+        shared
+    }
+}
+
+/// Cells by number: equal cells have one number, and one value is kept of each.
+struct Numbered<T> {
+    numbers: Vec<usize>,
+    values: Vec<T>,
+}
+
+impl<T: Ord + Clone> Numbered<T> {
+    fn new(cells: impl Iterator<Item = T>) -> Self {
+        let (mut known, mut values, mut numbers) = (BTreeMap::new(), Vec::new(), Vec::new());
+        let mut last: Option<(T, usize)> = None;
+        for cell in cells {
+            // Rows follow each other in order, so that a cell mostly equals the one before.
+            if let Some((before, number)) = &last
+                && *before == cell
+            {
+                numbers.push(*number);
+                continue;
+            }
+            let number = *known.entry(cell.clone()).or_insert_with(|| {
+                values.push(cell.clone());
+                values.len() - 1
+            });
+            numbers.push(number);
+            last = Some((cell, number));
+        }
+        Self { numbers, values }
+    }
+
+    fn map<U>(self, to: impl FnMut(T) -> U) -> Numbered<U> {
+        Numbered { numbers: self.numbers, values: self.values.into_iter().map(to).collect() }
+    }
+}
+
+impl<T: Clone> Numbered<T> {
+    /// Each cell with that of `other` in the same row.
+    fn with<U: Clone>(&self, other: &Numbered<U>) -> Numbered<(T, U)> {
+        let pairs = Numbered::new(self.numbers.iter().copied().zip(other.numbers.iter().copied()));
+        pairs.map(|(one, two)| (self.values[one].clone(), other.values[two].clone()))
+    }
+
+    fn of(&self, row: usize) -> &T {
+        &self.values[self.numbers[row]]
+    }
+}
+
+/// A Parquet file that was opened.
+pub struct Stored {
+    path: PathBuf,
+    frame: DataFrame,
+}
+
+impl Stored {
+    /// The frame in `bytes`, read from `path`.
+    pub fn open(path: PathBuf, bytes: Vec<u8>) -> Result<Self, StudyError> {
+        let frame = ParquetReader::new(Cursor::new(bytes)).finish();
+        let frame = frame.map_err(|e| StudyError::stored(&path, format!("is not a Parquet file: {e}")))?;
+        Ok(Self { path, frame })
+    }
+
+    fn column(&self, name: &str) -> Result<&Column, StudyError> {
+        self.frame.column(name).map_err(|_| {
+            StudyError::stored(&self.path, format!("has no column `{name}`; run the study again"))
+        })
+    }
+
+    fn wrong(&self, name: &str) -> StudyError {
+        StudyError::stored(
+            &self.path,
+            format!("column `{name}` does not hold what it should; run the study again"),
+        )
+    }
+
+    fn texts(&self, name: &str) -> Result<Numbered<Option<Text>>, StudyError> {
+        let texts = self.column(name)?.str().map_err(|_| self.wrong(name))?;
+        Ok(Numbered::new(texts.iter()).map(|text| text.map(Text::from)))
+    }
+
+    fn full_texts(&self, name: &str) -> Result<Numbered<Text>, StudyError> {
+        let Numbered { numbers, values } = self.texts(name)?;
+        let values = values.into_iter().map(|text| text.ok_or_else(|| self.wrong(name)));
+        Ok(Numbered { numbers, values: values.collect::<Result<_, _>>()? })
+    }
+
+    fn maybe_wholes(&self, name: &str) -> Result<Vec<Option<u64>>, StudyError> {
+        Ok(self.column(name)?.u64().map_err(|_| self.wrong(name))?.iter().collect())
+    }
+
+    fn wholes(&self, name: &str) -> Result<Vec<u64>, StudyError> {
+        self.maybe_wholes(name)?.into_iter().map(|count| count.ok_or_else(|| self.wrong(name))).collect()
+    }
+
+    /// The columns whose names begin with `prefix`, without it.
+    fn named<'a>(&'a self, prefix: &'a str) -> impl Iterator<Item = (&'a str, &'a Column)> {
+        let columns = self.frame.columns().iter();
+        columns.filter_map(move |column| Some((column.name().strip_prefix(prefix)?, column)))
+    }
+
+    fn values(&self) -> Result<Vec<Values>, StudyError> {
+        let is_filled = |column: &column::Column| self.frame.column(column.name).is_ok();
+        let filled = column::COLUMNS.iter().filter(|column| is_filled(column)).count();
+        let mut rows: Vec<Values> = (0..self.frame.height()).map(|_| Values::with_capacity(filled)).collect();
+        for (column, place) in column::COLUMNS.iter().zip(0..).filter(|(column, _)| is_filled(column)) {
+            let stored = self.column(column.name)?;
+            match column.kind {
+                Kind::Count => {
+                    let cells = stored.u64().map_err(|_| self.wrong(column.name))?;
+                    fill(&mut rows, place, cells.iter().map(|cell| cell.map(Value::Count)));
+                }
+                Kind::Real => {
+                    let cells = stored.f64().map_err(|_| self.wrong(column.name))?;
+                    fill(&mut rows, place, cells.iter().map(|cell| cell.map(Value::Real)));
+                }
+            }
+        }
+        Ok(rows)
+    }
+
+    /// What names each row's draw.
+    fn draws(&self, draws: &mut Draws) -> Result<Numbered<Arc<DrawKey>>, StudyError> {
+        let mut readings = Numbered { numbers: vec![0; self.frame.height()], values: vec![Vec::new()] };
+        for (id, column) in self.named(READING) {
+            let id = Text::from(id);
+            let options = self.full_texts(column.name())?;
+            readings = readings.with(&options).map(|(mut reading, option)| {
+                reading.push((id.clone(), option));
+                reading
+            });
+        }
+        let readings = readings.map(ReadingKey::new);
+        let numbers = Numbered::new(self.wholes("draw")?.into_iter());
+        let keys = self.full_texts("group")?.with(&numbers).with(&readings);
+        Ok(keys.map(|((group, draw), reading)| draws.shared(DrawKey { group, draw: draw as u32, reading })))
+    }
+
+    /// The values of every row's sweeps.
+    fn sweeps(&self) -> Result<Numbered<SweepKey>, StudyError> {
+        let mut sweeps = Numbered { numbers: vec![0; self.frame.height()], values: vec![Vec::new()] };
+        for (setting, column) in self.named(SWEEP) {
+            let setting = Text::from(setting);
+            sweeps = sweeps.with(&self.sweep(column)?).map(|(mut sweep, value)| {
+                sweep.extend(value.map(|value| (setting.clone(), value)));
+                sweep
+            });
+        }
+        Ok(sweeps.map(SweepKey::new))
+    }
+
+    fn sweep(&self, column: &Column) -> Result<Numbered<Option<SweepValue>>, StudyError> {
+        let wrong = |_| self.wrong(column.name());
+        Ok(match column.dtype() {
+            DataType::Boolean => {
+                let cells = column.bool().map_err(wrong)?;
+                Numbered::new(cells.iter().map(|cell| cell.map(SweepValue::Flag)))
+            }
+            DataType::Int64 => {
+                let cells = column.i64().map_err(wrong)?;
+                Numbered::new(cells.iter().map(|cell| cell.map(SweepValue::Whole)))
+            }
+            DataType::Float64 => {
+                let cells = column.f64().map_err(wrong)?;
+                Numbered::new(cells.iter().map(|cell| cell.map(SweepValue::Real)))
+            }
+            _ => self.texts(column.name())?.map(|text| text.map(SweepValue::Text)),
+        })
+    }
+
+    /// What names each row, a trial or the prepared object itself.
+    fn owners(&self, draws: &mut Draws) -> Result<Vec<Owner>, StudyError> {
+        let (on, sweep) = (self.draws(draws)?, self.sweeps()?);
+        let (query, contender, repeat) =
+            (self.texts("query")?, self.texts("contender")?, self.maybe_wholes("repeat")?);
+        let owner = |row: usize| {
+            let on = on.of(row).clone();
+            let Some(contender) = contender.of(row).clone() else { return Ok(Owner::Draw(on)) };
+            let repeat = repeat[row].ok_or_else(|| self.wrong("repeat"))? as u32;
+            let (query, sweep) = (query.of(row).clone(), sweep.of(row).clone());
+            Ok(Owner::Trial(TrialKey { on, query, contender, sweep, repeat }))
+        };
+        (0..self.frame.height()).map(owner).collect()
+    }
+
+    fn trial_keys(&self, draws: &mut Draws) -> Result<Vec<TrialKey>, StudyError> {
+        let owners = self.owners(draws)?.into_iter();
+        let trial = |owner| match owner {
+            Owner::Trial(key) => Ok(key),
+            Owner::Draw(_) => Err(self.wrong("contender")),
+        };
+        owners.map(trial).collect()
+    }
+
+    /// The frame as trials.
+    pub fn trials(&self, draws: &mut Draws) -> Result<Vec<Row>, StudyError> {
+        let (keys, reason, seed) = (self.trial_keys(draws)?, self.texts("reason")?, self.wholes("seed")?);
+        let Numbered { numbers, values } = self.full_texts("status")?;
+        let values = values.iter().map(|name| Status::find(name).ok_or_else(|| self.wrong("status")));
+        let status = Numbered { numbers, values: values.collect::<Result<Vec<_>, _>>()? };
+        let rows = keys.into_iter().zip(self.values()?).enumerate();
+        let row = |(row, (key, values))| Row {
+            key,
+            seed: seed[row],
+            status: *status.of(row),
+            reason: reason.of(row).as_deref().map(str::to_owned),
+            values,
+        };
+        Ok(rows.map(row).collect())
+    }
+
+    /// The frame as prepared objects.
+    pub fn prepared(&self, draws: &mut Draws) -> Result<Vec<PreparedRow>, StudyError> {
+        let (keys, kind) = (self.draws(draws)?, self.full_texts("kind")?);
+        let (reason, seed) = (self.texts("reason")?, self.wholes("seed")?);
+        let row = |(row, values)| PreparedRow {
+            key: keys.of(row).clone(),
+            kind: kind.of(row).as_ref().to_owned(),
+            seed: seed[row],
+            reason: reason.of(row).as_deref().map(str::to_owned),
+            values,
+        };
+        Ok(self.values()?.into_iter().enumerate().map(row).collect())
+    }
+
+    /// The frame as exhibits.
+    pub fn exhibits(&self, draws: &mut Draws) -> Result<Vec<Kept>, StudyError> {
+        let (of, name, width) = (self.owners(draws)?, self.full_texts("name")?, self.wholes("width")?);
+        let lists = self.column("values")?.list().map_err(|_| self.wrong("values"))?.clone();
+        let mut kept = Vec::new();
+        for (row, of) in of.into_iter().enumerate() {
+            let list = lists.get_as_series(row).ok_or_else(|| self.wrong("values"))?;
+            let values = list.f64().map_err(|_| self.wrong("values"))?.into_no_null_iter().collect();
+            let exhibit =
+                Exhibit { name: name.of(row).as_ref().to_owned(), width: width[row] as usize, values };
+            kept.push(Kept { of, exhibit });
+        }
+        Ok(kept)
+    }
+
+    /// The frame as clock readings.
+    pub fn times(&self, draws: &mut Draws) -> Result<Vec<Timing>, StudyError> {
+        let keys = self.trial_keys(draws)?;
+        let (session, clock_repeat) = (self.wholes("session")?, self.wholes("clock_repeat")?);
+        let plan_wall_ns = self.wholes("plan_wall_ns")?;
+        let row = |(row, trial)| Timing {
+            trial,
+            session: session[row] as u32,
+            clock_repeat: clock_repeat[row] as u32,
+            plan_wall_ns: plan_wall_ns[row],
+        };
+        Ok(keys.into_iter().enumerate().map(row).collect())
+    }
+}
+
+fn fill(rows: &mut [Values], place: u16, cells: impl Iterator<Item = Option<Value>>) {
+    for (row, cell) in rows.iter_mut().zip(cells) {
+        if let Some(value) = cell {
+            row.put(place, value);
+        }
+    }
+}

@@ -1,0 +1,147 @@
+use super::describe::{Described, described};
+use super::read::{Draws, Stored};
+use super::table::{self, DESCRIPTION};
+use super::{Staged, remove_temporaries, write_whole};
+use crate::study::column;
+use crate::study::key::{DrawKey, KeyColumns, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
+use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
+use engine::planner::{Exhibit, Value};
+use polars_io::prelude::{ParquetReader, SerReader as _};
+use std::fs;
+use std::io::Cursor;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+fn keys() -> KeyColumns {
+    let sweeps = ["weight", "samples", "kind", "lazy"];
+    KeyColumns {
+        sweeps: sweeps.map(|key| (Text::from(key), Text::from("a_planner"))).into(),
+        readings: vec!["corners".into(), "ties".into()],
+    }
+}
+
+fn on(draw: u32) -> Arc<DrawKey> {
+    let option = |id: &str, option: &str| (Text::from(id), Text::from(option));
+    let reading = ReadingKey::new(vec![option("corners", "cut"), option("ties", "fifo/lifo,a=b")]);
+    Arc::new(DrawKey { group: "a group".into(), draw, reading })
+}
+
+fn trial(draw: u32, query: Option<&str>) -> TrialKey {
+    let sweep = SweepKey::new(vec![
+        ("weight".into(), SweepValue::Real(1.5)),
+        ("samples".into(), SweepValue::Whole(100)),
+        ("kind".into(), SweepValue::Text("12".into())),
+        ("lazy".into(), SweepValue::Flag(draw == 0)),
+    ]);
+    TrialKey { on: on(draw), query: query.map(Text::from), contender: "A*".into(), sweep, repeat: draw + 3 }
+}
+
+fn rows() -> Vec<Row> {
+    let row = |draw, query, reason: Option<&str>, values: &[(&'static str, Value)]| Row {
+        key: trial(draw, query),
+        seed: u64::MAX,
+        status: if reason.is_some() { Status::NoPath } else { Status::Solved },
+        reason: reason.map(str::to_owned),
+        values: values.iter().copied().collect::<Values>(),
+    };
+    let measured = [("path_cost_cells", Value::Real(0.1 + 0.2)), ("opened", Value::Count(7))];
+    vec![
+        row(0, None, None, &measured),
+        row(0, Some("2"), Some("none"), &measured[1..]),
+        row(1, Some("2"), None, &[]),
+    ]
+}
+
+fn stored(frame: polars::prelude::DataFrame) -> Stored {
+    Stored::open(PathBuf::from("a.parquet"), table::to_parquet(frame, &keys())).unwrap()
+}
+
+#[test]
+fn typed_keys_and_values_come_back_from_parquet_as_they_were() {
+    let (rows, draws) = (rows(), &mut Draws::default());
+    let trials = table::trials(&rows, &keys(), &["path_cost_cells", "opened", "closed"]);
+    let kinds = ["sweep_weight", "sweep_samples", "sweep_kind", "sweep_lazy", "reading_ties"]
+        .map(|name| trials.column(name).unwrap().dtype().to_string());
+    assert_eq!(kinds, ["f64", "i64", "str", "bool", "str"]);
+    assert_eq!(trials.column("query").unwrap().null_count(), 1, "unknown is null");
+    assert_eq!(trials.column("path_cost_cells").unwrap().null_count(), 2, "unmeasured is null");
+    let back = stored(trials).trials(draws).unwrap();
+    assert_eq!(back, rows);
+    assert!(Arc::ptr_eq(&back[0].key.on, &back[1].key.on), "labels are copied");
+    let prepared =
+        vec![PreparedRow { key: on(1), kind: "k".into(), seed: 3, reason: None, values: Values::default() }];
+    assert_eq!(stored(table::prepared(&prepared, &keys())).prepared(draws).unwrap(), prepared);
+    let exhibit = |values: Vec<f64>| Exhibit { name: "path".to_owned(), width: 1, values };
+    let kept = vec![
+        Kept { of: Owner::Draw(on(1)), exhibit: exhibit(vec![]) },
+        Kept { of: Owner::Trial(trial(1, None)), exhibit: exhibit(vec![0.5, -0.0]) },
+    ];
+    assert_eq!(stored(table::exhibits(&kept, &keys())).exhibits(draws).unwrap(), kept);
+    let time = |session| Timing { trial: trial(0, None), session, clock_repeat: 4, plan_wall_ns: 99 };
+    let times = vec![time(1), time(2)];
+    assert_eq!(stored(table::times(&times, &keys())).times(draws).unwrap(), times);
+}
+
+#[test]
+fn every_column_of_a_file_is_described_in_its_metadata() {
+    let columns: Vec<&'static str> = column::COLUMNS.iter().map(|column| column.name).collect();
+    let frame = table::trials(&rows(), &keys(), &columns);
+    let names: Vec<String> = frame.columns().iter().map(|column| column.name().to_string()).collect();
+    let bytes = table::to_parquet(frame, &keys());
+    let mut reader = ParquetReader::new(Cursor::new(bytes));
+    let metadata = reader.get_metadata().unwrap().key_value_metadata().clone().unwrap();
+    let found = metadata.into_iter().find(|entry| entry.key == DESCRIPTION).unwrap().value.unwrap();
+    let found: Vec<Described> = serde_json::from_str(&found).unwrap();
+    assert_eq!(found.iter().map(|column| &column.name).collect::<Vec<_>>(), names.iter().collect::<Vec<_>>());
+    let of = |name: &str| found.iter().find(|column| column.name == name).unwrap();
+    assert_eq!(of("path_length_cm").unit.as_deref(), Some("cm"));
+    assert_eq!(
+        (of("opened").unit.as_deref(), &*of("opened").about),
+        (None, "nodes ever put on an open list, both sides")
+    );
+    assert_eq!(
+        of("sweep_weight").about,
+        "value of the setting `weight` of `a_planner`, which the study sweeps"
+    );
+    assert_eq!(of("reading_ties").about, "option taken of the reading `ties`");
+    for frame in [table::prepared(&[], &keys()), table::exhibits(&[], &keys()), table::times(&[], &keys())] {
+        for column in frame.columns() {
+            assert!(described(column.name(), &keys()).is_some(), "{} is not described", column.name());
+        }
+    }
+    assert_eq!(described("sweep_other", &keys()), None);
+}
+
+#[test]
+fn measured_columns_are_told_from_those_of_keys_by_their_names() {
+    for column in column::COLUMNS {
+        let is_key = ["sweep_", "reading_"].iter().any(|prefix| column.name.starts_with(prefix));
+        let described = described(column.name, &KeyColumns::default()).unwrap();
+        assert!(!is_key && described.about == column.about, "{}", column.name);
+    }
+}
+
+#[test]
+fn staged_files_are_all_put_in_place_or_none_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    write_whole(&at("a"), b"old").unwrap();
+    fs::create_dir(at("c")).unwrap();
+    let mut staged = Staged::default();
+    staged.add(&at("a"), b"new").unwrap();
+    staged.add(&at("b"), b"new").unwrap();
+    let error = staged.add(&at("c"), b"new").unwrap_err().to_string();
+    assert!(error.ends_with("c: writing the file: is a directory"), "{error}");
+    drop(staged);
+    let names = || {
+        let mut names: Vec<_> =
+            fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!((fs::read(at("a")).unwrap(), names()), (b"old".to_vec(), vec!["a".into(), "c".into()]));
+    fs::write(at("s.trials.parquet.77.tmp"), b"half").unwrap();
+    fs::write(at("other.77.tmp"), b"half").unwrap();
+    remove_temporaries(folder.path(), "s");
+    assert_eq!(names(), ["a", "c", "other.77.tmp"]);
+}

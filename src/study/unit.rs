@@ -1,0 +1,118 @@
+//! Units of work: one prepared object with everything that runs on it.
+
+use super::contender::{Contender, Pipeline, SweepPoint};
+use super::family::{Family, Query};
+use super::group::Group;
+use super::key::{DrawKey, Text, TrialKey};
+use super::name::Names;
+use super::reading::ReadingChoice;
+use super::spec::{BudgetSpec, TrialsSpec};
+use base::seed;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// What all units of a study share.
+pub struct Terms<'a> {
+    /// The paper's name.
+    pub paper: &'a str,
+    /// The study's name.
+    pub study: &'a str,
+    /// How its records are named.
+    pub names: Names,
+    /// The root of every seed.
+    pub seed: u64,
+    /// Limits on each trial.
+    pub budget: BudgetSpec,
+    /// Trials whose exhibits are kept.
+    pub keeps: Vec<&'a TrialsSpec>,
+}
+
+/// One prepared object and the trials that share it.
+#[derive(Clone)]
+pub struct Unit<'a> {
+    /// What it shares with the study's other units.
+    pub terms: &'a Terms<'a>,
+    /// What names it in records.
+    pub key: Arc<DrawKey>,
+    /// The group its problems belong to.
+    pub group: &'a Group,
+    /// The group's family under this reading.
+    pub family: &'a dyn Family,
+    /// The reading.
+    pub point: &'a ReadingChoice,
+    /// Who runs on it.
+    pub entrants: Vec<&'a Entrant<'a>>,
+    /// The draw's seed; the same under every reading and for every contender.
+    pub seed: u64,
+    /// Keeps every exhibit, whatever the study asks for.
+    pub keeps_all: bool,
+    /// The trials that are asked for, if not all; a task whose trials share little may leave out others.
+    pub wanted: Option<BTreeSet<TrialKey>>,
+}
+
+/// A contender at one point of the sweeps, ready to run.
+pub struct Entrant<'a> {
+    /// The contender.
+    pub contender: &'a Contender,
+    /// Its label, as keys share it.
+    pub label: Text,
+    /// The sweeps' values.
+    pub sweep: SweepPoint,
+    /// The pipeline built from both.
+    pub pipeline: Pipeline,
+}
+
+impl Unit<'_> {
+    /// The queries asked of this draw.
+    pub fn queries(&self) -> Vec<Query> {
+        self.family.queries_for(self.seed)
+    }
+
+    /// The name of the problem that `query` poses in this unit: seeds derive from it.
+    pub fn problem(&self, query: &Query) -> String {
+        self.terms.names.problem(&self.key, query_key(query).as_deref())
+    }
+
+    /// What names a trial in this unit.
+    pub fn trial(&self, query: &Query, entrant: &Entrant<'_>, repeat: u32) -> TrialKey {
+        TrialKey {
+            on: self.key.clone(),
+            query: query_key(query),
+            contender: entrant.label.clone(),
+            sweep: entrant.sweep.key.clone(),
+            repeat,
+        }
+    }
+
+    /// Whether a trial is asked for whose key `is_it`.
+    pub fn is_wanted(&self, is_it: impl Fn(&TrialKey) -> bool) -> bool {
+        self.wanted.as_ref().is_none_or(|wanted| wanted.iter().any(is_it))
+    }
+
+    /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
+    pub fn is_kept(&self, contender: Option<&str>, repeat: u32) -> bool {
+        let mut wanted = self.terms.keeps.iter().filter(|trials| trials.problems == self.group.label);
+        self.keeps_all
+            || wanted.any(|trials| {
+                let named = match (contender, &trials.contender) {
+                    (Some(contender), Some(wanted)) => contender == wanted,
+                    _ => true,
+                };
+                let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
+                named && is_early && self.key.draw < trials.replicates
+            })
+    }
+}
+
+fn query_key(query: &Query) -> Option<Text> {
+    (!query.name.is_empty()).then(|| query.name.as_str().into())
+}
+
+impl Entrant<'_> {
+    /// The seed of one run: it depends on names only, so that adding a contender moves no other.
+    pub fn seed(&self, terms: &Terms<'_>, problem: &str, repeat: u32) -> u64 {
+        let label = &self.contender.label;
+        let names = [terms.paper, terms.study, "contender", problem, label, &repeat.to_string()];
+        seed::derive(terms.seed, &names)
+    }
+}

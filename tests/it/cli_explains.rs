@@ -1,0 +1,88 @@
+//! What people are told of mistakes all at once, and what `list` and `check` say of files and entries.
+
+use crate::paper::Bench;
+use crate::wrong_words::file;
+use std::fs;
+
+#[test]
+fn ten_mistakes_in_different_tables_are_told_in_one_round_each_at_its_own_place() {
+    let bench = Bench::new();
+    let edits = [
+        ("paper", "title =", "titel =", "paper.toml:2:1: unknown key `titel` (did you mean `title`?)"),
+        ("paper", "metric = \"path_cost_cells\"", "metrik = \"path_cost_cells\"", "unknown key `metrik`"),
+        ("paper", "is = \"lower\"", "is = \"lowr\"", "`is` is \"lowr\" (did you mean `lower`?)"),
+        ("paper", "figures = 1\n", "figures = -1\n", "`figures` is -1"),
+        ("draws", "seed = 7", "seed = 7.5", "draws.toml:3:8: `seed` is 7.5"),
+        ("draws", "weight = 1,", "wheight = 1,", "unknown key `wheight` (did you mean `weight`?)"),
+        ("draws", "goal = [11, 9]", "goal = [11, 9, 3]", "`goal` is an array of 3; an array of 2"),
+        ("draws", "\"bidirectional\"", "\"bidirektional\"", "(did you mean `bidirectional`?)"),
+        ("room", "label = \"room\"", "lable = \"room\"", "unknown key `lable` (did you mean `label`?)"),
+        ("room", "contenders = [\"A*\"]", "contenders = \"A*\"", "`contenders` is \"A*\"; an array"),
+    ];
+    for (name, from, to, _) in edits {
+        bench.edit(&file(name), from, to);
+    }
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    for (.., part) in edits {
+        assert!(said.err.contains(part), "{part}\nis said: {}", said.err);
+    }
+    let places = said.err.lines().filter(|line| line.contains(".toml:"));
+    assert!(places.count() <= edits.len() + 2, "something is said twice: {}", said.err);
+}
+
+#[test]
+fn a_toy_needs_no_ledger_no_counts_no_quick_and_no_ties() {
+    let bench = Bench::new();
+    let paper = fs::read_to_string(bench.at("mini/paper.toml")).unwrap();
+    let claims = &paper[paper.find("[[claim]]").unwrap()..];
+    bench.write("mini/paper.toml", format!("[source]\ntitle = \"A toy\"\n{claims}").as_bytes());
+    bench.edit("mini/draws.toml", "[quick]\nreplicates = 3\n", "");
+    bench.edit("mini/draws.toml", "settings = { weight = 1, ties = \"fifo\" }", "settings = { weight = 1 }");
+    bench.edit("mini/room.toml", "[quick]\nreplicates = 1\n", "");
+    assert_eq!(bench.done(&["check", "./mini"]), "mini: 2 studies, 2 claims, 0 ledger rows are in order\n");
+    bench.done(&["run", "./mini"]);
+    let manifest = bench.at("target/replan/mini/data/runs/mini/draws.manifest.toml");
+    let manifest = fs::read_to_string(manifest).unwrap();
+    for default in ["quick: replicates = 2", "contender `A*`, astar: ties = \"fifo\""] {
+        assert!(manifest.contains(default), "{default}\n{manifest}");
+    }
+}
+
+#[test]
+fn a_scene_in_a_papers_folder_is_taken_for_a_scene() {
+    let bench = Bench::new();
+    let scene = "name = \"s\"\n[[box]]\nname = \"b\"\nmin_mm = [0, 0, 0]\nmax_mm = [1, 1, 1]\n";
+    bench.write("mini/walls.toml", scene.as_bytes());
+    let said = bench.done(&["check", "./mini"]);
+    assert!(said.contains("mini/walls.toml is taken for a cell_scene, not for a study"), "{said}");
+    bench.write("mini/walls.toml", scene.replace("max_mm", "max_m").as_bytes());
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(said.err.contains("walls.toml:5:1: without `paper` and `question`"), "{}", said.err);
+    assert!(said.err.contains("cell_scene: unknown key `max_m` (did you mean `max_mm`?)"), "{}", said.err);
+}
+
+#[test]
+fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
+    let bench = Bench::new();
+    for (what, name, part) in [
+        ("planners", "astar", "ties: \"fifo\", \"lifo\" or \"larger_g\"; \"fifo\" if left out"),
+        ("criteria", "one_draw", "sweep = \"samples=100\""),
+        ("checks", "one_draw", "sweep = \"samples=100\""),
+        ("rules", "straight_line", "start = [22.0, 15.0]"),
+        ("families", "random_cells", "blocked_share: a number (a share of 1); required"),
+        ("tasks", "plan", "It has no settings."),
+        ("prepared", "lattice", "free_cells"),
+        ("files", "robot", "joint.alpha_deg: a number (degrees); required"),
+    ] {
+        let said = bench.done(&["list", what, name]);
+        assert!(said.contains(part), "{part}\n{said}");
+        let before_example = said.split("Example").next().unwrap();
+        assert!(before_example.lines().all(|line| line.chars().count() <= 80), "{said}");
+    }
+    assert!(bench.done(&["list", "criteria"]).lines().all(|line| line.chars().count() <= 80));
+    let said = bench.run(&["list", "planners", "astr"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(said.err.contains("there is no planner `astr` (did you mean `astar`?)"), "{}", said.err);
+}

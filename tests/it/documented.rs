@@ -1,0 +1,251 @@
+//! Everything registered documents itself: meanings, examples and schemas come from the types that read the files.
+
+use base::settings::describe::undocumented;
+use base::settings::{Document, Settings, SettingsError};
+use replan::analysis::context::Context;
+use replan::analysis::criterion;
+use replan::analysis::rule;
+use replan::cli::catalogue::{self, Item};
+use replan::cli::file_schema;
+use replan::render::figure;
+use replan::study::paper::Paper;
+use replan::study::{Inputs, ReadingChoice, family, task};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn everything() -> Vec<(&'static str, Vec<Item>)> {
+    vec![
+        ("planner", catalogue::planners()),
+        ("stage", catalogue::stages()),
+        ("family", catalogue::families()),
+        ("task", catalogue::tasks()),
+        ("criterion", catalogue::criteria()),
+        ("rule", catalogue::rules()),
+        ("figure", catalogue::figures()),
+        ("file", catalogue::files()),
+    ]
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn example(item: &Item) -> Settings {
+    Settings::composed(format!("the example of {}", item.name), toml::from_str(item.example).unwrap())
+}
+
+fn committed_papers() -> Vec<Paper> {
+    let folders = fs::read_dir(root().join("experiments")).unwrap();
+    let mut folders: Vec<PathBuf> = folders.map(|entry| entry.unwrap().path()).collect();
+    folders.sort();
+    let load = |folder: &PathBuf| {
+        Paper::load(folder, &Inputs { roots: vec![folder.clone(), root().to_owned()] }).unwrap()
+    };
+    folders.iter().map(load).collect()
+}
+
+#[test]
+fn every_key_of_everything_registered_has_a_meaning() {
+    let mut bare = Vec::new();
+    let mut keys = 0;
+    for (kind, items) in everything() {
+        for item in items {
+            let schema = item.settings.expect("it is set").schema();
+            keys += base::settings::describe::fields(&schema).len();
+            bare.extend(undocumented(&schema).into_iter().map(|key| format!("{kind} {}: {key}", item.name)));
+        }
+    }
+    assert!(keys > 400, "{keys} keys");
+    assert!(bare.is_empty(), "{}", bare.join("\n"));
+}
+
+#[test]
+fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
+    let inputs = Inputs { roots: vec![root().to_owned(), root().join("experiments/zhang")] };
+    for item in catalogue::planners().iter().chain(&catalogue::stages()) {
+        let entry = engine::planner::find(item.name).unwrap();
+        let built = match entry.build {
+            engine::planner::Build::Planner(build) => build(&example(item)).map(|_| ()),
+            engine::planner::Build::Stage(build) => build(&example(item)).map(|_| ()),
+        };
+        built.unwrap_or_else(|error| panic!("{}: {error}", item.name));
+    }
+    for item in catalogue::families() {
+        let built = (family::find(item.name).unwrap().build)(&example(&item), &inputs);
+        built.unwrap_or_else(|error| panic!("{}: {error}", item.name));
+    }
+    for item in catalogue::tasks() {
+        let built = (task::find(item.name).unwrap().build)(&example(&item));
+        built.unwrap_or_else(|error| panic!("{}: {error}", item.name));
+    }
+}
+
+/// Builds the example with some claim of a committed paper.
+fn builds_somewhere(
+    item: &Item,
+    papers: &[Paper],
+    build: &dyn Fn(&Context<'_>) -> Result<(), SettingsError>,
+) {
+    let settings = example(item);
+    let mut said = BTreeSet::new();
+    let builds = papers.iter().any(|paper| {
+        let point = ReadingChoice::new(&paper.readings(), &BTreeMap::new()).unwrap();
+        paper.claims.iter().any(|claim| {
+            let context = Context { claim, settings: &settings, paper, point: &point };
+            build(&context).map_err(|error| said.insert(error.to_string())).is_ok()
+        })
+    });
+    assert!(builds, "{}: {said:?}", item.name);
+}
+
+#[test]
+fn every_example_of_a_criterion_a_rule_and_a_figure_builds_in_a_committed_paper() {
+    let papers = committed_papers();
+    for item in catalogue::criteria() {
+        let entry = criterion::find(item.name).unwrap();
+        builds_somewhere(&item, &papers, &|context| (entry.build)(context).map(|_| ()));
+    }
+    for item in catalogue::rules() {
+        let entry = rule::find(item.name).unwrap();
+        builds_somewhere(&item, &papers, &|context| (entry.build)(context).map(|_| ()));
+    }
+    for item in catalogue::figures() {
+        let (entry, settings) = (figure::find(item.name).unwrap(), example(&item));
+        let mut said = BTreeSet::new();
+        let builds = papers.iter().any(|paper| {
+            paper.studies.iter().any(|study| {
+                let built = (entry.build)(&settings, study, paper);
+                built.map_err(|error| said.insert(error.to_string())).is_ok()
+            })
+        });
+        assert!(builds, "{}: {said:?}", item.name);
+    }
+}
+
+/// The words of JSON Schema that the validator and the descriptions understand, and those that need no understanding.
+const WORDS: [&str; 27] = [
+    "$defs",
+    "$ref",
+    "$schema",
+    "additionalProperties",
+    "allOf",
+    "anyOf",
+    "const",
+    "default",
+    "description",
+    "enum",
+    "exclusiveMaximum",
+    "exclusiveMinimum",
+    "format",
+    "if",
+    "items",
+    "maxItems",
+    "maximum",
+    "minItems",
+    "minimum",
+    "oneOf",
+    "prefixItems",
+    "properties",
+    "required",
+    "then",
+    "title",
+    "type",
+    "uniqueItems",
+];
+
+fn foreign_words(schema: &Value, found: &mut BTreeSet<String>) {
+    let Some(table) = schema.as_object() else { return };
+    for (word, value) in table {
+        if !WORDS.contains(&word.as_str()) {
+            found.insert(word.clone());
+        }
+        match (word.as_str(), value) {
+            ("properties" | "$defs", Value::Object(parts)) => {
+                parts.values().for_each(|part| foreign_words(part, found));
+            }
+            ("default", _) => {}
+            (_, Value::Array(parts)) => parts.iter().for_each(|part| foreign_words(part, found)),
+            (_, part) => foreign_words(part, found),
+        }
+    }
+}
+
+#[test]
+fn no_schema_has_a_word_that_the_validator_does_not_know() {
+    let mut found = BTreeSet::new();
+    for kind in catalogue::files() {
+        foreign_words(&file_schema::of(kind.name), &mut found);
+    }
+    assert!(found.is_empty(), "{found:?}");
+    foreign_words(&serde_json::json!({ "properties": { "a": { "pattern": "x" } } }), &mut found);
+    assert_eq!(found.into_iter().collect::<Vec<_>>(), ["pattern"], "the search finds what is foreign");
+}
+
+#[test]
+fn the_committed_schemas_are_current() {
+    for kind in catalogue::files() {
+        let path = root().join(format!("docs/schema/{}.schema.json", kind.name));
+        let stored: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+        assert!(stored == file_schema::of(kind.name), "{}: run `replan schema`", path.display());
+    }
+}
+
+#[test]
+fn every_committed_file_keeps_to_its_schema_and_a_misspelled_key_does_not() {
+    let mut files = vec![
+        ("robot", "data/robots/aubo_i10.toml".to_owned()),
+        ("robot", "data/robots/motoman_up6.toml".to_owned()),
+        ("robot", "data/robots/puma560.toml".to_owned()),
+        ("robot", "data/robots/ur5.toml".to_owned()),
+        ("cell_scene", "data/scenes/fu2018_cell.toml".to_owned()),
+        ("cell_groups", "data/scenes/fu2018_groups.toml".to_owned()),
+        ("plane_map", "data/scenes/fu2018_particle.toml".to_owned()),
+    ];
+    for scene in ["c1", "c2", "e1", "e2", "e3", "e4"] {
+        files.push(("polyhedra_scene", format!("data/scenes/tang_{scene}.toml")));
+    }
+    for paper in ["fu2018", "movingai_sample", "planar", "tang2023", "zhang"] {
+        for entry in fs::read_dir(root().join("experiments").join(paper)).unwrap() {
+            let name = entry.unwrap().file_name().into_string().unwrap();
+            let kind = match name.as_str() {
+                "paper.toml" => "paper",
+                "crosscheck.toml" => "crosscheck",
+                name => match name.strip_suffix(".toml") {
+                    Some(_) => "study",
+                    None => continue,
+                },
+            };
+            files.push((kind, format!("experiments/{paper}/{name}")));
+        }
+    }
+    for (kind, file) in files {
+        let (path, schema) = (root().join(&file), file_schema::of(kind));
+        let document = Document::open(&path).unwrap();
+        document.validate(&schema).unwrap_or_else(|error| panic!("{error}"));
+        let wrong = Document::new(&path, format!("no_such_key = 1\n{}", document.text()));
+        assert!(
+            wrong.validate(&schema).unwrap_err().to_string().contains("unknown key `no_such_key`"),
+            "{file}"
+        );
+    }
+}
+
+#[test]
+fn a_switch_that_may_be_left_out_is_off() {
+    // Records of settings hold every default but those of switches, so that a switch left out must stay off.
+    let mut switches = 0;
+    for (kind, items) in everything() {
+        for item in items {
+            let schema = item.settings.expect("it is set").schema();
+            for (key, part) in schema["properties"].as_object().into_iter().flatten() {
+                let default = part.get("default").and_then(Value::as_bool);
+                switches += u32::from(default.is_some());
+                let is_recorded = ["planner", "stage", "family", "task"].contains(&kind);
+                assert!(!is_recorded || default != Some(true), "{kind} {}: {key}", item.name);
+            }
+        }
+    }
+    assert!(switches > 0, "no switch may be left out");
+}

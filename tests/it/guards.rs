@@ -1,0 +1,196 @@
+//! What guards the product: whoever touches a verdict, a record, a figure or a chapter by hand is found out.
+
+use crate::paper::Bench;
+use base::hash::sha256;
+use polars::prelude::{DataFrame, IntoColumn as _, NamedFrom as _, Series};
+use polars_io::prelude::{ParquetReader, ParquetWriter, SerReader as _};
+use std::fs;
+use std::io::Cursor;
+use std::path::Path;
+
+const RUNS: &str = "data/runs/movingai_sample";
+const REPORT: &str = "paper_repro.md";
+
+/// A copy of the committed paper `movingai_sample` with all that is stored of it.
+fn committed() -> Bench {
+    let (bench, root) = (Bench::empty(), Path::new(env!("CARGO_MANIFEST_DIR")));
+    for name in ["experiments", "data/runs", "plots"] {
+        copy(&bench, root, &format!("{name}/movingai_sample"));
+    }
+    copy(&bench, root, "data/maps");
+    bench.write(REPORT, &fs::read(root.join(REPORT)).unwrap());
+    bench
+}
+
+/// Copies the files of the folder `name` below `root`.
+fn copy(bench: &Bench, root: &Path, name: &str) {
+    for entry in fs::read_dir(root.join(name)).unwrap() {
+        let entry = entry.unwrap();
+        let file = entry.file_name().into_string().unwrap();
+        bench.write(&format!("{name}/{file}"), &fs::read(entry.path()).unwrap());
+    }
+}
+
+/// The program run on the copy, which must end with exit code 3; what it said.
+fn refused(bench: &Bench, arguments: &[&str]) -> String {
+    let said = bench.run(arguments);
+    assert_eq!(said.code, Some(3), "{arguments:?}: {}{}", said.out, said.err);
+    said.err
+}
+
+/// Multiplies the first value of `column` in the stored trials by 1.5 and gives the file's hash.
+fn touch(bench: &Bench, column: &str) -> String {
+    let path = format!("{RUNS}/scenarios.trials.parquet");
+    let bytes = fs::read(bench.at(&path)).unwrap();
+    let mut frame: DataFrame = ParquetReader::new(Cursor::new(bytes)).finish().unwrap();
+    let values = frame.column(column).unwrap().f64().unwrap();
+    let mut values: Vec<Option<f64>> = values.iter().collect();
+    values[0] = values[0].map(|value| 1.5 * value);
+    frame.with_column(Series::new(column.into(), values).into_column()).unwrap();
+    let mut bytes = Vec::new();
+    ParquetWriter::new(&mut bytes).finish(&mut frame).unwrap();
+    bench.write(&path, &bytes);
+    sha256(&bytes)
+}
+
+#[test]
+fn a_committed_paper_passes_every_check_of_the_gate() {
+    let bench = committed();
+    let before = bench.tree("");
+    assert_eq!(
+        bench.done(&["judge", "movingai_sample", "--check"]),
+        "movingai_sample: 3 verdicts are what the stored run gives\n"
+    );
+    bench.done(&["render", "movingai_sample", "--check"]);
+    bench.done(&["check", "movingai_sample", "--rerun", "2"]);
+    assert!(bench.tree("") == before, "a check wrote something");
+    let gate = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(".ci/run")).unwrap();
+    for guard in ["judge", "render"] {
+        assert!(
+            gate.contains(&format!("{guard} \"$(basename \"$folder\")\" --check")),
+            "{guard} is not in the gate"
+        );
+    }
+}
+
+#[test]
+fn a_flipped_verdict_is_caught_by_judge_though_render_believes_it() {
+    let bench = committed();
+    let verdicts = format!("{RUNS}/verdicts.toml");
+    bench.edit(&verdicts, "verdict = \"reproduced\"", "verdict = \"not_reproduced\"");
+    bench.done(&["render", "movingai_sample"]);
+    bench.done(&["render", "movingai_sample", "--check"]);
+    let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
+    let named = format!(
+        "replan: {verdicts}: not what the stored run gives:\n  \
+         claim `lengths.astar`: stored not reproduced, judged reproduced\n"
+    );
+    assert_eq!(said, named);
+}
+
+#[test]
+fn whatever_else_is_edited_in_stored_verdicts_is_caught_and_named() {
+    for (from, to, said) in [
+        (
+            "value = 1.0",
+            "value = 0.5",
+            "claim `lengths.astar`: reproduced as stored, but number of `equals`: stored ",
+        ),
+        ("on 60 of 60 trials", "on 61 of 61 trials", "but the reasons of `equals` read otherwise"),
+        (
+            "criterion = \"equals\"",
+            "criterion = \"share\"",
+            "but criterion: stored \"share\", judged \"equals\"",
+        ),
+        (
+            "says = \"A*",
+            "says = \"B*",
+            "claim `lengths.astar`: reproduced as stored, but the claim's own words",
+        ),
+        ("quick = false", "quick = true", "quick: stored true, judged false"),
+        (
+            "claim = \"lengths.astar\"",
+            "claim = \"old\"",
+            "claim `old`: stored, but the paper has no such claim",
+        ),
+        (
+            "quick = false",
+            "# by hand\nquick = false",
+            "the same verdicts in other words than `replan judge` writes",
+        ),
+    ] {
+        let bench = committed();
+        bench.edit(&format!("{RUNS}/verdicts.toml"), from, to);
+        let found = refused(&bench, &["judge", "movingai_sample", "--check"]);
+        assert!(found.contains(said), "{to}: {found}");
+    }
+}
+
+#[test]
+fn a_touched_record_is_caught_by_its_hash_and_by_the_verdict_if_the_hash_is_touched_too() {
+    let bench = committed();
+    let manifest = format!("{RUNS}/scenarios.manifest.toml");
+    let text = fs::read_to_string(bench.at(&manifest)).unwrap();
+    let stored = sha256(&fs::read(bench.at(&format!("{RUNS}/scenarios.trials.parquet"))).unwrap());
+    let touched = touch(&bench, "path_cost_cells");
+    for command in ["judge", "render"] {
+        let said = bench.run(&[command, "movingai_sample", "--check"]);
+        assert_eq!(said.code, Some(2), "{command}: {}", said.err);
+        assert!(said.err.contains("trials.parquet: is not the file that the manifest names"), "{}", said.err);
+    }
+    assert!(text.contains(&stored));
+    bench.write(&manifest, text.replace(&stored, &touched).as_bytes());
+    let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
+    assert!(said.contains("claim `lengths.astar`: stored reproduced, judged not reproduced"), "{said}");
+    bench.done(&["judge", "movingai_sample"]);
+    bench.done(&["judge", "movingai_sample", "--check"]);
+    let said = refused(&bench, &["check", "movingai_sample", "--rerun", "1000"]);
+    assert!(said.contains("trials of study `scenarios` are not what is stored"), "{said}");
+}
+
+#[test]
+fn every_stale_file_of_a_figure_is_caught() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    for name in ["fig1.svg", "fig1.png", "table1.tex", "numbers.tex"] {
+        let place = format!("target/replan/mini/plots/mini/{name}");
+        let whole = fs::read(bench.at(&place)).unwrap();
+        for at in [whole.len() / 3, whole.len() / 2, whole.len() - 20] {
+            let mut stale = whole.clone();
+            stale[at] ^= 1;
+            bench.write(&place, &stale);
+            let said = refused(&bench, &["render", "./mini", "--check"]);
+            assert_eq!(said, format!("replan: not current: {place}\n"), "byte {at}");
+        }
+        bench.done(&["render", "./mini"]);
+        assert!(fs::read(bench.at(&place)).unwrap() == whole, "{name} was not mended");
+    }
+}
+
+#[test]
+fn a_chapter_edited_by_hand_is_caught_and_words_around_it_are_left_alone() {
+    let bench = committed();
+    bench.edit(REPORT, "# ", "# My own title: ");
+    bench.done(&["render", "movingai_sample", "--check"]);
+    let text = fs::read_to_string(bench.at(REPORT)).unwrap();
+    let (before, chapter) = text.split_once("<!-- replan begin movingai_sample -->").unwrap();
+    let edited = chapter.replacen("reproduced", "rather well reproduced", 1);
+    bench.write(REPORT, format!("{before}<!-- replan begin movingai_sample -->{edited}").as_bytes());
+    let said = refused(&bench, &["render", "movingai_sample", "--check"]);
+    assert_eq!(said, format!("replan: not current: {REPORT}\n"));
+}
+
+#[test]
+fn each_exit_code_means_what_the_help_says() {
+    let bench = committed();
+    let code = |arguments: &[&str]| bench.run(arguments).code.unwrap();
+    assert_eq!(code(&["judge", "movingai_sample"]), 0);
+    assert_eq!(code(&["judge", "no_such_paper"]), 2);
+    assert_eq!(code(&["judge", "--no-such-flag"]), 2);
+    bench.edit(&format!("{RUNS}/verdicts.toml"), "value = 1.0", "value = 0.5");
+    assert_eq!(code(&["judge", "movingai_sample", "--check"]), 3);
+    bench.write("in_the_way", b"");
+    assert_eq!(code(&["repro", "movingai_sample", "--out", "in_the_way/below"]), 1);
+    fs::remove_file(bench.at(&format!("{RUNS}/verdicts.toml"))).unwrap();
+    assert_eq!(code(&["judge", "movingai_sample", "--check"]), 2);
+}

@@ -1,0 +1,68 @@
+//! Damaged files of a stored run, read as `judge` and `render` read them. A Parquet file is opened only if its hash is the
+//! manifest's, so that no damage reaches the reader.
+
+use super::damage::{damaged, flipped};
+use super::{cases, fault};
+use base::seed::{self, Stream};
+use rand::RngExt as _;
+use replan::analysis::claims;
+use replan::analysis::evidence::{Evidence, default_point};
+use replan::analysis::verdict::Verdicts;
+use replan::render::output;
+use replan::study::paper::Paper;
+use replan::study::{Inputs, ReadingChoice};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+/// What `judge` and `render` do with what is stored in `folder`.
+fn used(paper: &Paper, folder: &Path) -> Result<(), String> {
+    let evidence = Evidence::read(paper, default_point(paper), folder).map_err(|e| e.to_string())?;
+    claims::judge(&evidence).map_err(|e| e.to_string())?;
+    let verdicts = Verdicts::read(folder).map_err(|e| e.to_string())?;
+    ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|e| format!("verdicts.toml: {e}"))?;
+    let outputs = output::outputs(&evidence, &verdicts, None, &AtomicBool::new(false));
+    let outputs = outputs.map_err(|e| format!("verdicts.toml: {e}"))?;
+    output::chapter(&folder.join("report.md"), &evidence, &verdicts, folder, &outputs);
+    Ok(())
+}
+
+/// `bytes` of a file that is no text: some flipped, or the end gone.
+fn broken(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
+    if stream.random_range(0..3) == 0 {
+        return bytes[..stream.random_range(0..bytes.len())].to_vec();
+    }
+    flipped(stream, bytes.to_vec())
+}
+
+#[test]
+fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
+    let (home, copy) = (Path::new(env!("CARGO_MANIFEST_DIR")), tempfile::tempdir().unwrap());
+    let inputs = Inputs { roots: vec![home.to_owned()] };
+    let paper = Paper::load(&home.join("experiments/movingai_sample"), &inputs).unwrap();
+    let stored = fs::read_dir(home.join("data/runs/movingai_sample")).unwrap();
+    let mut files: Vec<(PathBuf, Vec<u8>)> = stored
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some())
+        .map(|path| (copy.path().join(path.file_name().unwrap()), fs::read(path).unwrap()))
+        .collect();
+    files.sort();
+    let write = || files.iter().for_each(|(path, bytes)| fs::write(path, bytes).unwrap());
+    write();
+    used(&paper, copy.path()).unwrap();
+    let (mut faults, mut accepted) = (Vec::new(), 0);
+    for case in 0..cases() / 5 {
+        let mut stream = seed::stream(seed::derive(2025, &["stored", &case.to_string()]));
+        let (path, bytes) = &files[stream.random_range(0..files.len())];
+        let is_text = path.extension().is_some_and(|ending| ending == "toml");
+        let new = if is_text { damaged(&mut stream, bytes) } else { broken(&mut stream, bytes) };
+        fs::write(path, &new).unwrap();
+        match fault(|| used(&paper, copy.path())) {
+            Ok(is_accepted) => accepted += u64::from(is_accepted),
+            Err(what) => faults.push(format!("case {case}, {}: {what}", path.display())),
+        }
+        write();
+    }
+    assert!(faults.is_empty(), "{} cases:\n{}", faults.len(), faults.join("\n"));
+    assert!(accepted < cases() / 10, "{accepted} were accepted: what was damaged is not looked at");
+}
