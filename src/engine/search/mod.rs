@@ -5,7 +5,8 @@
 //! [`Frontier`]: a [`Heap`] with a [`Ties`] rule, or [`Buckets`]), whether the g of an open node is lowered and
 //! whether closed nodes reopen ([`Update`]), when to stop ([`Stop`]), what is tried before an expansion
 //! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two.
-//! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`FirstWayAstar`] the one for the lengths of an A*
+//! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`LatticeAstar`] the one for neighbourhoods of any
+//! size, [`FirstWayAstar`] the one for the lengths of an A*
 //! that never lowers open nodes there, [`ManyGrids`] the one for the costs on many such grids at once; tests hold each
 //! equal to the general form.
 //!
@@ -35,12 +36,15 @@ mod first_way;
 mod frontier;
 mod graph;
 mod jump;
+mod lattice_astar;
 mod many;
+mod neighbourhood;
 mod observe;
 mod octile;
 mod one_way;
 mod radix;
 mod side;
+mod sorted_buckets;
 #[cfg(test)]
 mod tests;
 
@@ -52,7 +56,9 @@ pub use first_way::FirstWayAstar;
 pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
 pub use jump::JumpSearch;
+pub use lattice_astar::{LatticeAstar, LatticeQuery};
 pub use many::{GridSet, ManyGrids};
+pub use neighbourhood::{ColumnGraph, Successors};
 pub use observe::{ListScans, Lists, Observer, Place, Trace};
 pub use octile::{OctileAstar, SearchError};
 pub use one_way::{BeforeExpansion, Rules, Search, Shot, Stop};

@@ -3,6 +3,7 @@
 mod bidirectional;
 mod first_way;
 mod jump;
+mod lattice_astar;
 mod many;
 mod octile;
 mod one_way;
