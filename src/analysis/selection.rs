@@ -107,13 +107,7 @@ impl<'a> Selection<'a> {
         faults.done()?;
         let metric = of.metric.as_ref().map(|name| context.metric(name, study)).transpose()?;
         let sweep = of.sweep.as_ref().map(|text| {
-            study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
-                let known: Vec<String> =
-                    study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
-                let message =
-                    format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
-                context.settings.error_at("of.sweep", message)
-            })
+            study.sweep_called(text).map_err(|message| context.settings.error_at("of.sweep", message))
         });
         let sweep = sweep.transpose()?;
         let (against, query, whole_draws) = (of.against.clone(), of.query.clone(), of.whole_draws);

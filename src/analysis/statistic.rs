@@ -8,8 +8,7 @@ use crate::study::record::Row;
 use base::seed;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bands::{Band, sup_t};
-use stats::bootstrap::{Estimate, Resampling, percentile};
+use stats::bootstrap::{Estimate, Resampling};
 use stats::interval::Interval;
 use stats::pooled;
 use stats::proportion::clopper_pearson;
@@ -174,32 +173,6 @@ fn of_groups(draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
     Some(Estimate { value: above / below, interval, units: draws.len(), undefined: 0 })
 }
 
-/// The mean of one number a draw, with its interval; none below two.
-pub fn mean_of_draws(values: &[f64], plan: Resampling) -> Option<Estimate> {
-    stats::bootstrap::mean(values, plan)
-}
-
-/// The mean of the draws' curves with a band that holds all of it at once; none below two.
-pub fn band_of_draws(curves: &[Vec<f64>], plan: Resampling) -> Option<Band> {
-    sup_t(curves, plan)
-}
-
-/// How far the mean of the draws' curves is from `printed`, as the root of the mean square; none below two.
-pub fn distance_of_draws(curves: &[Vec<f64>], printed: &[f64], plan: Resampling) -> Option<Estimate> {
-    let distance = |draws: &[&Vec<f64>]| {
-        let mean = |cell: usize| draws.iter().map(|draw| draw[cell]).sum::<f64>() / draws.len() as f64;
-        let squares = printed.iter().enumerate().map(|(cell, value)| (mean(cell) - value).powi(2));
-        (!draws.is_empty()).then(|| (squares.sum::<f64>() / printed.len() as f64).sqrt())
-    };
-    percentile(curves, distance, plan)
-}
-
-/// The numbers of `cells` at each place, draw by draw, for as many draws as every place has.
-pub fn curves_of_draws(cells: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let draws = cells.iter().map(Vec::len).min().unwrap_or(0);
-    (0..draws).map(|draw| cells.iter().map(|cell| cell[draw]).collect()).collect()
-}
-
 /// By how many points the share solved of a draw's queries differs between two selections; queries that cannot be posed in
 /// either are left out of both.
 pub fn differences_percent([base, other]: [&[Draw<'_>]; 2]) -> Vec<f64> {
@@ -214,27 +187,6 @@ pub fn differences_percent([base, other]: [&[Draw<'_>]; 2]) -> Vec<f64> {
         }
     }
     draws.values().filter_map(|draw| summary::mean(draw)).collect()
-}
-
-/// The mean of the second numbers that go with each first.
-pub fn means_along(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut along: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
-    for [x, y] in points {
-        along.entry(x.to_bits()).or_default().push(*y);
-    }
-    along.iter().filter_map(|(x, ys)| Some([f64::from_bits(*x), summary::mean(ys)?])).collect()
-}
-
-/// Where a box of `values` stands: the ends of its whiskers (5 and 95 %), quartiles and median.
-pub fn box_of(values: &[f64]) -> [f64; 5] {
-    [0.05, 0.25, 0.5, 0.75, 0.95].map(|share| summary::quantile_type7(values, share).unwrap_or(f64::NAN))
-}
-
-/// Below which number each share of `values` lies: quantiles at every half per cent, as good as every step to the eye and a
-/// tenth of the bytes.
-pub fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
-    let shares = (0..=200).map(|step| f64::from(step) / 200.0);
-    shares.filter_map(|share| Some([summary::quantile_type7(values, share)?, share])).collect()
 }
 
 /// A share of chances that are hit.

@@ -58,12 +58,9 @@ impl Rgb {
 
     /// The colour `share` of the way from `self` (0) to `other` (1), mixed in sRGB.
     #[must_use]
-    pub fn mixed(self, other: Self, share: f64) -> Self {
-        let mut levels = self.0;
-        for (level, end) in levels.iter_mut().zip(other.0) {
-            *level = (f64::from(*level) * (1.0 - share) + f64::from(end) * share).round() as u8;
-        }
-        Self(levels)
+    pub const fn mixed(self, other: Self, share: f64) -> Self {
+        let ([r, g, b], ends) = (self.0, other.0);
+        Self([between(r, ends[0], share), between(g, ends[1], share), between(b, ends[2], share)])
     }
 
     /// The colour as `#rrggbb`.
@@ -71,6 +68,11 @@ impl Rgb {
         let [r, g, b] = self.0;
         format!("#{r:02x}{g:02x}{b:02x}")
     }
+}
+
+/// The level `share` of the way from one to another.
+const fn between(from: u8, to: u8, share: f64) -> u8 {
+    (from as f64 * (1.0 - share) + to as f64 * share).round() as u8
 }
 
 /// How a line is broken.

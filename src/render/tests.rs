@@ -14,9 +14,9 @@ use super::style::{
     WHITE, Width, YELLOW, series_color, series_marker, series_stroke,
 };
 use super::vector::Provenance;
-use crate::analysis::statistic::cumulative;
 use base::seed;
 use rand::RngExt as _;
+use stats::summary::cumulative;
 
 fn hold(name: &str, sheet: &Sheet) {
     let provenance = Provenance {

@@ -1,5 +1,7 @@
 //! Mean, standard deviation and quantiles of a sample.
 
+use std::collections::BTreeMap;
+
 /// Arithmetic mean; none for an empty sample.
 pub fn mean(sample: &[f64]) -> Option<f64> {
     (!sample.is_empty()).then(|| sample.iter().sum::<f64>() / sample.len() as f64)
@@ -82,6 +84,27 @@ pub fn medians_by_thirds(points: &[(f64, f64)]) -> Vec<f64> {
         thirds[cuts.iter().filter(|cut| x > cut).count()].push(*y);
     }
     thirds.iter().filter_map(|numbers| median(numbers)).collect()
+}
+
+/// The mean of the second numbers that go with each first.
+pub fn means_along(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut along: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
+    for [x, y] in points {
+        along.entry(x.to_bits()).or_default().push(*y);
+    }
+    along.iter().filter_map(|(x, ys)| Some([f64::from_bits(*x), mean(ys)?])).collect()
+}
+
+/// Where a box of `values` stands: the ends of its whiskers (5 and 95 %), quartiles and median; NaN without values.
+pub fn box_of(values: &[f64]) -> [f64; 5] {
+    [0.05, 0.25, 0.5, 0.75, 0.95].map(|share| quantile_type7(values, share).unwrap_or(f64::NAN))
+}
+
+/// Below which number each share of `values` lies: quantiles at every half per cent, as good as every step to the eye and a
+/// tenth of the bytes.
+pub fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
+    let shares = (0..=200).map(|step| f64::from(step) / 200.0);
+    shares.filter_map(|share| Some([quantile_type7(values, share)?, share])).collect()
 }
 
 #[cfg(test)]

@@ -177,26 +177,23 @@ fn title(problem: &str, rows: &[&Row]) -> String {
     }
 }
 
-fn zone_color(code: f64) -> Rgb {
-    match code as u8 {
-        1 => GREY.mixed(WHITE, 0.55),
-        2 => YELLOW.mixed(WHITE, 0.35),
-        3 => BLACK.mixed(WHITE, 0.35),
-        4 => ORANGE.mixed(WHITE, 0.35),
-        _ => SKY.mixed(WHITE, 0.65),
-    }
-}
+/// What a point of the plane is, by its code, and its colour.
+const ZONES: [(&str, Rgb); 5] = [
+    ("free", SKY.mixed(WHITE, 0.65)),
+    ("out of reach", GREY.mixed(WHITE, 0.55)),
+    ("inner radius", YELLOW.mixed(WHITE, 0.35)),
+    ("in an obstacle", BLACK.mixed(WHITE, 0.35)),
+    ("a link would hit", ORANGE.mixed(WHITE, 0.35)),
+];
 
 fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> Cells {
-    let names = ["free", "out of reach", "inner radius", "in an obstacle", "a link would hit"];
-    let keys = names.iter().enumerate().map(|(code, name)| cell_key(*name, zone_color(code as f64)));
     Cells {
         corner,
         cell: [step, step],
         columns,
-        colors: zones.values.iter().map(|code| Some(zone_color(*code))).collect(),
+        colors: zones.values.iter().map(|code| Some(ZONES[*code as usize].1)).collect(),
         lines: None,
-        keys: keys.collect(),
+        keys: ZONES.map(|(name, color)| cell_key(name, color)).to_vec(),
     }
 }
 

@@ -11,7 +11,6 @@ use crate::render::chart::marks::Points;
 use crate::render::style::{Marker, Rgb};
 use crate::study::Study;
 use crate::study::key::{DrawKey, Owner, SweepKey};
-use crate::study::name;
 use crate::study::paper::Paper;
 use crate::study::record::Row;
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
@@ -100,11 +99,7 @@ pub(super) fn add_ends(panel: &mut Panel, points: &[[f64; 2]], radius_pt: f64, l
 
 /// The point of the sweeps that people write as `text`.
 pub(super) fn sweep(settings: &Settings, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
-    study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
-        let known: Vec<String> = study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
-        let message = format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
-        settings.error_about("", &["sweep"], text, message)
-    })
+    study.sweep_called(text).map_err(|message| settings.error_about("", &["sweep"], text, message))
 }
 
 /// The printed number of the claim `id`, which the settings name at `key`.

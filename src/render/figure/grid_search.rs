@@ -51,17 +51,10 @@ struct GridSearch {
     tidying: bool,
 }
 
-fn start_side() -> Rgb {
-    SKY.mixed(WHITE, 0.6)
-}
-
-fn goal_side() -> Rgb {
-    ORANGE.mixed(WHITE, 0.2)
-}
-
-fn blocked() -> Rgb {
-    BLACK.mixed(WHITE, 0.25)
-}
+/// Cells opened from the start's side, from the goal's, and blocked ones.
+const START_SIDE: Rgb = SKY.mixed(WHITE, 0.6);
+const GOAL_SIDE: Rgb = ORANGE.mixed(WHITE, 0.2);
+const BLOCKED: Rgb = BLACK.mixed(WHITE, 0.25);
 
 impl Kind for GridSearch {
     fn shown(&self) -> Vec<Shown<'_>> {
@@ -121,14 +114,12 @@ impl<'a> Map<'a> {
         );
         let [width, height] = self.size.map(|side| side as f64);
         let mut panel = window(title, [[0.0, width], [0.0, height]])?;
-        let layers = [
-            (self.listed("opened_goal_side"), goal_side()),
-            (self.listed("opened_start_side"), start_side()),
-        ];
+        let layers =
+            [(self.listed("opened_goal_side"), GOAL_SIDE), (self.listed("opened_start_side"), START_SIDE)];
         let keys = vec![
-            cell_key("blocked", blocked()),
-            cell_key("opened by the start's side", start_side()),
-            cell_key("opened by the goal's side", goal_side()),
+            cell_key("blocked", BLOCKED),
+            cell_key("opened by the start's side", START_SIDE),
+            cell_key("opened by the goal's side", GOAL_SIDE),
         ];
         panel.add(self.painted(&layers, keys));
         if let Some(raw) = self.exhibit("raw_path") {
@@ -151,11 +142,11 @@ impl<'a> Map<'a> {
         let around: Vec<[f64; 2]> = sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
         let mut panel = self.panel_about(title, &around)?;
         let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());
-        let mut keys = vec![cell_key("blocked", blocked()), cell_key("opened from the start", start_side())];
+        let mut keys = vec![cell_key("blocked", BLOCKED), cell_key("opened from the start", START_SIDE)];
         if !sides[1].is_empty() {
-            keys.push(cell_key("opened from the goal", goal_side()));
+            keys.push(cell_key("opened from the goal", GOAL_SIDE));
         }
-        panel.add(self.painted(&[(goal, goal_side()), (start, start_side())], keys));
+        panel.add(self.painted(&[(goal, GOAL_SIDE), (start, START_SIDE)], keys));
         let path = self.exhibit("raw_path").or_else(|| self.exhibit("path")).map(centres).unwrap_or_default();
         if share >= 1.0 {
             panel.add(Line::through(path.clone(), Stroke::solid(BLUE, 1.4)).labelled("path found"));
@@ -177,7 +168,7 @@ impl<'a> Map<'a> {
         let path = centres(path);
         let title = format!("{problem}: {} bends before, {} after", bent.len() - 2, path.len() - 2);
         let mut panel = self.panel_about(title, &centres(raw))?;
-        panel.add(self.painted(&[], vec![cell_key("blocked", blocked())]));
+        panel.add(self.painted(&[], vec![cell_key("blocked", BLOCKED)]));
         let lines = refused.values.chunks(refused.width).flat_map(|ends| {
             let [from, to] = [[ends[0] + 0.5, ends[1] + 0.5], [ends[2] + 0.5, ends[3] + 0.5]];
             [from, to, [f64::NAN; 2]]
@@ -216,7 +207,7 @@ impl<'a> Map<'a> {
     fn painted(&self, layers: &[(Vec<[f64; 2]>, Rgb)], keys: Vec<Key>) -> Cells {
         let [columns, rows] = self.size;
         let mut colors = vec![None; columns * rows];
-        for (cells, color) in layers.iter().chain(&[(ask::points(self.walls), blocked())]) {
+        for (cells, color) in layers.iter().chain(&[(ask::points(self.walls), BLOCKED)]) {
             for [x, y] in cells {
                 colors[*y as usize * columns + *x as usize] = Some(*color);
             }
@@ -247,7 +238,7 @@ mod tests {
 
     #[test]
     fn walls_both_sides_and_bare_paper_differ_in_grey() {
-        let mut greys = [blocked(), start_side(), goal_side(), WHITE].map(Rgb::luminance);
+        let mut greys = [BLOCKED, START_SIDE, GOAL_SIDE, WHITE].map(Rgb::luminance);
         greys.sort_by(f64::total_cmp);
         assert!(greys.windows(2).all(|pair| pair[1] - pair[0] >= SERIES_MARGIN), "{greys:?}");
     }

@@ -3,7 +3,7 @@
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Draw, Selection, posed};
-use crate::analysis::statistic::{OfAll, OfDraw, differences_percent, mean_of_draws, plan};
+use crate::analysis::statistic::{OfAll, OfDraw, differences_percent, plan};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
@@ -17,7 +17,7 @@ use crate::study::paper::Paper;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::Estimate;
+use stats::bootstrap::{self, Estimate};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -141,7 +141,7 @@ impl Intervals {
             Some(base) => differences_percent([&draws(of(base)), &own]),
             None => own.iter().filter_map(|draw| OfDraw::SolvedPercent.of(draw)).collect(),
         };
-        mean_of_draws(&values, plan(&[&scene.run.study.name, group, contender]))
+        bootstrap::mean(&values, plan(&[&scene.run.study.name, group, contender]))
     }
 
     /// What stands in each row: the place across the rows, the contender, what was found.

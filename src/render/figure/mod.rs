@@ -26,9 +26,9 @@ use super::latex::Table;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
 use crate::study::Study;
-use crate::study::paper::{Claim, Paper};
+use crate::study::paper::Paper;
 use crate::study::spec::FigureSpec;
-use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean, none_called};
+use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean};
 use toml::Table as Toml;
 
 /// What a figure is drawn from.
@@ -127,29 +127,6 @@ pub static REGISTRY: &[&Entry] = &[
     &tradeoff::ENTRY,
     &work_cell::ENTRY,
 ];
-
-/// The claim called `id`, whose criterion `name` says what is to be shown.
-fn asked_claim<'p>(
-    settings: &Settings,
-    paper: &'p Paper,
-    id: &str,
-    name: &str,
-) -> Result<&'p Claim, SettingsError> {
-    let Some(claim) = paper.claim(id) else {
-        let known = paper.claims.iter().map(|claim| claim.id.as_str());
-        return Err(settings.error_about("", &["claim"], id, none_called("claim", id, known)));
-    };
-    if claim.criteria().any(|(own, _)| own == name) {
-        return Ok(claim);
-    }
-    let message = format!("claim `{id}` has no criterion `{name}`, which says what is to be shown");
-    Err(settings.error_about("", &["claim"], id, message))
-}
-
-/// The number that the claim called `id` prints.
-fn printed_value(evidence: &Evidence<'_>, id: &str) -> Option<f64> {
-    evidence.paper.claim(id)?.printed.as_ref()?.parse().ok()
-}
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -3,7 +3,6 @@
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Case, Selection, by_draw};
-use crate::analysis::statistic::means_along;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -12,6 +11,7 @@ use crate::study::column;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::summary::means_along;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

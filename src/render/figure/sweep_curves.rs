@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::statistic::{band_of_draws, curves_of_draws, mean, plan};
+use crate::analysis::statistic::plan;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -15,6 +15,8 @@ use crate::study::paper::Paper;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::bands::{curves_of, sup_t};
+use stats::summary::mean;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -115,7 +117,7 @@ impl SweepCurves {
         let share = |(_, at): &(f64, SweepKey)| {
             ask::solved_percents(scene, scene.run, &self.read.problems, contender, at)
         };
-        curves_of_draws(&self.points.iter().map(share).collect::<Vec<_>>())
+        curves_of(&self.points.iter().map(share).collect::<Vec<_>>())
     }
 
     /// A curve through these numbers, one a point of the sweep.
@@ -139,7 +141,7 @@ impl SweepCurves {
     ) -> Result<(), RenderError> {
         let index = ask::series(scene, &row.contender, place);
         let curves = self.curves(scene, &row.contender);
-        let Some(found) = band_of_draws(&curves, plan(&["success_bands", &row.contender])) else {
+        let Some(found) = sup_t(&curves, plan(&["success_bands", &row.contender])) else {
             let what = format!("two draws of `{}` on `{}`", row.contender, self.read.problems);
             return Err(RenderError::NotStored { what });
         };

@@ -70,10 +70,8 @@ const VIEWS: [(&str, Camera); 2] = [
 /// How many parts at the head of a body hardly move from pose to pose.
 const FIXED_PARTS: usize = 2;
 
-/// The paint of obstacles.
-fn obstacle() -> Rgb {
-    YELLOW.mixed(GREY, 0.35).mixed(WHITE, 0.35)
-}
+/// The colour of obstacles.
+const OBSTACLE: Rgb = YELLOW.mixed(GREY, 0.35).mixed(WHITE, 0.35);
 
 /// The cell of a draw: floor and obstacles.
 fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderError> {
@@ -84,10 +82,10 @@ fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderErr
     solids.sheet(floor.to_vec(), Paint { outlined: true, ..Paint::solid(GREY.mixed(WHITE, 0.82)) });
     for corners in boxes.values.chunks(boxes.width) {
         let corners = corners.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
-        solids.cuboid(corners, Paint::solid(obstacle()));
+        solids.cuboid(corners, Paint::solid(OBSTACLE));
     }
     let rounds = ask::exhibit(scene, draw, "rounds")?;
-    add_capsules(&mut solids, rounds, Paint::solid(obstacle()));
+    add_capsules(&mut solids, rounds, Paint::solid(OBSTACLE));
     Ok(solids)
 }
 
@@ -113,7 +111,7 @@ impl WorkCell {
         for shown in named.chunks(self.at_once.max(1)) {
             for (title, camera) in VIEWS {
                 let mut solids = furnished(scene, draw)?;
-                let mut keys = vec![cell_key("obstacles", obstacle())];
+                let mut keys = vec![cell_key("obstacles", OBSTACLE)];
                 for (place, (index, [pose, name])) in shown.iter().enumerate() {
                     let color = series_color(*index).mixed(WHITE, 0.35);
                     let body = ask::exhibit(scene, draw, &format!("body {pose}"))?;
