@@ -31,7 +31,7 @@ chosen = "read off these two times (it is also the period of a PC's clock interr
         let times = with.iter().map(|id| context.print_of(id)).chain([Ok(own)]);
         let times = times.collect::<Result<Vec<_>, _>>()?;
         let tick = Tick { numerator, denominator };
-        rule(move |_| refused(proof::clock_ticks(tick, &times, &chosen)))
+        Ok(rule(move |_| refused(proof::clock_ticks(tick, &times, &chosen))))
     },
 };
 

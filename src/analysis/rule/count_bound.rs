@@ -35,7 +35,7 @@ closed = "closed"
         };
         let (print, ends, optimum) =
             (context.print()?, Ends { size, start, goal }, Octile { straight, diagonal });
-        rule(move |_| refused(proof::count_bound(print, ends, optimum, applies)))
+        Ok(rule(move |_| refused(proof::count_bound(print, ends, optimum, applies))))
     },
 };
 

@@ -40,10 +40,10 @@ longest = 20.0
             }
         };
         let ends = Ends { size, start, goal };
-        rule(move |evidence| {
+        Ok(rule(move |evidence| {
             let shortest = &|query: &_| evidence.shortest_polyline(query);
             refused(proof::joint_length_turn(&Search { ends, turn, meant, longest, shortest }, length))
-        })
+        }))
     },
 };
 

@@ -21,7 +21,7 @@ size = [30, 30]
         let Settings { baseline, start, goal, size } = context.settings.read()?;
         let (baseline, print, ends) =
             (context.print_of(&baseline)?, context.print()?, Ends { size, start, goal });
-        rule(move |_| refused(proof::largest_saving(print, baseline, ends)))
+        Ok(rule(move |_| refused(proof::largest_saving(print, baseline, ends))))
     },
 };
 

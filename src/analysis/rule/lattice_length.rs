@@ -20,7 +20,7 @@ pub static ENTRY: Entry = Entry {
             return Err(context.settings.error_at(given, message));
         }
         let (print, ends) = (context.print()?, start.zip(goal).map(|(start, goal)| [start, goal]));
-        rule(move |_| refused(proof::lattice_length(print, ends, size)))
+        Ok(rule(move |_| refused(proof::lattice_length(print, ends, size))))
     },
 };
 

@@ -27,12 +27,12 @@ rows = { "Case 1" = "case 1", "Case 2" = "case 2" }
         let settings: Settings = context.settings.read()?;
         let listed = listed(context, &settings)?;
         let rows = settings.rows.keys().map(String::as_str).collect::<Vec<_>>().join(" and ");
-        rule(move |_| {
+        Ok(rule(move |_| {
             let Settings { points, table, study, .. } = &settings;
             let mut found = decided(proof::listed_points(table, &listed, *points));
             found.because.push(format!("study {study} uses the points of {rows}, to the digit"));
             found
-        })
+        }))
     },
 };
 

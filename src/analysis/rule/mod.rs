@@ -38,12 +38,9 @@ impl<F: Fn(&Evidence<'_>) -> Found> Rule for F {
     }
 }
 
-/// A rule that has been built.
-type Built<'a> = Result<Box<dyn Rule + 'a>, SettingsError>;
-
 /// The rule that finds this.
-fn rule<'a>(find: impl Fn(&Evidence<'_>) -> Found + 'a) -> Built<'a> {
-    Ok(Box::new(find))
+fn rule<'a>(find: impl Fn(&Evidence<'_>) -> Found + 'a) -> Box<dyn Rule + 'a> {
+    Box::new(find)
 }
 
 /// What a proof finds that can only refuse: that something is possible does not make it so.
@@ -82,7 +79,7 @@ pub struct Entry {
     /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
     pub example: &'static str,
     /// How to build it.
-    pub build: for<'a> fn(&Context<'a>) -> Built<'a>,
+    pub build: for<'a> fn(&Context<'a>) -> Result<Box<dyn Rule + 'a>, SettingsError>,
 }
 
 /// Every rule, in the order of their names.

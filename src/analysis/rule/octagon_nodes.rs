@@ -22,7 +22,7 @@ nodes = 48
                 .settings
                 .error_at("nodes", format!("nodes is {nodes}; 1 to 10000 is accepted")));
         }
-        rule(move |_| Found { existential: true, ..decided(proof::octagon_nodes(nodes)) })
+        Ok(rule(move |_| Found { existential: true, ..decided(proof::octagon_nodes(nodes)) }))
     },
 };
 

@@ -25,7 +25,7 @@ after = "t1.improved.time"
                  negative, whatever their digits stand for"
             ))
         })?;
-        rule(move |_| refused(proof.clone()))
+        Ok(rule(move |_| refused(proof.clone())))
     },
 };
 

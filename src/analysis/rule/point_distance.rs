@@ -19,11 +19,11 @@ to = [26.5, 28.5]
 ",
     build: |context| {
         let (Settings { from, to }, print) = (context.settings.read()?, context.print()?);
-        rule(move |_| {
+        Ok(rule(move |_| {
             let (distance, proof) = proof::point_distance(print, from, to);
             let ours = Estimate::bare(distance, "computed from the printed points", 1);
             Found { ours: Some(ours), ..decided(proof) }
-        })
+        }))
     },
 };
 

@@ -25,7 +25,7 @@ below = ["t2.original.100", "t2.original.200"]
         let print = |id: &String| Ok((id.clone(), context.print_of(id)?.printed.value()));
         let pairs = above.iter().zip(&below).map(|(above, below)| Ok([print(above)?, print(below)?]));
         let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
-        rule(move |_| refused(proof::printed_above(&pairs)))
+        Ok(rule(move |_| refused(proof::printed_above(&pairs))))
     },
 };
 

@@ -21,7 +21,7 @@ radius_cm = 20.0
             let message = format!("links_cm is {links_cm:?}; two lengths above 0 are accepted");
             return Err(context.settings.error_at("links_cm", message));
         }
-        rule(move |_| decided(proof::reach_ring(links_cm, radius_cm)))
+        Ok(rule(move |_| decided(proof::reach_ring(links_cm, radius_cm))))
     },
 };
 

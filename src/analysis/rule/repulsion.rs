@@ -28,7 +28,7 @@ question = "falls_along_force"
             Question::FallsAlongForce => proof::repulsion_along_force,
             Question::FiniteAtContact => proof::repulsion_at_contact,
         };
-        rule(move |_| decided(prove(range_cm)))
+        Ok(rule(move |_| decided(prove(range_cm))))
     },
 };
 

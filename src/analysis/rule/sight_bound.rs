@@ -32,14 +32,14 @@ holds_when = { corner_cutting = ["allow"] }
         let holds = holds_when.iter().all(|(id, options)| options.contains(&choices[id]));
         let (print, ends, optimum) =
             (context.print()?, Ends { size, start, goal }, Octile { straight, diagonal });
-        rule(move |_| {
+        Ok(rule(move |_| {
             let is_saving = of == Of::SavingPercent;
             let mut found = refused(proof::sight_bound(print, is_saving, ends, optimum, &because));
             found.because.extend((!holds).then(|| "the bound does not hold under this reading".to_owned()));
             let listed = |(id, options): (&String, &Vec<String>)| format!("{id} is {}", options.join(" or "));
             found.premises.extend(holds_when.iter().map(listed));
             Found { without_premises: !holds, ..found }
-        })
+        }))
     },
 };
 

@@ -26,7 +26,7 @@ goal = [26.0, 28.0]
         };
         let apart = apart(exact("start", start)?.into(), exact("goal", goal)?.into());
         let print = context.print()?;
-        rule(move |_| refused(proof::straight_line(print, [start, goal], apart, size)))
+        Ok(rule(move |_| refused(proof::straight_line(print, [start, goal], apart, size))))
     },
 };
 

@@ -30,11 +30,11 @@ longest = 20.0
         let is_exterior = context.known_metric(&read.metric)?.name == read.exterior;
         let meant = if is_exterior { Convention::Exterior } else { Convention::Interior };
         let ends = Ends { size, start, goal };
-        rule(move |evidence| {
+        Ok(rule(move |evidence| {
             let shortest = &|query: &_| evidence.shortest_polyline(query);
             let search = Search { ends, turn, meant, longest, shortest };
             refused(proof::turn_needs_length(&search, against, shorter))
-        })
+        }))
     },
 };
 

@@ -302,24 +302,23 @@ impl Panel {
         // The last hundredth on the right and at the foot is the frame's.
         let (across, up) = ([edge, right - 1.0], [base - 1.0, top]);
         let (xs_named, ys_named) = (named(xs, &view.x, across), named(ys, &view.y, up));
-        let ([from, to], [foot, head]) = (across.map(place), up.map(place));
+        let ([from, to], [low, high]) = (across.map(place), up.map(place));
         if self.trim == Trim::Grid {
-            let grid = Stroke::solid(GRID, 0.4);
-            xs_named.iter().for_each(|(x, _)| canvas.polyline(&[[*x, foot], [*x, head]], &grid));
-            ys_named.iter().for_each(|(y, _)| canvas.polyline(&[[from, *y], [to, *y]], &grid));
+            let lines = xs_named.iter().map(|(x, _)| [[*x, low], [*x, high]]);
+            for line in lines.chain(ys_named.iter().map(|(y, _)| [[from, *y], [to, *y]])) {
+                canvas.polyline(&line, &Stroke::solid(GRID, 0.4));
+            }
         }
-        let ink = Stroke::solid(INK, 0.5);
-        let inner = place(edge - 1.0);
-        canvas.polyline(&[[inner, head], [inner, foot]], &ink);
+        let ([beside, base], ink) = ([place(edge - 1.0), place(base)], Stroke::solid(INK, 0.5));
+        canvas.polyline(&[[beside, high], [beside, low]], &ink);
         for (y, label) in &ys_named {
             caption(canvas, [from - LABEL_PT, *y], label, &TICK.aligned(Align::End, Stand::Centre));
-            canvas.polyline(&[[inner - TICK_PT, *y], [inner, *y]], &ink);
+            canvas.polyline(&[[beside - TICK_PT, *y], [beside, *y]], &ink);
         }
-        let base = place(base);
         canvas.polyline(&[[from, base], [to, base]], &ink);
-        let level = self.x.fits(xs, view.frame.w);
+        let is_level = self.x.fits(xs, view.frame.w);
         for (x, label) in &xs_named {
-            let label = if level { *label } else { "" };
+            let label = if is_level { *label } else { "" };
             caption(canvas, [*x, base + LABEL_PT], label, &TICK.aligned(Align::Middle, Stand::Below));
             canvas.polyline(&[[*x, base], [*x, base + TICK_PT]], &ink);
         }
