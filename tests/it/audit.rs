@@ -19,7 +19,7 @@ fn an_impossible_table_is_told_in_a_line_with_exit_code_3() {
         first.starts_with("t.md:3:2: impossible: success of A: 33.3 is the mean of no 250 values"),
         "{first}"
     );
-    assert_eq!(said.err, "replan: t.md: 1 findings are impossible under their premises\n");
+    assert_eq!(said.err, "replan: t.md: 1 finding is impossible under the premises named\n");
     assert!(bench.at("proofs/001_3_grim.json").is_file());
 }
 
