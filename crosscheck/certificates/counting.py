@@ -70,12 +70,12 @@ def quantile(spans: list[Span], given: dict, steps: list) -> None:
     """No rule's multiples of the grain are printed so."""
     n, share, grain = integer(given["n"]), fraction(given["share"]), positive(given["grain"])
     need(n > 0 and 0 <= share <= 1 and len(spans) == 1, "n, share or numbers are wrong")
+    need(given["rule"] in ("linear", "any"), "there is no such rule")
     if share in (0, 1):
         denominators = {1}
     else:
         offsets = [1 - share]
         denominators = set()
-        need(given["rule"] in ("linear", "any"), "there is no such rule")
         if given["rule"] == "any":
             offsets += [Fraction(0), Fraction(1, 2), share, (share + 1) / 3, share / 4 + Fraction(3, 8)]
             # Rules 1 and 3 take a value; rule 2 takes the middle of two where n p is whole.
@@ -169,7 +169,8 @@ def grimmer(spans: list[Span], given: dict, steps: list) -> None:
     # The least and the greatest value stand behind the mean, in this order, where they are printed.
     places = list(range(2, 2 + sum(at is not None for at in printed_ends)))
     need(
-        len(printed_ends) == 2 and len(spans) == 2 + len(places), "deviation, mean and printed ends are needed"
+        len(printed_ends) == 2 and len(spans) == 2 + len(places),
+        "deviation, mean and printed ends are needed",
     )
     need([at for at in printed_ends if at is not None] == places, "the printed ends are other numbers")
     inner = [

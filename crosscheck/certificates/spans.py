@@ -116,7 +116,7 @@ def need(holds: bool, why: str) -> None:
 
 
 def printed(text: str, digits: str, significant: int | None) -> Span:
-    """What the digits `text` stand for if they end as `digits` says, with zeros left out if some are significant."""
+    """What `text` stands for if its digits end as `digits` says; `significant` of them count, if that is said."""
     parts = NUMBER.fullmatch(text)
     need(parts is not None, f"{text!r} is no printed number")
     sign, whole, decimals = parts.groups(default="")

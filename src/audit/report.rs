@@ -379,6 +379,8 @@ mod pages;
 #[cfg(test)]
 mod power;
 #[cfg(test)]
+mod said;
+#[cfg(test)]
 mod simulation;
 #[cfg(test)]
 mod tests;

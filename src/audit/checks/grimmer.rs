@@ -362,9 +362,9 @@ impl Moment {
     fn between(&self, prints: &[Print]) -> String {
         match self.printed_ends.map(|at| at.map(|at| prints[at].printed)) {
             [None, None] => String::new(),
-            [Some(least), None] => format!(", {least} the least"),
-            [None, Some(most)] => format!(", {most} the greatest"),
-            [Some(least), Some(most)] => format!(", {least} the least and {most} the greatest"),
+            [Some(least), None] => format!(", {least} the least,"),
+            [None, Some(most)] => format!(", {most} the greatest,"),
+            [Some(least), Some(most)] => format!(", {least} the least and {most} the greatest,"),
         }
     }
 

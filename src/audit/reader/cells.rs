@@ -70,7 +70,9 @@ pub fn number(text: &str) -> Result<Number, String> {
         Some((value, spread)) => {
             let (value, before) = unit(value);
             if !before.is_empty() && before != behind {
-                return Err(format!("`{text} {behind}` has two units; write it in one, best in the header"));
+                return Err(format!(
+                    "`{text} {behind}` has two units; accepted: one for both, best in the header"
+                ));
             }
             Ok(Number::Plain { value: one(value, text)?, spread: Some(one(spread, text)?) })
         }

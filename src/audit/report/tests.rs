@@ -200,7 +200,7 @@ fn no_mutated_input_panics_and_every_fault_has_its_line() {
 }
 
 /// Wrong input, and how what is said of it begins.
-const WRONG: [(&str, Format, &str); 16] = [
+const WRONG: [(&str, Format, &str); 21] = [
     ("a,b [% of 5]\n1,20\n2\n", Format::Csv, "3: 1 cells, where the header has 2"),
     ("a,b [% of 5]\nx,\"1,234\"\n", Format::Csv, "2:2: column `b`: `1,234` may have a thousands separator"),
     ("a;b [% of 5]\nx;12,5\n", Format::Csv, "2:2: column `b`: `12,5` has a decimal comma"),
@@ -219,6 +219,31 @@ const WRONG: [(&str, Format, &str); 16] = [
     ),
     ("|a|b [% of 5]|\n|-|-|\n|x|1|2|\n", Format::Markdown, "3: 3 cells, where the header has 2"),
     ("|a|b [speed]|\n|-|-|\n|x|1|\n", Format::Markdown, "1:2: `speed` is no item of an annotation"),
+    (
+        "a,time [mean]\nx,950 ms\ny,1.2 s\n",
+        Format::Csv,
+        "3:2: column `time`: `1.2 s` has the unit s, and the first number the unit ms; one unit a column",
+    ),
+    (
+        "a,time [value],b [value],both [value, sum=time+b]\nx,950 ms,1 ms,1.2 s\n",
+        Format::Csv,
+        "2:4: column `both`: `1.2 s` is the sum of numbers such as `950 ms`; one unit is accepted",
+    ),
+    (
+        "a,b [mean, digits=6]\nx,2.50\n",
+        Format::Csv,
+        "2:2: column `b`: `2.50` contradicts digits=6, by which a number has 6 digits at most",
+    ),
+    (
+        "[[relation]]\ncheck = \"ratio\"\nvalue = \"2\"\nof = \"950 ms\"\nover = \"1.2 s\"\n",
+        Format::Toml,
+        "1: relation `ratio`: `of` is `950 ms`; numbers that are held against each other are written without units",
+    ),
+    (
+        "[[sample]]\nname = \"x\"\nmean = \"1.2 s\"\nsd = \"70 ms\"\n",
+        Format::Toml,
+        "1: sample `x`: `1.2 s` has a unit",
+    ),
     ("", Format::Csv, "1: there is no table here"),
     ("words\n", Format::Markdown, "1: there is no table here"),
     (
@@ -238,7 +263,8 @@ const WRONG: [(&str, Format, &str); 16] = [
 #[test]
 fn bad_input_is_told_with_its_line_and_cell() {
     for (text, format, said) in WRONG {
-        let faults = read(text, format).unwrap_err();
+        let done = read(text, format).and_then(|input| audit(&input, &Options::default()));
+        let faults = done.unwrap_err();
         assert!(faults[0].to_string().starts_with(said), "{text}\n{said}\n{}", faults[0]);
     }
     let relation = "\n[[relation]]\ncheck = \"grim\"\nvalue = \"t/A/b\"\nn = 3\n";
