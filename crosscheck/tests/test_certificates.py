@@ -161,7 +161,9 @@ PROVED_ANEW = {
     "grimmer": {"least", "most"},
     "seed_spread": {"least", "most"},
     # A number beyond the ends is there for any n and grain.
-    "grim outside": {"least", "most", "n", "grain"},
+    "grim outside": {"n", "grain"},
+    # Without ends that bind, counts are whole for any n.
+    "grim of a count": {"least", "most", "n"},
     # All moves are tried again.
     "lattice": {"diagonal", "displacement"},
     # The same multiples belong to more values, or to another quantile.
@@ -180,8 +182,9 @@ PROVED_ANEW = {
 def kind_of(certificate: dict) -> str:
     """The check, and whether it is about ends, for which other premises count."""
     check, given = certificate["check"], certificate["given"]
-    if check == "grim" and "outside" in certificate["steps"][0]:
-        return "grim outside"
+    if check == "grim":
+        is_outside = "outside" in certificate["steps"][0]
+        return "grim outside" if is_outside else "grim of a count" if given["is_count"] else check
     return "quantile at an end" if check == "quantile" and given["share"] in ("0", "1") else check
 
 
