@@ -116,7 +116,7 @@ def need(holds: bool, why: str) -> None:
 
 
 def printed(text: str, digits: str, significant: int | None) -> Span:
-    """What `text` stands for if its digits end as `digits` says; `significant` of them count, if that is said."""
+    """What `text` stands for if its digits end as `digits` says; `significant` of them count, if so said."""
     parts = NUMBER.fullmatch(text)
     need(parts is not None, f"{text!r} is no printed number")
     sign, whole, decimals = parts.groups(default="")
