@@ -350,7 +350,12 @@ pub fn window(test: &dyn Test, first: Printed) -> Option<(i64, i64, &'static str
         (i64::try_from(ceil(units(low)?)).ok()?, i64::try_from(floor(units(high)?)).ok()?, why)
     } else {
         let around = first.units().abs().max(100);
-        (first.units() - around, first.units() + around, "as far to either side as it is from 0")
+        let why = if first.units().abs() < 100 {
+            "100 units of the last place to either side"
+        } else {
+            "as far to either side as it is from 0"
+        };
+        (first.units() - around, first.units() + around, why)
     };
     let (low, high) = (low.max(-limit), high.min(limit));
     (low <= high).then_some((low, high, why))

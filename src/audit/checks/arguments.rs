@@ -97,8 +97,13 @@ pub fn multiple(step: Exact, k: i128, decimals: usize) -> String {
 /// From 0 to twice what is printed, and 100 units of the last place at least.
 pub fn up_to_twice(print: Print) -> Option<Window> {
     let least = Exact::new(100, i128::from(print.printed.scale()));
-    let ends = [whole(0), mul(whole(2), print.value())?.max(least)];
-    Some(Window { ends, why: "up to twice what is printed, since nothing bounds it" })
+    let twice = mul(whole(2), print.value())?;
+    let why = if twice < least {
+        "100 units of the last place, since nothing bounds it"
+    } else {
+        "up to twice what is printed, since nothing bounds it"
+    };
+    Some(Window { ends: [whole(0), twice.max(least)], why })
 }
 
 /// From 0 to the greatest deviation that values between two ends have, whatever their mean (Popoviciu 1935): the root of
