@@ -3,7 +3,8 @@
 use super::metric::{self, Metric};
 use super::selection_spec::Labels;
 use crate::study::paper::{self, Claim, Paper};
-use crate::study::{ReadingChoice, Study};
+
+use crate::study::{ReadingChoice, Study, columns_of};
 use audit::printed::{Digits, Printed};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 
@@ -47,7 +48,8 @@ impl<'a> Context<'a> {
     pub fn printed(&self) -> Result<Printed, SettingsError> {
         let missing = || format!("claim `{}` prints no number, which is needed here", self.claim.id);
         let text = self.claim.printed.as_ref().ok_or_else(|| self.settings.error(missing()))?;
-        text.parse().map_err(|e: audit::AuditError| self.settings.error(e.to_string()))
+        let about = || paper::printed_by(&self.claim.id);
+        text.parse().map_err(|e: audit::AuditError| self.settings.error(e.to_string()).about(&about()))
     }
 
     /// The printed number of another claim.
@@ -170,7 +172,7 @@ impl<'a> Context<'a> {
             metric.name,
             produced.join(", ")
         );
-        Err(self.settings.error_about("", &METRIC_KEYS, name, message))
+        Err(self.settings.error_about("", &METRIC_KEYS, name, message).about(&columns_of(&study.name)))
     }
 
     /// The names that the stream of a bootstrap on this claim is derived from.

@@ -3,7 +3,7 @@
 mod python;
 mod statistics;
 
-use super::places::{Places, papers};
+use super::places::{Places, home, papers};
 use super::progress::Bar;
 use super::{Failure, Which};
 use crate::crosscheck::{self, Case, CrosscheckError, Depicted, Outcome, Picture, Sources, Spec};
@@ -102,8 +102,9 @@ impl Crosscheck {
         if self.answered {
             posed.iter().try_for_each(|(_, shown, _)| are_answered(shown))?;
         }
+        let home = home(None)?;
         let judge =
-            if self.answered { None } else { Some(Judge::ready(self.python.as_deref(), Path::new(FOLDER))?) };
+            if self.answered { None } else { Some(Judge::ready(self.python.as_deref(), &home.join(FOLDER))?) };
         let mut differences = 0;
         for (places, shown, spec) in &posed {
             differences += self.paper(places, shown, spec, judge.as_ref())?;

@@ -12,7 +12,6 @@ use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
 use std::fs;
-use std::path::Path;
 
 /// Judges a paper's claims again.
 #[derive(Args)]
@@ -61,7 +60,7 @@ fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Fai
 
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
 pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
-    let evidence = read(paper, point, places)?.remembering(Path::new(POLYLINES));
+    let evidence = read(paper, point, places)?.remembering(&places.home.join(POLYLINES));
     let verdicts = claims::judge(&evidence)?;
     evidence.keep_polylines();
     verdicts.write(&places.runs)?;

@@ -2,7 +2,7 @@
 
 use super::catalogue::{self, Item};
 use super::explain::{explained, wrapped};
-use super::places::{EXPERIMENTS, papers};
+use super::places::{experiments, home, papers};
 use super::{Failure, all};
 use crate::analysis::metric;
 use crate::study::Inputs;
@@ -10,7 +10,7 @@ use crate::study::paper::Paper;
 use base::settings::none_called;
 use clap::{Args, ValueEnum};
 use engine::kinematics::{Robot, robot::Body};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Where robots are shipped.
 const ROBOTS: &str = "data/robots";
@@ -187,8 +187,8 @@ fn robots() -> (Vec<Robot>, Vec<Result<(), Failure>>) {
 /// Every paper that can be read, and how reading each went.
 fn loaded() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
     let load = |name: String| -> Result<Paper, Failure> {
-        let folder = Path::new(EXPERIMENTS).join(name);
-        let inputs = Inputs { roots: vec![folder.clone(), PathBuf::new()] };
+        let folder = experiments().join(name);
+        let inputs = Inputs { roots: vec![folder.clone(), home(None)?] };
         Ok(Paper::load(&folder, &inputs)?)
     };
     let read: Vec<Result<Paper, Failure>> = papers().into_iter().map(load).collect();

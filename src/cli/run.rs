@@ -1,11 +1,10 @@
 //! `replan run`: the trials, and nothing after them.
 
-use super::file_schema::with_the_rest;
+use super::file_schema::of_any_names;
 use super::places::Places;
 use super::progress::{Bar, stop_flag};
 use super::{Failure, How, Which, command_line};
 use crate::analysis::claims;
-use crate::study::StudyError;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
@@ -46,17 +45,15 @@ impl Run {
 
 /// The paper as the flags ask for it, with every claim's checks understood.
 pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
-    let paper = Paper::load(&places.folder, &places.inputs).map_err(|error| match error {
-        StudyError::Settings(fault) => StudyError::Settings(with_the_rest(fault, &places.folder)),
-        other => other,
-    })?;
-    let paper = how.apply(paper);
-    how.check_readings(&paper)?;
     let mut faults = Faults::default();
+    let paper = Paper::gather(&places.folder, &places.inputs, &of_any_names, &mut faults)?;
+    let Some(paper) = paper else { return Err(faults.error().into()) };
     faults.keep(claims::validate(&paper));
     faults.keep(crate::render::figure::validate(&paper));
     faults.keep(crate::render::results::validate(&paper));
     faults.done()?;
+    let paper = how.apply(paper);
+    how.check_readings(&paper)?;
     Ok(paper)
 }
 

@@ -206,6 +206,10 @@ impl Graph for ChaosGraph<'_> {
 }
 
 impl Planner for Ready {
+    fn draws(&self) -> bool {
+        true
+    }
+
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
         let mut graph = ChaosGraph {

@@ -102,6 +102,11 @@ pub trait Planner: Send + Sync {
     /// Whether [`Ending::NoPath`] proves that the world's graph has no path.
     fn is_complete(&self) -> bool;
 
+    /// Whether what it returns depends on the request's seed: only then does it run on several.
+    fn draws(&self) -> bool {
+        false
+    }
+
     /// The steps, in columns and rows, that its graph may have, if it moves over a lattice by steps of its own; the
     /// verifier holds its path to them.
     fn steps(&self) -> Option<&[[i32; 2]]> {

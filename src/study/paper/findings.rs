@@ -25,7 +25,8 @@ impl Paper {
                 if !claims.contains(claim) {
                     let hint = did_you_mean(claim, claims.iter().copied());
                     let message = format!("`findings` speaks of `{{{claim}}}`; there is no such claim{hint}");
-                    faults.add(self.document.error_at(&format!("source.findings.{index}"), message));
+                    let fault = self.document.error_at(&format!("source.findings.{index}"), message);
+                    faults.add(fault.about(claim));
                 }
                 String::new()
             });

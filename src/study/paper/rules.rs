@@ -24,7 +24,7 @@ impl Paper {
             self.known("figure or table", &row.figures, &figures, faults);
             self.known("study", &row.studies, &studies, faults);
             let answered = !(row.claims.is_empty() && row.figures.is_empty() && row.studies.is_empty());
-            if answered == row.none.is_some() {
+            if answered == row.none.is_some() && !self.document.is_part() {
                 let message = format!(
                     "ledger row `{}` needs claims, figures or studies that answer it, or `none` with the reason, and \
                      not both",
@@ -115,7 +115,8 @@ impl Paper {
         for (number, table) in self.tables.iter().enumerate() {
             for (index, row) in table.rows.iter().enumerate() {
                 let (claims, cells) = (row.claims.len(), row.cells.len());
-                if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
+                let fits = claims.max(cells) == table.columns.len() && claims.min(cells) == 0;
+                if !fits && !self.document.is_part() {
                     let message = format!(
                         "row `{}` of table `{}` has {claims} claims and {cells} cells; either are accepted, one for each of \
                          the {} columns",
@@ -135,7 +136,7 @@ impl Paper {
         for name in names {
             if !known.contains(name.get_ref().as_str()) {
                 let message = none_called(what, name.get_ref(), known.iter().copied());
-                faults.add(self.document.error(name.span(), message));
+                faults.add(self.document.error(name.span(), message).about(name.get_ref()));
             }
         }
     }
@@ -153,7 +154,7 @@ impl Paper {
                 if !items.contains(item.as_str()) {
                     let message =
                         format!("the ledger has no row for {item}; the paper has {count} of its kind");
-                    faults.add(self.document.error_at(&format!("prints.{key}"), message));
+                    faults.add(self.document.error_at(&format!("prints.{key}"), message).about(&item));
                 }
             }
         }
