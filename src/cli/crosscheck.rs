@@ -103,8 +103,11 @@ impl Crosscheck {
             posed.iter().try_for_each(|(_, shown, _)| are_answered(shown))?;
         }
         let home = home(None)?;
-        let judge =
-            if self.answered { None } else { Some(Judge::ready(self.python.as_deref(), &home.join(FOLDER))?) };
+        let judge = if self.answered {
+            None
+        } else {
+            Some(Judge::ready(self.python.as_deref(), &home.join(FOLDER))?)
+        };
         let mut differences = 0;
         for (places, shown, spec) in &posed {
             differences += self.paper(places, shown, spec, judge.as_ref())?;
@@ -298,7 +301,7 @@ impl From<CrosscheckError> for Failure {
     fn from(error: CrosscheckError) -> Self {
         match error {
             CrosscheckError::Study(error) => error.into(),
-            CrosscheckError::Io { .. } => Self { code: 1, message: error.to_string() },
+            CrosscheckError::Io { .. } => Self::new(1, error.to_string()),
             CrosscheckError::Settings(_) => Self::input(error.to_string()),
             CrosscheckError::Answer { .. } => Self::stale(error.to_string()),
         }

@@ -65,13 +65,23 @@ fn a_fault_is_told_once_whatever_readings_and_sweeps_lie_over_it() {
     let said = bench.run(&["check", "./mini"]);
     assert_told(
         &said.err,
-        &["draws.toml:19:27: size_cells: a grid of 0 × 12 cells; each side", "draws.toml:24:23: weight is -1; "],
+        &[
+            "draws.toml:19:27: size_cells: a grid of 0 × 12 cells; each side",
+            "draws.toml:24:23: weight is -1; ",
+        ],
     );
     bench.edit("mini/draws.toml", "size_cells = [0, 12]", "size_cells = [12, 12]");
     bench.edit("mini/draws.toml", "weight = -1,", "weight = 1,");
-    bench.edit("mini/draws.toml", "problem = { corner_rule = \"forbid_any\" }", "problem = { goal = [12, 9] }");
+    bench.edit(
+        "mini/draws.toml",
+        "problem = { corner_rule = \"forbid_any\" }",
+        "problem = { goal = [12, 9] }",
+    );
     let said = bench.run(&["check", "./mini"]);
-    assert_told(&said.err, &["draws.toml:19:60: with reading corners=forbid_any: goal is [12, 9], outside the map"]);
+    assert_told(
+        &said.err,
+        &["draws.toml:19:60: with reading corners=forbid_any: goal is [12, 9], outside the map"],
+    );
 }
 
 #[test]
@@ -80,7 +90,10 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
     for (file, edits, expected) in [
         (
             "draws",
-            &[("replicates = 24", "replicates = 1_000_000"), ("ties = \"fifo\" }\n\n", "ties = \"fifo\" }\nrepeats = 100_000\n\n")][..],
+            &[
+                ("replicates = 24", "replicates = 1_000_000"),
+                ("ties = \"fifo\" }\n\n", "ties = \"fifo\" }\nrepeats = 100_000\n\n"),
+            ][..],
             &[
                 "draws.toml:18:14: the study has 1.0e11 trials: 1000000 problems by 2 contenders, up to 100000 seeds each",
                 "draws.toml:25:11: `repeats` is 100000, and contender `A*` draws nothing at random; 1 is accepted",
@@ -89,7 +102,9 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         (
             "draws",
             &[("replicates = 24", "replicates = 1_000_000"), ("[12, 12]", "[8192, 8192]")],
-            &["draws.toml:18:14: 1000000 draws of 67108864 cells or samples each are 6.7e13; at most 1e12 are accepted"],
+            &[
+                "draws.toml:18:14: 1000000 draws of 67108864 cells or samples each are 6.7e13; at most 1e12 are accepted",
+            ],
         ),
         (
             "draws",
@@ -98,7 +113,9 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
                 ("[12, 12]", "[8192, 8192]"),
                 ("blocked_share = 0.3", "count = 1_000_000, side_cells = [1, 8192]"),
             ],
-            &["draws.toml:18:14: 24 draws of 67108931108864 cells or samples each are 1.6e15; at most 1e12 are"],
+            &[
+                "draws.toml:18:14: 24 draws of 67108931108864 cells or samples each are 1.6e15; at most 1e12 are",
+            ],
         ),
         (
             "draws",
@@ -125,11 +142,16 @@ fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
         bench.write(&name, &whole);
     }
     let many: Vec<String> = (0..101).map(|value| value.to_string()).collect();
-    let sweep = |key: &str| format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = [{}]\n\n", many.join(", "));
+    let sweep =
+        |key: &str| format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = [{}]\n\n", many.join(", "));
     let both = format!("{}{}[[reading]]", sweep("weight"), sweep("other"));
     bench.edit("mini/draws.toml", "[[reading]]", &both);
     let said = bench.run(&["check", "./mini"]);
-    assert!(said.err.contains("the values of the sweeps have 10201 combinations; at most 10000 are"), "{}", said.err);
+    assert!(
+        said.err.contains("the values of the sweeps have 10201 combinations; at most 10000 are"),
+        "{}",
+        said.err
+    );
 }
 
 #[test]
@@ -150,11 +172,14 @@ fn files_of_something_else_beside_the_studies_are_told_from_studies() {
         ./mini/notes.toml is taken for a file of something else, not for a study\n";
     assert_eq!(said, expected);
     for (text, expected) in [
-        ("seed = 3\n", &[
-            "notes.toml:1:1: missing key `paper`",
-            "notes.toml:1:1: missing key `question`",
-            "notes.toml:1:1: missing key `budget`",
-        ][..]),
+        (
+            "seed = 3\n",
+            &[
+                "notes.toml:1:1: missing key `paper`",
+                "notes.toml:1:1: missing key `question`",
+                "notes.toml:1:1: missing key `budget`",
+            ][..],
+        ),
         ("[budget", &["notes.toml:1:8: "]),
     ] {
         bench.write("mini/notes.toml", text.as_bytes());

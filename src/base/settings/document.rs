@@ -55,7 +55,11 @@ impl Document {
 
     /// A document with the given text, as if read from `path`.
     pub fn new(path: &Path, text: String) -> Arc<Self> {
-        Arc::new(Self { path: path.to_owned(), parsed: Parsed::new(text, |text| parse(text)), is_part: false })
+        Arc::new(Self {
+            path: path.to_owned(),
+            parsed: Parsed::new(text, |text| parse(text)),
+            is_part: false,
+        })
     }
 
     /// The document with a part of what it says taken away, and its text as it was.

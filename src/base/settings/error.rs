@@ -73,6 +73,20 @@ impl SettingsError {
         }
     }
 
+    /// The same places with other words for what is wrong there.
+    #[must_use]
+    pub fn reworded(self, words: &str) -> Self {
+        match self {
+            Self::At { path, line, column, with, about, excerpt, .. } => {
+                Self::At { path, line, column, with, about, message: words.to_owned(), excerpt }
+            }
+            Self::Several(errors) => {
+                Self::Several(errors.into_iter().map(|error| error.reworded(words)).collect())
+            }
+            other => other,
+        }
+    }
+
     /// The same with `by` laid over what stands there.
     #[must_use]
     pub(super) fn under(mut self, by: &str) -> Self {

@@ -106,7 +106,9 @@ fn plain<'t>(node: Node<'_>) -> Option<DeValue<'t>> {
     match node.kinds().first().copied()? {
         "integer" | "number" => parsed("1"),
         "boolean" => parsed("false"),
-        "string" => Some(DeValue::String(node.words().first().copied().unwrap_or_default().to_owned().into())),
+        "string" => {
+            Some(DeValue::String(node.words().first().copied().unwrap_or_default().to_owned().into()))
+        }
         "array" => Some(DeValue::Array(DeArray::new())),
         _ => {
             let mut table = Spanned::new(0..0, DeValue::Table(DeTable::new()));

@@ -232,8 +232,7 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
 /// Refuses a figure that draws what no trial of the study would keep.
 fn check_kept(figure: &FigureSpec, study: &Study, kind: &dyn Kind) -> Result<(), SettingsError> {
     let mut faults = Faults::default();
-    for Shown { problems, contender, draw } in
-        kind.shown().into_iter().filter(|shown| !shown.is_kept(study))
+    for Shown { problems, contender, draw } in kind.shown().into_iter().filter(|shown| !shown.is_kept(study))
     {
         let (id, replicates) = (figure.id.get_ref(), draw + 1);
         let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));

@@ -79,7 +79,12 @@ impl Study {
             searched: spec.searched,
             fitted_to: spec.fitted_to.into_iter().map(Spanned::into_inner).collect(),
             groups: read_all(&spec.problems, |at, p| (&p.label, group(document, at, p)), &name, faults),
-            contenders: read_all(&spec.contenders, |at, c| (&c.label, contender(document, at, c)), &name, faults),
+            contenders: read_all(
+                &spec.contenders,
+                |at, c| (&c.label, contender(document, at, c)),
+                &name,
+                faults,
+            ),
             name,
             sweeps: spec.sweeps.into_iter().map(sweep).collect(),
             readings: spec.readings.into_iter().map(reading).collect(),
@@ -400,12 +405,17 @@ fn group(document: &Arc<Document>, place: usize, spec: &ProblemsSpec) -> Result<
     })
 }
 
-fn contender(document: &Arc<Document>, place: usize, spec: &ContenderSpec) -> Result<Contender, SettingsError> {
+fn contender(
+    document: &Arc<Document>,
+    place: usize,
+    spec: &ContenderSpec,
+) -> Result<Contender, SettingsError> {
     let label = spec.label.get_ref();
     let repeats = spec.repeats.unwrap_or(1);
     let mut faults = Faults::default();
     let planner = faults.keep(stage(document, label, &spec.planner, spec.settings.as_ref(), true));
-    let then = spec.then.iter().map(|then| stage(document, label, &then.stage, then.settings.as_ref(), false));
+    let then =
+        spec.then.iter().map(|then| stage(document, label, &then.stage, then.settings.as_ref(), false));
     let stages = planner.into_iter().chain(then.filter_map(|stage| faults.keep(stage))).collect();
     faults.done()?;
     Ok(Contender {

@@ -38,10 +38,11 @@ impl Study {
 
     fn check_trials(&self, families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
         let swept = self.sweep_points().len();
-        let points = if self.explore.is_some() { self.trial_points().map_or(1, |points| points.len()) } else { 1 };
-        let each = families.iter().map(|(group, family)| {
-            f64::from(group.replicates) * family.queries().len().max(1) as f64
-        });
+        let points =
+            if self.explore.is_some() { self.trial_points().map_or(1, |points| points.len()) } else { 1 };
+        let each = families
+            .iter()
+            .map(|(group, family)| f64::from(group.replicates) * family.queries().len().max(1) as f64);
         let problems = each.sum::<f64>() * points as f64;
         let of = |contender: &Contender| problems * f64::from(contender.repeats) * swept as f64;
         let trials: f64 = self.contenders.iter().map(of).sum();
@@ -78,8 +79,10 @@ impl Study {
                 ("repeats", trials.repeats, contender.map(|contender| contender.repeats)),
             ];
             for (key, asked, there_are) in asked {
-                if let Some((asked, there_are)) = asked.zip(there_are).filter(|(asked, there)| asked > there) {
-                    let message = format!("`{key}` is {asked}; there are {there_are}, and no more is accepted");
+                if let Some((asked, there_are)) = asked.zip(there_are).filter(|(asked, there)| asked > there)
+                {
+                    let message =
+                        format!("`{key}` is {asked}; there are {there_are}, and no more is accepted");
                     faults.add(self.document.error_at(&format!("{place}.{index}.{key}"), message));
                 }
             }
