@@ -26,6 +26,7 @@ mod render;
 mod repro;
 mod run;
 mod schema;
+mod show;
 mod trial;
 mod verdicts;
 
@@ -48,6 +49,7 @@ const EXAMPLES: &str = "Examples:
   replan repro zhang --quick         the same with few replicates, below target/replan/
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
+  replan show zhang t1.improved.cost one claim with its evidence
   replan render zhang --check        are the committed plots and tables what the stored run gives?
   replan list planners               what contenders can name
   replan list criteria one_draw      what one criterion can be told, with an example";
@@ -64,6 +66,8 @@ enum Command {
     Judge(judge::Judge),
     /// Draw a paper's figures and tables again from its stored run and verdicts
     Render(render::Render),
+    /// Show one claim with its evidence, or list every claim with its class
+    Show(show::Show),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
     /// Ask of a printed table, by arithmetic alone, whether any data could have given it
@@ -181,6 +185,7 @@ pub fn run() -> ExitCode {
         Command::Run(command) => command.run(),
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
+        Command::Show(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
         Command::Audit(command) => command.run(),
         Command::List(command) => command.run(),

@@ -5,6 +5,7 @@ use super::{Faults, SettingsError, schema_of};
 use schemars::JsonSchema;
 use self_cell::self_cell;
 use serde::de::{DeserializeOwned, IntoDeserializer as _};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,7 +17,8 @@ use toml::de::{DeTable, DeValue};
 pub struct Document {
     path: PathBuf,
     parsed: Parsed,
-    is_part: bool,
+    /// The keys at its top under which a part of it was taken away.
+    parted: BTreeSet<String>,
 }
 
 /// What a text says, or why it is no TOML.
@@ -58,18 +60,23 @@ impl Document {
         Arc::new(Self {
             path: path.to_owned(),
             parsed: Parsed::new(text, |text| parse(text)),
-            is_part: false,
+            parted: BTreeSet::new(),
         })
     }
 
-    /// The document with a part of what it says taken away, and its text as it was.
-    pub(super) fn in_part(&self, change: impl FnOnce(&mut Spanned<DeValue<'_>>)) -> Arc<Self> {
+    /// The document with a part of what it says taken away, and its text as it was; `change` gives the keys at its top under
+    /// which it took something.
+    pub(super) fn in_part(
+        &self,
+        change: impl FnOnce(&mut Spanned<DeValue<'_>>) -> BTreeSet<String>,
+    ) -> Arc<Self> {
+        let mut parted = BTreeSet::new();
         let parsed = Parsed::new(self.text().to_owned(), |text| {
             let mut value = parse(text)?;
-            change(&mut value);
+            parted = change(&mut value);
             Ok(value)
         });
-        Arc::new(Self { path: self.path.clone(), parsed, is_part: true })
+        Arc::new(Self { path: self.path.clone(), parsed, parted })
     }
 
     /// The path it was read from.
@@ -110,9 +117,9 @@ impl Document {
         self.refuse(faults(schema, self.parsed()?))
     }
 
-    /// Whether a part of it was taken away: what seems to be missing may be there.
-    pub fn is_part(&self) -> bool {
-        self.is_part
+    /// Whether something was taken away under the key at its top: what seems to be missing there may be written.
+    pub fn is_part(&self, key: &str) -> bool {
+        self.parted.contains(key)
     }
 
     /// Whether it is TOML.
@@ -171,7 +178,7 @@ impl Document {
         let mut all = Faults::default();
         for fault in found {
             // What a part lacks may stand in the whole.
-            let lacks = fault.lacks.filter(|_| self.is_part);
+            let lacks = fault.lacks.filter(|_| !self.parted.is_empty());
             let error = self.error(fault.span, fault.message);
             all.add(lacks.into_iter().fold(error, |error, key| error.about(&key)));
         }

@@ -4,6 +4,7 @@ use super::schema::Node;
 use super::validate::faults;
 use super::{Document, Faults};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use toml::Spanned;
@@ -29,19 +30,33 @@ impl Document {
     }
 }
 
-fn salvage(schema: &Value, value: &mut Spanned<DeValue<'_>>, names: &mut Vec<String>) {
+/// Takes away what is not accepted, gathers the names in it, and gives the keys at the top under which it stood.
+fn salvage(schema: &Value, value: &mut Spanned<DeValue<'_>>, names: &mut Vec<String>) -> BTreeSet<String> {
+    let mut parted = BTreeSet::new();
     for _ in 0..ROUNDS {
         let refused = faults(schema, value);
         if refused.is_empty() {
-            return;
+            break;
         }
         for fault in refused {
             names.extend(fault.lacks);
+            parted.extend(key_of(value.get_ref(), &fault.span));
             if !remove(value.get_mut(), &fault.span, names) {
                 fill(Node::root(schema), value);
             }
         }
     }
+    parted
+}
+
+/// The key at the top under which what is at `span` stands.
+fn key_of(value: &DeValue<'_>, span: &Range<usize>) -> Option<String> {
+    let holds = |value: &Spanned<DeValue<'_>>| remove(&mut value.get_ref().clone(), span, &mut Vec::new());
+    let found = value
+        .as_table()?
+        .iter()
+        .find(|(key, inner)| key.span() == *span || inner.span() == *span || holds(inner));
+    found.map(|(key, _)| key.get_ref().to_string())
 }
 
 /// Removes the key or element that stands at `span`, and gathers the names inside; whether there was one.

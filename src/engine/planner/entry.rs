@@ -107,6 +107,12 @@ pub trait Planner: Send + Sync {
         false
     }
 
+    /// Whether its path may leave the graph of the world for any free segment; the verifier then judges segments and not
+    /// moves.
+    fn is_any_angle(&self) -> bool {
+        false
+    }
+
     /// The steps, in columns and rows, that its graph may have, if it moves over a lattice by steps of its own; the
     /// verifier holds its path to them.
     fn steps(&self) -> Option<&[[i32; 2]]> {

@@ -223,7 +223,7 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
             study.document.error(figure.id.span(), message).about("settings")
         }
     })?;
-    if !study.document.is_part() {
+    if !["figure", "keep"].iter().any(|key| study.document.is_part(key)) {
         check_kept(figure, study, kind.as_ref())?;
     }
     Ok(kind)

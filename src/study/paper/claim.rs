@@ -156,7 +156,11 @@ pub(super) fn claim(document: &Arc<Document>, spec: &ClaimSpec, faults: &mut Fau
     }
     let parts = faults.keep(parts(document, spec)).unwrap_or(Parts::None);
     let asked = asked(document, spec);
-    if asked.is_empty() && spec.untestable.is_none() && given(spec).next().is_none() && !document.is_part() {
+    if asked.is_empty()
+        && spec.untestable.is_none()
+        && given(spec).next().is_none()
+        && !document.is_part("claim")
+    {
         let message = format!(
             "claim `{id}` needs `check`, `rule`, parts, or `untestable` with what the paper leaves out"
         );
