@@ -7,6 +7,7 @@ use crate::study::paper::{self, Claim, Paper};
 use crate::study::{ReadingChoice, Study, columns_of};
 use audit::printed::{Digits, Printed};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
+use std::collections::BTreeSet;
 
 /// What a criterion or rule is built from.
 #[derive(Clone, Copy)]
@@ -144,7 +145,12 @@ impl<'a> Context<'a> {
     /// There is no such metric.
     pub fn known_metric(&self, name: &str) -> Result<&'static Metric, SettingsError> {
         metric::find(self.point.metric(name)).ok_or_else(|| {
-            let known: Vec<&str> = metric::METRICS.iter().map(|metric| metric.name).collect();
+            let readings = self.paper.readings();
+            let options = readings.iter().flat_map(|reading| reading.options.values());
+            // Names that readings give a meaning; several options give one to the same name.
+            let read: BTreeSet<&str> =
+                options.flat_map(|option| option.metric.keys()).map(String::as_str).collect();
+            let known: Vec<&str> = metric::METRICS.iter().map(|metric| metric.name).chain(read).collect();
             let hint = did_you_mean(name, known.iter().copied());
             let message = format!(
                 "there is no metric `{name}`, nor a reading that gives the name a meaning{hint}; the metrics are {}",

@@ -84,7 +84,7 @@ impl Crosscheck {
         let mut posed = Vec::new();
         for name in &names {
             let places = Places::find(&Which { paper: name.clone(), out: None }, "")?;
-            match Spec::load(&places.folder)? {
+            match Spec::open(&places.folder).map_err(CrosscheckError::from)? {
                 Some(spec) => {
                     let shown = Places::find(&Which { paper: name.clone(), out: self.out.clone() }, "")?;
                     posed.push((places, shown, spec));

@@ -113,6 +113,12 @@ fn one(what: What, name: &str) -> Result<(), Failure> {
         let found = rows.iter().find(|(known, _)| known == name);
         let (_, about) = found.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
         say!("{name}\n{}", wrapped("  ", about, 2));
+        if let Some(metric) = metric::find(name).filter(|_| what == What::Metrics) {
+            let unit = if metric.unit.is_empty() { "none: it is a count or a flag" } else { metric.unit };
+            say!("{}", wrapped("  unit: ", unit, 2));
+            say!("{}", wrapped("  better: ", metric.better.name(), 2));
+            say!("{}", wrapped("  read from: ", metric.column, 2));
+        }
         return all(results, "papers and robots cannot be listed");
     };
     let known = items.iter().map(|item| item.name);
@@ -158,7 +164,9 @@ fn rows(what: What, Found { papers, robots }: &Found) -> Vec<(String, String)> {
             })
             .collect(),
         What::Robots => robots.iter().map(|robot| row(robot.name(), &about(robot))).collect(),
-        _ => metric::METRICS.iter().map(|m| row(m.name, &m.title())).collect(),
+        _ => {
+            metric::METRICS.iter().map(|m| row(m.name, &format!("{}: {}", m.title(), m.meaning()))).collect()
+        }
     }
 }
 

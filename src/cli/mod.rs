@@ -13,9 +13,11 @@ macro_rules! say {
 }
 
 mod audit;
+mod audit_file;
 pub mod catalogue;
 mod check;
 mod crosscheck;
+mod example;
 mod explain;
 pub mod file_schema;
 mod judge;

@@ -188,3 +188,63 @@ fn files_of_something_else_beside_the_studies_are_told_from_studies() {
         assert_told(&said.err, expected);
     }
 }
+
+#[test]
+fn a_crosscheck_is_checked_with_its_paper() {
+    let bench = Bench::new();
+    let spec = "seed = 1\n[sizes]\nstills = 1\n[picture]\n";
+    bench.write("mini/crosscheck.toml", spec.as_bytes());
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(said.err.contains("mini/crosscheck.toml:2:1: missing key `"), "{}", said.err);
+    let whole =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/experiments/planar/crosscheck.toml"));
+    let whole = whole.unwrap();
+    let study = whole.lines().find(|line| line.starts_with("study = ")).unwrap();
+    bench.write("mini/crosscheck.toml", whole.replace(study, "study = \"drows\"").as_bytes());
+    bench.edit("mini/room.toml", "start = [0, 0]", "start = [3, 0]");
+    let said = bench.run(&["check", "./mini"]);
+    assert!(
+        said.err.contains("there is no study `drows` (did you mean `draws`?); there are draws, room"),
+        "{}",
+        said.err
+    );
+    assert!(said.err.contains("mini/room.toml:15:44: the start [3.0, 0.0] is blocked"), "{}", said.err);
+}
+
+#[test]
+fn a_misspelled_metric_may_be_one_that_a_reading_introduces() {
+    let bench = Bench::new();
+    bench.edit("mini/paper.toml", "metric = \"nodes\"", "metric = \"nodez\"");
+    let said = bench.run(&["check", "./mini"]);
+    assert!(
+        said.err.contains("gives the name a meaning (did you mean `nodes`?); the metrics are "),
+        "{}",
+        said.err
+    );
+    let said = bench.done(&["list", "metrics", "path_length_mm"]);
+    let column = replan::study::column::find("path_length_mm").unwrap();
+    for part in [column.about, "unit: mm", "better: lower", "read from: path_length_mm"] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+}
+
+#[test]
+fn a_check_of_schemas_says_what_it_checked_and_refuses_what_is_left_over() {
+    let bench = Bench::new();
+    bench.done(&["schema"]);
+    let said = bench.done(&["schema", "--check"]);
+    assert_eq!(
+        said,
+        "9 schemas in docs/schema are current: audit_tables, cell_groups, cell_scene, crosscheck, paper, plane_map, \
+        polyhedra_scene, robot, study\n"
+    );
+    bench.write("docs/schema/spec.schema.json", b"{}");
+    let said = bench.run(&["schema", "--check"]);
+    assert_eq!(said.code, Some(3), "{}", said.err);
+    assert!(
+        said.err.contains("docs/schema/spec.schema.json is the schema of no kind of file; remove it"),
+        "{}",
+        said.err
+    );
+}
