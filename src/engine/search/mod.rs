@@ -4,7 +4,8 @@
 //! f of (node, g) ([`Estimate`]; f = g + h, weighted, or falling weight), the order among equal f (the
 //! [`Frontier`]: a [`Heap`] with a [`Ties`] rule, or [`Buckets`]), whether the g of an open node is lowered and
 //! whether closed nodes reopen ([`Update`]), when to stop ([`Stop`]), what is tried before an expansion
-//! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two.
+//! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two, [`AnyAngle`] one
+//! whose ways leave the moves of the grid.
 //! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`LatticeAstar`] the one for neighbourhoods of any
 //! size, [`FirstWayAstar`] the one for the lengths of an A*
 //! that never lowers open nodes there, [`ManyGrids`] the one for the costs on many such grids at once; tests hold each
@@ -28,6 +29,7 @@
 //! Graphs with states of their own (poses, configurations) number them in the order in which they meet them;
 //! records grow as numbers appear.
 
+mod any_angle;
 mod bidirectional;
 mod buckets;
 mod cost;
@@ -48,6 +50,7 @@ mod sorted_buckets;
 #[cfg(test)]
 mod tests;
 
+pub use any_angle::{AnyAngle, Seen, Sighted, When};
 pub use bidirectional::{Bidirectional, BidirectionalReport, BidirectionalRules, Meeting, SideChoice};
 pub use buckets::Buckets;
 pub use cost::{Cost, Octile, quantised};

@@ -1,5 +1,6 @@
 //! Acceptance on the maps found for the zhang study, and laws that hold the drivers and specialisations together.
 
+mod any_angle;
 mod bidirectional;
 mod first_way;
 mod jump;
