@@ -42,6 +42,8 @@ impl Mark for Labels {
         };
         let all = self.points.iter().map(|(point, _)| view.at(*point));
         let mut taken: Vec<Rect> = all.filter(|at| at.iter().all(|v| v.is_finite())).map(around).collect();
+        let mut names: Vec<Rect> = Vec::new();
+        let mut leaders: Vec<[f64; 2]> = Vec::new();
         for (point, name) in &self.points {
             let at = view.at(*point);
             let size = [set.width_pt(name) + 2.0, set.size.pt() + 2.0];
@@ -49,18 +51,34 @@ impl Mark for Labels {
                 FAR_PT.iter().flat_map(|far| (0..DIRECTIONS).map(move |to| place(at, size, *far, to)));
             let is_free = |place: &Rect| {
                 let corners = [[place.x, place.y], [place.right(), place.bottom()]];
+                let leader = leader(at, *place);
                 corners.iter().all(|corner| view.frame.contains(*corner))
                     && !taken.iter().any(|other| meets(*place, *other))
+                    && !leaders.iter().any(|point| place.contains(*point))
+                    && !names.iter().any(|name: &Rect| leader.iter().any(|point| name.contains(*point)))
             };
             let Some(free) = places.into_iter().find(is_free) else { continue };
-            let near = [at[0].clamp(free.x, free.right()), at[1].clamp(free.y, free.bottom())];
-            if libm::hypot(near[0] - at[0], near[1] - at[1]) > FAR_PT[1] - 2.0 {
-                canvas.polyline(&[at, near], &Stroke::solid(GREY, 0.5));
+            let leader = leader(at, free);
+            if let (Some(from), Some(to)) = (leader.first(), leader.last()) {
+                canvas.polyline(&[*from, *to], &Stroke::solid(GREY, 0.5));
             }
             canvas.text([free.x + 1.0, free.y + size[1] / 2.0], name, &set);
+            leaders.extend(leader);
             taken.push(free);
+            names.push(free);
         }
     }
+}
+
+/// Points of the line from `at` to a name that does not stand right beside it.
+fn leader(at: [f64; 2], name: Rect) -> Vec<[f64; 2]> {
+    const STEPS: usize = 24;
+    let to = [at[0].clamp(name.x, name.right()), at[1].clamp(name.y, name.bottom())];
+    if libm::hypot(to[0] - at[0], to[1] - at[1]) < FAR_PT[0] + 2.0 {
+        return Vec::new();
+    }
+    let step = |n: usize| [0, 1].map(|axis| at[axis] + (to[axis] - at[axis]) * n as f64 / STEPS as f64);
+    (0..=STEPS).map(step).collect()
 }
 
 #[cfg(test)]

@@ -136,7 +136,7 @@ impl Page<'_> {
         let of = |run: &&Run<'_>| run.study.figures.iter().any(|own| own.id == figure.id);
         let caption =
             self.evidence.runs().find(of).map_or_else(|| figure.caption.clone(), |run| caption(figure, run));
-        let caption = format!("{id}: {caption}");
+        let caption = if caption.starts_with("Fig. ") { caption } else { format!("{id}: {caption}") };
         let image = match self.undrawn.iter().find(|undrawn| undrawn.id == *id) {
             Some(undrawn) => format!("**{id} could not be drawn: {}.**\n\n", markdown(&undrawn.why)),
             None => format!("![{id}]({folder}{id}.png)\n\n"),
