@@ -177,7 +177,7 @@ fn write(path: &Path, text: &str) -> Result<(), Failure> {
 }
 
 fn about(path: &Path, error: &std::io::Error) -> Failure {
-    Failure { code: 1, message: format!("{}: {error}", path.display()) }
+    Failure::new(1, format!("{}: {error}", path.display()))
 }
 
 fn read(path: &Path) -> Result<String, Failure> {
