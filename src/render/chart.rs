@@ -8,6 +8,7 @@
 //! hold ([`View::rounded`]).
 
 pub mod axis;
+pub mod labels;
 pub mod legend;
 pub mod marks;
 pub mod rows;

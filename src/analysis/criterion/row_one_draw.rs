@@ -10,7 +10,7 @@ use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::OfDraw;
 use crate::analysis::verdict::Estimate;
 use crate::study::contender::SweepPoint;
-use base::settings::{Accepted, SettingsError};
+use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::rows::{Level, Place, monotone_probability};
@@ -76,8 +76,8 @@ struct RowOneDraw<'a> {
 impl<'a> RowOneDraw<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let (mut rows, mut printed) = (Vec::new(), Vec::new());
-        for (index, row) in settings.rows.iter().enumerate() {
+        let (mut printed, mut faults) = (Vec::new(), Faults::default());
+        let mut read = |(index, row): (usize, &RowSpec)| {
             let contender = Labels::One(row.contender.clone());
             let spec = SelectionSpec { contender, against: row.against.clone(), ..settings.of.clone() };
             let of = Selection::new(context, &spec)?;
@@ -96,8 +96,11 @@ impl<'a> RowOneDraw<'a> {
             for id in &row.claims {
                 printed.push(context.print_of(id)?.printed.value());
             }
-            rows.push(Row { of, cells });
-        }
+            Ok(Row { of, cells })
+        };
+        let rows: Vec<Row<'a>> =
+            settings.rows.iter().enumerate().filter_map(|row| faults.keep(read(row))).collect();
+        faults.done()?;
         if rows.is_empty() {
             return Err(context.settings.error_at("rows", "at least one row is needed"));
         }

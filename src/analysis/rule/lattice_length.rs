@@ -11,7 +11,7 @@ pub static ENTRY: Entry = Entry {
     name: "lattice_length",
     about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
     settings: Accepted::of::<Settings>(),
-    example: "",
+    example: "start = [22, 15]\ngoal = [26, 28]",
     build: |context| {
         let Settings { start, goal, size } = context.settings.read()?;
         if start.is_some() != goal.is_some() {

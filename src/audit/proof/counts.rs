@@ -44,7 +44,8 @@ pub fn count_bound(
 pub fn percentage(print: Print, [before, after]: [Print; 2]) -> Option<Proof> {
     let of_cells = |[before, after]: [Span; 2]| Form::OfFirst.span(&before, &after);
     let exact = of_cells([before, after].map(|cell| Span::point(cell.value())))?.low;
-    let possible = of_cells([before, after].map(Print::span)).filter(|_| after.printed.units() >= 0)?;
+    let has_meaning = before.printed.units() > 0 && after.printed.units() >= 0;
+    let possible = of_cells([before, after].map(Print::span)).filter(|_| has_meaning)?;
     let [low, high] = [possible.low, possible.high].map(|end| decimal(end, 2));
     let range = format!("the cells' digits allow {low} to {high} %");
     let (span, printed) = (print.span(), print.printed);
