@@ -4,6 +4,7 @@
 //! remembered, so that [`Canvas::finish`] can say which labels run into each other or off the page.
 
 use super::RenderError;
+pub mod pen;
 mod room;
 
 use super::font::{self, CAP_EM, UNITS_PER_EM, Weight};
@@ -242,10 +243,15 @@ impl Canvas {
         }
     }
 
+    /// Lets [`Canvas::finish`] fail with `error`, unless it already fails with another.
+    fn refuse(&mut self, error: RenderError) {
+        self.refused.get_or_insert(error);
+    }
+
     /// Draws one line of text.
     pub fn text(&mut self, at: [f64; 2], text: &str, set: &Type) {
         if let Some(found) = font::missing(text, set.weight) {
-            self.refused.get_or_insert(RenderError::MissingGlyph { found, text: text.to_owned() });
+            self.refuse(RenderError::MissingGlyph { found, text: text.to_owned() });
         }
         let (placed, units) = font::line(text, set.weight);
         let (scale, size) = (set.size.pt() / UNITS_PER_EM, set.size.pt());
@@ -331,7 +337,7 @@ impl Canvas {
     ///
     /// # Errors
     /// [`RenderError::MissingGlyph`] if a text holds a character that the font lacks;
-    /// the errors of rasterising ([`RenderError::Svg`], [`RenderError::Size`], [`RenderError::Png`]).
+    /// [`RenderError::TextTooSmall`] if plotters was told to set one too small; the errors of rasterising ([`RenderError::Svg`], [`RenderError::Size`], [`RenderError::Png`]).
     pub fn finish(self, provenance: &Provenance) -> Result<Figure, RenderError> {
         let flaws = self.flaws();
         if let Some(error) = self.refused {

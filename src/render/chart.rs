@@ -4,8 +4,8 @@
 //! when there are several, and sets one legend below all of them, where it cannot cover data. A [`Mark`]
 //! draws itself through a [`View`], which maps data to the page.
 //!
-//! What follows the axes (grids, ticks, lines, bands, boxes) stands at whole hundredths of a point, the finest that files
-//! hold ([`View::rounded`]).
+//! Panels are charts of the crate plotters, drawn on the canvas by a [`Pen`]: an [`Axis`] is one of its
+//! coordinates, its mesh is the grid with ticks and labels, and [`View::plot`] draws its series and elements.
 
 pub mod axis;
 pub mod labels;
@@ -19,12 +19,18 @@ pub use axis::Axis;
 pub use legend::{Key, Swatch};
 pub use sheet::Sheet;
 
+use super::canvas::pen::{Pen, units};
 use super::canvas::{Canvas, Rect};
+use super::style::Dash;
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::element::{Drawable, PointCollection};
+use plotters::prelude::DrawingArea;
 
-/// `length_pt` in hundredths of a point, a whole number.
-fn hundredths(length_pt: f64) -> f64 {
-    (length_pt * 100.0).round()
-}
+/// Why plotters cannot fail on a canvas.
+const TAKES_ALL: &str = "a canvas takes whatever plotters draws";
+
+/// Backend units from the page's corner to where plotters cuts coordinates off, far outside any clip.
+const FAR_UNITS: i32 = 1 << 24;
 
 /// How one panel maps data to the page.
 #[derive(Clone, Debug)]
@@ -49,17 +55,27 @@ impl View {
         points.iter().map(|&point| self.at(point)).collect()
     }
 
-    /// Where a data point lies on the page, to the hundredth of a point; it may lie far off the frame, which clips.
-    pub fn rounded(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let Rect { x: left, y: top, .. } = self.frame;
-        let across = [left, self.frame.right()].map(hundredths);
-        [self.x.place(x, across), self.y.place(y, [self.frame.bottom(), top].map(hundredths))]
-    }
-
-    /// The rectangle between two data points, as [`rounded`](Self::rounded) places them.
-    pub fn rounded_box(&self, corners: [[f64; 2]; 2]) -> Rect {
-        let [[x0, y0], [x1, y1]] = corners.map(|corner| self.rounded(corner));
-        Rect { x: x0.min(x1), y: y0.min(y1), w: (x1 - x0).abs(), h: (y1 - y0).abs() }
+    /// Draws elements of a series of plotters, given in data units, with lines broken by `dash`.
+    ///
+    /// They may leave the frame: plotters would move their points to the edge of its drawing area, so that
+    /// area reaches far beyond the page, and the panel clips what leaves the frame.
+    ///
+    /// # Panics
+    /// Only if an element fails by itself; those of plotters do not.
+    pub fn plot<'c, E>(&self, canvas: &'c mut Canvas, dash: Dash, series: impl IntoIterator<Item = E>)
+    where
+        E: Drawable<Pen<'c>>,
+        for<'e> &'e E: PointCollection<'e, (f64, f64)>,
+    {
+        let frame = self.frame;
+        let across = units(frame.x)..units(frame.right());
+        let up = units(frame.bottom())..units(frame.y);
+        let area = DrawingArea::from(Pen::new(canvas, dash))
+            .shrink((-FAR_UNITS, -FAR_UNITS), (2 * FAR_UNITS, 2 * FAR_UNITS))
+            .apply_coord_spec(Cartesian2d::<Axis, Axis>::new(self.x.clone(), self.y.clone(), (across, up)));
+        for element in series {
+            area.draw(&element).expect(TAKES_ALL);
+        }
     }
 }
 

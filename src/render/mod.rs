@@ -47,6 +47,14 @@ pub enum RenderError {
         /// What is missing.
         what: String,
     },
+    /// A text size below what a printed page can carry.
+    #[error("text of {found_pt} pt is too small to print; at least {least_pt} pt is accepted")]
+    TextTooSmall {
+        /// The size that was asked for.
+        found_pt: f64,
+        /// The least size that is accepted.
+        least_pt: f64,
+    },
     /// A character that the embedded font cannot draw.
     #[error("the embedded font DejaVu Sans has no glyph for {found:?}, used in `{text}`")]
     MissingGlyph {

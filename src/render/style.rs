@@ -3,6 +3,8 @@
 //! Lengths are points (1/72 inch). Series differ in colour, in grey and in dash or marker, so that a
 //! figure survives a photocopy and any common colour blindness.
 
+use super::RenderError;
+
 /// An opaque sRGB colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Rgb(pub [u8; 3]);
@@ -234,6 +236,15 @@ impl TextSize {
     /// Title of a sheet.
     pub const TITLE: Self = Self(9.0);
 
+    /// A size of `pt` points.
+    ///
+    /// # Errors
+    /// [`RenderError::TextTooSmall`] below 7 pt or if `pt` is not a number.
+    pub fn new(pt: f64) -> Result<Self, RenderError> {
+        let least_pt = 7.0;
+        if pt >= least_pt { Ok(Self(pt)) } else { Err(RenderError::TextTooSmall { found_pt: pt, least_pt }) }
+    }
+
     /// The size in points.
     pub fn pt(self) -> f64 {
         self.0
@@ -269,8 +280,12 @@ mod tests {
     }
 
     #[test]
-    fn no_text_is_smaller_than_seven_points() {
-        assert!([TextSize::TICK, TextSize::LABEL, TextSize::TITLE].iter().all(|size| size.pt() >= 7.0));
+    fn text_below_seven_points_is_refused_with_the_least_size() {
+        assert_eq!(TextSize::new(7.0).unwrap().pt(), 7.0);
+        for bad in [6.99, 0.0, f64::NAN] {
+            let message = TextSize::new(bad).unwrap_err().to_string();
+            assert!(message.contains("at least 7 pt"), "{message}");
+        }
     }
 
     #[test]

@@ -3,6 +3,8 @@
 use crate::render::RenderError;
 use crate::render::canvas::Type;
 use crate::render::style::TextSize;
+use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
+use std::ops::Range;
 
 /// One axis of a panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +23,6 @@ enum Scale {
     Log,
     Names(Vec<String>),
 }
-
-/// Hundredths of a point from the page's corner that nothing is drawn beyond: far outside any clip.
-const FAR: f64 = 1.6e7;
 
 /// A tick: where it stands and what it says (nothing for a minor tick).
 #[derive(Clone, Debug, PartialEq)]
@@ -122,12 +121,6 @@ impl Axis {
         }
     }
 
-    /// Where `value` stands, in points, on an axis between two whole hundredths of a point: to the hundredth, and no farther
-    /// off than any page is wide.
-    pub fn place(&self, value: f64, [from, to]: [f64; 2]) -> f64 {
-        (from + (self.share(value) * (to - from)).round()).clamp(-FAR, FAR) / 100.0
-    }
-
     /// Ticks for an axis `length_pt` long, so few that labels along it stay apart.
     ///
     /// `sideways` says that labels follow each other along the axis, as they do on a horizontal one.
@@ -189,6 +182,31 @@ impl Axis {
             }
         }
         ticks
+    }
+}
+
+/// An axis is a coordinate of plotters, in place of that crate's own linear and logarithmic ones: those draw an
+/// infinite value on the edge of the frame as if it were finite, panic far outside it, and choose ticks that
+/// miss an end of the axis by a rounding error (±0.5) or name a decade twice.
+impl Ranged for Axis {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let along = self.share(*value) * f64::from(limit.1 - limit.0);
+        limit.0.saturating_add(along.round() as i32)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        let ticks = match self.scale {
+            Scale::Linear => self.even_ticks(hint.max_num_points()),
+            Scale::Log | Scale::Names(_) => self.ticks(0.0, false),
+        };
+        ticks.into_iter().map(|tick| tick.at).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.low..self.high
     }
 }
 

@@ -3,7 +3,9 @@
 use super::legend::{Key, Swatch};
 use super::{Mark, View};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
-use crate::render::style::{Fill, Marker, Rgb, Stroke, TextSize};
+use crate::render::style::{Dash, Fill, Marker, Rgb, Stroke, TextSize};
+use plotters::element::Polygon;
+use plotters::series::LineSeries;
 use std::collections::BTreeMap;
 
 /// A chain of straight pieces, perhaps with a marker on each point.
@@ -42,8 +44,8 @@ impl Mark for Line {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
         let is_placed = |&point: &[f64; 2]| view.at(point).iter().all(|value| value.is_finite());
         for piece in self.points.split(|point| !is_placed(point)) {
-            let points: Vec<[f64; 2]> = piece.iter().map(|&point| view.rounded(point)).collect();
-            canvas.polyline(&points, &self.stroke);
+            let points = piece.iter().map(|&point| point.into());
+            view.plot(canvas, self.stroke.dash, LineSeries::new(points, self.stroke));
         }
     }
 
@@ -80,10 +82,10 @@ pub struct Band {
 
 impl Mark for Band {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
-        let low = self.edges.iter().map(|&[x, low, _]| [x, low]);
-        let high = self.edges.iter().rev().map(|&[x, _, high]| [x, high]);
-        let outline: Vec<[f64; 2]> = low.chain(high).map(|point| view.rounded(point)).collect();
-        canvas.polygon(&outline, Some(self.fill), None);
+        let low = self.edges.iter().map(|&[x, low, _]| (x, low));
+        let high = self.edges.iter().rev().map(|&[x, _, high]| (x, high));
+        let outline: Vec<(f64, f64)> = low.chain(high).collect();
+        view.plot(canvas, Dash::Solid, [Polygon::new(outline, self.fill)]);
     }
 
     fn keys(&self) -> Vec<Key> {

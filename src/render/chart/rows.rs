@@ -3,7 +3,10 @@
 use super::legend::{Key, Swatch};
 use super::{Mark, View};
 use crate::render::canvas::Canvas;
-use crate::render::style::{Fill, INK, Marker, Rgb, Stroke, WHITE};
+use crate::render::canvas::pen::units;
+use crate::render::style::{Dash, Fill, INK, Marker, Rgb, Stroke, WHITE};
+use plotters::element::{Circle, PathElement, Rectangle};
+use plotters::style::ShapeStyle;
 
 /// A dot with a whisker, lying in a row of a horizontal chart.
 #[derive(Clone, Debug)]
@@ -70,25 +73,20 @@ impl Mark for BoxStrip {
         // Golden-ratio steps spread neighbours evenly without a random stream.
         let jitter = |index: usize| (index as f64 * 0.618_033_988_749_895).fract() - 0.5;
         let strip = self.values.iter().enumerate();
-        for at in strip.map(|(index, &value)| [self.at + jitter(index) * self.width * 1.5, value]) {
-            canvas.circle(view.rounded(at), 0.9, Some(pale), None);
-        }
+        let dots = strip.map(|(index, &value)| (self.at + jitter(index) * self.width * 1.5, value));
+        view.plot(canvas, Dash::Solid, dots.map(|at| Circle::new(at, units(0.9), pale)));
         let (ink, half) = (Stroke::solid(self.color.mixed(INK, 0.35), 0.9), self.width / 2.0);
         let [bottom, lower, median, upper, top] = self.quantiles;
-        let level = |reach: f64, value: f64| [[self.at - reach, value], [self.at + reach, value]];
-        let stem = |from: f64, to: f64| [[self.at, from], [self.at, to]];
-        let mut line = |ends: [[f64; 2]; 2], stroke: Stroke| {
-            canvas.polyline(&ends.map(|end| view.rounded(end)), &stroke);
-        };
-        line(stem(bottom, lower), ink);
-        line(stem(upper, top), ink);
-        line(level(half / 2.0, bottom), ink);
-        line(level(half / 2.0, top), ink);
-        let body = view.rounded_box([[self.at - half, lower], [self.at + half, upper]]);
-        canvas.rect(body, Some(Fill::sheer(self.color.mixed(WHITE, 0.55), 0.85)), None);
-        canvas.rect(body, None, Some(&ink));
-        let middle = level(half, median).map(|end| view.rounded(end));
-        canvas.polyline(&middle, &Stroke { width_pt: 1.8, ..ink });
+        let level = |reach: f64, value: f64| [(self.at - reach, value), (self.at + reach, value)];
+        let stem = |from: f64, to: f64| [(self.at, from), (self.at, to)];
+        let lines =
+            [stem(bottom, lower), stem(upper, top), level(half / 2.0, bottom), level(half / 2.0, top)];
+        view.plot(canvas, Dash::Solid, lines.map(|ends| PathElement::new(ends, ink)));
+        let body = ShapeStyle::from(Fill::sheer(self.color.mixed(WHITE, 0.55), 0.85));
+        let corners = [(self.at - half, lower), (self.at + half, upper)];
+        view.plot(canvas, Dash::Solid, [body, ink.into()].map(|style| Rectangle::new(corners, style)));
+        let thick = Stroke { width_pt: 1.8, ..ink };
+        view.plot(canvas, Dash::Solid, [PathElement::new(level(half, median), thick)]);
     }
 
     fn keys(&self) -> Vec<Key> {
@@ -111,10 +109,10 @@ pub struct Bars {
 
 impl Mark for Bars {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
+        let looks = [ShapeStyle::from(self.fill), Stroke::solid(WHITE, 0.4).into()];
         for &[left, right, height] in self.bars.iter().filter(|bar| bar[2] != 0.0) {
-            let bar = view.rounded_box([[left, 0.0], [right, height]]);
-            canvas.rect(bar, Some(self.fill), None);
-            canvas.rect(bar, None, Some(&Stroke::solid(WHITE, 0.4)));
+            let corners = [(left, 0.0), (right, height)];
+            view.plot(canvas, Dash::Solid, looks.map(|style| Rectangle::new(corners, style)));
         }
     }
 

@@ -2,16 +2,20 @@
 
 use super::axis::{Axis, Tick};
 use super::legend::{self, Key};
-use super::{Panel, Trim, View, hundredths};
+use super::{Panel, TAKES_ALL, Trim, View};
 use crate::render::RenderError;
+use crate::render::canvas::pen::{Pen, text_style, units};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
 use crate::render::font::{LINE_EM, Weight, wrapped};
-use crate::render::style::{GREY, GRID, INK, Stroke, TextSize, Width};
+use crate::render::style::{Dash, GREY, GRID, INK, Stroke, TextSize, Width};
 use crate::render::vector::{Figure, Provenance};
+use plotters::chart::ChartBuilder;
+use plotters::coord::combinators::BindKeyPoints as _;
+use plotters::prelude::DrawingArea;
 
 const EDGE_PT: f64 = 3.0;
 const TICK_PT: f64 = 2.25;
-/// From the frame to a tick's label.
+/// From the frame to a tick's label: twice the tick, as plotters has it.
 const LABEL_PT: f64 = 2.0 * TICK_PT;
 /// Room that an axis label needs below its baseline.
 const DROP_PT: f64 = 2.5;
@@ -289,77 +293,42 @@ impl Panel {
         self.marks.iter().for_each(|mark| mark.draw_over(canvas, view));
     }
 
-    /// Labels of the axes, the grid, and the axes themselves with named ticks.
+    /// The mesh of plotters: grid, ticks, their labels, labels of the axes.
     fn mesh(&self, canvas: &mut Canvas, view: &View, xs: &[Tick], ys: &[Tick]) {
-        let (left, foot) = (self.left(view.frame.h), self.foot(view) - DROP_PT);
-        let Room { edge, right, top, base } = Room::of(view.frame, left, foot);
-        let place = |hundredths: f64| hundredths / 100.0;
-        let middle = |from: f64, to: f64| place(from + ((to - from) / 2.0).floor());
-        let upright = Type { turn_deg: -90.0, ..LABEL.aligned(Align::Middle, Stand::Below) };
-        caption(canvas, [place(edge - hundredths(left)), middle(top, base)], view.y.label(), &upright);
-        let below = [middle(edge, right), place(base + hundredths(foot))];
-        caption(canvas, below, view.x.label(), &LABEL.aligned(Align::Middle, Stand::Base));
-        // The last hundredth on the right and at the foot is the frame's.
-        let (across, up) = ([edge, right - 1.0], [base - 1.0, top]);
-        let (xs_named, ys_named) = (named(xs, &view.x, across), named(ys, &view.y, up));
-        let ([from, to], [low, high]) = (across.map(place), up.map(place));
-        if self.trim == Trim::Grid {
-            let lines = xs_named.iter().map(|(x, _)| [[*x, low], [*x, high]]);
-            for line in lines.chain(ys_named.iter().map(|(y, _)| [[from, *y], [to, *y]])) {
-                canvas.polyline(&line, &Stroke::solid(GRID, 0.4));
-            }
+        let (frame, left, foot) = (view.frame, self.left(view.frame.h), self.foot(view) - DROP_PT);
+        let area = DrawingArea::from(Pen::new(canvas, Dash::Solid))
+            .shrink((units(frame.x - left), units(frame.y)), (units(left + frame.w), units(frame.h + foot)));
+        let (x, y) = (view.x.clone(), view.y.clone());
+        let mut chart = ChartBuilder::on(&area)
+            .x_label_area_size(units(foot))
+            .y_label_area_size(units(left))
+            .build_cartesian_2d(x.with_key_points(places(xs)), y.with_key_points(places(ys)))
+            .expect(TAKES_ALL);
+        let level = self.x.fits(xs, frame.w);
+        let name_x = |at: &f64| if level { name(xs, *at) } else { String::new() };
+        let name_y = |at: &f64| name(ys, *at);
+        let mut mesh = chart.configure_mesh();
+        mesh.bold_line_style(Stroke::solid(GRID, 0.4)).axis_style(Stroke::solid(INK, 0.5));
+        mesh.label_style(text_style(&TICK)).axis_desc_style(text_style(&LABEL));
+        mesh.x_label_formatter(&name_x).y_label_formatter(&name_y);
+        mesh.x_desc(self.x.label()).y_desc(self.y.label()).set_all_tick_mark_size(units(TICK_PT));
+        if self.trim == Trim::Frame {
+            mesh.disable_mesh();
         }
-        let ([beside, base], ink) = ([place(edge - 1.0), place(base)], Stroke::solid(INK, 0.5));
-        canvas.polyline(&[[beside, high], [beside, low]], &ink);
-        for (y, label) in &ys_named {
-            caption(canvas, [from - LABEL_PT, *y], label, &TICK.aligned(Align::End, Stand::Centre));
-            canvas.polyline(&[[beside - TICK_PT, *y], [beside, *y]], &ink);
-        }
-        canvas.polyline(&[[from, base], [to, base]], &ink);
-        let is_level = self.x.fits(xs, view.frame.w);
-        for (x, label) in &xs_named {
-            let label = if is_level { *label } else { "" };
-            caption(canvas, [*x, base + LABEL_PT], label, &TICK.aligned(Align::Middle, Stand::Below));
-            canvas.polyline(&[[*x, base], [*x, base + TICK_PT]], &ink);
-        }
+        mesh.draw().expect(TAKES_ALL);
     }
 }
 
-/// Where the ticks with a label stand on `axis` between `ends`, and what they say.
-fn named<'t>(ticks: &'t [Tick], axis: &Axis, ends: [f64; 2]) -> Vec<(f64, &'t str)> {
-    let named = ticks.iter().filter(|tick| !tick.label.is_empty());
-    named.map(|tick| (axis.place(tick.at, ends), tick.label.as_str())).collect()
+/// Where the named ticks stand, for plotters to draw.
+fn places(ticks: &[Tick]) -> Vec<f64> {
+    ticks.iter().filter(|tick| !tick.label.is_empty()).map(|tick| tick.at).collect()
 }
 
-/// Edges of a plot in hundredths of a point.
-struct Room {
-    edge: f64,
-    right: f64,
-    top: f64,
-    base: f64,
+fn name(ticks: &[Tick], at: f64) -> String {
+    ticks.iter().find(|tick| tick.at == at).map(|tick| tick.label.clone()).unwrap_or_default()
 }
 
-impl Room {
-    /// Those of `frame` beside and above labels that take `left` and `foot` points, each length rounded by itself.
-    fn of(frame: Rect, left: f64, foot: f64) -> Self {
-        let (beside, top) = (hundredths(frame.x - left), hundredths(frame.y));
-        Self {
-            edge: beside + hundredths(left),
-            right: beside + hundredths(left + frame.w),
-            top,
-            base: top + hundredths(frame.h + foot) - hundredths(foot),
-        }
-    }
-}
-
-/// One line of text, if it says anything.
-fn caption(canvas: &mut Canvas, at: [f64; 2], text: &str, set: &Type) {
-    if !text.is_empty() {
-        canvas.text(at, text, set);
-    }
-}
-
-/// Short ticks without grid line and label.
+/// Short ticks without grid line and label, which the mesh of plotters does not have.
 fn minor_ticks(canvas: &mut Canvas, view: &View, xs: &[Tick], ys: &[Tick]) {
     let ([left, bottom], thin) = ([view.frame.x, view.frame.bottom()], Stroke::solid(INK, 0.5));
     let [low_x, low_y] = [view.x.ends()[0], view.y.ends()[0]];
@@ -373,7 +342,7 @@ fn minor_ticks(canvas: &mut Canvas, view: &View, xs: &[Tick], ys: &[Tick]) {
     }
 }
 
-/// Names that are too long to stand side by side.
+/// Names that are too long to stand side by side; plotters turns text by right angles only.
 fn tilted_names(canvas: &mut Canvas, view: &View, ticks: &[Tick]) {
     let set = Type { turn_deg: TILT_DEG, ..TICK.aligned(Align::End, Stand::Centre) };
     for tick in ticks.iter().filter(|tick| !tick.label.is_empty()) {

@@ -97,21 +97,26 @@ fn an_axis_over_values_holds_them_all_even_if_there_is_one_or_none() {
 }
 
 #[test]
-fn a_value_stands_where_its_share_puts_it_to_the_hundredth_of_a_point() {
+fn plotters_puts_values_where_shares_put_them_and_its_key_points_are_ticks() {
     let linear = |low, high| Axis::linear("x", low, high).unwrap();
     let log = Axis::log("x", 0.5, 20.0).unwrap();
     for axis in
         [linear(-0.5, 0.5), linear(0.2, 1.4), log.clone(), log.reversed(), Axis::names("", ["a", "b"])]
     {
-        for tick in axis.ticks(150.0, false) {
-            for [from, to] in [[1000.0, 9000.0], [9000.0, 1000.0]] {
-                let exact = from + axis.share(tick.at) * (to - from);
-                let found = 100.0 * axis.place(tick.at, [from, to]);
-                assert!((found - exact).abs() <= 0.5 + 1e-9, "{axis:?} puts {} at {found}", tick.at);
-                assert!((found - found.round()).abs() < 1e-9, "{found}");
+        let points = axis.key_points(11);
+        assert!((2..=30).contains(&points.len()), "{axis:?}: {points:?}");
+        for value in points {
+            for (from, to) in [(1000, 9000), (9000, 1000)] {
+                let exact = f64::from(from) + axis.share(value) * f64::from(to - from);
+                let found = axis.map(&value, (from, to));
+                assert!((f64::from(found) - exact).abs() <= 0.5, "{axis:?} puts {value} at {found}");
             }
         }
     }
-    let far = linear(0.0, 1.0).place(f64::INFINITY, [0.0, 100.0]);
-    assert!(far.is_finite() && far > 1e5, "far off the frame, not on its edge");
+    assert_eq!(linear(-0.5, 0.5).key_points(2), [-0.5, 0.0, 0.5], "ends are not lost to rounding");
+    assert_eq!(
+        linear(0.0, 1.0).map(&f64::INFINITY, (0, 100)),
+        i32::MAX,
+        "far off the frame, not on its edge"
+    );
 }

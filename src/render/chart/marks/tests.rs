@@ -1,6 +1,6 @@
 use super::*;
 use crate::render::chart::Axis;
-use crate::render::style::{BLUE, Dash, ORANGE, Width};
+use crate::render::style::{BLUE, ORANGE, Width};
 use crate::render::vector::Provenance;
 use base::seed;
 use rand::RngExt as _;
@@ -54,11 +54,11 @@ fn a_line_that_leaves_the_frame_keeps_its_direction() {
     // From (2, 5) rightwards and down to 500 frames below: on the page from (80, 100) on.
     let stroke = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
     let points = vec![[2.0, 5.0], [7.0, -5000.0], [-200.0, 9.0]];
-    let by_line = drawn(|canvas| Line::through(points, stroke).draw(canvas, &view()));
+    let by_plotters = drawn(|canvas| Line::through(points, stroke).draw(canvas, &view()));
     let by_hand = drawn(|canvas| {
         canvas.polyline(&[[80.0, 100.0], [180.0, 50_150.0], [-3960.0, 60.0]], &stroke);
     });
-    assert_eq!(by_line, by_hand);
+    assert_eq!(by_plotters, by_hand);
 }
 
 #[test]
@@ -68,12 +68,12 @@ fn a_point_without_a_place_breaks_the_line() {
     let stroke = Stroke::solid(BLUE, 1.0);
     for missing in [[0.0, 5.0], [f64::NAN, 5.0], [10.0, f64::INFINITY], [-1.0, 5.0]] {
         let points = vec![[1.0, 0.0], [10.0, 10.0], missing, [10.0, 0.0], [100.0, 10.0]];
-        let by_line = drawn(|canvas| Line::through(points, stroke).draw(canvas, &view));
+        let by_plotters = drawn(|canvas| Line::through(points, stroke).draw(canvas, &view));
         let by_hand = drawn(|canvas| {
             canvas.polyline(&[[40.0, 150.0], [140.0, 50.0]], &stroke);
             canvas.polyline(&[[140.0, 150.0], [240.0, 50.0]], &stroke);
         });
-        assert_eq!(by_line, by_hand, "{missing:?}");
+        assert_eq!(by_plotters, by_hand, "{missing:?}");
     }
 }
 
