@@ -118,7 +118,7 @@ fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -
 
 /// Says in the chapter of `paper` that its stored run cannot be shown, and why; gives that as the failure that it is.
 fn unread(paper: &Paper, places: &Places, failure: Failure) -> Failure {
-    if failure.code != 2 {
+    if failure.code != 2 || !places.report.is_file() {
         return failure;
     }
     let chapter = report::unread(paper, &failure.message);
