@@ -35,8 +35,8 @@ impl Render {
         let paper = super::run::load(&places, &how)?;
         let stop = stop_flag();
         if self.check {
-            let drawn = draw(&paper, &places, self.only.as_deref(), stop)?;
-            return check(&paper, &places, &drawn);
+            let drawn = draw(&paper, &places, self.only.as_deref(), stop);
+            return drawn.and_then(|drawn| check(&paper, &places, &drawn)).map_err(Failure::as_check);
         }
         check_report(&paper, &places)?;
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };

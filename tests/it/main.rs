@@ -5,6 +5,7 @@ mod audit;
 mod cell_threads;
 mod characteristics;
 mod circles;
+mod cli_check;
 mod cli_explains;
 mod cli_input;
 mod cli_places;

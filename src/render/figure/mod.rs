@@ -230,27 +230,29 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
     };
     let kind = (entry.build)(&settings, study, paper).map_err(|error| match figure.settings {
         Some(_) => error,
-        None => study.document.error(
-            figure.id.span(),
-            format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message()),
-        ),
+        None => {
+            let message = format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message());
+            study.document.error(figure.id.span(), message).about("settings")
+        }
     })?;
-    check_kept(figure, study, kind.as_ref())?;
+    if !["figure", "keep"].iter().any(|key| study.document.is_part(key)) {
+        check_kept(figure, study, kind.as_ref())?;
+    }
     Ok(kind)
 }
 
 /// Refuses a figure that draws what no trial of the study would keep.
 fn check_kept(figure: &FigureSpec, study: &Study, kind: &dyn Kind) -> Result<(), SettingsError> {
-    let Some(Shown { problems, contender, draw }) =
-        kind.shown().into_iter().find(|shown| !shown.is_kept(study))
-    else {
-        return Ok(());
-    };
-    let (id, replicates) = (figure.id.get_ref(), draw + 1);
-    let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));
-    let message = format!(
-        "figure `{id}` draws what is kept of trials on `{problems}`, and none is kept; accepted is \
-         shows = [{{ problems = \"{problems}\"{by}, replicates = {replicates} }}]"
-    );
-    Err(study.document.error(figure.id.span(), message))
+    let mut faults = Faults::default();
+    for Shown { problems, contender, draw } in kind.shown().into_iter().filter(|shown| !shown.is_kept(study))
+    {
+        let (id, replicates) = (figure.id.get_ref(), draw + 1);
+        let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));
+        let message = format!(
+            "figure `{id}` draws what is kept of trials on `{problems}`, and none is kept; accepted is \
+             shows = [{{ problems = \"{problems}\"{by}, replicates = {replicates} }}]"
+        );
+        faults.add(study.document.error(figure.id.span(), message));
+    }
+    faults.done()
 }
