@@ -1,6 +1,9 @@
 //! Metrics: what can be compared, its unit, which way is better, and how to get it from a record.
 
 use crate::study::clock;
+use crate::study::column;
+use crate::study::record::{Row, Status};
+use engine::planner::Value;
 use std::collections::BTreeSet;
 
 /// Which way is better.
@@ -135,6 +138,24 @@ impl Metric {
         self.column == STATUS
     }
 
+    /// It for each row, none where it was not measured; `wall_ns` is the median of a row's clock readings.
+    pub fn reader<'r>(
+        &'r self,
+        wall_ns: impl Fn(&Row) -> Option<f64> + 'r,
+    ) -> impl Fn(&Row) -> Option<f64> + 'r {
+        let place = column::place(self.column);
+        move |row| {
+            let raw = if self.is_clock() {
+                wall_ns(row)
+            } else if self.is_status() {
+                Some(f64::from(u8::from(matches!(row.status, Status::Solved | Status::Rejected))))
+            } else {
+                row.values.at(place?).map(Value::as_f64)
+            };
+            raw.map(|value| value * self.scale)
+        }
+    }
+
     /// Whether it is read from the clock.
     pub fn is_clock(&self) -> bool {
         self.column == clock::COLUMN
@@ -144,7 +165,6 @@ impl Metric {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::column;
 
     #[test]
     fn metrics_are_in_order_and_read_columns_that_exist() {

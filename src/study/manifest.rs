@@ -8,6 +8,7 @@ use super::key::{ReadingKey, Text};
 use super::name;
 use super::reading::ReadingChoice;
 use super::runner::{BuiltStudy, SESSION};
+use super::shard::Shard;
 use super::store::Staged;
 use base::hash::sha256;
 use base::settings::Document;
@@ -45,6 +46,9 @@ pub struct Manifest {
     pub defaults: Vec<String>,
     /// The program and the machine.
     pub made_by: MadeBy,
+    /// Which part of a run the records are, if it was cut into shards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<Shard>,
     /// SHA-256 of every input file.
     pub inputs: BTreeMap<String, String>,
     /// Where and by what clocks were read.
@@ -127,6 +131,7 @@ impl Manifest {
             defaults: defaults(study),
             sessions: study.timing.iter().map(|_| Session::of(&made_by)).collect(),
             made_by,
+            shard: None,
             inputs,
             problems,
             contenders,
@@ -160,10 +165,18 @@ impl Manifest {
         staged.add(&Self::path(folder, &self.study), text.as_bytes())
     }
 
-    /// Whether the run that `before` describes gave all that this one would give.
+    /// Whether the run that `before` describes gave all that this one would give, readings of the clock among it: a run that
+    /// was put together of parts has none yet.
     pub fn is_as(&self, before: &Self) -> bool {
-        (&self.spec, &self.depends, &self.axes, &self.readings)
-            == (&before.spec, &before.depends, &before.axes, &before.readings)
+        (&self.spec, &self.depends, &self.axes, &self.readings, &self.shard, self.sessions.is_empty())
+            == (
+                &before.spec,
+                &before.depends,
+                &before.axes,
+                &before.readings,
+                &before.shard,
+                before.sessions.is_empty(),
+            )
     }
 
     /// Whether trials ran under the reading.

@@ -8,6 +8,7 @@ use super::reading::ReadingChoice;
 use super::record::{Batch, Row, Status, Timing};
 use super::reuse::{self, Before, Reusable, moved};
 use super::runner::{BuiltStudy, Progress};
+use super::shard::Portion;
 use super::store::{Columns, Journal, Records, Staged, remove_temporaries, stage_records};
 use super::unit::Unit;
 use super::{Inputs, StudyError};
@@ -28,6 +29,9 @@ pub struct Options<'a> {
     pub command: String,
     /// SHA-256 of the paper's claims.
     pub claims: String,
+    /// The units to run, of a run that is cut into shards; all if absent. A shard reads no clock: readings on several machines,
+    /// or beside other shards, are of no session.
+    pub portion: Option<&'a Portion>,
     /// Cut down by `--quick`.
     pub quick: bool,
     /// Run everything again, even what is stored and unchanged.
@@ -115,9 +119,14 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let (built, folder) = (BuiltStudy::new(study, options.points, options.inputs)?, options.lock.folder());
     let (claims, command) = (options.claims.clone(), options.command.clone());
     let mut manifest = Manifest::new(study, options.points, &built, claims, command, options.quick)?;
+    let only = options.portion.map(|portion| &portion.units);
+    if let Some(portion) = options.portion {
+        manifest.shard = Some(portion.shard.clone());
+        manifest.sessions.clear();
+    }
     remove_temporaries(folder, &study.name);
-    let (journal, mut done) = Journal::open(&journal_path(folder, &study.name), &manifest.depends)?;
-    let (resumed, units) = (done.len(), built.units().len());
+    let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
+    let (resumed, units) = (done.len(), only.map_or_else(|| built.units().len(), BTreeSet::len));
     let Before { stored, why } = Before::read(folder, &manifest);
     let is_current = |(before, _): &&(Manifest, Records)| !options.fresh && manifest.is_as(before);
     if let Some((before, records)) = stored.as_ref().filter(is_current) {
@@ -136,8 +145,10 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     }
     done = found.units.into_iter().chain(done).collect();
     let (journal, pool) = (Mutex::new(journal), pool(options.threads));
-    let batch = pool.install(|| built.run(done, &found.parts, &journal, options.stop, options.progress))?;
+    let batch =
+        pool.install(|| built.run(only, done, &found.parts, &journal, options.stop, options.progress))?;
     let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
+        _ if only.is_some() => Vec::new(),
         Some(times) => times,
         None => built.time(options.stop, options.progress)?,
     };
@@ -178,7 +189,12 @@ fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
 }
 
 /// Puts records and manifest in their places, the manifest last: it says which records are whole.
-fn write(study: &Study, folder: &Path, manifest: &mut Manifest, records: &Records) -> Result<(), StudyError> {
+pub(super) fn write(
+    study: &Study,
+    folder: &Path,
+    manifest: &mut Manifest,
+    records: &Records,
+) -> Result<(), StudyError> {
     let values: Vec<&'static str> = study.columns().into_iter().collect();
     let columns = Columns { keys: study.key_columns(), values: &values };
     let mut staged = Staged::default();
@@ -230,10 +246,6 @@ pub fn run_one(
         return Err(unknown());
     }
     Ok((batch, before))
-}
-
-fn journal_path(folder: &Path, study: &str) -> std::path::PathBuf {
-    folder.join(format!("{study}.journal"))
 }
 
 /// A pool of `threads` threads; of the machine's number if absent.

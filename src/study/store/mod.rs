@@ -8,7 +8,8 @@ mod journal;
 mod read;
 mod table;
 
-pub use journal::Journal;
+pub use journal::{Journal, journal_units};
+pub use read::quoted;
 
 use self::read::{Draws, Stored};
 use super::StudyError;
@@ -85,31 +86,73 @@ pub fn read_records(
     study: &str,
     hashes: &BTreeMap<String, String>,
 ) -> Result<Records, StudyError> {
-    let open = |part: &str| -> Result<Stored, StudyError> {
-        let path = part_path(folder, study, part);
-        let bytes = fs::read(&path)
-            .map_err(|e| StudyError::stored(&path, format!("cannot be read ({e}); run the study again")))?;
-        let (found, wanted) = (sha256(&bytes), hashes.get(part).map_or("none", String::as_str));
-        if found != wanted {
-            let message = format!(
-                "is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from \
-                 another spec; run the study again",
-                &found[..12],
-                wanted.get(..12).unwrap_or(wanted)
-            );
-            return Err(StudyError::stored(&path, message));
-        }
-        Stored::open(path, bytes)
-    };
+    read_parts(folder, study, hashes, true)
+}
+
+/// As [`read_records`], without exhibits: whoever looks at numbers alone holds none of them in memory.
+///
+/// # Errors
+/// As [`read_records`].
+pub fn read_numbers(
+    folder: &Path,
+    study: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<Records, StudyError> {
+    read_parts(folder, study, hashes, false)
+}
+
+fn read_parts(
+    folder: &Path,
+    study: &str,
+    hashes: &BTreeMap<String, String>,
+    with_exhibits: bool,
+) -> Result<Records, StudyError> {
     let draws = &mut Draws::default();
+    let open = |part: &str| open(folder, study, part, hashes);
     Ok(Records {
         batch: Batch {
             rows: open("trials")?.trials(draws)?,
             prepared: open("prepared")?.prepared(draws)?,
-            kept: open("exhibits")?.exhibits(draws)?,
+            kept: if with_exhibits { open("exhibits")?.exhibits(draws)? } else { Vec::new() },
         },
         times: open("times")?.times(draws)?,
     })
+}
+
+/// The part `part` of `study`'s records in `folder`, which must have its hash among `hashes`.
+fn open(
+    folder: &Path,
+    study: &str,
+    part: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<Stored, StudyError> {
+    let path = part_path(folder, study, part);
+    let bytes = fs::read(&path)
+        .map_err(|e| StudyError::stored(&path, format!("cannot be read ({e}); run the study again")))?;
+    let (found, wanted) = (sha256(&bytes), hashes.get(part).map_or("none", String::as_str));
+    if found != wanted {
+        let message = format!(
+            "is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from \
+             another spec; run the study again",
+            &found[..12],
+            wanted.get(..12).unwrap_or(wanted)
+        );
+        return Err(StudyError::stored(&path, message));
+    }
+    Stored::open(path, bytes)
+}
+
+/// The part `part` of `study`'s records in `folder` as comma-separated values, checked as in [`read_records`].
+///
+/// # Errors
+/// As [`read_records`].
+pub fn csv(
+    folder: &Path,
+    study: &str,
+    part: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<String, StudyError> {
+    Ok(open(folder, study, part, hashes)?.csv())
 }
 
 /// Files that are written, but not in their places yet: all of them are put there, or none.
@@ -171,6 +214,20 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
     let mut staged = Staged::default();
     staged.add(path, bytes)?;
     staged.put()
+}
+
+/// Writes `bytes` to `path` unless there is a file already, which stays as it is: of several who write, one is first.
+///
+/// # Errors
+/// [`StudyError::Io`] with the path and what was being done.
+pub fn write_first(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+    let mut staged = Staged::default();
+    staged.add(path, bytes)?;
+    let linked = staged.files.iter().try_for_each(|(temporary, path)| fs::hard_link(temporary, path));
+    match linked {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
+        other => other.map_err(StudyError::io(path, "writing the file")),
+    }
 }
 
 /// Removes what a killed run of `study` left half-written in `folder`; only for who holds the folder's lock.

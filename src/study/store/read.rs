@@ -9,7 +9,7 @@ use crate::study::column::{self, Kind};
 use crate::study::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
 use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
 use engine::planner::{Exhibit, Value};
-use polars::prelude::{Column, DataFrame, DataType};
+use polars::prelude::{AnyValue, Column, DataFrame, DataType};
 use polars_io::prelude::{ParquetReader, SerReader as _};
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -221,6 +221,20 @@ impl Stored {
         owners.map(trial).collect()
     }
 
+    /// The frame as comma-separated values under a head; what is unknown is empty. Lists of numbers are left out.
+    pub fn csv(&self) -> String {
+        let columns =
+            self.frame.columns().iter().filter(|column| !matches!(column.dtype(), DataType::List(_)));
+        let columns: Vec<&Column> = columns.collect();
+        let line = |cells: Vec<String>| cells.join(",") + "\n";
+        let mut text = line(columns.iter().map(|column| quoted(column.name())).collect());
+        for row in 0..self.frame.height() {
+            let cell = |column: &&Column| column.get(row).map_or_else(|_| String::new(), |cell| shown(&cell));
+            text += &line(columns.iter().map(cell).collect());
+        }
+        text
+    }
+
     /// The frame as trials.
     pub fn trials(&self, draws: &mut Draws) -> Result<Vec<Row>, StudyError> {
         let (keys, reason, seed) = (self.trial_keys(draws)?, self.texts("reason")?, self.wholes("seed")?);
@@ -279,6 +293,26 @@ impl Stored {
             plan_wall_ns: plan_wall_ns[row],
         };
         Ok(keys.into_iter().enumerate().map(row).collect())
+    }
+}
+
+/// A cell of a file of comma-separated values: numbers with all of their digits.
+fn shown(cell: &AnyValue<'_>) -> String {
+    match cell {
+        AnyValue::Null => String::new(),
+        AnyValue::String(text) => quoted(text),
+        AnyValue::StringOwned(text) => quoted(text),
+        AnyValue::Float64(real) => real.to_string(),
+        other => other.to_string(),
+    }
+}
+
+/// `text` as a cell of a file of comma-separated values, in quotes where it needs them.
+pub fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
     }
 }
 
