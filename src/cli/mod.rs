@@ -31,6 +31,7 @@ mod run;
 mod schema;
 mod shard;
 mod sharded;
+mod show;
 mod status;
 mod trial;
 mod verdicts;
@@ -54,6 +55,7 @@ const EXAMPLES: &str = "Examples:
   replan repro zhang --quick         the same with few replicates, below target/replan/
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
+  replan show zhang t1.improved.cost one claim with its evidence
   replan render zhang --check        are the committed plots and tables what the stored run gives?
   replan list planners               what contenders can name
   replan list criteria one_draw      what one criterion can be told, with an example";
@@ -80,6 +82,8 @@ enum Command {
     Compare(compare::Compare),
     /// Write stored trials and their statistics for other programs
     Export(export::Export),
+    /// Show one claim with its evidence, or list every claim with its class
+    Show(show::Show),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
     /// Ask of a printed table, by arithmetic alone, whether any data could have given it
@@ -191,6 +195,7 @@ pub fn run() -> ExitCode {
         Command::Render(command) => command.run(),
         Command::Compare(command) => command.run(),
         Command::Export(command) => command.run(),
+        Command::Show(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
         Command::Audit(command) => command.run(),
         Command::List(command) => command.run(),

@@ -25,6 +25,7 @@ mod mutation;
 mod paper;
 mod polyhedra;
 mod registries;
+mod report;
 mod shapes;
 mod snapshots;
 mod source;
