@@ -172,43 +172,35 @@ fn metrics(names: &[String]) -> Result<Vec<&'static Metric>, String> {
 fn of_runs<'r>(seen: &'r [BTreeMap<&'r str, Seen<'r>>; 2], lines: &mut Vec<Line<'r>>) -> Vec<Only> {
     let mut only = Vec::new();
     for side in [0, 1] {
-        for (study, own) in &seen[side] {
-            if !seen[1 - side].contains_key(study) {
-                only.push(Only {
-                    side,
-                    study: (*study).to_owned(),
-                    what: "the study".to_owned(),
-                    trials: own.count(),
-                });
-            }
+        for (study, own) in seen[side].iter().filter(|(study, _)| !seen[1 - side].contains_key(*study)) {
+            let (study, what) = ((*study).to_owned(), "the study".to_owned());
+            only.push(Only { side, study, what, trials: own.count() });
         }
     }
     for (study, first) in &seen[0] {
-        let Some(second) = seen[1].get(study) else { continue };
-        let sides = [first, second];
-        let labels: BTreeSet<&str> = first.rows.keys().chain(second.rows.keys()).copied().collect();
-        let mut lone = [Vec::new(), Vec::new()];
-        for label in labels {
-            let rows = sides.map(|side| side.rows.get(label).map_or(&[][..], Vec::as_slice));
-            let found = paired(rows, sides.map(|side| &side.draws));
-            lone[0].extend(found.lone[0].iter().copied());
-            lone[1].extend(found.lone[1].iter().copied());
-            if !found.pairs.is_empty() {
-                let times = sides.map(|side| &side.times);
-                lines.push(Line {
-                    study,
-                    label: label.to_owned(),
-                    pairs: found.pairs,
-                    times,
-                    names: &first.names,
-                });
-            }
-        }
-        for side in [0, 1] {
-            only.extend(told_apart(side, study, &lone[side], sides[1 - side]));
+        if let Some(second) = seen[1].get(study) {
+            only.extend(of_study(study, [first, second], lines));
         }
     }
     only
+}
+
+/// Every contender of one study that both runs have; also what only one has.
+fn of_study<'r>(study: &'r str, sides: [&'r Seen<'r>; 2], lines: &mut Vec<Line<'r>>) -> Vec<Only> {
+    let labels: BTreeSet<&str> = sides.iter().flat_map(|side| side.rows.keys().copied()).collect();
+    let mut lone = [Vec::new(), Vec::new()];
+    for label in labels {
+        let rows = sides.map(|side| side.rows.get(label).map_or(&[][..], Vec::as_slice));
+        let found = paired(rows, sides.map(|side| &side.draws));
+        lone[0].extend(found.lone[0].iter().copied());
+        lone[1].extend(found.lone[1].iter().copied());
+        if !found.pairs.is_empty() {
+            let (times, names) = (sides.map(|side| &side.times), &sides[0].names);
+            lines.push(Line { study, label: label.to_owned(), pairs: found.pairs, times, names });
+        }
+    }
+    let told = |side: usize| told_apart(side, study, &lone[side], sides[1 - side]);
+    [told(0), told(1)].concat()
 }
 
 /// The second contender against the first in every study that has both; also what only one was run on.

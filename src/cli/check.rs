@@ -1,7 +1,7 @@
 //! `replan check`: everything that can be wrong with a paper, without running it.
 
+use super::load::load;
 use super::places::{Places, papers};
-use super::run::load;
 use super::{Failure, How, Which, all};
 use crate::study::paper::Paper;
 use crate::study::rerun;

@@ -29,8 +29,8 @@ impl Merge {
         let parts = Parts::checked(&plan, &self.parts, &studies)?;
         let runs = &sharded.places.runs;
         let lock = Lock::take(runs)?;
-        for (study, (built, manifest)) in sharded.paper.studies.iter().zip(&studies) {
-            let trials = parts.merge(study, built, manifest.clone(), lock.folder())?;
+        for ((place, study), (built, manifest)) in sharded.paper.studies.iter().enumerate().zip(&studies) {
+            let trials = parts.merge((place, study), built, manifest.clone(), lock.folder())?;
             say!("{}: {trials} trials of {} parts", study.name, plan.shards);
         }
         say!("records are in {}", runs.display());

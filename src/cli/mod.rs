@@ -22,6 +22,7 @@ mod export;
 pub mod file_schema;
 mod judge;
 mod list;
+mod load;
 mod merge;
 mod places;
 mod progress;

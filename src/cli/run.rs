@@ -1,19 +1,18 @@
 //! `replan run`: the trials, and nothing after them.
 
-use super::file_schema::with_the_rest;
+use super::load::load;
 use super::places::Places;
 use super::progress::{Bar, stop_flag};
 use super::sharded::Sharded;
 use super::{Failure, How, Which, command_line};
 use crate::analysis::claims;
+use crate::study::Study;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
 use crate::study::plan::Plan;
 use crate::study::session::{self, Options, Report, UnexpectedStatus};
 use crate::study::shard::{self, Portion};
-use crate::study::{Study, StudyError};
-use base::settings::Faults;
 use clap::Args;
 use std::path::Path;
 
@@ -71,22 +70,6 @@ impl Run {
         say!("shard {number}/{of} is in {}", lock.folder().display());
         Ok(())
     }
-}
-
-/// The paper as the flags ask for it, with every claim's checks understood.
-pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
-    let paper = Paper::load(&places.folder, &places.inputs).map_err(|error| match error {
-        StudyError::Settings(fault) => StudyError::Settings(with_the_rest(fault, &places.folder)),
-        other => other,
-    })?;
-    let paper = how.apply(paper);
-    how.check_readings(&paper)?;
-    let mut faults = Faults::default();
-    faults.keep(claims::validate(&paper));
-    faults.keep(crate::render::figure::validate(&paper));
-    faults.keep(crate::render::results::validate(&paper));
-    faults.done()?;
-    Ok(paper)
 }
 
 /// Runs what is stale of every study of `paper`; everything with `fresh`.

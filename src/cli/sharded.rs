@@ -1,7 +1,7 @@
 //! A paper whose run is cut into shards: its studies as they would run.
 
+use super::load::load;
 use super::places::Places;
-use super::run::load;
 use super::{Failure, How, Which, command_line};
 use crate::analysis::claims::claims_hash;
 use crate::study::ReadingChoice;

@@ -8,12 +8,12 @@ use super::key::{ReadingKey, Text};
 use super::name;
 use super::reading::ReadingChoice;
 use super::runner::{BuiltStudy, SESSION};
-use super::shard::Shard;
+use super::shard::{Portion, Shard};
 use super::store::Staged;
 use base::hash::sha256;
 use base::settings::Document;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -137,6 +137,13 @@ impl Manifest {
             contenders,
             files: BTreeMap::new(),
         })
+    }
+
+    /// Makes it that of a portion of the run, which reads no clock; the units of the portion.
+    pub fn cut_to<'p>(&mut self, portion: &'p Portion) -> &'p BTreeSet<usize> {
+        self.shard = Some(portion.shard.clone());
+        self.sessions.clear();
+        &portion.units
     }
 
     /// Where the manifest of `study` lies in `folder`.

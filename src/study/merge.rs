@@ -3,13 +3,15 @@
 //! Nothing is put together unless every part is there, whole, of one plan and of one program. A part is refused by the name of
 //! its folder, with what it should be.
 
-use super::key::{DrawKey, Owner};
+use super::key::{DrawKey, Owner, SweepKey};
 use super::manifest::Manifest;
 use super::plan::{Plan, brief, unlike};
-use super::record::Batch;
+use super::record::{Batch, Kept, Row};
 use super::runner::BuiltStudy;
 use super::session::write;
-use super::store::{Records, journal_units, read_records};
+use super::store::{
+    ExhibitReader, Exhibits, GROUP_VALUES, Records, journal_units, open_exhibits, read_numbers,
+};
 use super::{Study, StudyError};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -20,6 +22,16 @@ use std::sync::Arc;
 pub struct Parts<'a> {
     plan: &'a Plan,
     folder: &'a Path,
+    /// The shard of every unit of each study.
+    cut: Vec<Vec<usize>>,
+}
+
+/// What may keep parts from being put together.
+#[derive(Default)]
+struct Refused {
+    reasons: Vec<String>,
+    /// The numbers of shards that are not done.
+    missing: BTreeSet<usize>,
 }
 
 impl<'a> Parts<'a> {
@@ -32,82 +44,156 @@ impl<'a> Parts<'a> {
         folder: &'a Path,
         studies: &[(BuiltStudy<'_>, Manifest)],
     ) -> Result<Self, StudyError> {
-        let mut refused = strangers(plan, folder);
-        let mut missing = Vec::new();
+        let mut refused = Refused { reasons: strangers(plan, folder), ..Refused::default() };
         for number in 1..=plan.shards {
-            let part = plan.part(folder, number);
-            let name = part.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            for (_, expected) in studies {
-                let study = &expected.study;
-                if !Manifest::path(&part, study).exists() {
-                    let kept = journal_units(&part, study);
-                    missing.push((
-                        number,
-                        format!("{name}: study `{study}` is not done; {kept} units are kept"),
-                    ));
-                    continue;
-                }
-                match Manifest::read(&part, study) {
-                    Err(error) => refused.push(error.to_string()),
-                    Ok(found) => {
-                        let reasons = reasons(plan, number, expected, &found);
-                        refused.extend(
-                            reasons.iter().map(|reason| format!("{name}: study `{study}`: {reason}")),
-                        );
-                    }
-                }
-            }
+            studies.iter().for_each(|(_, expected)| refused.look_at(plan, folder, number, expected));
         }
-        refused.extend(missing.iter().map(|(_, what)| what.clone()));
-        let numbers: BTreeSet<usize> = missing.iter().map(|(number, _)| *number).collect();
-        refused.extend(numbers.iter().next().map(|_| how_to_run(plan, folder, &numbers)));
-        if refused.is_empty() {
-            return Ok(Self { plan, folder });
+        let Refused { mut reasons, missing } = refused;
+        if !missing.is_empty() {
+            reasons.push(how_to_run(plan, folder, &missing));
         }
-        Err(StudyError::stored(
-            folder,
-            format!("the parts cannot be put together:\n  {}", refused.join("\n  ")),
-        ))
+        if reasons.is_empty() {
+            return Ok(Self { plan, folder, cut: plan.cut(studies) });
+        }
+        let reasons = reasons.join("\n  ");
+        Err(StudyError::stored(folder, format!("the parts cannot be put together:\n  {reasons}")))
     }
 
-    /// Writes the records of `study` into `into`, which is locked; how many trials they are.
+    /// Writes the records of `study`, the plan's of this place, into `into`, which is locked; how many trials they are.
     ///
     /// # Errors
     /// [`StudyError::Stored`] for a part that is damaged or does not hold the units that are its own; those of the file system,
     /// and nothing is written then.
     pub fn merge(
         &self,
-        study: &Study,
+        (place, study): (usize, &Study),
         built: &BuiltStudy<'_>,
         mut manifest: Manifest,
         into: &Path,
     ) -> Result<usize, StudyError> {
-        let units: BTreeMap<Arc<DrawKey>, usize> =
-            built.units().into_iter().enumerate().map(|(index, unit)| (unit.key, index)).collect();
-        let (mut rows, mut prepared, mut kept) = (Vec::new(), Vec::new(), Vec::new());
+        let keys: Vec<Arc<DrawKey>> = built.units().into_iter().map(|unit| unit.key).collect();
+        let units = Units { numbers: keys.iter().cloned().zip(0..).collect(), shards: &self.cut[place] };
+        let (mut rows, mut prepared, mut exhibits) = (Vec::new(), Vec::new(), Vec::new());
         for number in 1..=self.plan.shards {
             let part = self.plan.part(self.folder, number);
-            let files = Manifest::read(&part, &study.name)?.files;
-            let batch = read_records(&part, &study.name, &files)?.batch;
+            let Manifest { files, claims, .. } = Manifest::read(&part, &study.name)?;
+            let batch = read_numbers(&part, &study.name, &files)?.batch;
             rows.push(batch.rows);
             prepared.push(batch.prepared);
-            kept.push(batch.kept);
+            exhibits.push(open_exhibits(&part, &study.name, &files)?);
+            // Trials that were seen under former claims stay marked.
+            manifest.claims = if claims == manifest.claims { manifest.claims } else { claims };
         }
         let wrong =
             |reason: String| StudyError::stored(self.folder, format!("study `{}`: {reason}", study.name));
-        let prepared = interleaved(prepared, |row| &row.key, &units).map_err(wrong)?;
+        let prepared = units.in_order(prepared, |row| &row.key).map_err(wrong)?;
         let found: BTreeSet<&Arc<DrawKey>> = prepared.iter().map(|row| &row.key).collect();
-        if let Some(gap) = units.keys().find(|key| !found.contains(key)) {
+        if let Some(gap) = keys.iter().find(|key| !found.contains(key)) {
             return Err(wrong(format!("no part holds {}", built.names().prepared(gap))));
         }
-        let rows = interleaved(rows, |row| &row.key.on, &units).map_err(wrong)?;
-        let kept = interleaved(kept, |kept| drawn(&kept.of), &units).map_err(wrong)?;
-        let batch = Batch { prepared, rows, kept };
-        // What no clock has timed yet; `replan run` reads it, on one machine.
+        let rows = units.in_order(rows, |row| &row.key.on).map_err(wrong)?;
+        // No clock has timed anything yet; `replan run` reads it, on one machine.
         manifest.sessions.clear();
-        let trials = batch.rows.len();
-        write(study, into, &mut manifest, &Records { batch, times: Vec::new() })?;
+        let (sweep, trials) = (sweep(&exhibits, &rows)?, rows.len());
+        let records = Records { batch: Batch { prepared, rows, ..Batch::default() }, times: Vec::new() };
+        let each = Box::new(streamed(exhibits, keys, &self.cut[place]));
+        let exhibits = Exhibits { each, sweep, group_values: GROUP_VALUES };
+        write(study, into, &mut manifest, &records, exhibits)?;
         Ok(trials)
+    }
+}
+
+impl Refused {
+    /// Notes what is wrong with one study of the part `number`, which should be as `expected` says.
+    fn look_at(&mut self, plan: &Plan, folder: &Path, number: usize, expected: &Manifest) {
+        let (part, study) = (plan.part(folder, number), &expected.study);
+        let name = part.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if !Manifest::path(&part, study).exists() {
+            let kept = journal_units(&part, study);
+            self.reasons.push(format!("{name}: study `{study}` is not done; {kept} units are kept"));
+            self.missing.insert(number);
+            return;
+        }
+        match Manifest::read(&part, study) {
+            Err(error) => self.reasons.push(error.to_string()),
+            Ok(found) => {
+                let reasons = reasons(plan, number, expected, &found);
+                self.reasons
+                    .extend(reasons.iter().map(|reason| format!("{name}: study `{study}`: {reason}")));
+            }
+        }
+    }
+}
+
+/// The sweep of a trial, if any part has an exhibit of one.
+fn sweep(exhibits: &[ExhibitReader], rows: &[Row]) -> Result<Option<SweepKey>, StudyError> {
+    for reader in exhibits {
+        if reader.has_trials()? {
+            return Ok(rows.first().map(|row| row.key.sweep.clone()));
+        }
+    }
+    Ok(None)
+}
+
+/// The exhibits of all parts in the order of units; one group of each part is held at a time.
+fn streamed<'s>(
+    mut parts: Vec<ExhibitReader>,
+    keys: Vec<Arc<DrawKey>>,
+    shards: &'s [usize],
+) -> impl Iterator<Item = Result<Kept, StudyError>> + 's {
+    let mut unit = 0;
+    std::iter::from_fn(move || {
+        while unit < keys.len() {
+            let part = &mut parts[shards[unit] - 1];
+            match part.peek() {
+                Err(error) => return Some(Err(error)),
+                Ok(Some(kept)) if *drawn(&kept.of) == keys[unit] => return part.take().map(Ok),
+                Ok(_) => unit += 1,
+            }
+        }
+        let left = parts
+            .iter_mut()
+            .find_map(|part| part.peek().map(|left| left.is_some()).unwrap_or(true).then_some(part));
+        left.map(|part| {
+            part.take();
+            Err(part.wrong("holds exhibits of draws that are not its own, or in another order"))
+        })
+    })
+}
+
+/// The units of a study.
+struct Units<'s> {
+    numbers: BTreeMap<Arc<DrawKey>, usize>,
+    /// The shard of each.
+    shards: &'s [usize],
+}
+
+impl Units<'_> {
+    /// Everything of all parts in the order of units; each part has its own in that order.
+    fn in_order<T>(&self, parts: Vec<Vec<T>>, on: impl Fn(&T) -> &Arc<DrawKey>) -> Result<Vec<T>, String> {
+        let mut runs = Vec::new();
+        for (part, all) in parts.iter().enumerate() {
+            for run in all.chunk_by(|one, other| Arc::ptr_eq(on(one), on(other))) {
+                let key = on(&run[0]);
+                let unit = self.numbers.get(key).filter(|unit| self.shards[**unit] == part + 1);
+                let unit = unit.ok_or_else(|| {
+                    format!(
+                        "part {} holds draw {} of `{}`, which is not its own",
+                        part + 1,
+                        key.draw,
+                        key.group
+                    )
+                })?;
+                runs.push((*unit, part, run.len()));
+            }
+        }
+        runs.sort_unstable();
+        let mut left: Vec<_> = parts.into_iter().map(Vec::into_iter).collect();
+        let mut all = Vec::with_capacity(left.iter().map(ExactSizeIterator::len).sum());
+        for (_, part, count) in runs {
+            all.extend(left[part].by_ref().take(count));
+        }
+        Ok(all)
     }
 }
 
@@ -117,44 +203,6 @@ fn drawn(of: &Owner) -> &Arc<DrawKey> {
         Owner::Draw(key) => key,
         Owner::Trial(key) => &key.on,
     }
-}
-
-/// Everything of all parts in the order of units; each part has its own in that order.
-fn interleaved<T>(
-    parts: Vec<Vec<T>>,
-    on: impl Fn(&T) -> &Arc<DrawKey>,
-    units: &BTreeMap<Arc<DrawKey>, usize>,
-) -> Result<Vec<T>, String> {
-    let mut runs = Vec::new();
-    for (part, all) in parts.iter().enumerate() {
-        for run in all.chunk_by(|one, other| Arc::ptr_eq(on(one), on(other))) {
-            let key = on(&run[0]);
-            let unit = units.get(key).ok_or_else(|| {
-                format!(
-                    "part {} holds draw {} of `{}`, which the study has not",
-                    part + 1,
-                    key.draw,
-                    key.group
-                )
-            })?;
-            runs.push((*unit, part, run.len()));
-        }
-    }
-    runs.sort_unstable();
-    if let Some(double) = runs.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-        return Err(format!(
-            "parts {} and {} both hold unit {}",
-            double[0].1 + 1,
-            double[1].1 + 1,
-            double[0].0
-        ));
-    }
-    let mut left: Vec<_> = parts.into_iter().map(Vec::into_iter).collect();
-    let mut all = Vec::with_capacity(left.iter().map(ExactSizeIterator::len).sum());
-    for (_, part, count) in runs {
-        all.extend(left[part].by_ref().take(count));
-    }
-    Ok(all)
 }
 
 /// Folders that look like parts and are none of the plan's.

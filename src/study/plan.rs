@@ -201,18 +201,24 @@ impl Plan {
         words
     }
 
+    /// The shard of every unit of each study.
+    pub fn cut(&self, studies: &[(BuiltStudy<'_>, Manifest)]) -> Vec<Vec<usize>> {
+        let mut shards = shard::cut(&self.unit_costs(studies), self.shards).into_iter();
+        self.studies.iter().map(|planned| shards.by_ref().take(planned.units).collect()).collect()
+    }
+
     /// What of each study the shard of this number runs.
     pub fn portions(&self, studies: &[(BuiltStudy<'_>, Manifest)], number: usize) -> Vec<Portion> {
-        let shards = shard::cut(&self.unit_costs(studies), self.shards);
-        let (mut from, mut portions) = (0, Vec::new());
-        for planned in &self.studies {
-            let own = shards[from..from + planned.units].iter().enumerate();
-            let units: BTreeSet<usize> =
-                own.filter(|(_, shard)| **shard == number).map(|(unit, _)| unit).collect();
-            portions.push(Portion { shard: self.shard(number), units });
-            from += planned.units;
-        }
-        portions
+        let own = |shards: Vec<usize>| -> BTreeSet<usize> {
+            shards
+                .into_iter()
+                .enumerate()
+                .filter(|(_, shard)| *shard == number)
+                .map(|(unit, _)| unit)
+                .collect()
+        };
+        let portion = |shards| Portion { shard: self.shard(number), units: own(shards) };
+        self.cut(studies).into_iter().map(portion).collect()
     }
 
     /// What every unit costs, study after study.
@@ -232,12 +238,8 @@ impl Plan {
         wanted: &Wanted,
         studies: &[(BuiltStudy<'_>, Manifest)],
     ) -> Result<(), StudyError> {
-        let mut other = Vec::new();
-        let mut differs = |what: &str, planned: String, asked: String| {
-            if planned != asked {
-                other.push(format!("{what} {planned}, not {asked}"));
-            }
-        };
+        let mut other = Other(Vec::new());
+        let mut differs = |what: &str, planned: String, asked: String| other.note(what, &planned, &asked);
         let shown = |readings: &Option<String>| readings.clone().unwrap_or_else(|| "the default".to_owned());
         let names = |names: &mut dyn Iterator<Item = &str>| names.collect::<Vec<_>>().join(", ");
         differs("shards", self.shards.to_string(), wanted.shards.to_string());
@@ -249,24 +251,17 @@ impl Plan {
             names(&mut studies.iter().map(|(_, manifest)| manifest.study.as_str())),
         );
         for (planned, (_, manifest)) in self.studies.iter().zip(studies) {
-            let name = &planned.name;
-            differs(&format!("study {name}: seed"), planned.seed.to_string(), manifest.seed.to_string());
-            differs(&format!("study {name}: spec"), brief(&planned.spec), brief(&manifest.spec));
-            differs(
-                &format!("study {name}: what trials depend on"),
-                brief(&planned.depends),
-                brief(&manifest.depends),
-            );
+            let of = |what: &str| format!("study {}: {what}", planned.name);
+            differs(&of("seed"), planned.seed.to_string(), manifest.seed.to_string());
+            differs(&of("spec"), brief(&planned.spec), brief(&manifest.spec));
+            differs(&of("what trials depend on"), brief(&planned.depends), brief(&manifest.depends));
         }
-        other.extend(
-            unlike(&self.made_by, MadeBy::here())
-                .map(|[what, own, here]| format!("{what} {own}, not {here}")),
-        );
-        if other.is_empty() {
+        unlike(&self.made_by, MadeBy::here()).for_each(|[what, own, here]| other.note(&what, &own, &here));
+        if other.0.is_empty() {
             return Ok(());
         }
-        let reason =
-            format!("the parts here are of another run: {}; another folder is accepted", other.join("; "));
+        let other = other.0.join("; ");
+        let reason = format!("the parts here are of another run: {other}; another folder is accepted");
         Err(StudyError::stored(path, reason))
     }
 
@@ -289,6 +284,17 @@ impl Plan {
             true => State::Stopped,
         };
         Progressed { state, units: self.studies.iter().map(done).sum::<usize>().min(units) }
+    }
+}
+
+/// What differs from what is wanted.
+struct Other(Vec<String>);
+
+impl Other {
+    fn note(&mut self, what: &str, found: &str, wanted: &str) {
+        if found != wanted {
+            self.0.push(format!("{what} {found}, not {wanted}"));
+        }
     }
 }
 

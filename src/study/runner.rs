@@ -266,12 +266,7 @@ impl<'a> BuiltStudy<'a> {
             let study = self.study.name.clone();
             return Err(StudyError::Interrupted { study, kept: done.len(), total });
         }
-        Ok(done.into_values().fold(Batch::default(), |mut all, batch| {
-            all.prepared.extend(batch.prepared);
-            all.rows.extend(batch.rows);
-            all.kept.extend(batch.kept);
-            all
-        }))
+        Ok(done.into_values().fold(Batch::default(), Batch::with))
     }
 
     /// The timed passes: one thread, warmed up, with only the pipeline's call between two readings of the clock.

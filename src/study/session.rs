@@ -9,7 +9,9 @@ use super::record::{Batch, Row, Status, Timing};
 use super::reuse::{self, Before, Reusable, moved};
 use super::runner::{BuiltStudy, Progress};
 use super::shard::Portion;
-use super::store::{Columns, Journal, Records, Staged, remove_temporaries, stage_records};
+use super::store::{
+    Columns, Exhibits, GROUP_VALUES, Journal, Records, Staged, remove_temporaries, stage_records,
+};
 use super::unit::Unit;
 use super::{Inputs, StudyError};
 use std::collections::BTreeSet;
@@ -119,11 +121,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let (built, folder) = (BuiltStudy::new(study, options.points, options.inputs)?, options.lock.folder());
     let (claims, command) = (options.claims.clone(), options.command.clone());
     let mut manifest = Manifest::new(study, options.points, &built, claims, command, options.quick)?;
-    let only = options.portion.map(|portion| &portion.units);
-    if let Some(portion) = options.portion {
-        manifest.shard = Some(portion.shard.clone());
-        manifest.sessions.clear();
-    }
+    let only = options.portion.map(|portion| manifest.cut_to(portion));
     remove_temporaries(folder, &study.name);
     let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
     let (resumed, units) = (done.len(), only.map_or_else(|| built.units().len(), BTreeSet::len));
@@ -134,10 +132,9 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         let counts = Counts { resumed, units, reused: units, kept: 0 };
         return Ok(Report::new(before.clone(), &counts, &records.batch, built.names(), why));
     }
-    let found = match &stored {
-        Some((before, records)) if !options.fresh => Reusable::new(&built, &manifest, before, records),
-        _ => Reusable::default(),
-    };
+    let usable = stored.as_ref().filter(|_| !options.fresh);
+    let found =
+        usable.map_or_else(Reusable::default, |(before, old)| Reusable::new(&built, &manifest, before, old));
     let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
     if let Some((before, _)) = stored.as_ref().filter(|_| counts.reused + counts.kept > 0) {
         // These trials were seen under the former claims, so that a margin which has moved since stays marked.
@@ -148,12 +145,12 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let batch =
         pool.install(|| built.run(only, done, &found.parts, &journal, options.stop, options.progress))?;
     let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
-        _ if only.is_some() => Vec::new(),
         Some(times) => times,
+        None if only.is_some() => Vec::new(),
         None => built.time(options.stop, options.progress)?,
     };
     let records = Records { batch, times };
-    write(study, folder, &mut manifest, &records)?;
+    write(study, folder, &mut manifest, &records, Exhibits::held(&records.batch.kept))?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
     let mut report = Report::new(manifest, &counts, &records.batch, built.names(), why);
     report.moved = stored.as_ref().map_or_else(Default::default, |(before, old)| {
@@ -188,17 +185,25 @@ fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
         && most(|time| time.trial.repeat) == timing.seeds.unwrap_or(1).min(seeds)
 }
 
+/// The least that a group of a part's exhibits holds, so that many parts do not make many files of crumbs.
+const LEAST_GROUP_VALUES: usize = 1 << 12;
+
 /// Puts records and manifest in their places, the manifest last: it says which records are whole.
 pub(super) fn write(
     study: &Study,
     folder: &Path,
     manifest: &mut Manifest,
     records: &Records,
+    mut exhibits: Exhibits<'_>,
 ) -> Result<(), StudyError> {
+    if let Some(shard) = &manifest.shard {
+        // Who puts parts together holds a group of each.
+        exhibits.group_values = (GROUP_VALUES / shard.of).max(LEAST_GROUP_VALUES);
+    }
     let values: Vec<&'static str> = study.columns().into_iter().collect();
     let columns = Columns { keys: study.key_columns(), values: &values };
     let mut staged = Staged::default();
-    manifest.files = stage_records(&mut staged, folder, &study.name, &columns, records)?;
+    manifest.files = stage_records(&mut staged, folder, &study.name, &columns, records, exhibits)?;
     manifest.stage(&mut staged, folder)?;
     staged.put()
 }

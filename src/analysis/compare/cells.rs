@@ -9,6 +9,7 @@ use crate::study::key::{ReadingKey, SweepKey};
 use crate::study::name;
 use crate::study::record::{Row, Status};
 use serde::Serialize;
+use stats::bootstrap::Resampling;
 use stats::{pooled, summary};
 use std::collections::BTreeMap;
 
@@ -81,13 +82,6 @@ fn cell(study: &str, seen: &Seen<'_>, rows: &[&Row], metric: &'static Metric) ->
         units.values().map(|(values, _)| values.clone()).filter(|v| !v.is_empty()).collect();
     let all = values.concat();
     let sums: Vec<[f64; 2]> = values.iter().map(|unit| [unit.iter().sum(), unit.len() as f64]).collect();
-    let failing =
-        |(values, failed): &(Vec<f64>, usize)| [values.clone(), vec![f64::INFINITY; *failed]].concat();
-    let with_failures: Vec<Vec<f64>> = units.values().map(failing).collect();
-    let median = || {
-        let found = pooled::median(&with_failures, plan);
-        Measured::of(summary::median(&with_failures.concat()), found)
-    };
     (!all.is_empty()).then(|| Cell {
         study: study.to_owned(),
         reading: seen.names.reading(&key.on.reading),
@@ -101,6 +95,14 @@ fn cell(study: &str, seen: &Seen<'_>, rows: &[&Row], metric: &'static Metric) ->
         draws: units.len(),
         measured: all.len(),
         mean: Measured::of(summary::mean(&all), pooled::ratio_of_sums(&sums, plan)),
-        median: (all.len() == solved).then(median).flatten(),
+        median: (all.len() == solved).then(|| median(units.values(), plan)).flatten(),
     })
+}
+
+/// The median over units, each with what was measured and how often it failed.
+fn median<'u>(units: impl Iterator<Item = &'u (Vec<f64>, usize)>, plan: Resampling) -> Option<Measured> {
+    let failing =
+        |(values, failed): &(Vec<f64>, usize)| [values.clone(), vec![f64::INFINITY; *failed]].concat();
+    let units: Vec<Vec<f64>> = units.map(failing).collect();
+    Measured::of(summary::median(&units.concat()), pooled::median(&units, plan))
 }

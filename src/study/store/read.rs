@@ -9,7 +9,7 @@ use crate::study::column::{self, Kind};
 use crate::study::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
 use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
 use engine::planner::{Exhibit, Value};
-use polars::prelude::{AnyValue, Column, DataFrame, DataType};
+use polars::prelude::{AnyValue, Column, DataFrame, DataType, PolarsResult};
 use polars_io::prelude::{ParquetReader, SerReader as _};
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -85,7 +85,11 @@ pub struct Stored {
 impl Stored {
     /// The frame in `bytes`, read from `path`.
     pub fn open(path: PathBuf, bytes: Vec<u8>) -> Result<Self, StudyError> {
-        let frame = ParquetReader::new(Cursor::new(bytes)).finish();
+        Self::of(path, ParquetReader::new(Cursor::new(bytes)).finish())
+    }
+
+    /// What reading `path` gave.
+    pub fn of(path: PathBuf, frame: PolarsResult<DataFrame>) -> Result<Self, StudyError> {
         let frame = frame.map_err(|e| StudyError::stored(&path, format!("is not a Parquet file: {e}")))?;
         Ok(Self { path, frame })
     }
@@ -94,6 +98,11 @@ impl Stored {
         self.frame.column(name).map_err(|_| {
             StudyError::stored(&self.path, format!("has no column `{name}`; run the study again"))
         })
+    }
+
+    /// Whether some cell of the column called `name` is known.
+    pub fn has_some(&self, name: &str) -> Result<bool, StudyError> {
+        Ok(self.column(name)?.null_count() < self.frame.height())
     }
 
     fn wrong(&self, name: &str) -> StudyError {
