@@ -1,8 +1,7 @@
 //! Metrics: what can be compared, its unit, which way is better, and how to get it from a record.
 
-use crate::study::clock;
-use crate::study::column;
 use crate::study::record::{Row, Status};
+use crate::study::{clock, column};
 use engine::planner::Value;
 use std::collections::BTreeSet;
 
@@ -126,6 +125,15 @@ impl Metric {
     /// Label and unit, as an axis shows them.
     pub fn title(&self) -> String {
         if self.unit.is_empty() { self.label.to_owned() } else { format!("{} ({})", self.label, self.unit) }
+    }
+
+    /// What its numbers mean: what the column says that it is read from.
+    pub fn meaning(&self) -> &'static str {
+        match column::find(self.column) {
+            Some(column) => column.about,
+            None if self.is_clock() => clock::ABOUT,
+            None => "1 where a path came back, refused or not, otherwise 0",
+        }
     }
 
     /// Whether a study whose records have these columns gives it.

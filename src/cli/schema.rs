@@ -24,12 +24,29 @@ impl Schema {
         if !self.check {
             fs::create_dir_all(&self.folder)?;
         }
-        let results = catalogue::files().iter().map(|kind| self.each(kind)).collect();
-        all(results, "schemas are not current")
+        let kinds = catalogue::files();
+        let mut results: Vec<Result<(), Failure>> = kinds.iter().map(|kind| self.each(kind)).collect();
+        if self.check {
+            let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
+            let of_kind = |name: &str| kinds.iter().any(|kind| name == file_name(kind));
+            let mut names: Vec<String> =
+                entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+            names.sort();
+            results.extend(names.iter().filter(|name| !of_kind(name)).map(|name| {
+                let path = self.folder.join(name);
+                Err(Failure::stale(format!("{} is the schema of no kind of file; remove it", path.display())))
+            }));
+        }
+        all(results, "schemas are not current")?;
+        if self.check {
+            let names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
+            say!("{} schemas in {} are current: {}", kinds.len(), self.folder.display(), names.join(", "));
+        }
+        Ok(())
     }
 
     fn each(&self, kind: &Item) -> Result<(), Failure> {
-        let path = self.folder.join(format!("{}.schema.json", kind.name));
+        let path = self.folder.join(file_name(kind));
         let mut text = serde_json::to_string_pretty(&of(kind.name)).expect("a schema is plain JSON");
         text.push('\n');
         if self.check {
@@ -41,4 +58,8 @@ impl Schema {
         say!("{}", path.display());
         Ok(())
     }
+}
+
+fn file_name(kind: &Item) -> String {
+    format!("{}.schema.json", kind.name)
 }

@@ -1,6 +1,7 @@
 //! Checked studies: every name is looked up, every settings table is understood, before a trial runs.
 
 mod load;
+mod sizes;
 
 use super::contender::{Contender, Sweep, SweepPoint};
 use super::error::StudyError;
@@ -56,6 +57,11 @@ pub struct Study {
     pub figures: Vec<FigureSpec>,
     /// The file it was read from.
     pub document: Arc<Document>,
+}
+
+/// What the columns of the study called `name` are called where they may be unread.
+pub fn columns_of(name: &str) -> String {
+    format!("columns of {name}")
 }
 
 impl Study {

@@ -46,6 +46,14 @@ pub struct Options<'a> {
     pub progress: &'a dyn Progress,
 }
 
+impl Options<'_> {
+    /// The manifest of the run, without record files yet.
+    fn manifest(&self, study: &Study, built: &BuiltStudy<'_>) -> Result<Manifest, StudyError> {
+        let (claims, command) = (self.claims.clone(), self.command.clone());
+        Manifest::new(study, self.points, built, claims, command, self.quick)
+    }
+}
+
 /// What a run did.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
@@ -119,8 +127,7 @@ impl UnexpectedStatus {
 /// are unless the run succeeds.
 pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let (built, folder) = (BuiltStudy::new(study, options.points, options.inputs)?, options.lock.folder());
-    let (claims, command) = (options.claims.clone(), options.command.clone());
-    let mut manifest = Manifest::new(study, options.points, &built, claims, command, options.quick)?;
+    let mut manifest = options.manifest(study, &built)?;
     let only = options.portion.map(|portion| manifest.cut_to(portion));
     remove_temporaries(folder, &study.name);
     let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;

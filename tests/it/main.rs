@@ -5,6 +5,7 @@ mod audit;
 mod cell_threads;
 mod characteristics;
 mod circles;
+mod cli_check;
 mod cli_compare;
 mod cli_explains;
 mod cli_input;

@@ -21,6 +21,7 @@ use std::sync::Arc;
 pub static ENTRY: Entry = Entry {
     name: "work_cell",
     about: "a work cell from two sides: its robot at several poses, or the ways of its tool by contenders on one query",
+    statistic: "One stored trial a way.",
     settings: Accepted::of::<WorkCell>(),
     example: r#"
 problems = "cell"

@@ -1,6 +1,6 @@
 //! Exhibits on disk, written and read group by group: whoever puts parts together holds one group of each at a time.
 
-use super::read::{Draws, Stored};
+use super::read::{Draws, Stored, touched};
 use super::table;
 use crate::study::StudyError;
 use crate::study::key::{KeyColumns, Owner, SweepKey};
@@ -102,10 +102,9 @@ impl ExhibitReader {
     pub fn open(path: &Path) -> Result<Self, StudyError> {
         let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
         let mut reader = ParquetReader::new(file);
-        let told = |e: PolarsError| StudyError::stored(path, format!("is not a Parquet file: {e}"));
-        let mut groups: Vec<usize> =
-            reader.get_metadata().map_err(told)?.row_groups.iter().map(|group| group.num_rows()).collect();
-        groups.reverse();
+        let metadata =
+            reader.get_metadata().map_err(|_| touched(path, "is no Parquet file that can be read"))?;
+        let groups = metadata.row_groups.iter().rev().map(|group| group.num_rows()).collect();
         let (path, read, draws) = (path.to_owned(), VecDeque::new(), Draws::default());
         Ok(Self { path, groups, row: 0, read, draws })
     }
@@ -119,8 +118,9 @@ impl ExhibitReader {
             && let Some(count) = self.groups.pop()
         {
             let file = File::open(&self.path).map_err(StudyError::io(&self.path, "opening the file"))?;
-            let slice = ParquetReader::new(file).with_slice(Some((self.row, count))).finish();
-            self.read = Stored::of(self.path.clone(), slice)?.exhibits(&mut self.draws)?.into();
+            let slice = Some((self.row, count));
+            let read = || ParquetReader::new(file).with_slice(slice).finish();
+            self.read = Stored::of(self.path.clone(), read)?.exhibits(&mut self.draws)?.into();
             self.row += count;
         }
         Ok(self.read.front())
@@ -133,7 +133,7 @@ impl ExhibitReader {
 
     /// What is said of what it holds.
     pub fn wrong(&self, reason: &str) -> StudyError {
-        StudyError::stored(&self.path, reason)
+        touched(&self.path, reason)
     }
 
     /// Whether any of them belongs to a trial.
@@ -142,7 +142,7 @@ impl ExhibitReader {
     /// [`StudyError::Stored`].
     pub fn has_trials(&self) -> Result<bool, StudyError> {
         let file = File::open(&self.path).map_err(StudyError::io(&self.path, "opening the file"))?;
-        let frame = ParquetReader::new(file).with_columns(Some(vec!["contender".to_owned()])).finish();
-        Stored::of(self.path.clone(), frame)?.has_some("contender")
+        let read = || ParquetReader::new(file).with_columns(Some(vec!["contender".to_owned()])).finish();
+        Stored::of(self.path.clone(), read)?.has_some("contender")
     }
 }

@@ -111,7 +111,7 @@ pub fn stage_records(
 /// Reads every part of `study`'s records in `folder`, each checked against its hash in `hashes`.
 ///
 /// # Errors
-/// [`StudyError::Stored`] for a file that is missing, truncated or not the one that the manifest speaks of.
+/// [`StudyError::Stored`] for a file that is missing, [`StudyError::Touched`] for one that is not what the manifest speaks of.
 pub fn read_records(
     folder: &Path,
     study: &str,
@@ -178,12 +178,13 @@ fn check(path: &Path, found: &str, wanted: Option<&String>) -> Result<(), StudyE
         return Ok(());
     }
     let message = format!(
-        "is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from another spec; run \
+        "{}: is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from another spec; run \
          the study again",
+        path.display(),
         &found[..12],
         wanted.get(..12).unwrap_or(wanted)
     );
-    Err(StudyError::stored(path, message))
+    Err(StudyError::Touched(message))
 }
 
 /// The part `part` of `study`'s records in `folder`, which must have its hash among `hashes`.
