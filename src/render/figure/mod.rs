@@ -114,7 +114,7 @@ pub struct Entry {
 /// What stands below a figure: its caption, and what its kind shows of how many draws and trials.
 pub fn caption(spec: &FigureSpec, run: &Run<'_>) -> String {
     let Some(entry) = find(spec.kind.get_ref()) else { return spec.caption.clone() };
-    let settings = spec.settings.as_ref().map(|settings| settings.get_ref());
+    let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { draws, solved, all } = trials(run, settings);
     let n = format!("n = {draws} draws, {solved} of {all} trials solved");
     format!("{} {}", spec.caption, entry.statistic.replace("{n}", &n))
