@@ -26,6 +26,25 @@ pub fn of(kind: &str) -> Value {
     schema
 }
 
+/// The schema of the kind of file called `kind`, as it is written to disk.
+pub fn text(kind: &str) -> String {
+    serde_json::to_string_pretty(&of(kind)).expect("a schema is plain JSON") + "\n"
+}
+
+/// The file of the schema of `kind` in `folder`.
+pub fn path(folder: &Path, kind: &str) -> PathBuf {
+    folder.join(format!("{kind}.schema.json"))
+}
+
+/// Writes the schema of every kind of file into `folder`.
+///
+/// # Errors
+/// A folder or file that cannot be written.
+pub fn write_all(folder: &Path) -> std::io::Result<()> {
+    fs::create_dir_all(folder)?;
+    catalogue::files().iter().try_for_each(|kind| fs::write(path(folder, kind.name), text(kind.name)))
+}
+
 fn study() -> Value {
     let mut generator = generator();
     let mut parts = |items: &[Item]| -> Vec<(&'static str, Value)> {

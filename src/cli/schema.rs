@@ -1,7 +1,7 @@
 //! `replan schema`: writes a JSON Schema of every kind of TOML file, for editors.
 
 use super::catalogue::{self, Item};
-use super::file_schema::of;
+use super::file_schema::{path, text};
 use super::{Failure, all};
 use clap::Args;
 use std::fs;
@@ -29,9 +29,7 @@ impl Schema {
     }
 
     fn each(&self, kind: &Item) -> Result<(), Failure> {
-        let path = self.folder.join(format!("{}.schema.json", kind.name));
-        let mut text = serde_json::to_string_pretty(&of(kind.name)).expect("a schema is plain JSON");
-        text.push('\n');
+        let (path, text) = (path(&self.folder, kind.name), text(kind.name));
         if self.check {
             let stored = fs::read_to_string(&path).unwrap_or_default();
             let stale = || Failure::stale(format!("{} is not current; run `replan schema`", path.display()));

@@ -2,6 +2,7 @@
 
 mod arm;
 mod audit;
+mod broken_papers;
 mod cell_threads;
 mod characteristics;
 mod circles;
@@ -20,6 +21,7 @@ mod jump_points;
 mod latex;
 mod laws;
 mod mutation;
+mod own_paper;
 mod paper;
 mod polyhedra;
 mod registries;
