@@ -66,6 +66,9 @@ pub struct ProblemsSpec {
     pub label: Spanned<String>,
     /// The problem family.
     pub family: Spanned<String>,
+    /// Files, such as `maps/*.map`: a group for each, whose label ends in the file's name and in whose settings the file's path
+    /// stands for `{file}`.
+    pub each: Option<Spanned<String>>,
     /// How many independent draws.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub replicates: Option<u32>,

@@ -13,6 +13,9 @@ use parry3d::shape::{Ball, ConvexPolyhedron, Cuboid, Cylinder, SharedShape};
 /// How many steps of ours make one of the planner's.
 const FINER: f64 = 4.0;
 
+/// Into how many pieces a leg is cut where it is only shown.
+const SEEN: u32 = 24;
+
 /// How far from a limit rounding may take a joint.
 const LIMIT_RAD: f64 = 1e-9;
 
@@ -99,6 +102,19 @@ impl Case {
             }
         }
         Ok(motion)
+    }
+
+    /// The tip's places along `path`, 25 a leg, one after another, millimetres.
+    pub fn way_mm(&self, path: &[Vec<f64>]) -> Vec<f64> {
+        let legs = path.windows(2).flat_map(|leg| {
+            (0..=SEEN).map(|step| {
+                let share = f64::from(step) / f64::from(SEEN);
+                let q: Vec<f64> =
+                    leg[0].iter().zip(&leg[1]).map(|(a, b)| a * (1.0 - share) + b * share).collect();
+                self.tip(&q) * 1e3
+            })
+        });
+        legs.flat_map(|at| [at.x, at.y, at.z]).collect()
     }
 
     /// The straight distance between the tip's places in two configurations.

@@ -8,7 +8,7 @@ use super::super::inputs::Inputs;
 use super::super::name::{self, slug};
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
-use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint};
+use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint, each};
 use base::settings::{Document, Faults, SettingsError, Spanned, did_you_mean, none_called};
 use engine::planner::{self, Build};
 use engine::space::roadmap::Extent;
@@ -27,9 +27,10 @@ impl Study {
     /// that is used twice: all of them at once, each with file, line, column, what was found and what is accepted.
     pub fn load(path: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
         let document = Document::open(path)?;
-        let spec: StudySpec = document.read()?;
+        let mut spec: StudySpec = document.read()?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let mut faults = Faults::default();
+        spec.problems = each::expanded(spec.problems, &document, inputs, &mut faults);
         let study = Self::resolve(name, spec, &document, &mut faults);
         study.check(inputs, &mut faults)?;
         faults.done()?;

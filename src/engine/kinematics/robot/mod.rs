@@ -11,6 +11,7 @@ mod tests;
 mod urdf;
 
 pub use file::ROBOT_FILE;
+pub use urdf::capsule_around;
 
 use super::{Arm, KinematicsError, serial::AXES};
 use crate::geometry::{Capsule, Frame, Segment, Vec3};

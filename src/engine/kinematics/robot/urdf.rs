@@ -43,7 +43,7 @@ pub(super) fn robot(read: &base::robot::Robot) -> Result<Robot, KinematicsError>
     let chain = Chain::new(joints, rows.links[0], flange)?;
     let parts = read.solids.iter().map(|(link, solid)| {
         let into = rows.links[*link].inverse() * frames[*link];
-        let capsule = capsule(solid, &into)?;
+        let capsule = capsule_around(solid, &into)?;
         Ok(Part { name: solid.name.clone(), link: *link, tool_share: None, self_only: *link == 0, capsule })
     });
     let parts: Vec<Part> = parts.collect::<Result<_, KinematicsError>>()?;
@@ -118,8 +118,11 @@ fn row(from: &Frame, to: &Frame) -> Joint {
     }
 }
 
-/// The capsule around a solid, whose frame `into` leads to that of its link.
-fn capsule(solid: &Solid, into: &Frame) -> Result<Capsule, KinematicsError> {
+/// The capsule around a solid that is given in the frame `into`.
+///
+/// # Errors
+/// [`KinematicsError::Shape`] if it encloses nothing.
+pub fn capsule_around(solid: &Solid, into: &Frame) -> Result<Capsule, KinematicsError> {
     let at = *into * frame(&solid.pose);
     let (points, middle, along, radius) = match &solid.form {
         Form::Sphere(radius) => (vec![Vec3::zeros()], Vec3::zeros(), Vec3::z(), *radius),

@@ -1,0 +1,55 @@
+//! Problem groups that stand for one group a file: a folder of maps in one line.
+
+use super::super::inputs::Inputs;
+use super::super::spec::ProblemsSpec;
+use base::settings::{Document, Faults};
+use std::path::Path;
+use toml::{Table, Value};
+
+/// What stands in a group's settings for the file.
+const FILE: &str = "{file}";
+
+/// The groups of a study, each that names files with `each` in as many as there are files.
+pub(super) fn expanded(
+    problems: Vec<ProblemsSpec>,
+    document: &Document,
+    inputs: &Inputs,
+    faults: &mut Faults,
+) -> Vec<ProblemsSpec> {
+    let mut all = Vec::new();
+    for group in problems {
+        let Some(pattern) = &group.each else {
+            all.push(group);
+            continue;
+        };
+        match inputs.list(pattern.get_ref()) {
+            Ok(files) => all.extend(files.iter().map(|file| of_file(&group, file))),
+            Err(message) => faults.add(document.error(pattern.span(), message)),
+        }
+    }
+    all
+}
+
+/// The group of one file: its label ends in the file's name, and the file's path stands in its settings.
+fn of_file(group: &ProblemsSpec, file: &str) -> ProblemsSpec {
+    let stem = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
+    let label = format!("{} {stem}", group.label.get_ref());
+    let settings = filled(group.settings.get_ref(), file);
+    ProblemsSpec {
+        label: group.label.with(label),
+        family: group.family.clone(),
+        each: None,
+        replicates: group.replicates,
+        draw: group.draw.clone(),
+        settings: group.settings.with(settings),
+    }
+}
+
+fn filled(table: &Table, file: &str) -> Table {
+    let value = |value: &Value| match value {
+        Value::String(text) => Value::String(text.replace(FILE, file)),
+        Value::Table(inner) => Value::Table(filled(inner, file)),
+        other => other.clone(),
+    };
+    table.iter().map(|(key, inner)| (key.clone(), value(inner))).collect()
+}
