@@ -20,5 +20,6 @@ pub mod selection;
 pub mod selection_spec;
 pub mod settle;
 pub mod statistic;
+pub mod tabulated;
 pub mod together;
 pub mod verdict;

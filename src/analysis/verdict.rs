@@ -117,6 +117,12 @@ impl Judged {
         }
     }
 
+    /// What the readings make of it, in a few words that stand behind its class; none if no reading was asked.
+    #[expect(clippy::unused_self, reason = "the one place where reports and terminal take these words from")]
+    pub fn across_readings(&self) -> Option<String> {
+        None
+    }
+
     /// The number of ours that stands beside the printed one.
     pub fn ours(&self) -> Option<&Estimate> {
         let deciding = self.findings.iter().find(|finding| finding.verdict == Some(self.verdict));
@@ -209,23 +215,30 @@ impl Verdicts {
         toml::to_string(self).expect("verdicts are strings, numbers and tables of them")
     }
 
+    /// How many sentences and table rows there are that do not hold by a theorem, and how many of each class.
+    pub fn tally(&self) -> Vec<usize> {
+        let whole = self.claims.iter().filter(|judged| judged.part_of.is_none() && judged.theorem.is_none());
+        let whole: Vec<Verdict> = whole.map(|judged| judged.verdict).collect();
+        let of = |verdict: &Verdict| whole.iter().filter(|own| *own == verdict).count();
+        std::iter::once(whole.len()).chain(Verdict::ALL.iter().map(of)).collect()
+    }
+
     /// How many sentences and table rows there are of each class.
     pub fn counts(&self) -> Counts {
         let (parts, whole): (Vec<&Judged>, Vec<&Judged>) =
             self.claims.iter().partition(|judged| judged.part_of.is_some());
-        let (asserted, counted): (Vec<&Judged>, Vec<&Judged>) =
-            whole.into_iter().partition(|judged| judged.theorem.is_some());
-        let of = |verdict: &Verdict| counted.iter().filter(|judged| judged.verdict == *verdict).count();
-        let found = Verdict::ALL.iter().map(|verdict| (of(verdict), verdict.name()));
-        let found = found.filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}"));
-        let what = if counted.len() == 1 { "sentence or row" } else { "sentences and rows" };
-        let classes = format!("{} {what}: {}", counted.len(), found.collect::<Vec<_>>().join(", "));
+        let asserted = whole.iter().filter(|judged| judged.theorem.is_some()).count();
+        let tally = self.tally();
+        let found = tally[1..].iter().zip(Verdict::ALL).filter(|(count, _)| **count > 0);
+        let found: Vec<String> =
+            found.map(|(count, verdict)| format!("{count} {}", verdict.name())).collect();
+        let what = if tally[0] == 1 { "sentence or row" } else { "sentences and rows" };
+        let classes = format!("{} {what}: {}", tally[0], found.join(", "));
         let parts = (!parts.is_empty()).then(|| {
             format!("{} parts and cells have classes of their own and count with these", parts.len())
         });
-        let asserted = (!asserted.is_empty()).then(|| {
-            let many = asserted.len();
-            format!("{many} more must hold whatever was drawn; they are asserted and count for nothing")
+        let asserted = (asserted > 0).then(|| {
+            format!("{asserted} more must hold whatever was drawn; they are asserted and count for nothing")
         });
         Counts { classes, parts, asserted }
     }

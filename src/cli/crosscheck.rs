@@ -7,7 +7,7 @@ use super::places::{Places, papers};
 use super::progress::Bar;
 use super::{Failure, Which};
 use crate::crosscheck::{self, Case, CrosscheckError, Depicted, Outcome, Picture, Sources, Spec};
-use crate::render::report;
+use crate::render::output::CROSSCHECK;
 use crate::study::runner::Progress as _;
 use crate::study::store::write_whole;
 use base::settings::Document;
@@ -87,7 +87,6 @@ impl Crosscheck {
             match Spec::load(&places.folder)? {
                 Some(spec) => {
                     let shown = Places::find(&Which { paper: name.clone(), out: self.out.clone() }, "")?;
-                    report::besides(&shown.report, &chapter_name(&shown))?;
                     posed.push((places, shown, spec));
                 }
                 None if self.paper.is_some() => return Err(nothing_posed(&places)),
@@ -196,22 +195,19 @@ impl Crosscheck {
         let view = format!("{FOLDER}/venv/bin/python -m mujoco.viewer --mjcf={}", place.display());
         let command = format!("replan crosscheck {id}");
         let chapter = |picture| crosscheck::chapter(&id, outcomes, &command, &view, picture, stand_ins);
-        let link = format!("plots/{id}/{PICTURE}");
-        let (now, next) = depicted(drawn, &link, shown.plots.join(PICTURE).is_file());
-        let (path, name) = (&shown.report, chapter_name(shown));
+        let (now, next) = depicted(drawn, PICTURE, shown.plots.join(PICTURE).is_file());
+        let path = shown.plots.join(CROSSCHECK);
         if !self.check {
-            report::put_chapter(path, &shown.report_lock(), &name, &chapter(now))?;
-            say!("the chapter is in {}; to look around the scene: {view}", path.display());
+            write_whole(&path, chapter(now).as_bytes())?;
+            say!("what MuJoCo says is in {}; to look around the scene: {view}", path.display());
             return Ok(());
         }
-        let before = report::read(path)?;
-        for picture in [Some(now), next].into_iter().flatten() {
-            if report::with_chapter(path, &before, &name, &chapter(picture))? == before {
-                say!("the chapter in {} is current", path.display());
-                return Ok(());
-            }
+        let before = fs::read_to_string(&path).unwrap_or_default();
+        if [Some(now), next].into_iter().flatten().any(|picture| chapter(picture) == before) {
+            say!("{} is current", path.display());
+            return Ok(());
         }
-        Err(Failure::stale(format!("not current: the chapter `{name}` of {}", path.display())))
+        Err(Failure::stale(format!("not current: {}", path.display())))
     }
 }
 
@@ -259,11 +255,6 @@ fn are_answered(shown: &Places) -> Result<(), Failure> {
 /// The paper's name.
 fn id(places: &Places) -> String {
     places.runs.file_name().unwrap_or_default().to_string_lossy().into_owned()
-}
-
-/// What the chapter is called in the report.
-fn chapter_name(shown: &Places) -> String {
-    format!("{} crosscheck", id(shown))
 }
 
 /// Where models, questions and answers of a paper lie.

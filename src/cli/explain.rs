@@ -8,22 +8,7 @@ const COLUMNS: usize = 80;
 
 /// `first` and then the words of `text`, on lines of 80 columns, those after the first indented by `indent`.
 pub fn wrapped(first: &str, text: &str, indent: usize) -> String {
-    let mut lines = Vec::new();
-    let mut line = first.to_owned();
-    let mut is_fresh = true;
-    for word in text.split_whitespace() {
-        if !is_fresh && line.chars().count() + 1 + word.chars().count() > COLUMNS {
-            lines.push(std::mem::replace(&mut line, " ".repeat(indent)));
-            is_fresh = true;
-        }
-        if !is_fresh {
-            line.push(' ');
-        }
-        line += word;
-        is_fresh = false;
-    }
-    lines.push(line);
-    lines.join("\n")
+    crate::render::prose::wrapped(first, text, indent, COLUMNS)
 }
 
 /// Everything that is known of `item`.

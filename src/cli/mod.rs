@@ -27,6 +27,7 @@ mod render;
 mod repro;
 mod run;
 mod schema;
+mod show;
 mod trial;
 mod verdicts;
 
@@ -50,6 +51,7 @@ const EXAMPLES: &str = "Examples:
   replan new ./my/paper --from grid  a small paper to be changed into your own; docs/YOUR_OWN_PAPER.md
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
+  replan show zhang t1.improved.cost one claim with its evidence
   replan render zhang --check        are the committed plots and tables what the stored run gives?
   replan list planners               what contenders can name
   replan list criteria one_draw      what one criterion can be told, with an example";
@@ -68,6 +70,8 @@ enum Command {
     Judge(judge::Judge),
     /// Draw a paper's figures and tables again from its stored run and verdicts
     Render(render::Render),
+    /// Show one claim with its evidence, or list every claim with its class
+    Show(show::Show),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
     /// Ask of a printed table, by arithmetic alone, whether any data could have given it
@@ -175,6 +179,7 @@ pub fn run() -> ExitCode {
         Command::Run(command) => command.run(),
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
+        Command::Show(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
         Command::Audit(command) => command.run(),
         Command::List(command) => command.run(),

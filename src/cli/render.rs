@@ -6,7 +6,7 @@ use super::{Failure, How, Which};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::{self, Outputs};
-use crate::render::report;
+use crate::render::report::{self, Chapter};
 use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
@@ -40,7 +40,11 @@ impl Render {
         }
         check_report(&paper, &places)?;
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
-        let drawn = draw(&paper, &places, self.only.as_deref(), stop)?;
+        let drawn = draw(&paper, &places, self.only.as_deref(), stop);
+        let drawn =
+            drawn.map_err(
+                |failure| if self.only.is_some() { failure } else { unread(&paper, &places, failure) },
+            )?;
         put(&paper, &places, &drawn, stop)?;
         say!("{} files are in {}", drawn.outputs.files.len(), places.plots.display());
         all_drawn(&drawn.outputs)
@@ -51,7 +55,7 @@ impl Render {
 struct Drawn {
     outputs: Outputs,
     /// The paper's chapter, unless only one figure was asked for.
-    chapter: Option<String>,
+    chapter: Option<Chapter>,
 }
 
 /// Draws everything and writes it; gives what could not be drawn.
@@ -103,10 +107,23 @@ fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -
     })?;
     let evidence = Evidence::read(paper, point, &places.runs)?;
     doing(&format!("{}: drawing its figures and tables", paper.id));
-    let outputs = output::outputs(&evidence, &verdicts, only, stop)?;
-    let chapter = || output::chapter(&places.report, &evidence, &verdicts, &places.plots, &outputs);
-    let chapter = only.is_none().then(chapter);
-    Ok(Drawn { outputs, chapter })
+    let mut outputs = output::outputs(&evidence, &verdicts, only, stop)?;
+    if only.is_some() {
+        return Ok(Drawn { outputs, chapter: None });
+    }
+    let made = output::chapter(&places.report, &evidence, &verdicts, &places.plots, &outputs.undrawn)?;
+    outputs.files.push(made.1);
+    Ok(Drawn { outputs, chapter: Some(made.0) })
+}
+
+/// Says in the chapter of `paper` that its stored run cannot be shown, and why; gives that as the failure that it is.
+fn unread(paper: &Paper, places: &Places, failure: Failure) -> Failure {
+    if failure.code != 2 {
+        return failure;
+    }
+    let chapter = report::unread(paper, &failure.message);
+    let put = report::put_chapter(&places.report, &places.report_lock(), &paper.id, &chapter);
+    put.err().map_or(failure, Failure::from)
 }
 
 fn put(paper: &Paper, places: &Places, drawn: &Drawn, stop: &AtomicBool) -> Result<(), Failure> {

@@ -1,8 +1,13 @@
 //! The verdict table on the terminal.
 
 use crate::analysis::class::Verdict;
-use crate::analysis::verdict::{Counts, Estimate, Judged, Verdicts};
+use crate::analysis::verdict::{Counts, Judged, Verdicts};
+use crate::render::prose::wrapped;
+use crate::render::tables::short;
 use std::io::IsTerminal as _;
+
+/// What is printed fits terminals of so many columns.
+pub const COLUMNS: usize = 100;
 
 /// Prints every claim's verdict, and how many there are of each.
 pub fn print(verdicts: &Verdicts) {
@@ -10,26 +15,26 @@ pub fn print(verdicts: &Verdicts) {
     say!("{}", table(verdicts, is_coloured).trim_end());
 }
 
-/// The table as text.
+/// The table as text, within [`COLUMNS`].
 fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
-    let width = verdicts.claims.iter().map(|judged| judged.claim.len()).max().unwrap_or(0).max(5);
-    let ours: Vec<String> = verdicts.claims.iter().map(ours).collect();
-    let wide = ours.iter().map(|text| text.chars().count()).max().unwrap_or(0).max(4);
-    let mut text = format!("{:<width$}  {:>9}  {:<wide$}  verdict\n", "claim", "printed", "ours");
-    for (judged, ours) in verdicts.claims.iter().zip(ours) {
-        let printed = judged.printed.as_deref().unwrap_or("–");
-        let name = judged.outcome();
-        let verdict = if is_coloured {
-            format!("\x1b[{}m{name}\x1b[0m", colour(judged.verdict))
-        } else {
-            name.to_owned()
-        };
-        let what = judged
-            .ours()
-            .filter(|_| judged.printed.is_some())
-            .map(|estimate| format!("  ({})", estimate.what));
-        let what = what.unwrap_or_default();
-        text += &format!("{:<width$}  {printed:>9}  {ours:<wide$}  {verdict}{what}\n", judged.claim);
+    let head = ["claim", "printed", "ours", "solved", "class"].map(str::to_owned);
+    let rows: Vec<[String; 5]> = verdicts.claims.iter().map(cells).collect();
+    let width = |at: usize, most: usize| {
+        let widths = rows.iter().chain([&head]).map(|row| row[at].chars().count());
+        widths.filter(|width| *width <= most).max().unwrap_or(0)
+    };
+    let widths = [width(0, 30), width(1, 14), width(2, 26), width(3, 9)];
+    let mut text = line(&head, widths);
+    for (judged, mut row) in verdicts.claims.iter().zip(rows) {
+        if is_coloured {
+            row[4] = format!("\x1b[{}m{}\x1b[0m", colour(judged.verdict), row[4]);
+        }
+        text += &line(&row, widths);
+        let what = judged.ours().map(|ours| ours.what.clone());
+        let what: Vec<String> = what.into_iter().chain(judged.across_readings()).collect();
+        if !what.is_empty() {
+            text += &(wrapped("   ", &what.join("; "), 4, COLUMNS) + "\n");
+        }
     }
     let Counts { classes, parts, asserted } = verdicts.counts();
     text += &format!("{classes}\n");
@@ -46,17 +51,30 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
     text
 }
 
-fn ours(judged: &Judged) -> String {
-    judged.ours().map_or_else(|| "–".to_owned(), estimate)
+/// A row: the claim, what is printed and ours, how many cases were solved of all, and the class.
+fn cells(judged: &Judged) -> [String; 5] {
+    let dash = || "–".to_owned();
+    let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+    let printed = judged.printed.as_ref().map_or_else(dash, |printed| format!("{printed}{unit}"));
+    let ours = judged.ours();
+    let solved =
+        ours.and_then(|ours| ours.solved).map_or_else(dash, |[solved, all]| format!("{solved}/{all}"));
+    [judged.claim.clone(), printed, ours.map_or_else(dash, short), solved, judged.outcome().to_owned()]
 }
 
-fn estimate(estimate: &Estimate) -> String {
-    match estimate.interval {
-        Some([low, high]) => {
-            format!("{:.4} [{low:.4}, {high:.4}] n={}", estimate.value, estimate.n)
+/// The cells below one another; those after one that is too wide for its column stand on a line of their own.
+fn line(cells: &[String; 5], widths: [usize; 4]) -> String {
+    let (mut text, mut end, mut at) = (String::new(), 0, 0);
+    for (cell, width) in cells.iter().zip(widths.into_iter().chain([0])) {
+        if at > end {
+            text += &format!("\n{}", " ".repeat(end));
+            at = end;
         }
-        None => format!("{:.4}", estimate.value),
+        text += &format!("{}{cell}", " ".repeat(end - at));
+        at = end + cell.chars().count() + 2;
+        end += width + 2;
     }
+    text + "\n"
 }
 
 fn colour(verdict: Verdict) -> u8 {

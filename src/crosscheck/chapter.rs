@@ -104,7 +104,7 @@ pub fn chapter(
     stand_ins: Option<&str>,
 ) -> String {
     let mut text = String::new();
-    line!(text, "## {paper}: the same robots, scenes and paths judged by MuJoCo\n");
+    line!(text, "# {paper}: the same robots, scenes and paths judged by MuJoCo\n");
     line!(
         text,
         "Made by `{command}`. MuJoCo {MUJOCO} was given the numbers of the robot and scene files and the\n\

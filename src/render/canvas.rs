@@ -122,6 +122,8 @@ pub struct Canvas {
     width: Width,
     height_pt: f64,
     body: String,
+    /// How the path at the end of the body is painted, if another may join it, and where it ends.
+    open: Option<(String, usize)>,
     clips: Vec<Rect>,
     glyphs: BTreeSet<(Weight, u16)>,
     texts: Vec<(String, Quad)>,
@@ -135,6 +137,7 @@ impl Canvas {
             width,
             height_pt,
             body: String::new(),
+            open: None,
             clips: Vec::new(),
             glyphs: BTreeSet::new(),
             texts: Vec::new(),
@@ -154,9 +157,30 @@ impl Canvas {
     /// Draws a line through `points`; nothing for fewer than two.
     pub fn polyline(&mut self, points: &[[f64; 2]], stroke: &Stroke) {
         if points.len() > 1 {
-            let path = path_data(points);
-            self.push(format_args!("<path fill=\"none\"{} d=\"{path}\"/>\n", ink(stroke)));
+            let paint = format!(" fill=\"none\"{}", ink(stroke));
+            self.path(paint, &path_data(points, 2), stroke.opacity >= 1.0);
         }
+    }
+
+    /// Writes a path. It joins the path before it if that is painted alike and both say that it may.
+    fn path(&mut self, paint: String, data: &str, joins: bool) {
+        const END: &str = "\"/>\n";
+        if joins && self.open.as_ref().is_some_and(|(open, end)| *open == paint && *end == self.body.len()) {
+            self.body.truncate(self.body.len() - END.len());
+        } else {
+            self.push(format_args!("<path{paint} d=\""));
+        }
+        self.body.push_str(data);
+        self.body.push_str(END);
+        self.open = joins.then_some((paint, self.body.len()));
+    }
+
+    /// Fills the convex face of a solid and closes the seam to its neighbours with a hair of its own colour. All faces that
+    /// are drawn after one another must turn the same way.
+    pub fn face(&mut self, corners: &[[f64; 2]], color: Rgb) {
+        let color = color.hex();
+        let paint = format!(" fill=\"{color}\" stroke=\"{color}\"");
+        self.path(paint, &(path_data(corners, 1) + "z"), true);
     }
 
     /// Fills the closed outline through `points` and, if given, strokes it.
@@ -166,7 +190,7 @@ impl Canvas {
 
     /// Fills several closed outlines as one shape (no seam where they touch; a hole where they nest).
     pub fn outlines(&mut self, outlines: &[&[[f64; 2]]], fill: Option<Fill>, stroke: Option<&Stroke>) {
-        let path: String = outlines.iter().map(|points| path_data(points) + "Z").collect();
+        let path: String = outlines.iter().map(|points| path_data(points, 2) + "z").collect();
         let (paint, rim) = (surface(fill), stroke.map(ink).unwrap_or_default());
         let rule = if outlines.len() > 1 { " fill-rule=\"evenodd\"" } else { "" };
         self.push(format_args!("<path{paint}{rim}{rule} d=\"{path}\"/>\n"));
@@ -356,16 +380,30 @@ fn short(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-fn path_data(points: &[[f64; 2]]) -> String {
-    let mut path = String::new();
-    let mut last = None;
-    for &[x, y] in points {
-        let pair = (short(x), short(y));
-        if last.as_ref() != Some(&pair) {
-            let letter = if last.is_none() { 'M' } else { 'L' };
-            write!(path, "{letter}{} {}", pair.0, pair.1).expect("a string takes everything");
-            last = Some(pair);
+/// A line through `points` with so many decimals: the first as it is, the others as steps from the one before.
+fn path_data(points: &[[f64; 2]], decimals: i32) -> String {
+    let unit = 10.0_f64.powi(decimals);
+    let (mut path, mut last): (String, Option<[f64; 2]>) = (String::new(), None);
+    for point in points.iter().map(|point| point.map(|value| (value * unit).round())) {
+        match last {
+            None => path += &format!("M{} {}", short(point[0] / unit), short(point[1] / unit)),
+            Some(before) if before == point => continue,
+            Some([x, y]) => {
+                let first = if path.contains('l') { "" } else { "l" };
+                path += first;
+                for step in [point[0] - x, point[1] - y] {
+                    let step = short(step / unit);
+                    let step = match step.strip_prefix("-0.") {
+                        Some(rest) => format!("-.{rest}"),
+                        None => step.strip_prefix("0.").map_or(step.clone(), |rest| format!(".{rest}")),
+                    };
+                    let is_apart = path.ends_with('l') || step.starts_with('-');
+                    path += if is_apart { "" } else { " " };
+                    path += &step;
+                }
+            }
         }
+        last = Some(point);
     }
     path
 }

@@ -1,7 +1,6 @@
 //! LaTeX: booktabs tables and files of number macros.
 //!
-//! What is written compiles in a bare `article` with `booktabs` and nothing else; with `graphicx`, a table that is still too
-//! wide is scaled to the text. Text is escaped here; a cell may also hold mathematics, which is taken as written.
+//! What is written compiles in a bare `article` with `booktabs` and `tabularx`. Text is escaped here.
 
 mod table;
 
@@ -9,7 +8,6 @@ pub use table::{Cell, Column, Table};
 
 use super::RenderError;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 /// `text` as LaTeX shows it literally: special characters escaped, known signs in mathematics mode.
 ///
@@ -105,25 +103,26 @@ pub fn macro_name(key: &str) -> Result<String, RenderError> {
     if name.is_empty() { Err(RenderError::EmptyMacro(key.to_owned())) } else { Ok(name) }
 }
 
-/// A file of numbers: one `\newcommand` each, so that a text can quote them without copying.
+/// A file of numbers: one `\newcommand` each, so that a text can quote them without copying, and a line on what it is.
 #[derive(Clone, Debug, Default)]
 pub struct Numbers {
-    macros: BTreeMap<String, (String, String)>,
+    /// By their names: the key, the value, and what it is.
+    macros: BTreeMap<String, [String; 3]>,
 }
 
 impl Numbers {
-    /// Adds `value` (text; it is escaped) under the macro name of `key`.
+    /// Adds `value` (text; it is escaped) under the macro name of `key`; `what` it is stands behind it.
     ///
     /// # Errors
     /// [`RenderError::EmptyMacro`] if the key gives no name, [`RenderError::DuplicateMacro`] if another
     /// key gave the same.
-    pub fn add(&mut self, key: &str, value: &str) -> Result<(), RenderError> {
+    pub fn add(&mut self, key: &str, value: &str, what: &str) -> Result<(), RenderError> {
         let name = capital(&macro_name(key)?);
-        if let Some((first, _)) = self.macros.get(&name) {
+        if let Some([first, ..]) = self.macros.get(&name) {
             let (first, second) = (first.clone(), key.to_owned());
             return Err(RenderError::DuplicateMacro { name, first, second });
         }
-        self.macros.insert(name, (key.to_owned(), value.to_owned()));
+        self.macros.insert(name, [key, value, what].map(str::to_owned));
         Ok(())
     }
 
@@ -136,10 +135,9 @@ impl Numbers {
     pub fn latex(&self, prefix: &str, made: &str) -> Result<String, RenderError> {
         let prefix = macro_name(prefix)?;
         let mut text = made.lines().fold(String::new(), |all, line| all + "% " + line + "\n");
-        for (name, (key, value)) in &self.macros {
-            let value = escaped(value);
-            writeln!(text, "\\newcommand{{\\{prefix}{name}}}{{{value}}} % {key}")
-                .expect("a string takes everything");
+        for (name, [key, value, what]) in &self.macros {
+            let (value, what) = (escaped(value), what.replace('\n', " "));
+            text += &format!("\\newcommand{{\\{prefix}{name}}}{{{value}}} % {key}: {what}\n");
         }
         Ok(text)
     }

@@ -12,7 +12,7 @@ pub mod font;
 pub mod latex;
 pub mod output;
 mod palette;
-mod prose;
+pub mod prose;
 pub mod report;
 pub mod results;
 pub mod scene3;
@@ -20,7 +20,7 @@ pub mod style;
 pub mod tables;
 pub mod vector;
 
-pub use disclaimers::marks;
+pub use disclaimers::{marks, state};
 
 /// Why a figure or a table could not be made.
 #[derive(Debug, thiserror::Error)]

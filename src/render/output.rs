@@ -1,7 +1,7 @@
 //! Everything that is drawn for a paper: figures, tables, numbers, the report's chapter.
 
 use super::figure::{self, Scene};
-use super::report::{self, Undrawn};
+use super::report::{self, Chapter, Page, Undrawn};
 use super::results;
 use super::tables;
 use super::vector::{Figure, Provenance};
@@ -168,8 +168,8 @@ pub fn stale(folder: &Path, outputs: &[Output]) -> Vec<PathBuf> {
     outputs.iter().filter(|output| !is_stale(output)).map(|output| folder.join(&output.name)).collect()
 }
 
-/// The files in `folder` that are not among `outputs` and that the report at `path` does not speak of outside the chapter of
-/// `paper`: what an earlier state of the paper left behind.
+/// The files in `folder` that are not among `outputs` and of which neither the report at `path`, outside the chapter of `paper`,
+/// nor a file that stands beside the chapter speaks: what an earlier state of the paper left behind.
 ///
 /// # Errors
 /// Those of [`report::besides`].
@@ -179,7 +179,12 @@ pub fn left_over(
     path: &Path,
     paper: &str,
 ) -> Result<Vec<PathBuf>, StudyError> {
-    let elsewhere = report::besides(path, paper)?;
+    let mut elsewhere = report::besides(path, paper)?;
+    for file in beside(folder) {
+        elsewhere += &format!("{paper}/{file}");
+        let text = fs::read_to_string(folder.join(file)).unwrap_or_default();
+        elsewhere += &text.replace("](", &format!("]({paper}/"));
+    }
     let mut names: Vec<String> = fs::read_dir(folder)
         .into_iter()
         .flatten()
@@ -192,21 +197,34 @@ pub fn left_over(
     Ok(names.into_iter().map(|name| folder.join(name)).collect())
 }
 
-/// The paper's chapter of the report at `path`; figures and the tables among `outputs` are named as seen from there.
+/// The file in a paper's folder of plots that says what an independent judge found.
+pub const CROSSCHECK: &str = "crosscheck.md";
+
+/// The files in `folder` that other commands write and to which the chapter leads.
+fn beside(folder: &Path) -> Vec<&'static str> {
+    if folder.join(CROSSCHECK).is_file() { vec![CROSSCHECK] } else { Vec::new() }
+}
+
+/// The paper's chapter of the report at `path`, and its details in `folder`.
+///
+/// # Errors
+/// A table for which something is not stored.
 pub fn chapter(
     path: &Path,
     evidence: &Evidence<'_>,
     verdicts: &Verdicts,
-    plots: &Path,
-    outputs: &Outputs,
-) -> String {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let is_table =
-        |name: &&str| *name != "numbers.tex" && Path::new(name).extension() == Some("tex".as_ref());
-    let tables: Vec<&str> =
-        outputs.files.iter().map(|output| output.name.as_str()).filter(is_table).collect();
-    let plots = plots.strip_prefix(folder).unwrap_or(plots);
-    report::chapter(evidence, verdicts, plots, &tables, &outputs.undrawn)
+    folder: &Path,
+    undrawn: &[Undrawn],
+) -> Result<(Chapter, Output), RenderError> {
+    let above = path.parent().unwrap_or(Path::new(""));
+    let plots = folder.strip_prefix(above).unwrap_or(folder);
+    let back =
+        "../".repeat(plots.components().count()) + &path.file_name().unwrap_or_default().to_string_lossy();
+    let plots =
+        plots.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
+    let page = Page { evidence, verdicts, plots, undrawn, beside: beside(folder) };
+    let details = Output { name: "details.md".to_owned(), bytes: page.details(&back).into_bytes() };
+    Ok((page.chapter()?, details))
 }
 
 #[cfg(test)]

@@ -1,13 +1,11 @@
-//! A paper's own words about what was found, with our numbers put in from the verdicts.
+//! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
 use super::tables::number;
 use crate::analysis::verdict::Verdicts;
 use crate::study::paper::filled;
 
-/// `text` with every `{claim}` replaced by our number beside that claim, every `{claim:tenths}` by it with one decimal, every `{claim:percent}` by it as a
-/// percentage,
-/// every `{claim:n}` by how many draws it rests on and every `{claim:verdict}` by what was found; a dash where there is
-/// none.
+/// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by what the form asks for; a
+/// dash where there is none.
 pub fn prose(text: &str, verdicts: &Verdicts) -> String {
     filled(text, |claim, form| {
         let judged = verdicts.claim(claim);
@@ -17,8 +15,101 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "n" => ours.map(|ours| ours.n.to_string()),
             "tenths" => ours.map(|ours| format!("{:.1}", ours.value)),
             "percent" => ours.map(|ours| format!("{:.0} %", 100.0 * ours.value)),
+            "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),
+            "high" => ours.and_then(|ours| ours.interval).map(|[_, high]| number(high)),
             _ => ours.map(|ours| number(ours.value)),
         };
         found.unwrap_or_else(|| "–".to_owned())
     })
+}
+
+/// `text` as Markdown that shows it literally, on one line; what stands between backticks is code.
+pub fn markdown(text: &str) -> String {
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let pieces: Vec<&str> = text.split('`').collect();
+    let is_code = pieces.len() % 2 == 1 && pieces.iter().skip(1).step_by(2).all(|code| !code.is_empty());
+    if !is_code {
+        return literal(&text);
+    }
+    // A bar would end a table's cell, in code as well.
+    let piece = |(at, piece): (usize, &&str)| {
+        if at % 2 == 1 { format!("`{}`", piece.replace('|', "\\|")) } else { literal(piece) }
+    };
+    pieces.iter().enumerate().map(piece).collect()
+}
+
+/// Text without code, its marks escaped where Markdown, its tables, mathematics or HTML would take them for more than text.
+fn literal(text: &str) -> String {
+    let characters: Vec<char> = text.chars().collect();
+    let mut safe = String::with_capacity(text.len());
+    for (at, character) in characters.iter().enumerate() {
+        let before = at.checked_sub(1).and_then(|before| characters.get(before));
+        let is_in_word = before.is_some_and(|before| before.is_alphanumeric());
+        let (has_next, has_word_next) = characters
+            .get(at + 1)
+            .map_or((false, false), |next| (!next.is_whitespace(), next.is_alphanumeric()));
+        match character {
+            '<' => safe += "&lt;",
+            '&' if has_word_next || characters.get(at + 1) == Some(&'#') => safe += "&amp;",
+            '*' if has_word_next || has_next && !is_in_word => safe += "\\*",
+            '_' if has_next && !is_in_word => safe += "\\_",
+            '\\' | '`' | '|' | '$' | '~' => safe.extend(['\\', *character]),
+            ']' if matches!(characters.get(at + 1), Some('(' | '[' | ':')) => safe += "\\]",
+            other => safe.push(*other),
+        }
+    }
+    safe
+}
+
+/// `first` and then the words of `text`, on lines of at most `columns` characters where words allow it, those after the first
+/// indented by `indent`. No line begins with what Markdown would take for the beginning of a list or a heading.
+pub fn wrapped(first: &str, text: &str, indent: usize, columns: usize) -> String {
+    let mut lines = Vec::new();
+    let (mut line, mut is_fresh) = (first.to_owned(), true);
+    for word in text.split_whitespace() {
+        if !is_fresh && line.chars().count() + 1 + word.chars().count() > columns && !begins_a_block(word) {
+            lines.push(std::mem::replace(&mut line, " ".repeat(indent)));
+            is_fresh = true;
+        }
+        if !is_fresh {
+            line.push(' ');
+        }
+        line += word;
+        is_fresh = false;
+    }
+    lines.push(line);
+    lines.join("\n")
+}
+
+fn begins_a_block(word: &str) -> bool {
+    let number = word.trim_end_matches(['.', ')']);
+    matches!(word, "-" | "+" | "*" | ">")
+        || word.starts_with(['#', '=', '>'])
+        || number.len() < word.len() && number.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_of_markdown_tables_mathematics_and_html_stay_text() {
+        for (text, safe) in [
+            ("a | b <script> $x$ & c", "a \\| b &lt;script> \\$x\\$ & c"),
+            ("A* and A*'s (A*)", "A* and A*'s (A*)"),
+            ("*bold* _slanted_ snake_case 2*3", "\\*bold* \\_slanted_ snake_case 2\\*3"),
+            ("see [27.0, 30.1] and [a](b)", "see [27.0, 30.1] and [a\\](b)"),
+            ("one `tick", "one \\`tick"),
+            ("code `a|*b*<i>` ends", "code `a\\|*b*<i>` ends"),
+            ("&lt; and\nmore", "&amp;lt; and more"),
+        ] {
+            assert_eq!(markdown(text), safe);
+        }
+    }
+
+    #[test]
+    fn lines_break_at_words_and_never_before_what_would_begin_a_list() {
+        assert_eq!(wrapped("- ", "one two three", 2, 8), "- one\n  two\n  three");
+        assert_eq!(wrapped("", "it is 9 + 4 = 13. or more", 0, 7), "it is 9 +\n4 = 13.\nor more");
+    }
 }

@@ -2,14 +2,13 @@
 
 use super::RenderError;
 use super::latex::{Cell, Column, Table};
-use crate::analysis::evidence::{Evidence, Run};
-use crate::analysis::metric::{self, Metric};
-use crate::analysis::statistic;
+use super::prose::markdown as safe;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::metric;
+use crate::analysis::tabulated::{Grid, grid};
 use crate::study::paper::Paper;
-use crate::study::paper::results::{CellSpec, ResultsSpec, Show};
-use crate::study::record::{Row, Status};
+use crate::study::paper::results::ResultsSpec;
 use base::settings::{Faults, SettingsError};
-use std::fmt::Write as _;
 
 /// Every metric of every table of results exists, and its study produces it.
 ///
@@ -37,75 +36,8 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     faults.done()
 }
 
-/// The head of a table and, block by block, its rows.
-struct Grid {
-    head: Vec<String>,
-    blocks: Vec<(String, Vec<Vec<String>>)>,
-}
-
-fn grid(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, RenderError> {
-    let run = evidence
-        .run(table.study.get_ref())
-        .ok_or_else(|| RenderError::NotStored { what: format!("a run of `{}`", table.study.get_ref()) })?;
-    let metric = |cell: &CellSpec| {
-        metric::find(cell.metric.get_ref())
-            .ok_or_else(|| RenderError::NotStored { what: format!("the metric `{}`", cell.metric.get_ref()) })
-    };
-    let metrics = table.cells.iter().map(metric).collect::<Result<Vec<&Metric>, _>>()?;
-    let titles =
-        table.cells.iter().zip(&metrics).map(|(cell, m)| cell.label.clone().unwrap_or_else(|| m.title()));
-    let head = std::iter::once(String::new()).chain(titles).collect();
-    let row = |block: &crate::study::paper::results::BlockSpec, label: &String| {
-        let own = run.rows(block.problems.get_ref(), label);
-        let other = block.beside.as_ref().map(|beside| run.rows(beside.get_ref(), label)).unwrap_or_default();
-        let cells = table.cells.iter().zip(&metrics).map(|(cell, metric)| {
-            let rows = if cell.beside { &other } else { &own };
-            shown(run, rows, cell, metric)
-        });
-        std::iter::once(label.clone()).chain(cells).collect::<Vec<String>>()
-    };
-    let block = |block: &crate::study::paper::results::BlockSpec| {
-        let rows = table.rows.iter().map(|label| row(block, label));
-        (block.title.clone(), rows.collect())
-    };
-    Ok(Grid { head, blocks: table.blocks.iter().map(block).collect() })
-}
-
-fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> String {
-    let number = |value: f64| {
-        if value.is_finite() { format!("{value:.*}", cell.decimals) } else { "∞".to_owned() }
-    };
-    let solved = |row: &Row| row.status == Status::Solved;
-    // What the clock did not read has not failed.
-    let value = |row: &&Row| match (solved(row), run.value(row, metric)) {
-        (true, value) => value,
-        (false, None) if metric.is_clock() => None,
-        (false, _) => Some(f64::INFINITY),
-    };
-    let values: Vec<f64> = rows.iter().filter_map(value).collect();
-    let quantile = |share: f64| statistic::quantile(&values, share);
-    let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-    let found = match cell.show {
-        Show::Median => quantile(0.5).map(number),
-        Show::Quartiles if values.len() < 2 => quantile(0.5).map(number),
-        Show::Quartiles => [0.5, 0.25, 0.75]
-            .map(quantile)
-            .into_iter()
-            .collect::<Option<Vec<f64>>>()
-            .map(|q| format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))),
-        Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
-        Show::Solved => (!rows.is_empty()).then(|| {
-            let count = rows.iter().filter(|row| solved(row)).count();
-            number(100.0 * count as f64 / rows.len() as f64)
-        }),
-        Show::Failed => {
-            let failed: Vec<f64> =
-                rows.iter().filter(|row| !solved(row)).filter_map(|row| run.value(row, metric)).collect();
-            statistic::median(&failed).map(number)
-        }
-        Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
-    };
-    found.unwrap_or_else(|| "–".to_owned())
+fn stored(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, RenderError> {
+    grid(evidence, table).map_err(|what| RenderError::NotStored { what })
 }
 
 /// `table` in LaTeX.
@@ -113,7 +45,7 @@ fn shown(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> Stri
 /// # Errors
 /// [`RenderError::NotStored`] if its study was not run.
 pub fn latex(evidence: &Evidence<'_>, table: &ResultsSpec, marks: &[String]) -> Result<String, RenderError> {
-    let (grid, paper, id) = (grid(evidence, table)?, evidence.paper, table.id.get_ref());
+    let (grid, paper, id) = (stored(evidence, table)?, evidence.paper, table.id.get_ref());
     let mut columns = vec![Column::Left];
     columns.extend(table.cells.iter().map(|_| Column::Right));
     let mut text = Table::new(format!("{}:{id}", paper.id), &table.caption, &columns);
@@ -135,7 +67,7 @@ pub fn latex(evidence: &Evidence<'_>, table: &ResultsSpec, marks: &[String]) -> 
 /// # Errors
 /// As [`latex`].
 pub fn cells(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Vec<(String, String)>, RenderError> {
-    let (grid, id) = (grid(evidence, table)?, table.id.get_ref());
+    let (grid, id) = (stored(evidence, table)?, table.id.get_ref());
     // What stands beside a column is named after it too: "swept" alone could be of any.
     let column = |at: usize| {
         let (before, own) = (&grid.head[at], &grid.head[at + 1]);
@@ -152,35 +84,21 @@ pub fn cells(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Vec<(String
     Ok(cells)
 }
 
-/// `table` in Markdown, its caption below it.
+/// `table` in Markdown, its caption above it.
 ///
 /// # Errors
 /// As [`latex`].
 pub fn markdown(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<String, RenderError> {
-    let grid = grid(evidence, table)?;
-    let mut text = String::new();
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    text += &line(&grid.head);
-    text += &format!("|{}\n", "---|".repeat(grid.head.len()));
+    let grid = stored(evidence, table)?;
+    let line = |cells: &[String]| {
+        let safe: Vec<String> = cells.iter().map(|cell| safe(cell)).collect();
+        format!("| {} |\n", safe.join(" | "))
+    };
+    let caption = super::prose::wrapped("", &safe(&table.caption), 0, super::report::COLUMNS);
+    let mut text = format!("{caption}\n\n{}|{}\n", line(&grid.head), "---|".repeat(grid.head.len()));
     for (title, rows) in &grid.blocks {
-        let mut heading = vec![String::new(); grid.head.len()];
-        heading[0] = format!("**{title}**");
-        text += &line(&heading);
-        for row in rows {
-            text += &line(row);
-        }
+        text += &format!("| **{}** |{}\n", safe(title), " |".repeat(grid.head.len() - 1));
+        text.extend(rows.iter().map(|row| line(row)));
     }
-    let _ = write!(text, "\n*{}: {}*\n", table.id.get_ref(), table.caption);
     Ok(text)
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::render::latex::escaped;
-
-    #[test]
-    fn an_infinite_median_and_a_missing_one_can_be_set() {
-        assert!(escaped("∞").contains("infty"), "{}", escaped("∞"));
-        assert!(!escaped("–").is_empty());
-    }
 }

@@ -1,11 +1,52 @@
 //! The paper's tables with ours beside them, and every number as a macro.
 
 use super::latex::{Cell, Column, Numbers, Table};
+use super::prose::markdown as safe;
 use super::{RenderError, marks};
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
+use crate::analysis::tabulated::own_values;
 use crate::analysis::verdict::{Estimate, Judged, Verdicts};
-use crate::study::paper::{OursSpec, Paper, TableRow, TableSpec};
+use crate::study::paper::{Paper, TableRow, TableSpec};
+
+/// What a row of one of the paper's tables shows: in each column what it printed, ours, and the class with its claim.
+struct Beside<'a> {
+    printed: Vec<String>,
+    ours: Vec<String>,
+    classes: Vec<Option<&'a Judged>>,
+}
+
+/// The row of the table; none if it holds no claims.
+fn beside<'a>(
+    evidence: &Evidence<'_>,
+    table: &TableSpec,
+    row: &TableRow,
+    verdicts: &'a Verdicts,
+) -> Result<Option<Beside<'a>>, RenderError> {
+    if row.claims.is_empty() {
+        return Ok(None);
+    }
+    let classes: Vec<Option<&Judged>> =
+        row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
+    let printed = classes.iter().map(|judged| judged.and_then(|judged| judged.printed.clone()));
+    let estimate = |judged: &Option<&Judged>| {
+        let ours = judged.and_then(Judged::ours)?;
+        Some(rounded(ours, table.decimals.unwrap_or(2)))
+    };
+    let ours: Vec<Option<String>> = match &table.ours {
+        Some(ours) => {
+            let own = own_values(evidence, ours, row).map_err(|what| RenderError::NotStored { what })?;
+            let shown = |value: f64| {
+                if row.reduced_from.is_some() { format!("{value:.2}") } else { number(value) }
+            };
+            own.into_iter().map(|value| value.map(shown)).collect()
+        }
+        None => classes.iter().map(estimate).collect(),
+    };
+    let or_dash = |cell: Option<String>| cell.unwrap_or_else(dash);
+    let (printed, ours) = (printed.map(or_dash).collect(), ours.into_iter().map(or_dash).collect());
+    Ok(Some(Beside { printed, ours, classes }))
+}
 
 /// `table` in LaTeX: for each of its rows the printed numbers, ours with their intervals, and the verdicts.
 ///
@@ -17,85 +58,92 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
     columns.extend(table.columns.iter().map(|_| Column::Right));
     let label = format!("{}:{}", paper.id, table.id);
     let mut latex = Table::new(label, &table.caption, &columns);
-    let mut head = vec![Cell::from(""), Cell::from("")];
-    head.extend(table.columns.iter().map(Cell::from));
-    latex.head(head);
+    let line = |first: &str, second: &str, cells: &[String]| {
+        [first, second]
+            .into_iter()
+            .chain(cells.iter().map(String::as_str))
+            .map(Cell::from)
+            .collect::<Vec<_>>()
+    };
+    latex.head(line("", "", &table.columns));
     for row in &table.rows {
-        for line in lines(evidence, table, row, verdicts)? {
-            latex.row(line);
+        let Some(beside) = beside(evidence, table, row, verdicts)? else {
+            latex.row(line(&row.label, "", &row.cells));
+            continue;
+        };
+        latex.row(line(&row.label, "printed", &beside.printed));
+        latex.row(line("", "ours", &beside.ours));
+        let classes: Vec<String> = beside
+            .classes
+            .iter()
+            .map(|judged| judged.map_or_else(dash, |j| j.outcome().to_owned()))
+            .collect();
+        let mut classes = line("", "verdict", &classes);
+        for (cell, judged) in classes.iter_mut().skip(2).zip(&beside.classes) {
+            let jointly = table.jointly.iter().filter(|together| {
+                together.cells.iter().any(|cell| judged.is_some_and(|judged| judged.claim == *cell.get_ref()))
+            });
+            let jointly = jointly.filter_map(|together| verdicts.claim(together.claim.get_ref()));
+            let said: Vec<String> = judged.iter().copied().chain(jointly).filter_map(premises).collect();
+            if !said.is_empty() {
+                latex.footnote(cell, said.join(" "));
+            }
         }
+        latex.row(classes);
     }
-    for note in table.notes.as_ref().unwrap_or(&paper.source.notes) {
+    let ours = table.ours.as_ref().map(|ours| &ours.note);
+    for note in table.notes.iter().chain(ours).chain(&marks(paper, verdicts)) {
         latex.note(note);
-    }
-    if let Some(ours) = &table.ours {
-        latex.note(&ours.note);
-    }
-    let claims = table.rows.iter().flat_map(|row| &row.claims).chain(&table.jointly);
-    for note in claims.filter_map(|claim| verdicts.claim(claim.get_ref())).filter_map(premises) {
-        latex.note(note);
-    }
-    for mark in marks(paper, verdicts) {
-        latex.note(&mark);
     }
     latex.latex(&made(paper, &table.id, verdicts))
 }
 
-/// The lines that a row of the paper's takes: its own cells, or what it printed, ours, and the verdicts.
-fn lines(
+/// `table` in Markdown. Up to two columns stand side by side, each as printed, ours and class; more stand one line above
+/// another. `link` is what a claim's class leads to.
+///
+/// # Errors
+/// As [`table`].
+pub fn markdown(
     evidence: &Evidence<'_>,
     table: &TableSpec,
-    row: &TableRow,
     verdicts: &Verdicts,
-) -> Result<Vec<Vec<Cell>>, RenderError> {
-    if row.claims.is_empty() {
-        let cells = [row.label.as_str(), ""].into_iter().chain(row.cells.iter().map(String::as_str));
-        return Ok(vec![cells.map(Cell::from).collect()]);
-    }
-    let judged: Vec<Option<&Judged>> =
-        row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
-    let line = |first: &str, second: &str, text: &dyn Fn(&Judged) -> String| {
-        let mut cells = vec![Cell::from(first), Cell::from(second)];
-        cells.extend(judged.iter().map(|judged| Cell::from(judged.map_or_else(dash, text))));
-        cells
+    link: impl Fn(&Judged) -> String,
+) -> Result<String, RenderError> {
+    let mut lines: Vec<Vec<String>> = Vec::new();
+    let is_wide = table.columns.len() > 2 || table.rows.iter().any(|row| row.claims.is_empty());
+    let class = |judged: &Option<&Judged>| judged.map_or_else(dash, &link);
+    let escaped = |cells: &[String]| cells.iter().map(|cell| safe(cell)).collect::<Vec<_>>();
+    let line = |first: &str, second: &str, cells: Vec<String>| {
+        [first, second].map(str::to_owned).into_iter().chain(cells).collect::<Vec<_>>()
     };
-    let shown = |estimate: &Estimate| rounded(estimate, table.decimals.unwrap_or(2));
-    let ours = match &table.ours {
-        Some(ours) => {
-            let own = own_values(evidence, ours, row)?;
-            ["", "ours"].map(Cell::from).into_iter().chain(own.iter().map(Cell::from)).collect()
-        }
-        None => line("", "ours", &|judged| judged.ours().map_or_else(dash, shown)),
-    };
-    let printed = line(&row.label, "printed", &|judged| judged.printed.clone().unwrap_or_else(dash));
-    Ok(vec![printed, ours, line("", "verdict", &|judged| judged.outcome().to_owned())])
-}
-
-/// The row of trials of one contender on one problem, or what it saves there of another's.
-fn own_values(evidence: &Evidence<'_>, ours: &OursSpec, row: &TableRow) -> Result<Vec<String>, RenderError> {
-    let missing = |what: String| RenderError::NotStored { what };
-    let study = ours.study.get_ref();
-    let run = evidence.run(study).ok_or_else(|| missing(format!("a run of `{study}`")))?;
-    let value = |metric: &str, contender: &String| {
-        let row = run.rows(&ours.problems, contender).into_iter().next();
-        let row = row.ok_or_else(|| missing(format!("`{contender}` on `{}` of `{study}`", ours.problems)))?;
-        let metric = evidence.metric(metric).ok_or_else(|| missing(format!("the metric `{metric}`")))?;
-        Ok::<_, RenderError>(run.value(row, metric))
-    };
-    let contender =
-        row.contender.as_ref().ok_or_else(|| missing(format!("a contender for `{}`", row.label)))?;
-    let cell = |metric: &String| {
-        let own = value(metric, contender)?;
-        let text = match &row.reduced_from {
-            None => own.map(number),
-            Some(base) => {
-                let base = value(metric, base)?;
-                own.zip(base).map(|(own, base)| format!("{:.2}", 100.0 * (base - own) / base))
+    for row in &table.rows {
+        let label = safe(&row.label);
+        match beside(evidence, table, row, verdicts)? {
+            None => lines.push(line(&label, "", escaped(&row.cells))),
+            Some(Beside { printed, ours, classes }) if is_wide => {
+                lines.push(line(&label, "printed", escaped(&printed)));
+                lines.push(line("", "ours", escaped(&ours)));
+                lines.push(line("", "class", classes.iter().map(class).collect()));
             }
-        };
-        Ok(text.unwrap_or_else(dash))
+            Some(Beside { printed, ours, classes }) => {
+                let cells = printed.iter().zip(&ours).zip(&classes);
+                let cells =
+                    cells.flat_map(|((printed, ours), judged)| [safe(printed), safe(ours), class(judged)]);
+                lines.push(std::iter::once(label).chain(cells).collect());
+            }
+        }
+    }
+    let head = if is_wide {
+        line("", "", escaped(&table.columns))
+    } else {
+        let columns = escaped(&table.columns).into_iter();
+        let columns =
+            columns.flat_map(|name| [format!("{name}: printed"), "ours".to_owned(), "class".to_owned()]);
+        std::iter::once(String::new()).chain(columns).collect()
     };
-    ours.metrics.iter().map(cell).collect()
+    let rule = vec!["---".to_owned(); head.len()];
+    let lines = [head, rule].into_iter().chain(lines);
+    Ok(lines.map(|cells| format!("| {} |\n", cells.join(" | "))).collect())
 }
 
 /// What a proof that a claim is impossible takes for granted.
@@ -121,23 +169,26 @@ fn premises(judged: &Judged) -> Option<String> {
 pub fn numbers(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Result<String, RenderError> {
     let paper = evidence.paper;
     let mut numbers = Numbers::default();
-    for (key, cell) in own_cells(evidence)? {
-        numbers.add(&key, &cell)?;
+    for (key, cell) in own_cells(evidence, verdicts)? {
+        numbers.add(&key, &cell, "a cell of ours: table, row, column")?;
     }
     for judged in &verdicts.claims {
-        let key = |what: &str| format!("{}.{what}", judged.claim);
+        let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(", {unit}"));
+        let mut add = |key: &str, value: &str, what: &str| {
+            numbers.add(&format!("{}.{key}", judged.claim), value, &format!("{what}{unit}; {}", judged.at))
+        };
         if let Some(printed) = &judged.printed {
-            numbers.add(&key("printed"), printed)?;
+            add("printed", printed, "as printed")?;
         }
         if let Some(ours) = judged.ours() {
-            numbers.add(&key("ours"), &number(ours.value))?;
+            add("ours", &number(ours.value), &ours.what)?;
             if let Some([low, high]) = ours.interval {
-                numbers.add(&key("low"), &number(low))?;
-                numbers.add(&key("high"), &number(high))?;
+                add("low", &number(low), "lower end of our interval")?;
+                add("high", &number(high), "upper end of our interval")?;
             }
-            numbers.add(&key("n"), &ours.n.to_string())?;
+            add("n", &ours.n.to_string(), "independent draws behind it")?;
         }
-        numbers.add(&key("verdict"), judged.outcome())?;
+        add("verdict", judged.outcome(), "our verdict")?;
     }
     let made = made(paper, "numbers", verdicts);
     let notes = paper.source.stand_ins.as_ref().map_or(made.clone(), |note| format!("{made}\n{note}"));
@@ -150,12 +201,11 @@ pub(super) fn made(paper: &Paper, id: &str, verdicts: &Verdicts) -> String {
 }
 
 /// The cells of ours that stand in tables and belong to no one claim, under keys of table, row and column.
-fn own_cells(evidence: &Evidence<'_>) -> Result<Vec<(String, String)>, RenderError> {
+fn own_cells(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Result<Vec<(String, String)>, RenderError> {
     let mut cells = Vec::new();
     for table in &evidence.paper.tables {
-        let Some(ours) = &table.ours else { continue };
-        for row in table.rows.iter().filter(|row| !row.claims.is_empty()) {
-            let own = own_values(evidence, ours, row)?;
+        for row in table.rows.iter().filter(|_| table.ours.is_some()) {
+            let Some(own) = beside(evidence, table, row, verdicts)?.map(|row| row.ours) else { continue };
             let keys = table
                 .columns
                 .iter()

@@ -3,20 +3,22 @@
 //! The claims' checks stay tables here; they are understood on the floor that judges.
 
 mod claim;
-mod findings;
+mod ledger;
+mod report;
 pub mod results;
 mod rules;
 mod tables;
 
 pub use self::claim::{Asked, Claim, Parts};
 use self::claim::{ClaimSpec, claim};
-pub use findings::filled;
+pub use ledger::{LedgerRow, NumbersRow};
+pub use report::{CLAIMS, FIGURES, ReportSpec, filled};
 
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
 pub use super::spec::Digits;
 use super::{Inputs, Reading, Study, StudyError, files};
-use base::settings::{Accepted, Document, Faults, Spanned};
+use base::settings::{Accepted, Document, Faults};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -33,6 +35,9 @@ pub const FILE: Accepted = Accepted::of::<PaperSpec>();
 struct PaperSpec {
     /// Where it was published.
     source: Source,
+    /// What its chapter of the report shows.
+    #[serde(default)]
+    report: ReportSpec,
     /// How many numbered things the paper has, each of which then needs a row in the ledger; none if absent.
     #[serde(default)]
     prints: Prints,
@@ -66,9 +71,6 @@ pub struct Source {
     /// What a reader must know about this reproduction as a whole.
     #[serde(default)]
     pub notes: Vec<String>,
-    /// What was found, in a few sentences; the chapter opens with them, our number standing for each `{claim}`.
-    #[serde(default)]
-    pub findings: Vec<String>,
     /// What stands below every figure and table of results, if their inputs are not the paper's own.
     pub stand_ins: Option<String>,
 }
@@ -86,27 +88,9 @@ pub struct Prints {
     /// Equations.
     #[schemars(range(max = 1000))]
     pub equations: u32,
-}
-
-/// One thing that the paper prints and what answers it.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LedgerRow {
-    /// `Fig. 4`, `Table 1`, `Eq. 2`, or the place of a sentence.
-    pub item: Spanned<String>,
-    /// What it shows or says.
-    pub says: String,
-    /// Claims that answer it.
-    #[serde(default)]
-    pub claims: Vec<Spanned<String>>,
-    /// Our figures and tables that stand beside it.
-    #[serde(default)]
-    pub figures: Vec<Spanned<String>>,
-    /// Studies that carry it out.
-    #[serde(default)]
-    pub studies: Vec<Spanned<String>>,
-    /// Why nothing can answer it.
-    pub none: Option<String>,
+    /// Numbers in its result sections, tables and captions, each of which the ledger then lists where it is printed.
+    #[schemars(range(max = 10_000))]
+    pub numbers: u32,
 }
 
 /// A checked paper with its studies.
@@ -118,6 +102,8 @@ pub struct Paper {
     pub folder: PathBuf,
     /// Bibliography.
     pub source: Source,
+    /// What its chapter of the report shows.
+    pub report: ReportSpec,
     /// How many numbered things it has.
     pub prints: Prints,
     /// Everything it prints.
@@ -185,6 +171,7 @@ impl Paper {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             folder: folder.to_owned(),
             source: spec.source,
+            report: spec.report,
             prints: spec.prints,
             ledger: spec.ledger,
             claims,
@@ -222,7 +209,7 @@ impl Paper {
     }
 
     /// The figures of all its studies.
-    fn figures(&self) -> impl Iterator<Item = &super::spec::FigureSpec> {
+    pub fn figures(&self) -> impl Iterator<Item = &super::spec::FigureSpec> {
         self.studies.iter().flat_map(|study| &study.figures)
     }
 
@@ -241,6 +228,11 @@ impl Paper {
     /// The sentence or row that the claim called `id` is a part of, and with which it counts.
     pub fn whole_of(&self, id: &str) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.parts.ids().iter().any(|part| part == id))
+    }
+
+    /// The table of our results called `id`.
+    pub fn results_called(&self, id: &str) -> Option<&ResultsSpec> {
+        self.results.iter().find(|table| table.id.get_ref() == id)
     }
 
     /// The claim called `id`.

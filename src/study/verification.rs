@@ -120,7 +120,7 @@ fn verify_lattice(
     let answer = Answer {
         path: &plan.path,
         cost: plan.cost,
-        in_graph: untouched,
+        in_graph: untouched && !pipeline.planner.is_any_angle(),
         optimal: untouched && pipeline.planner.is_optimal(),
     };
     let refusal = refuse_ending(request, plan).or_else(|| match plan.ending {

@@ -62,8 +62,8 @@ fn right_answers_agree_and_every_control_is_noticed() {
     assert_eq!(said.code, Some(0), "{}{}", said.out, said.err);
     assert!(!said.out.contains("DIFFER") && !said.out.contains("NOT NOTICED"), "{}", said.out);
     assert_eq!(said.out.matches("  noticed").count(), 3, "{}", said.out);
-    let report = fs::read_to_string(bench.at("out/paper_repro.md")).unwrap();
-    assert!(report.contains("<!-- replan begin judged crosscheck -->"), "{report}");
+    let report = fs::read_to_string(bench.at(REPORT)).unwrap();
+    assert!(report.starts_with("# judged: "), "{report}");
     assert!(
         report.contains("Nothing differs.") && report.contains("**MuJoCo agrees with every answer"),
         "{report}"
@@ -109,7 +109,7 @@ fn a_wrong_answer_is_listed_with_both_values_and_turns_the_verdict_red() {
         assert_eq!(said.out.matches("DIFFER").count(), differ, "{listed}\n{}", said.out);
         assert!(said.err.contains(listed) && said.err.contains("ours "), "{listed}\n{}", said.err);
         assert!(said.err.contains(&format!("replan: {differ} answers differ")), "{}", said.err);
-        let report = fs::read_to_string(bench.at("out/paper_repro.md")).unwrap();
+        let report = fs::read_to_string(bench.at(REPORT)).unwrap();
         assert!(report.contains(&format!("- up6-in-room, {listed}")), "{report}");
         assert!(report.contains(&format!("**MuJoCo DIFFERS: {differ} answers, 0 paths")), "{report}");
     }
@@ -249,17 +249,20 @@ fn a_spec_that_names_what_is_not_there_is_refused_at_its_line() {
     }
 }
 
+/// What an independent judge said.
+const REPORT: &str = "out/plots/judged/crosscheck.md";
+
 /// A picture of an earlier run.
 const PICTURE: &str = "out/plots/judged/scene_mujoco.png";
 
 fn report(bench: &Bench) -> String {
-    fs::read_to_string(bench.at("out/paper_repro.md")).unwrap()
+    fs::read_to_string(bench.at(REPORT)).unwrap()
 }
 
 #[test]
 fn a_report_without_a_new_picture_says_why_and_a_check_takes_either() {
     let unasked = "none was asked for when this was written, since the answers were there already.";
-    let link = "![the scene as MuJoCo sees it](plots/judged/scene_mujoco.png)\n\n";
+    let link = "![the scene as MuJoCo sees it](scene_mujoco.png)\n\n";
     let bench = bench();
     assert_eq!(judged(&bench).code, Some(0));
     assert!(report(&bench).contains(&format!("\nNo picture: {unasked}\n")), "{}", report(&bench));
@@ -269,9 +272,9 @@ fn a_report_without_a_new_picture_says_why_and_a_check_takes_either() {
     assert!(report(&bench).contains(&before), "{}", report(&bench));
     let check = || bench.run(&["crosscheck", "./judged", "--answered", "--out", "out", "--check"]).code;
     assert_eq!(check(), Some(0));
-    bench.write("out/paper_repro.md", report(&bench).replace(&before, link).as_bytes());
+    bench.write(REPORT, report(&bench).replace(&before, link).as_bytes());
     assert_eq!(check(), Some(0), "a chapter written where the picture was drawn");
-    bench.write("out/paper_repro.md", report(&bench).replace(link, "").as_bytes());
+    bench.write(REPORT, report(&bench).replace(link, "").as_bytes());
     assert_eq!(check(), Some(3));
 }
 
@@ -322,7 +325,7 @@ fn answers_that_were_never_asked_for_are_wrong_input_and_nothing_is_written() {
     // Questions alone are no answers.
     bench.write(&format!("{ANSWERS}/scene.questions.parquet"), b"");
     assert_eq!(judged(&bench).code, Some(2));
-    assert!(!bench.at("out/paper_repro.md").exists());
+    assert!(!bench.at(REPORT).exists());
 }
 
 #[test]

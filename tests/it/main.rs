@@ -25,6 +25,7 @@ mod own_paper;
 mod paper;
 mod polyhedra;
 mod registries;
+mod report;
 mod shapes;
 mod snapshots;
 mod source;

@@ -111,8 +111,10 @@ impl<'a> Trend<'a> {
     /// Medians in the lower, middle and upper third of the column, beside the slope: a slope alone may be one outlier's.
     fn medians(points: &[(f64, f64)]) -> String {
         let places: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
-        let cuts: Vec<f64> =
-            [1.0, 2.0].into_iter().filter_map(|third| summary::quantile_type7(&places, third / 3.0)).collect();
+        let cuts: Vec<f64> = [1.0, 2.0]
+            .into_iter()
+            .filter_map(|third| summary::quantile_type7(&places, third / 3.0))
+            .collect();
         let mut thirds: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
         for (x, y) in points {
             thirds.entry(cuts.iter().filter(|cut| x > cut).count()).or_default().push(*y);

@@ -8,6 +8,7 @@
 //! Costs belong to the search floor.
 
 mod built;
+mod columns;
 mod components;
 mod cubic;
 mod error;
@@ -20,6 +21,7 @@ mod sight;
 mod text;
 
 pub use built::{maze, rooms, streets};
+pub use columns::{Bits, Columns, MAX_REACH_CELLS};
 pub use components::{Components, components};
 pub use cubic::{Grid3, STEPS_26};
 pub use error::GridError;

@@ -4,7 +4,7 @@ use super::lattice::TiesSetting;
 use super::pool::Pool;
 use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting, RegionShape, TipSearch};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
-use crate::search::Graph;
+use crate::search::Successors;
 use crate::space::{ArmWorld, WorldKind};
 use base::grid::Offsets;
 use base::seed::{self, Stream};
@@ -133,7 +133,7 @@ impl Numbers {
 }
 
 /// The free points among a part of the region that changes.
-struct ChaosGraph<'a> {
+struct ChaosPart<'a> {
     world: &'a ArmWorld,
     region: &'a [[i32; 2]],
     read: ChaosAstar,
@@ -141,13 +141,13 @@ struct ChaosGraph<'a> {
     numbers: Numbers,
     /// Indices into the region; those drawn stand first.
     order: Vec<usize>,
-    /// Which steps of the region are tried.
-    is_tried: Vec<bool>,
+    /// Which steps of the region are tried: those of the column `dx` are the bits at `dx + reach`, from the highest on.
+    tried: Vec<u64>,
     /// What was drawn first, for figures.
     first: Vec<[i32; 2]>,
 }
 
-impl ChaosGraph<'_> {
+impl ChaosPart<'_> {
     /// Draws a part, in the order of the region.
     fn draw(&mut self) {
         let count = self.read.neighbours;
@@ -162,70 +162,65 @@ impl ChaosGraph<'_> {
 
     /// Marks the steps to be tried from a cell `to_goal` away from the goal.
     fn choose(&mut self, to_goal: [i32; 2]) {
-        let drawn = &self.order[..self.read.neighbours];
-        self.is_tried.fill(false);
+        let Self { tried, order, region, read, .. } = self;
+        let reach = i32::from(read.region_radius_cells);
+        let at = |[dx, dy]: [i32; 2]| ((dx + reach) as usize, 1 << (reach - dy));
+        tried.fill(0);
+        let drawn = &order[..read.neighbours];
         for &index in drawn {
-            self.is_tried[index] = true;
+            let (column, bit) = at(region[index]);
+            tried[column] |= bit;
         }
-        let reach = i32::from(self.read.region_radius_cells);
         let is_near = to_goal.iter().all(|d| d.abs() <= reach);
-        if !is_near || self.read.goal_in_region == GoalInRegion::AsDrawn {
+        if !is_near || read.goal_in_region == GoalInRegion::AsDrawn || !region.contains(&to_goal) {
             return;
         }
-        if let Some(goal) = self.region.iter().position(|step| *step == to_goal)
-            && !self.is_tried[goal]
-        {
+        let (column, bit) = at(to_goal);
+        if tried[column] & bit == 0 {
             let last = drawn.last().expect("at least one neighbour is drawn");
-            self.is_tried[*last] = false;
-            self.is_tried[goal] = true;
+            let (of_last, last) = at(region[*last]);
+            tried[of_last] &= !last;
+            tried[column] |= bit;
         }
     }
 }
 
-impl Graph for ChaosGraph<'_> {
-    type Cost = f64;
-
-    fn node_count(&self) -> usize {
-        self.world.grid().cell_count() as usize
-    }
-
-    fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
+impl Successors for ChaosPart<'_> {
+    fn expands(&mut self, cell: u32) {
         if self.first.is_empty() || self.read.drawn == Drawn::EachExpansion {
             self.draw();
         }
-        let (grid, step_cm) = (self.world.grid(), self.world.rules().lattice.step_cm());
-        let ([x, y], goal) = (grid.xy(node), grid.xy(self.goal));
+        let [[x, y], goal] = [cell, self.goal].map(|cell| self.world.grid().xy(cell));
         self.choose([goal[0] - x, goal[1] - y]);
-        for (&[dx, dy], _) in self.region.iter().zip(&self.is_tried).filter(|(_, is_tried)| **is_tried) {
-            let Some(to) = grid.cell(x + dx, y + dy) else { continue };
-            if grid.is_free(to) && self.world.may_step(node, [dx, dy]) {
-                visit(to, step_cm * f64::from(dx * dx + dy * dy).sqrt());
-            }
-        }
+    }
+
+    #[inline]
+    fn kept(&mut self, cell: u32, dx: i32, reach: i32, free: u64) -> u64 {
+        self.world.hops(cell, dx, reach, free & self.tried[(dx + reach) as usize])
     }
 }
 
 impl Planner for Ready {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let mut graph = ChaosGraph {
+        let mut part = ChaosPart {
             world: posed.world,
             region: self.offsets.steps(),
             read: self.read,
             goal: posed.goal,
             numbers: Numbers::new(seed::stream(request.seed), self.read.source),
             order: (0..self.offsets.steps().len()).collect(),
-            is_tried: vec![false; self.offsets.steps().len()],
+            tried: vec![0; 2 * usize::from(self.read.region_radius_cells) + 1],
             first: Vec::new(),
         };
-        let mut search = self.pool.any(|| tips::search(self.read.ties));
+        let mut search = self.pool.any(|| TipSearch::new(&self.offsets, self.read.ties));
         let (report, scans) =
-            posed.search(&mut search, &mut graph, self.read.open_node.into(), request.expansions);
+            posed.search(&mut search, &self.offsets, &mut part, self.read.open_node, request.expansions);
         self.pool.keep(search);
         let mut plan = posed.plan(&report, scans, request.trace);
         if request.trace {
             plan.exhibits.push(tips::steps("region", self.offsets.steps()));
-            plan.exhibits.push(tips::steps("drawn", &graph.first));
+            plan.exhibits.push(tips::steps("drawn", &part.first));
         }
         Ok(plan)
     }
@@ -240,5 +235,94 @@ impl Planner for Ready {
 
     fn steps(&self) -> Option<&[[i32; 2]]> {
         Some(self.offsets.steps())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::{ColumnGraph, Graph as _};
+    use crate::space::{HopRule, reproduced_rules};
+
+    fn settings(drawn: Drawn, goal_in_region: GoalInRegion, source: Source) -> ChaosAstar {
+        ChaosAstar {
+            region_shape: RegionShape::Disc,
+            region_radius_cells: 3,
+            neighbours: 9,
+            drawn,
+            source,
+            goal_in_region,
+            open_node: OpenSetting::Lowered,
+            ties: TiesSetting::Fifo,
+        }
+    }
+
+    /// What is drawn for each of `cells` in turn, with a near goal in place of what was drawn last.
+    fn drawn_one_by_one(
+        read: ChaosAstar,
+        offsets: &Offsets,
+        [seed, goal]: [u64; 2],
+        cells: &[[i32; 2]],
+    ) -> Vec<Vec<[i32; 2]>> {
+        let mut numbers = Numbers::new(seed::stream(seed), read.source);
+        let mut order = offsets.steps().to_vec();
+        let mut once: Option<Vec<[i32; 2]>> = None;
+        let goal = [goal as i32 % 101, goal as i32 / 101];
+        let mut of_cell = |[x, y]: &[i32; 2]| {
+            let mut drawn = once.clone().unwrap_or_else(|| {
+                for place in 0..read.neighbours {
+                    let other = place + numbers.below(order.len() - place);
+                    order.swap(place, other);
+                }
+                order[..read.neighbours].to_vec()
+            });
+            if read.drawn == Drawn::OncePerRun {
+                once = Some(drawn.clone());
+            }
+            let to_goal = [goal[0] - x, goal[1] - y];
+            let is_new = offsets.steps().contains(&to_goal) && !drawn.contains(&to_goal);
+            if read.goal_in_region == GoalInRegion::Included && is_new {
+                drawn.pop();
+                drawn.push(to_goal);
+            }
+            offsets.steps().iter().copied().filter(|step| drawn.contains(step)).collect()
+        };
+        cells.iter().map(&mut of_cell).collect()
+    }
+
+    #[test]
+    fn the_steps_tried_are_those_drawn_with_a_near_goal_for_the_last() {
+        let world = ArmWorld::new(reproduced_rules(HopRule::EndPoints), Vec::new());
+        let (offsets, grid) = (Offsets::disc(3), world.grid());
+        let goal = grid.cell(80, 20).unwrap();
+        let at: Vec<[i32; 2]> = (0..40).map(|k| [76 + k % 8, 18 + k / 8]).collect();
+        let mut goals = 0;
+        for seed in 0..60 {
+            let drawn = if seed % 2 == 0 { Drawn::EachExpansion } else { Drawn::OncePerRun };
+            let near = if seed % 4 < 2 { GoalInRegion::Included } else { GoalInRegion::AsDrawn };
+            let source = if seed % 3 == 0 { Source::Logistic } else { Source::Uniform };
+            let read = settings(drawn, near, source);
+            let mut part = ChaosPart {
+                world: &world,
+                region: offsets.steps(),
+                read,
+                goal,
+                numbers: Numbers::new(seed::stream(seed), source),
+                order: (0..offsets.steps().len()).collect(),
+                tried: vec![0; 7],
+                first: Vec::new(),
+            };
+            let mut graph = ColumnGraph::new(world.columns(), &offsets, 1.0, &mut part);
+            let truth = drawn_one_by_one(read, &offsets, [seed, u64::from(goal)], &at);
+            for ([x, y], steps) in at.iter().zip(truth) {
+                let all = steps.iter().filter_map(|[dx, dy]| grid.cell(x + dx, y + dy));
+                let truth: Vec<u32> = all.filter(|cell| grid.is_free(*cell)).collect();
+                let mut found = Vec::new();
+                graph.successors(grid.cell(*x, *y).unwrap(), |to, _| found.push(to));
+                assert_eq!(found, truth, "seed {seed}, ({x}, {y})");
+                goals += u32::from(found.contains(&goal));
+            }
+        }
+        assert!((300..1_500).contains(&goals), "the goal was a successor {goals} times of 2400");
     }
 }

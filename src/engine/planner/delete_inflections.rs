@@ -1,10 +1,10 @@
 //! Zhang's inflection-point deletion as a stage.
 
-use super::lattice::lattice;
+use super::lattice::{SightSetting, lattice, sees};
 use super::{Build, Ending, Entry, Plan, Request, Stage};
 use crate::shorten::{bends, inflection_deletion, path_length};
-use crate::space::{LatticeWorld, WorldKind};
-use base::grid::{CornerRule, Sight};
+use crate::space::WorldKind;
+use base::grid::Sight;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -31,28 +31,6 @@ line_of_sight = "exact_interior"
 struct DeleteInflections {
     /// Which cells a line of sight must find free.
     line_of_sight: SightSetting,
-}
-
-#[derive(Deserialize, JsonSchema, Clone, Copy)]
-#[serde(rename_all = "snake_case")]
-enum SightSetting {
-    /// Cells whose interior the segment crosses; where it passes through the corner between two cells, neither is
-    /// entered.
-    ExactInterior,
-    /// Cells that the segment touches at all: at a corner also the two that flank it.
-    ClosedCells,
-    /// Cells of Bresenham's line drawn from the first end to the second.
-    Bresenham,
-}
-
-impl From<SightSetting> for Sight {
-    fn from(setting: SightSetting) -> Self {
-        match setting {
-            SightSetting::ExactInterior => Self::ExactInterior,
-            SightSetting::ClosedCells => Self::ClosedCells,
-            SightSetting::Bresenham => Self::Bresenham,
-        }
-    }
 }
 
 impl Stage for DeleteInflections {
@@ -85,25 +63,4 @@ impl Stage for DeleteInflections {
         plan.cost = Some(path_length(&plan.path));
         plan
     }
-}
-
-/// Whether the segment is free by the line of sight and cuts no corner that the world's rule forbids.
-fn sees(world: &LatticeWorld, sight: Sight, from: [i32; 2], to: [i32; 2]) -> bool {
-    let grid = world.grid();
-    let is_free = |[x, y]: [i32; 2]| grid.is_free_xy(x, y);
-    if !sight.all_cells(from, to, is_free) {
-        return false;
-    }
-    let mut before: Option<[i32; 2]> = None;
-    Sight::ExactInterior.all_cells(from, to, |cell| {
-        let flanks = before.map(|[x, y]| [[cell[0], y], [x, cell[1]]]);
-        let cuts = before.is_some_and(|[x, y]| x != cell[0] && y != cell[1]);
-        before = Some(cell);
-        let Some(flanks) = flanks.filter(|_| cuts) else { return true };
-        match world.corner_rule() {
-            CornerRule::Allow => true,
-            CornerRule::ForbidBoth => flanks.into_iter().any(is_free),
-            CornerRule::ForbidAny => flanks.into_iter().all(is_free),
-        }
-    })
 }

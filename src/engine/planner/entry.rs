@@ -102,6 +102,12 @@ pub trait Planner: Send + Sync {
     /// Whether [`Ending::NoPath`] proves that the world's graph has no path.
     fn is_complete(&self) -> bool;
 
+    /// Whether its path may leave the graph of the world for any free segment; the verifier then judges segments and not
+    /// moves.
+    fn is_any_angle(&self) -> bool {
+        false
+    }
+
     /// The steps, in columns and rows, that its graph may have, if it moves over a lattice by steps of its own; the
     /// verifier holds its path to them.
     fn steps(&self) -> Option<&[[i32; 2]]> {

@@ -1,9 +1,9 @@
 //! What the planners on a lattice share: their ends, their settings' words, their plans.
 
 use super::{Counts, Ending, Exhibit, Invalid, Plan, Request, Value};
-use crate::search::{Cost as _, Counters, Octile, Outcome, Ties, Update};
+use crate::search::{Cost, Counters, Outcome, Ties, Update};
 use crate::space::{LatticeWorld, World};
-use base::grid::Grid2;
+use base::grid::{CornerRule, Grid2, Sight};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +29,29 @@ impl From<TiesSetting> for Ties {
             TiesSetting::Fifo => Self::Fifo,
             TiesSetting::Lifo => Self::Lifo,
             TiesSetting::LargerG => Self::LargerG,
+        }
+    }
+}
+
+/// Which cells a line of sight must find free, as settings write it.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum SightSetting {
+    /// Cells whose interior the segment crosses; where it passes through the corner between two cells, neither is
+    /// entered.
+    ExactInterior,
+    /// Cells that the segment touches at all: at a corner also the two that flank it.
+    ClosedCells,
+    /// Cells of Bresenham's line drawn from the first end to the second.
+    Bresenham,
+}
+
+impl From<SightSetting> for Sight {
+    fn from(setting: SightSetting) -> Self {
+        match setting {
+            SightSetting::ExactInterior => Self::ExactInterior,
+            SightSetting::ClosedCells => Self::ClosedCells,
+            SightSetting::Bresenham => Self::Bresenham,
         }
     }
 }
@@ -59,9 +82,9 @@ pub(super) fn lattice(world: &World) -> &LatticeWorld {
 pub(super) const UPDATE: Update = Update { lower_open: true, reopen_closed: false };
 
 /// The plan that a search's outcome amounts to.
-pub(super) fn plan(
+pub(super) fn plan<C: Cost>(
     grid: &Grid2,
-    outcome: &Outcome<Octile>,
+    outcome: &Outcome<C>,
     sides: &[Counters],
     exhibits: Vec<Exhibit>,
 ) -> Plan {
@@ -87,4 +110,25 @@ pub(super) fn plan(
 pub(super) fn cells(grid: &Grid2, name: &str, cells: &[u32]) -> Exhibit {
     let values = cells.iter().flat_map(|cell| grid.xy(*cell).map(f64::from)).collect();
     Exhibit { name: name.to_owned(), width: 2, values }
+}
+
+/// Whether the segment is free by the line of sight and cuts no corner that the world's rule forbids.
+pub(super) fn sees(world: &LatticeWorld, sight: Sight, from: [i32; 2], to: [i32; 2]) -> bool {
+    let grid = world.grid();
+    let is_free = |[x, y]: [i32; 2]| grid.is_free_xy(x, y);
+    if !sight.all_cells(from, to, is_free) {
+        return false;
+    }
+    let mut before: Option<[i32; 2]> = None;
+    Sight::ExactInterior.all_cells(from, to, |cell| {
+        let flanks = before.map(|[x, y]| [[cell[0], y], [x, cell[1]]]);
+        let cuts = before.is_some_and(|[x, y]| x != cell[0] && y != cell[1]);
+        before = Some(cell);
+        let Some(flanks) = flanks.filter(|_| cuts) else { return true };
+        match world.corner_rule() {
+            CornerRule::Allow => true,
+            CornerRule::ForbidBoth => flanks.into_iter().any(is_free),
+            CornerRule::ForbidAny => flanks.into_iter().all(is_free),
+        }
+    })
 }

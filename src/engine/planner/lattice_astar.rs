@@ -2,9 +2,8 @@
 
 use super::lattice::TiesSetting;
 use super::pool::Pool;
-use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting, TipSearch};
+use super::tips::{self, COLUMNS, FreeHops, OpenSetting, Posed, RegionSetting, TipSearch};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
-use crate::search::LatticeGraph;
 use crate::space::WorldKind;
 use base::grid::Offsets;
 use base::settings::Accepted;
@@ -52,12 +51,11 @@ struct Ready {
 impl Planner for Ready {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let (world, step_cm) = (posed.world, posed.world.rules().lattice.step_cm());
-        let mut graph =
-            LatticeGraph::new(world.grid(), &self.offsets, step_cm, |from, by| world.may_step(from, by));
         let LatticeAstar { ties, open_node, .. } = self.read;
-        let mut search = self.pool.any(|| tips::search(ties));
-        let (report, scans) = posed.search(&mut search, &mut graph, open_node.into(), request.expansions);
+        let mut search = self.pool.any(|| TipSearch::new(&self.offsets, ties));
+        let mut hops = FreeHops(posed.world);
+        let (report, scans) =
+            posed.search(&mut search, &self.offsets, &mut hops, open_node, request.expansions);
         self.pool.keep(search);
         let mut plan = posed.plan(&report, scans, request.trace);
         if request.trace {

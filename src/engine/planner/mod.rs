@@ -4,6 +4,7 @@
 //! entry says what world it needs, what columns its counts fill, and how to build it from its settings. Nothing
 //! here knows studies or records; nothing outside an entry's file knows its settings.
 
+mod any_angle;
 mod astar;
 mod astar_octile;
 mod bidirectional;
@@ -21,6 +22,7 @@ mod keynode_astar;
 mod lattice;
 mod lattice26_astar;
 mod lattice_astar;
+mod lazy_theta_star;
 mod polyhedra;
 mod pool;
 mod posture;
@@ -29,6 +31,7 @@ mod roadmap_astar;
 mod shorten_best;
 mod straighten;
 mod straighten_from_previous;
+mod theta_star;
 mod tips;
 mod visibility_edges;
 
@@ -49,11 +52,13 @@ pub static REGISTRY: &[&Entry] = &[
     &keynode_astar::ENTRY,
     &lattice26_astar::ENTRY,
     &lattice_astar::ENTRY,
+    &lazy_theta_star::ENTRY,
     &posture::ENTRY,
     &roadmap_astar::ENTRY,
     &shorten_best::ENTRY,
     &straighten::ENTRY,
     &straighten_from_previous::ENTRY,
+    &theta_star::ENTRY,
     &visibility_edges::ENTRY,
 ];
 

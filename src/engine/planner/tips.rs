@@ -3,10 +3,11 @@
 use super::lattice::TiesSetting;
 use super::{Counts, Ending, Exhibit, Invalid, Plan, Request, Value};
 use crate::search::{
-    Combined, Graph, Heap, ListScans, Outcome, Report, Rules, Search, Stop, Terms, Update, sum,
+    ColumnGraph, Combined, Heap, LatticeAstar, LatticeQuery, ListScans, Outcome, Report, Rules, Search, Stop,
+    Successors, Terms, Update, sum,
 };
 use crate::space::ArmWorld;
-use base::grid::Offsets;
+use base::grid::{MAX_REACH_CELLS, Offsets};
 use base::settings::{Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -23,7 +24,7 @@ pub(super) const COLUMNS: &[&str] = &[
 ];
 
 /// The widest neighbourhood that is accepted.
-const WIDEST_CELLS: u8 = 20;
+const WIDEST_CELLS: u8 = MAX_REACH_CELLS as u8;
 
 /// A neighbourhood as settings write it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -82,11 +83,32 @@ impl From<OpenSetting> for Update {
 }
 
 /// A search over tip positions; its memory serves one query after another.
-pub(super) type TipSearch = Search<f64, Heap>;
+pub(super) enum TipSearch {
+    /// With neighbours looked up a column at a time.
+    Columns(Box<LatticeAstar>),
+    /// For the orders among equal f that the other does not know.
+    General(Search<f64, Heap>),
+}
 
-/// A search that takes open nodes of equal f in the order of `ties`.
-pub(super) fn search(ties: TiesSetting) -> TipSearch {
-    Search::new(Heap::new(ties.into()))
+impl TipSearch {
+    /// A search of the neighbourhood `offsets` that takes open nodes of equal f in the order of `ties`.
+    pub(super) fn new(offsets: &Offsets, ties: TiesSetting) -> Self {
+        let fast = LatticeAstar::new(offsets, ties.into());
+        fast.map_or_else(
+            || Self::General(Search::new(Heap::new(ties.into()))),
+            |fast| Self::Columns(Box::new(fast)),
+        )
+    }
+}
+
+/// The free hops of a workspace as successors.
+pub(super) struct FreeHops<'a>(pub(super) &'a ArmWorld);
+
+impl Successors for FreeHops<'_> {
+    #[inline]
+    fn kept(&mut self, cell: u32, dx: i32, reach: i32, free: u64) -> u64 {
+        self.0.hops(cell, dx, reach, free)
+    }
 }
 
 /// The workspace of a request with its start and goal cells.
@@ -109,18 +131,37 @@ impl<'a> Posed<'a> {
     pub(super) fn search(
         &self,
         search: &mut TipSearch,
-        graph: &mut impl Graph<Cost = f64>,
-        update: Update,
+        offsets: &Offsets,
+        successors: &mut impl Successors,
+        open_node: OpenSetting,
         expansions: u64,
     ) -> (Report<f64>, ListScans) {
         let lattice = self.world.rules().lattice;
         let goal = lattice.point(self.goal);
-        let estimate = Combined { h: move |cell: u32| (lattice.point(cell) - goal).norm(), combine: sum };
-        let mut scans = ListScans::default();
-        let terms = Terms { graph, estimate: &estimate, observer: &mut scans, update };
-        let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
-        let is_goal = |cell| cell == self.goal;
-        (search.run(terms, self.start, is_goal, rules, &mut ()), scans)
+        let h = move |cell: u32| (lattice.point(cell) - goal).norm();
+        let (columns, spacing) = (self.world.columns(), lattice.step_cm());
+        match search {
+            TipSearch::Columns(search) => search.run(LatticeQuery {
+                columns,
+                spacing,
+                successors,
+                h,
+                ends: [self.start, self.goal],
+                lower_open: open_node == OpenSetting::Lowered,
+                max_expansions: expansions,
+            }),
+            TipSearch::General(search) => {
+                let mut scans = ListScans::default();
+                let terms = Terms {
+                    graph: &mut ColumnGraph::new(columns, offsets, spacing, successors),
+                    estimate: &Combined { h, combine: sum },
+                    observer: &mut scans,
+                    update: open_node.into(),
+                };
+                let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
+                (search.run(terms, self.start, |cell| cell == self.goal, rules, &mut ()), scans)
+            }
+        }
     }
 
     /// The plan that a search's report amounts to; with `trace`, the arm's stations along its path.

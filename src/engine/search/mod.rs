@@ -4,8 +4,10 @@
 //! f of (node, g) ([`Estimate`]; f = g + h, weighted, or falling weight), the order among equal f (the
 //! [`Frontier`]: a [`Heap`] with a [`Ties`] rule, or [`Buckets`]), whether the g of an open node is lowered and
 //! whether closed nodes reopen ([`Update`]), when to stop ([`Stop`]), what is tried before an expansion
-//! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two.
-//! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`FirstWayAstar`] the one for the lengths of an A*
+//! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two, [`AnyAngle`] one
+//! whose ways leave the moves of the grid.
+//! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`LatticeAstar`] the one for neighbourhoods of any
+//! size, [`FirstWayAstar`] the one for the lengths of an A*
 //! that never lowers open nodes there, [`ManyGrids`] the one for the costs on many such grids at once; tests hold each
 //! equal to the general form.
 //!
@@ -27,6 +29,7 @@
 //! Graphs with states of their own (poses, configurations) number them in the order in which they meet them;
 //! records grow as numbers appear.
 
+mod any_angle;
 mod bidirectional;
 mod buckets;
 mod cost;
@@ -35,15 +38,19 @@ mod first_way;
 mod frontier;
 mod graph;
 mod jump;
+mod lattice_astar;
 mod many;
+mod neighbourhood;
 mod observe;
 mod octile;
 mod one_way;
 mod radix;
 mod side;
+mod sorted_buckets;
 #[cfg(test)]
 mod tests;
 
+pub use any_angle::{AnyAngle, Seen, Sighted, When};
 pub use bidirectional::{Bidirectional, BidirectionalReport, BidirectionalRules, Meeting, SideChoice};
 pub use buckets::Buckets;
 pub use cost::{Cost, Octile, quantised};
@@ -52,7 +59,9 @@ pub use first_way::FirstWayAstar;
 pub use frontier::{Best, Frontier, Heap, Offer, Ties};
 pub use graph::{Graph, GridGraph, LatticeGraph};
 pub use jump::JumpSearch;
+pub use lattice_astar::{LatticeAstar, LatticeQuery};
 pub use many::{GridSet, ManyGrids};
+pub use neighbourhood::{ColumnGraph, Successors};
 pub use observe::{ListScans, Lists, Observer, Place, Trace};
 pub use octile::{OctileAstar, SearchError};
 pub use one_way::{BeforeExpansion, Rules, Search, Shot, Stop};

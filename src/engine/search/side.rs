@@ -124,21 +124,48 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         &mut self,
         node: u32,
         terms: &mut Terms<'_, G, E, O>,
-        mut each: impl FnMut(&Self, u32),
+        each: impl FnMut(&Self, u32),
     ) where
         G: Graph<Cost = C>,
         E: Estimate<C>,
         O: Observer,
     {
         let g = self.records[node as usize].g;
+        self.expand_by(node, terms, |_, _, cost| (node, g.plus(cost)), each);
+    }
+
+    /// As [`expand`](Self::expand), by the parent and g that `way` gives a successor from the cost of the step to it.
+    pub(super) fn expand_by<G, E, O>(
+        &mut self,
+        node: u32,
+        terms: &mut Terms<'_, G, E, O>,
+        mut way: impl FnMut(&Self, u32, C) -> (u32, C),
+        mut each: impl FnMut(&Self, u32),
+    ) where
+        G: Graph<Cost = C>,
+        E: Estimate<C>,
+        O: Observer,
+    {
         let Terms { graph, estimate, observer, update } = terms;
         self.counters.expansions += 1;
         graph.successors(node, |to, cost| {
             self.counters.generated += 1;
-            self.receive(to, node, g.plus(cost), *estimate, *observer, *update);
+            let (parent, g) = way(self, to, cost);
+            self.receive(to, parent, g, *estimate, *observer, *update);
             each(self, to);
         });
         self.counters.peak_open = self.counters.peak_open.max(self.open);
+    }
+
+    /// Gives an open node another parent, and the cost of the way over it; its place in OPEN stays.
+    pub(super) fn hang(&mut self, node: u32, parent: u32, g: C) {
+        let record = &mut self.records[node as usize];
+        (record.parent, record.g) = (parent, g);
+    }
+
+    /// The node before `node` on the best way known to it; none for the root and for what was not opened.
+    pub(super) fn parent(&self, node: u32) -> Option<u32> {
+        self.records.get(node as usize).map(|record| record.parent).filter(|parent| *parent != NONE)
     }
 
     /// Deals with a way to `node`. Most ways lead to nodes that have a better one: those end here.

@@ -1,108 +1,39 @@
-//! Tables: heads, rows and groups, with lines broken so that they fit the text.
+//! Tables as wide as the text: `tabularx` breaks their cells, `booktabs` rules them.
 
 use super::{RenderError, escaped};
-use std::fmt::Write as _;
-
-/// How many characters fit a line of an article's text in footnotesize.
-const TEXT_CHARACTERS: usize = 80;
-
-/// The longest lines of cells that are tried, one after another.
-const LINE_WIDTHS: [usize; 9] = [60, 40, 30, 24, 18, 14, 11, 8, 6];
-
-/// Sets the table in box 0, scaled to the text if it is wider and `graphicx` is there to do so.
-const FITTED: &str = "\\ifdim\\wd0>\\textwidth\\ifdefined\\resizebox\\resizebox{\\textwidth}{!}{\\usebox0}\\else\\usebox0\\fi\\else\\usebox0\\fi\n";
-
-/// `text` in lines of at most `most` characters, broken at spaces only.
-fn lines(text: &str, most: usize) -> Vec<String> {
-    let mut lines: Vec<String> = vec![String::new()];
-    for word in text.split(' ') {
-        let last = lines.last_mut().expect("there is always a line");
-        if last.is_empty() {
-            last.push_str(word);
-        } else if last.chars().count() + 1 + word.chars().count() <= most {
-            last.push(' ');
-            last.push_str(word);
-        } else {
-            lines.push(word.to_owned());
-        }
-    }
-    lines
-}
-
-/// What must stand before `line`: a bracket or star behind `\\` would be read as an argument of it.
-fn guard(line: &str) -> &'static str {
-    if line.starts_with(['[', '*']) { "{}" } else { "" }
-}
-
-/// `text`, escaped, as it stands or one line above another.
-fn stacked(text: &str, most: usize, column: Column, corner: char) -> String {
-    let lines: Vec<String> = lines(text, most).iter().map(|line| escaped(line)).collect();
-    if let [line] = &lines[..] {
-        return line.clone();
-    }
-    let letter = column_letter(column);
-    let safe: Vec<String> = lines.iter().map(|line| format!("{}{line}", guard(line))).collect();
-    let body = safe.join("\\\\");
-    format!("\\begin{{tabular}}[{corner}]{{@{{}}{letter}@{{}}}}{body}\\end{{tabular}}")
-}
 
 /// Where a column's cells stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Column {
     /// Text.
     Left,
-    /// Short marks.
-    Centre,
     /// Numbers with equal decimals.
     Right,
 }
 
-/// One cell of a table.
+/// One cell of a table: text, which is escaped, and the letter of a footnote.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Cell {
-    /// Text; it is escaped.
-    Text(String),
-    /// Text in bold; it is escaped.
-    Bold(String),
-    /// The inside of `$…$`, as written.
-    Math(String),
-    /// Text across several columns, centred; it is escaped. With a rule below it in a head.
-    Across(usize, String),
+pub struct Cell {
+    text: String,
+    note: Option<char>,
 }
 
 impl Cell {
-    fn columns(&self) -> usize {
-        if let Self::Across(columns, _) = self { *columns } else { 1 }
+    fn latex(&self) -> String {
+        let note = self.note.map_or_else(String::new, |letter| format!("\\textsuperscript{{{letter}}}"));
+        escaped(&self.text) + &note
     }
 
-    /// The cell with lines of at most `most` characters, `column`'s way; words are never broken.
-    fn latex(&self, most: usize, column: Column, corner: char) -> String {
-        match self {
-            Self::Text(text) => stacked(text, most, column, corner),
-            Self::Bold(text) => format!("\\textbf{{{}}}", stacked(text, most, column, corner)),
-            Self::Math(source) => format!("${source}$"),
-            Self::Across(columns, text) => {
-                let lines = stacked(text, most * columns, Column::Centre, corner);
-                format!("\\multicolumn{{{columns}}}{{c}}{{{lines}}}")
-            }
-        }
-    }
-
-    /// How many characters its longest line has if lines have at most `most` where words allow it.
-    fn width(&self, most: usize) -> usize {
-        match self {
-            Self::Text(text) | Self::Bold(text) => {
-                lines(text, most).iter().map(|line| line.chars().count()).max().unwrap_or(0)
-            }
-            Self::Math(source) => source.len(),
-            Self::Across(..) => 0,
-        }
+    /// How wide it should be, in characters: its longest word fits, and long texts get more.
+    fn width(&self) -> usize {
+        let words = self.text.split(' ').map(|word| word.chars().count());
+        words.max().unwrap_or(0).max(self.text.chars().count().min(60) / 3)
     }
 }
 
 impl<S: Into<String>> From<S> for Cell {
     fn from(text: S) -> Self {
-        Self::Text(text.into())
+        Self { text: text.into(), note: None }
     }
 }
 
@@ -111,7 +42,6 @@ enum Line {
     Head(Vec<Cell>),
     Row(Vec<Cell>),
     Group(String),
-    Rule,
 }
 
 /// A table under construction: heads first, then rows.
@@ -121,14 +51,24 @@ pub struct Table {
     caption: String,
     columns: Vec<Column>,
     lines: Vec<Line>,
+    footnotes: Vec<String>,
     notes: Vec<String>,
 }
+
+/// Sizes of type, with the characters that the text of an article holds a line.
+const SIZES: [(usize, &str); 3] = [(72, "footnotesize"), (88, "scriptsize"), (usize::MAX, "tiny")];
 
 impl Table {
     /// An empty table; `label` becomes `tab:label`.
     pub fn new(label: impl Into<String>, caption: impl Into<String>, columns: &[Column]) -> Self {
-        let (label, caption) = (label.into(), caption.into());
-        Self { label, caption, columns: columns.to_vec(), lines: Vec::new(), notes: Vec::new() }
+        Self {
+            label: label.into(),
+            caption: caption.into(),
+            columns: columns.to_vec(),
+            lines: Vec::new(),
+            footnotes: Vec::new(),
+            notes: Vec::new(),
+        }
     }
 
     /// Adds a line of the head.
@@ -145,14 +85,21 @@ impl Table {
 
     /// Adds a line in italics that opens a group of rows, with a rule above it unless it comes first.
     pub fn group(&mut self, name: impl Into<String>) -> &mut Self {
-        if self.lines.iter().any(|line| matches!(line, Line::Row(_))) {
-            self.lines.push(Line::Rule);
-        }
         self.lines.push(Line::Group(name.into()));
         self
     }
 
-    /// Adds a note below the table.
+    /// Gives `cell` a footnote; one that says what an earlier one says is the same.
+    pub fn footnote(&mut self, cell: &mut Cell, text: String) {
+        let known = self.footnotes.iter().position(|footnote| *footnote == text);
+        let at = known.unwrap_or(self.footnotes.len());
+        if known.is_none() {
+            self.footnotes.push(text);
+        }
+        cell.note = char::from_u32('a' as u32 + at as u32);
+    }
+
+    /// Adds a note on the whole table, below it.
     pub fn note(&mut self, text: impl Into<String>) -> &mut Self {
         self.notes.push(text.into());
         self
@@ -164,94 +111,70 @@ impl Table {
     /// [`RenderError::RowWidth`] if a line does not fill the columns.
     pub fn latex(&self, made: &str) -> Result<String, RenderError> {
         let comment: String = made.lines().fold(String::new(), |all, line| all + "% " + line + "\n");
-        let columns: String = self.columns.iter().map(|column| column_letter(*column)).collect();
-        let (caption, label, most) = (escaped(&self.caption), &self.label, self.line_width());
+        let (caption, label, widths) = (escaped(&self.caption), &self.label, self.widths());
+        let characters: usize = widths.iter().sum::<usize>() + 2 * widths.len();
+        let size = SIZES.iter().find(|(most, _)| characters <= *most).map_or("tiny", |(_, size)| size);
         let mut text = format!(
             "{comment}\\begin{{table}}[htbp]\n\\centering\n\\caption{{{caption}}}\n\\label{{tab:{label}}}\n\
-             \\footnotesize\\setlength{{\\tabcolsep}}{{4pt}}%\n\
-             \\sbox0{{\\begin{{tabular}}{{@{{}}{columns}@{{}}}}\n\\toprule\n"
+             \\{size}\\setlength{{\\tabcolsep}}{{3pt}}%\n\
+             \\begin{{tabularx}}{{\\textwidth}}{{@{{}}{}@{{}}}}\n\\toprule\n",
+            self.columns(&widths)
         );
-        let mut in_head = self.lines.iter().any(|line| matches!(line, Line::Head(_)));
         for (index, line) in self.lines.iter().enumerate() {
-            if in_head && !matches!(line, Line::Head(_)) {
-                text.push_str("\\midrule\n");
-                in_head = false;
+            let before = index.checked_sub(1).and_then(|before| self.lines.get(before));
+            let begins = matches!((before, line), (Some(Line::Head(_)), Line::Row(_) | Line::Group(_)));
+            if begins || matches!((before, line), (Some(Line::Row(_)), Line::Group(_))) {
+                text += "\\midrule\n";
             }
-            text.push_str(&self.line(index, line, most)?);
+            text += &self.line(index, line)?;
         }
-        text.push_str("\\bottomrule\n\\end{tabular}}%\n");
-        text.push_str(FITTED);
+        text += "\\bottomrule\n\\end{tabularx}\n";
+        for (footnote, letter) in self.footnotes.iter().zip('a'..) {
+            text += &format!("\\par\\smallskip{{\\textsuperscript{{{letter}}} {}}}\n", escaped(footnote));
+        }
         for note in &self.notes {
-            writeln!(text, "\\par\\smallskip{{{}}}", escaped(note)).expect("a string takes everything");
+            text += &format!("\\par\\smallskip{{{}}}\n", escaped(note));
         }
-        text.push_str("\\end{table}\n");
-        Ok(text)
+        Ok(text + "\\end{table}\n")
     }
 
-    /// The longest lines that cells may have for the table to fit the text, as far as counting characters tells.
-    fn line_width(&self) -> usize {
-        let cells = |line: &Line| match line {
-            Line::Head(cells) | Line::Row(cells) => cells.clone(),
-            Line::Group(_) | Line::Rule => Vec::new(),
+    /// The widths that the columns should have, in characters.
+    fn widths(&self) -> Vec<usize> {
+        let cells = |line: &Line, column: usize| match line {
+            Line::Head(cells) | Line::Row(cells) => cells.get(column).map_or(0, Cell::width),
+            Line::Group(_) => 0,
         };
-        let rows: Vec<Vec<Cell>> = self.lines.iter().map(cells).collect();
-        let column = |column: usize, most: usize| {
-            rows.iter().filter_map(|cells| cells.get(column)).map(|cell| cell.width(most)).max().unwrap_or(0)
-        };
-        let width = |most: usize| -> usize { (0..self.columns.len()).map(|c| column(c, most) + 2).sum() };
-        let fits = |most: &usize| width(*most) <= TEXT_CHARACTERS;
-        LINE_WIDTHS.into_iter().find(fits).unwrap_or(LINE_WIDTHS[LINE_WIDTHS.len() - 1])
+        let width = |column| self.lines.iter().map(|line| cells(line, column)).max().unwrap_or(0).max(1);
+        (0..self.columns.len()).map(width).collect()
     }
 
-    fn line(&self, index: usize, line: &Line, most: usize) -> Result<String, RenderError> {
+    /// The columns as `tabularx` takes them: their shares of the width sum to their number.
+    fn columns(&self, widths: &[usize]) -> String {
+        let sum: usize = widths.iter().sum();
+        let column = |(column, width): (&Column, &usize)| {
+            let share = (*width * widths.len()) as f64 / sum.max(1) as f64;
+            let side = if *column == Column::Left { "right" } else { "left" };
+            format!(">{{\\hsize={share:.3}\\hsize\\ragged{side}\\arraybackslash}}X")
+        };
+        self.columns.iter().zip(widths).map(column).collect()
+    }
+
+    fn line(&self, row: usize, line: &Line) -> Result<String, RenderError> {
         let expected = self.columns.len();
-        Ok(match line {
-            Line::Rule => "\\midrule\n".to_owned(),
+        let cells = match line {
             Line::Group(name) => {
-                format!("\\multicolumn{{{expected}}}{{@{{}}l}}{{\\textit{{{}}}}} \\\\\n", escaped(name))
+                let name = escaped(name);
+                return Ok(format!("\\multicolumn{{{expected}}}{{@{{}}l}}{{\\textit{{{name}}}}} \\\\\n"));
             }
-            Line::Head(cells) | Line::Row(cells) => {
-                let found: usize = cells.iter().map(Cell::columns).sum();
-                if found != expected {
-                    let table = self.label.clone();
-                    return Err(RenderError::RowWidth { table, row: index, found, expected });
-                }
-                let is_head = matches!(line, Line::Head(_));
-                let corner = if is_head { 'b' } else { 't' };
-                let mut at = 0;
-                let row: Vec<String> = cells
-                    .iter()
-                    .map(|cell| {
-                        let column = self.columns[at];
-                        at += cell.columns();
-                        cell.latex(most, column, corner)
-                    })
-                    .collect();
-                let rules = if is_head { head_rules(cells) } else { String::new() };
-                let guard = guard(&row[0]);
-                format!("{guard}{} \\\\\n{rules}", row.join(" & "))
-            }
-        })
-    }
-}
-
-fn column_letter(column: Column) -> char {
-    match column {
-        Column::Left => 'l',
-        Column::Centre => 'c',
-        Column::Right => 'r',
-    }
-}
-
-/// Rules below the cells of a head that lie across several columns.
-fn head_rules(cells: &[Cell]) -> String {
-    let (mut first, mut rules) = (1, String::new());
-    for cell in cells {
-        let next = first + cell.columns();
-        if matches!(cell, Cell::Across(_, text) if !text.is_empty()) {
-            write!(rules, "\\cmidrule(lr){{{first}-{}}}", next - 1).expect("a string takes everything");
+            Line::Head(cells) | Line::Row(cells) => cells,
+        };
+        if cells.len() != expected {
+            let (table, found) = (self.label.clone(), cells.len());
+            return Err(RenderError::RowWidth { table, row, found, expected });
         }
-        first = next;
+        let row: Vec<String> = cells.iter().map(Cell::latex).collect();
+        // A bracket or star behind the `\\` of the line above would be read as an argument of it.
+        let guard = if row[0].starts_with(['[', '*']) { "{}" } else { "" };
+        Ok(format!("{guard}{} \\\\\n", row.join(" & ")))
     }
-    if rules.is_empty() { rules } else { rules + "\n" }
 }

@@ -57,6 +57,15 @@ pub fn with_chapter(report: &str, opening: &str, name: &str, chapter: &str) -> R
     Ok(format!("{before}{newline}\n{written}{after}"))
 }
 
+/// The text of the chapter called `name`; empty if there is none.
+///
+/// # Errors
+/// As [`with_chapter`].
+pub fn chapter<'a>(report: &'a str, name: &str) -> Result<&'a str, MarkerError> {
+    let bytes = chapters(report)?.into_iter().find(|chapter| chapter.name == name).map(|found| found.bytes);
+    Ok(&report[bytes.unwrap_or(0..0)])
+}
+
 /// The report without the chapter called `name`.
 ///
 /// # Errors

@@ -4,7 +4,7 @@ use super::order::{Item, Look, back_to_front};
 use super::{Camera, Scene, Vec3, along, dot, sub};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
 use crate::render::chart::{Key, Mark, View};
-use crate::render::style::{BLUE, Fill, GREEN, HAIR_PT, INK, Rgb, Stroke, TextSize, VERMILLION};
+use crate::render::style::{BLUE, Fill, GREEN, INK, Rgb, Stroke, TextSize, VERMILLION};
 
 /// A bar that shows how long a length looks.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,10 +129,11 @@ impl SceneMark {
 
 fn draw_face(canvas: &mut Canvas, lens: &Lens, item: &Item, color: Rgb, opacity: f64) {
     let points: Vec<[f64; 2]> = item.points.iter().map(|&point| lens.at(point)).collect();
-    // A hair of the face's own colour closes the seam to its neighbour.
-    let hair = Stroke::solid(color, HAIR_PT);
-    let seam = (opacity >= 1.0).then_some(&hair);
-    canvas.polygon(&points, Some(Fill::sheer(color, opacity)), seam);
+    if opacity >= 1.0 {
+        canvas.face(&points, color);
+    } else {
+        canvas.polygon(&points, Some(Fill::sheer(color, opacity)), None);
+    }
 }
 
 /// Draws faces one by one and line pieces that follow each other as one line, so that dashes run on.

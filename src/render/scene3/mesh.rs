@@ -6,9 +6,9 @@ use crate::render::style::{BLACK, Rgb, Stroke, WHITE};
 use std::collections::BTreeMap;
 
 /// Facets around a capsule.
-const SIDES: usize = 12;
+const SIDES: usize = 10;
 /// Rings of facets on each of its caps.
-const RINGS: usize = 3;
+const RINGS: usize = 2;
 /// Faces that meet at an angle whose cosine is below this are parted by an outline.
 const SHARP_COS: f64 = 0.8;
 

@@ -19,31 +19,20 @@ impl Paper {
         let studies: BTreeSet<&str> = self.studies.iter().map(|study| study.name.as_str()).collect();
         let figures: BTreeSet<&str> = self.figure_ids().chain(self.table_ids()).collect();
         self.check_parts(specs, &claims, faults);
-        for row in &self.ledger {
-            self.known("claim", &row.claims, &claims, faults);
-            self.known("figure or table", &row.figures, &figures, faults);
-            self.known("study", &row.studies, &studies, faults);
-            let answered = !(row.claims.is_empty() && row.figures.is_empty() && row.studies.is_empty());
-            if answered == row.none.is_some() {
-                let message = format!(
-                    "ledger row `{}` needs claims, figures or studies that answer it, or `none` with the reason, and \
-                     not both",
-                    row.item.get_ref()
-                );
-                faults.add(self.document.error(row.item.span(), message));
-            }
-        }
+        self.check_ledger(&claims, &studies, &figures, faults);
         for row in self.tables.iter().flat_map(|table| &table.rows) {
             self.known("claim", &row.claims, &claims, faults);
         }
         for table in &self.tables {
-            self.known("claim", &table.jointly, &claims, faults);
+            for together in &table.jointly {
+                self.known("claim", std::slice::from_ref(&together.claim), &claims, faults);
+                self.known("claim", &together.cells, &claims, faults);
+            }
         }
-        self.check_findings(&claims, faults);
+        self.check_report(&claims, &figures, faults);
         self.check_tables(faults);
         self.check_results(faults);
         self.check_readings(faults);
-        self.check_numbering(faults);
     }
 
     /// A part exists, belongs to one sentence or row, and is no sentence of parts itself.
@@ -131,30 +120,17 @@ impl Paper {
         }
     }
 
-    fn known(&self, what: &str, names: &[Spanned<String>], known: &BTreeSet<&str>, faults: &mut Faults) {
+    pub(super) fn known(
+        &self,
+        what: &str,
+        names: &[Spanned<String>],
+        known: &BTreeSet<&str>,
+        faults: &mut Faults,
+    ) {
         for name in names {
             if !known.contains(name.get_ref().as_str()) {
                 let message = none_called(what, name.get_ref(), known.iter().copied());
                 faults.add(self.document.error(name.span(), message));
-            }
-        }
-    }
-
-    /// Every numbered figure, table and equation must have a row.
-    fn check_numbering(&self, faults: &mut Faults) {
-        let items: BTreeSet<&str> = self.ledger.iter().map(|row| row.item.get_ref().as_str()).collect();
-        for (kind, key, count) in [
-            ("Fig.", "figures", self.prints.figures),
-            ("Table", "tables", self.prints.tables),
-            ("Eq.", "equations", self.prints.equations),
-        ] {
-            for number in 1..=count {
-                let item = format!("{kind} {number}");
-                if !items.contains(item.as_str()) {
-                    let message =
-                        format!("the ledger has no row for {item}; the paper has {count} of its kind");
-                    faults.add(self.document.error_at(&format!("prints.{key}"), message));
-                }
             }
         }
     }

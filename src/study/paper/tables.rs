@@ -14,8 +14,9 @@ pub struct TableSpec {
     pub caption: String,
     /// The heads of its columns.
     pub columns: Vec<String>,
-    /// What stands below it; the paper's notes if absent.
-    pub notes: Option<Vec<String>>,
+    /// What stands below it.
+    #[serde(default)]
+    pub notes: Vec<String>,
     /// With how many decimals our numbers are shown; two if absent.
     #[schemars(range(max = 15))]
     pub decimals: Option<usize>,
@@ -24,9 +25,19 @@ pub struct TableSpec {
     pub rows: Vec<TableRow>,
     /// Claims about several of its cells together, which are noted below it where they are impossible.
     #[serde(default)]
-    pub jointly: Vec<Spanned<String>>,
+    pub jointly: Vec<JointlySpec>,
     /// One problem of ours whose trials stand beside the printed rows; without it, each cell takes its own claim's.
     pub ours: Option<OursSpec>,
+}
+
+/// A claim about several cells of a table together.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointlySpec {
+    /// The claim.
+    pub claim: Spanned<String>,
+    /// The claims of the cells.
+    pub cells: Vec<Spanned<String>>,
 }
 
 /// The problem that a table's own rows are from.

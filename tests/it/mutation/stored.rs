@@ -23,7 +23,8 @@ fn used(paper: &Paper, folder: &Path) -> Result<(), String> {
     ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|e| format!("verdicts.toml: {e}"))?;
     let outputs = output::outputs(&evidence, &verdicts, None, &AtomicBool::new(false));
     let outputs = outputs.map_err(|e| format!("verdicts.toml: {e}"))?;
-    output::chapter(&folder.join("report.md"), &evidence, &verdicts, folder, &outputs);
+    output::chapter(&folder.join("report.md"), &evidence, &verdicts, folder, &outputs.undrawn)
+        .map_err(|e| format!("verdicts.toml: {e}"))?;
     Ok(())
 }
 

@@ -1,8 +1,10 @@
 //! Acceptance on the maps found for the zhang study, and laws that hold the drivers and specialisations together.
 
+mod any_angle;
 mod bidirectional;
 mod first_way;
 mod jump;
+mod lattice_astar;
 mod many;
 mod octile;
 mod one_way;

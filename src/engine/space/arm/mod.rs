@@ -21,7 +21,7 @@ pub use tests::rules as reproduced_rules;
 use crate::geometry::Vec2;
 use crate::geometry::planar::{Segment2, Touch};
 use crate::kinematics::planar_2r::{ElbowRule, Planar2r};
-use base::grid::{CornerRule, DIRECTIONS, Grid2, Moves};
+use base::grid::{Columns, CornerRule, DIRECTIONS, Grid2, Moves};
 use hops::Hops;
 use sweep::Sweep;
 
@@ -77,8 +77,10 @@ pub struct ArmWorld {
     postures: Vec<[f64; 2]>,
     clearances_cm: Vec<f64>,
     grid: Grid2,
-    /// The swept hops that were looked at; none where end points are enough.
-    hops: Hops,
+    /// The free cells of the grid as bits.
+    columns: Box<Columns>,
+    /// The hops that were looked at, unless every hop between free cells may be made.
+    hops: Option<Hops>,
 }
 
 impl ArmWorld {
@@ -98,8 +100,10 @@ impl ArmWorld {
             HopRule::Continuous | HopRule::EndPoints => 0.0,
         };
         let clearances_cm = (0..grid.cell_count()).map(clearance).collect();
-        let hops = Hops::new(if rules.hop == HopRule::Continuous { grid.cell_count() } else { 0 });
-        Self { rules, obstacles, zones, postures, clearances_cm, grid, hops }
+        let any_hop = rules.hop == HopRule::EndPoints && rules.corner_rule == CornerRule::Allow;
+        let hops = (!any_hop).then(|| Hops::new(grid.cell_count()));
+        let columns = Box::new(Columns::new(&grid));
+        Self { rules, obstacles, zones, postures, clearances_cm, grid, columns, hops }
     }
 
     /// Everything but the obstacles.
@@ -115,6 +119,11 @@ impl ArmWorld {
     /// The lattice with every point blocked that is not free.
     pub fn grid(&self) -> &Grid2 {
         &self.grid
+    }
+
+    /// The free cells of [`grid`](Self::grid) as bits.
+    pub fn columns(&self) -> &Columns {
+        &self.columns
     }
 
     /// What each lattice point is, by cell.
@@ -133,21 +142,32 @@ impl ArmWorld {
         self.may_step(from, [to_x - x, to_y - y])
     }
 
-    /// Whether the hop by `[dx, dy]` cells from one free cell to another may be made.
+    /// Whether the hop by `step` cells, `[dx, dy]`, from one free cell to another may be made.
     #[inline]
-    pub fn may_step(&self, from: u32, [dx, dy]: [i32; 2]) -> bool {
-        if dx.abs() == 1 && dy.abs() == 1 && self.rules.corner_rule != CornerRule::Allow {
-            let [x, y] = self.grid.xy(from);
-            let flanks = [self.grid.is_free_xy(x + dx, y), self.grid.is_free_xy(x, y + dy)];
-            if !self.rules.corner_rule.permits(flanks) {
-                return false;
-            }
+    pub fn may_step(&self, from: u32, step: [i32; 2]) -> bool {
+        self.hops.as_ref().is_none_or(|hops| hops.is_free(from, step, |step| self.is_step_free(from, step)))
+    }
+
+    /// Those of the `free` cells of the column `dx` from a free cell to which a hop may be made; bit `i` is the cell
+    /// `reach - i` rows up.
+    #[inline]
+    pub fn hops(&self, from: u32, dx: i32, reach: i32, free: u64) -> u64 {
+        if self.hops.is_none() { free } else { self.checked_hops(from, dx, reach, free) }
+    }
+
+    fn checked_hops(&self, from: u32, dx: i32, reach: i32, free: u64) -> u64 {
+        let find = |step| self.is_step_free(from, step);
+        self.hops.as_ref().map_or(free, |hops| hops.free(from, dx, reach, free, find))
+    }
+
+    fn is_step_free(&self, from: u32, [dx, dy]: [i32; 2]) -> bool {
+        let [x, y] = self.grid.xy(from);
+        let flanks = || [self.grid.is_free_xy(x + dx, y), self.grid.is_free_xy(x, y + dy)];
+        if dx.abs() == 1 && dy.abs() == 1 && !self.rules.corner_rule.permits(flanks()) {
+            return false;
         }
-        let to = || from.wrapping_add_signed(dy * self.grid.width() as i32 + dx);
-        match self.rules.hop {
-            HopRule::EndPoints => true,
-            HopRule::Continuous => self.hops.is_free(from, [dx, dy], || self.is_swept_free(from, to())),
-        }
+        let to = from.wrapping_add_signed(dy * self.grid.width() as i32 + dx);
+        self.rules.hop == HopRule::EndPoints || self.is_swept_free(from, to)
     }
 
     fn is_swept_free(&self, from: u32, to: u32) -> bool {

@@ -1,0 +1,110 @@
+//! What tables show of the records: statistics over the trials of a row, and what one trial saves of another's.
+
+use super::evidence::{Evidence, Run};
+use super::metric::{self, Metric};
+use super::statistic;
+use crate::study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
+use crate::study::paper::{OursSpec, TableRow};
+use crate::study::record::{Row, Status};
+
+/// A table of results: its head and, block by block, its rows; a dash where there is nothing.
+pub struct Grid {
+    /// The heads of its columns; that of the labels is empty.
+    pub head: Vec<String>,
+    /// The blocks with their headings; a row begins with its label.
+    pub blocks: Vec<(String, Vec<Vec<String>>)>,
+}
+
+/// The cells of `table`.
+///
+/// # Errors
+/// What is not stored: a run of its study, a metric.
+pub fn grid(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, String> {
+    let study = table.study.get_ref();
+    let run = evidence.run(study).ok_or_else(|| format!("a run of `{study}`"))?;
+    let metric = |cell: &CellSpec| {
+        metric::find(cell.metric.get_ref()).ok_or_else(|| format!("the metric `{}`", cell.metric.get_ref()))
+    };
+    let metrics = table.cells.iter().map(metric).collect::<Result<Vec<&Metric>, _>>()?;
+    let titles =
+        table.cells.iter().zip(&metrics).map(|(cell, m)| cell.label.clone().unwrap_or_else(|| m.title()));
+    let head = std::iter::once(String::new()).chain(titles).collect();
+    let row = |block: &BlockSpec, label: &String| {
+        let own = run.rows(block.problems.get_ref(), label);
+        let other = block.beside.as_ref().map(|beside| run.rows(beside.get_ref(), label)).unwrap_or_default();
+        let cells = table.cells.iter().zip(&metrics).map(|(cell, metric)| {
+            let rows = if cell.beside { &other } else { &own };
+            cell_of(run, rows, cell, metric)
+        });
+        std::iter::once(label.clone()).chain(cells).collect::<Vec<String>>()
+    };
+    let block = |block: &BlockSpec| {
+        let rows = table.rows.iter().map(|label| row(block, label));
+        (block.title.clone(), rows.collect())
+    };
+    Ok(Grid { head, blocks: table.blocks.iter().map(block).collect() })
+}
+
+fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> String {
+    let number = |value: f64| {
+        if value.is_finite() { format!("{value:.*}", cell.decimals) } else { "∞".to_owned() }
+    };
+    let solved = |row: &Row| row.status == Status::Solved;
+    // What the clock did not read has not failed.
+    let value = |row: &&Row| match (solved(row), run.value(row, metric)) {
+        (true, value) => value,
+        (false, None) if metric.is_clock() => None,
+        (false, _) => Some(f64::INFINITY),
+    };
+    let values: Vec<f64> = rows.iter().filter_map(value).collect();
+    let quantile = |share: f64| statistic::quantile(&values, share);
+    let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let found = match cell.show {
+        Show::Median => quantile(0.5).map(number),
+        Show::Quartiles if values.len() < 2 => quantile(0.5).map(number),
+        Show::Quartiles => [0.5, 0.25, 0.75]
+            .map(quantile)
+            .into_iter()
+            .collect::<Option<Vec<f64>>>()
+            .map(|q| format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))),
+        Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
+        Show::Solved => (!rows.is_empty()).then(|| {
+            let count = rows.iter().filter(|row| solved(row)).count();
+            number(100.0 * count as f64 / rows.len() as f64)
+        }),
+        Show::Failed => {
+            let failed: Vec<f64> =
+                rows.iter().filter(|row| !solved(row)).filter_map(|row| run.value(row, metric)).collect();
+            statistic::median(&failed).map(number)
+        }
+        Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
+    };
+    found.unwrap_or_else(|| "–".to_owned())
+}
+
+/// Of the row of one contender on one problem the value of each column's metric, or the percentage that it saves there of
+/// another contender's; none where it was not measured.
+///
+/// # Errors
+/// What is not stored: a run of the study, a trial, a metric.
+pub fn own_values(
+    evidence: &Evidence<'_>,
+    ours: &OursSpec,
+    row: &TableRow,
+) -> Result<Vec<Option<f64>>, String> {
+    let study = ours.study.get_ref();
+    let run = evidence.run(study).ok_or_else(|| format!("a run of `{study}`"))?;
+    let value = |metric: &str, contender: &String| {
+        let row = run.rows(&ours.problems, contender).into_iter().next();
+        let row = row.ok_or_else(|| format!("`{contender}` on `{}` of `{study}`", ours.problems))?;
+        let metric = evidence.metric(metric).ok_or_else(|| format!("the metric `{metric}`"))?;
+        Ok::<_, String>(run.value(row, metric))
+    };
+    let contender = row.contender.as_ref().ok_or_else(|| format!("a contender for `{}`", row.label))?;
+    let cell = |metric: &String| {
+        let own = value(metric, contender)?;
+        let Some(base) = &row.reduced_from else { return Ok(own) };
+        Ok(own.zip(value(metric, base)?).map(|(own, base)| 100.0 * (base - own) / base))
+    };
+    ours.metrics.iter().map(cell).collect()
+}

@@ -1,0 +1,135 @@
+//! The free cells of a grid as bits, for searches that look at a whole column of neighbours at once.
+
+use super::Grid2;
+
+/// How far a window may reach from its cell, in cells.
+pub const MAX_REACH_CELLS: u32 = 20;
+
+/// A set of places, one bit each.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Bits {
+    words: Vec<u64>,
+}
+
+impl Bits {
+    /// No place of `count`.
+    pub fn none(count: usize) -> Self {
+        // One more word, so that a window that begins at the last place has a second one.
+        Self { words: vec![0; count / 64 + 2] }
+    }
+
+    /// Adds `place`.
+    #[inline]
+    pub fn insert(&mut self, place: u32) {
+        self.words[place as usize / 64] |= 1 << (place % 64);
+    }
+
+    /// The 64 places from `first` on; bit `i` is place `first + i`.
+    #[inline]
+    pub fn window(&self, first: u32) -> u64 {
+        let (word, shift) = (first as usize / 64, first % 64);
+        let pair = &self.words[word..word + 2];
+        // A shift by 64 is refused, hence by one and by the rest.
+        pair[0] >> shift | pair[1] << 1 << (63 - shift)
+    }
+
+    /// Removes every place.
+    pub fn clear(&mut self) {
+        self.words.fill(0);
+    }
+}
+
+/// The free cells of a grid, column by column in the order of [`Offsets`](super::Offsets): x falls, and for each x, y falls.
+///
+/// Around the cells there are empty places enough for a window of [`MAX_REACH_CELLS`] to either side of every cell.
+#[derive(Clone, Debug)]
+pub struct Columns {
+    size: [u32; 2],
+    stride: u32,
+    free: Bits,
+}
+
+impl Columns {
+    /// The columns of `grid`.
+    pub fn new(grid: &Grid2) -> Self {
+        let (size, stride) = ([grid.width(), grid.height()], grid.height() + MAX_REACH_CELLS);
+        let mut columns = Self { size, stride, free: Bits::default() };
+        columns.free = Bits::none(columns.place_count());
+        for cell in (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)) {
+            let place = columns.place(cell);
+            columns.free.insert(place);
+        }
+        columns
+    }
+
+    /// Number of columns of the grid.
+    pub fn width(&self) -> u32 {
+        self.size[0]
+    }
+
+    /// Number of cells of the grid.
+    pub fn cell_count(&self) -> u32 {
+        self.size[0] * self.size[1]
+    }
+
+    /// How many places there are.
+    pub fn place_count(&self) -> usize {
+        (self.size[0] + 2 * MAX_REACH_CELLS) as usize * self.stride as usize + MAX_REACH_CELLS as usize
+    }
+
+    /// The place of `cell`.
+    #[inline]
+    pub fn place(&self, cell: u32) -> u32 {
+        let [width, height] = self.size;
+        let [column, row] = [width - 1 - cell % width, height - 1 - cell / width];
+        (column + MAX_REACH_CELLS) * self.stride + row + MAX_REACH_CELLS
+    }
+
+    /// What a step by `[dx, dy]` adds to a place.
+    pub fn offset(&self, [dx, dy]: [i32; 2]) -> i32 {
+        -(dx * self.stride as i32 + dy)
+    }
+
+    /// The places of free cells.
+    #[inline]
+    pub fn free(&self) -> &Bits {
+        &self.free
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::{Offsets, independent_cells};
+    use crate::seed;
+
+    #[test]
+    fn a_window_holds_the_free_cells_of_a_column_with_the_highest_first() {
+        let (mut free, reach) = (0, MAX_REACH_CELLS as i32);
+        for seed in 0..20 {
+            let size_cells = [3 + seed as u32, 70 - 3 * seed as u32];
+            let grid = independent_cells(&mut seed::stream(seed), size_cells, 0.4, &[]).unwrap();
+            let columns = Columns::new(&grid);
+            for cell in 0..grid.cell_count() {
+                let [x, y] = grid.xy(cell);
+                for dx in -reach..=reach {
+                    let first = columns.place(cell).wrapping_add_signed(columns.offset([dx, reach]));
+                    let window = columns.free().window(first);
+                    for bit in 0..=2 * reach {
+                        let is_free = grid.is_free_xy(x + dx, y + reach - bit);
+                        assert_eq!(window >> bit & 1 == 1, is_free, "seed {seed}: {cell}, {dx}, bit {bit}");
+                        free += u32::from(is_free);
+                    }
+                }
+            }
+        }
+        assert!(free > 100_000, "only {free} free cells were looked at");
+    }
+
+    #[test]
+    fn places_rise_in_the_order_of_offsets() {
+        let columns = Columns::new(&Grid2::new(9, 9).unwrap());
+        let added: Vec<i32> = Offsets::square(4).steps().iter().map(|step| columns.offset(*step)).collect();
+        assert!(added.is_sorted(), "{added:?}");
+    }
+}

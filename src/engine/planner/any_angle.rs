@@ -1,0 +1,56 @@
+//! What the any-angle planners share: their settings, their memory, their plans.
+
+use super::lattice::{self, Posed, SightSetting, TiesSetting, sees};
+use super::pool::Pool;
+use super::{Invalid, Plan, Request, Value};
+use crate::search::{AnyAngle, Heap, Observer, Seen, Sighted, Trace, When};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The columns that every any-angle search fills.
+pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated", "sight_checks"];
+
+/// An any-angle planner with its settings.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AnyAngleSettings {
+    /// Which cells a line of sight must find free.
+    line_of_sight: SightSetting,
+    /// The order among equal f.
+    #[serde(default)]
+    ties: TiesSetting,
+    #[serde(skip)]
+    pool: Pool<AnyAngle<Heap>>,
+}
+
+impl AnyAngleSettings {
+    /// The plan of a search that looks at lines of sight at the time `when`; its path lists corners alone.
+    pub(super) fn plan(&self, request: &Request<'_>, when: When) -> Result<Plan, Invalid> {
+        let posed = Posed::new(request)?;
+        let (grid, mut trace) = (posed.world.grid(), Trace::default());
+        let Seen { report, sight_checks } = if request.trace {
+            self.search(&posed, request.expansions, when, &mut trace)
+        } else {
+            self.search(&posed, request.expansions, when, &mut ())
+        };
+        let mut exhibits = Vec::new();
+        if request.trace {
+            exhibits.push(lattice::cells(grid, "opened_start_side", &trace.opened));
+            exhibits.push(lattice::cells(grid, "closed_start_side", &trace.closed));
+        }
+        let mut plan = lattice::plan(grid, &report.outcome, &[report.counters], exhibits);
+        plan.counts.insert("sight_checks", Value::Count(sight_checks));
+        Ok(plan)
+    }
+
+    fn search(&self, posed: &Posed<'_>, expansions: u64, when: When, observer: &mut impl Observer) -> Seen {
+        let (world, grid) = (posed.world, posed.world.grid());
+        let sight = self.line_of_sight.into();
+        let sees = |from: u32, to: u32| sees(world, sight, grid.xy(from), grid.xy(to));
+        let on = Sighted { grid, moves: world.moves(), sees };
+        let mut search = self.pool.any(|| AnyAngle::new(Heap::new(self.ties.into())));
+        let seen = search.solve(&on, when, [posed.start, posed.goal], expansions, observer);
+        self.pool.keep(search);
+        seen
+    }
+}

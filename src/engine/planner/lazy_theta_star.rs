@@ -1,0 +1,48 @@
+//! Lazy Theta\* on 8-connected grids: paths bend at cell centres and may go in any direction.
+//!
+//! # Source
+//! Nash, Koenig & Tovey, *Lazy Theta\*: Any-Angle Path Planning and Path Length Analysis in 3D*, AAAI 2010.
+
+use super::any_angle::{AnyAngleSettings, COLUMNS};
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::search::When;
+use crate::space::WorldKind;
+use base::settings::Accepted;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "lazy_theta_star",
+    about: "Lazy Theta*: any-angle A*, a line of sight looked at for each node taken from OPEN",
+    revision: 1,
+    needs: WorldKind::Lattice,
+    columns: COLUMNS,
+    settings: Accepted::of::<AnyAngleSettings>(),
+    example: r#"
+line_of_sight = "exact_interior"
+ties = "fifo"
+"#,
+    build: Build::Planner(|settings| {
+        let read: AnyAngleSettings = settings.read()?;
+        Ok(Box::new(LazyThetaStar(read)))
+    }),
+};
+
+struct LazyThetaStar(AnyAngleSettings);
+
+impl Planner for LazyThetaStar {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        self.0.plan(request, When::Taken)
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+
+    fn is_any_angle(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,48 @@
+//! Theta\* on 8-connected grids: paths bend at cell centres and may go in any direction.
+//!
+//! # Source
+//! Nash, Daniel, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, AAAI 2007.
+
+use super::any_angle::{AnyAngleSettings, COLUMNS};
+use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use crate::search::When;
+use crate::space::WorldKind;
+use base::settings::Accepted;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "theta_star",
+    about: "Theta*: any-angle A*, a line of sight looked at for each successor",
+    revision: 1,
+    needs: WorldKind::Lattice,
+    columns: COLUMNS,
+    settings: Accepted::of::<AnyAngleSettings>(),
+    example: r#"
+line_of_sight = "exact_interior"
+ties = "fifo"
+"#,
+    build: Build::Planner(|settings| {
+        let read: AnyAngleSettings = settings.read()?;
+        Ok(Box::new(ThetaStar(read)))
+    }),
+};
+
+struct ThetaStar(AnyAngleSettings);
+
+impl Planner for ThetaStar {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        self.0.plan(request, When::Generated)
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+
+    fn is_any_angle(&self) -> bool {
+        true
+    }
+}

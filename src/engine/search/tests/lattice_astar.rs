@@ -1,0 +1,229 @@
+//! A* over a lattice with a wide neighbourhood: the specialisation is the general form.
+
+use super::*;
+use crate::space::{ArmRules, ArmWorld, HopRule, Obstacle, reproduced_rules};
+use base::grid::{Columns, Offsets};
+
+const ORDERS: [Ties; 2] = [Ties::Fifo, Ties::Lifo];
+
+fn neighbourhoods() -> Vec<Offsets> {
+    let of_size = |radius: u8| [Offsets::square(radius), Offsets::disc(radius), Offsets::octagon(radius)];
+    let large = [Offsets::octagon_on_corners(7), Offsets::square(8), Offsets::disc(20)];
+    (1..=6).flat_map(of_size).chain(large).collect()
+}
+
+/// Hops that a rule of their own decides.
+struct Hops<F>(F, [i32; 2]);
+
+impl<F: Fn(u32, [i32; 2]) -> bool> Successors for Hops<F> {
+    fn expands(&mut self, cell: u32) {
+        self.1 = [cell as i32, i32::MAX];
+    }
+
+    fn kept(&mut self, cell: u32, dx: i32, reach: i32, free: u64) -> u64 {
+        let [told, before] = self.1;
+        assert!(
+            told == cell as i32 && dx < before,
+            "{cell} is told and its columns are asked from the right"
+        );
+        self.1[1] = dx;
+        let is_kept = |bit: &i32| free >> bit & 1 == 1 && self.0(cell, [dx, reach - bit]);
+        (0..=2 * reach).filter(is_kept).fold(0, |kept, bit| kept | 1 << bit)
+    }
+}
+
+/// What a query and its lattice are.
+struct Query<'a> {
+    grid: &'a Grid2,
+    offsets: &'a Offsets,
+    spacing: f64,
+    ends: [u32; 2],
+    lower_open: bool,
+    max_expansions: u64,
+}
+
+impl Query<'_> {
+    fn h(&self) -> impl Fn(u32) -> f64 {
+        let (h, spacing) = (euclidean_to(self.grid, self.ends[1]), self.spacing);
+        move |cell| spacing * h(cell)
+    }
+
+    fn general(
+        &self,
+        search: &mut Search<f64, Heap>,
+        may_hop: impl Fn(u32, [i32; 2]) -> bool,
+    ) -> (Report<f64>, ListScans) {
+        let mut scans = ListScans::default();
+        let terms = Terms {
+            graph: &mut LatticeGraph::new(self.grid, self.offsets, self.spacing, may_hop),
+            estimate: &Combined { h: self.h(), combine: sum },
+            observer: &mut scans,
+            update: Update { lower_open: self.lower_open, reopen_closed: false },
+        };
+        let rules = Rules { stop: Stop::GoalPopped, max_expansions: self.max_expansions };
+        let [start, goal] = self.ends;
+        (search.run(terms, start, |cell| cell == goal, rules, &mut ()), scans)
+    }
+
+    fn special(
+        &self,
+        search: &mut LatticeAstar,
+        columns: &Columns,
+        successors: &mut impl Successors,
+    ) -> (Report<f64>, ListScans) {
+        let Self { spacing, ends, lower_open, max_expansions, .. } = *self;
+        search.run(LatticeQuery {
+            columns,
+            spacing,
+            successors,
+            h: self.h(),
+            ends,
+            lower_open,
+            max_expansions,
+        })
+    }
+}
+
+/// What a query ended in, with the cost to the last bit.
+fn told((report, scans): &(Report<f64>, ListScans)) -> (Option<(&[u32], u64)>, bool, Counters, ListScans) {
+    let route = report.outcome.route().map(|route| (&route.nodes[..], route.cost.to_bits()));
+    (route, report.outcome == Outcome::BudgetSpent, report.counters, *scans)
+}
+
+#[test]
+fn the_specialised_search_has_the_path_cost_and_counters_of_the_general_one() {
+    // A hop is refused by chance, one of six.
+    let by_chance = |from: u32, [dx, dy]: [i32; 2]| {
+        let mixed = (u64::from(from) << 16 ^ (dx * 64 + dy) as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        !(mixed >> 32).is_multiple_of(6)
+    };
+    let (mut solved, mut spent, mut lowered, mut count) = (0, 0, 0, 0);
+    for offsets in neighbourhoods() {
+        for ties in ORDERS {
+            let mut special = LatticeAstar::new(&offsets, ties).unwrap();
+            let mut general = Search::new(Heap::new(ties));
+            // One memory for grids of many sizes.
+            for case in cases(24, 0.45) {
+                let columns = Columns::new(&case.grid);
+                let mut costs = Vec::new();
+                for (lower_open, max_expansions) in [(true, u64::MAX), (false, u64::MAX), (true, 5)] {
+                    let spacing = if case.seed % 2 == 0 { 1.0 } else { 0.3 };
+                    let query = Query {
+                        grid: &case.grid,
+                        offsets: &offsets,
+                        spacing,
+                        ends: case.ends,
+                        lower_open,
+                        max_expansions,
+                    };
+                    let (truth, got) = if case.seed % 3 == 0 {
+                        (
+                            query.general(&mut general, |_, _| true),
+                            query.special(&mut special, &columns, &mut ()),
+                        )
+                    } else {
+                        let mut hops = Hops(by_chance, [0; 2]);
+                        (
+                            query.general(&mut general, by_chance),
+                            query.special(&mut special, &columns, &mut hops),
+                        )
+                    };
+                    assert_eq!(told(&got), told(&truth), "seed {}, {ties:?}, {offsets:?}", case.seed);
+                    solved += u32::from(got.0.outcome.route().is_some());
+                    spent += u32::from(got.0.outcome == Outcome::BudgetSpent);
+                    costs.push(got.0.outcome.route().map(|route| route.cost));
+                    count += 1;
+                }
+                lowered += u32::from(costs[1] > costs[0] && costs[0].is_some());
+            }
+        }
+    }
+    assert!((count / 3..count).contains(&solved), "one-sided sample: {solved} of {count} solved");
+    assert!(
+        spent > 100 && lowered > 20,
+        "{spent} of {count} spent their budget, {lowered} gained by lowering"
+    );
+}
+
+/// The hops of an arm.
+struct ArmHops<'a>(&'a ArmWorld);
+
+impl Successors for ArmHops<'_> {
+    fn kept(&mut self, cell: u32, dx: i32, reach: i32, free: u64) -> u64 {
+        self.0.hops(cell, dx, reach, free)
+    }
+}
+
+fn workspace(hop: HopRule, corner_rule: CornerRule) -> ArmWorld {
+    let disc = |at: [f64; 2]| {
+        Obstacle::Circle(crate::geometry::planar::Circle::new(at.into(), 5.0).expect("a disc has a size"))
+    };
+    let obstacles = [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]].map(disc);
+    ArmWorld::new(ArmRules { corner_rule, ..reproduced_rules(hop) }, obstacles.to_vec())
+}
+
+#[test]
+fn an_arm_hops_a_column_at_a_time_as_it_does_one_by_one() {
+    let (mut solved, mut refused) = (0, 0);
+    for (hop, rule) in
+        [HopRule::EndPoints, HopRule::Continuous].into_iter().flat_map(|hop| RULES.map(|rule| (hop, rule)))
+    {
+        // Two worlds, so that what one learns of its hops does not serve the other.
+        let [world, other] = [0, 1].map(|_| workspace(hop, rule));
+        let (grid, seed) = (world.grid(), 7);
+        let free: Vec<u32> = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).collect();
+        let mut stream = seed::stream(seed);
+        for offsets in [1, 2, 3, 4].map(Offsets::square).into_iter().chain([4, 6, 7].map(Offsets::disc)) {
+            for ties in ORDERS {
+                let mut special = LatticeAstar::new(&offsets, ties).unwrap();
+                let mut general = Search::new(Heap::new(ties));
+                for (draw, lower_open) in [true, true, true, false].into_iter().enumerate() {
+                    let ends = [0, 1].map(|_| free[stream.random_range(0..free.len())]);
+                    let query = Query {
+                        grid,
+                        offsets: &offsets,
+                        spacing: 1.0,
+                        ends,
+                        lower_open,
+                        max_expansions: u64::MAX,
+                    };
+                    let truth = query.general(&mut general, |from, by| other.may_step(from, by));
+                    let got = query.special(&mut special, world.columns(), &mut ArmHops(&world));
+                    assert_eq!(
+                        told(&got),
+                        told(&truth),
+                        "seed {seed}, {hop:?}, {rule:?}, {ties:?}, draw {draw}, {ends:?}"
+                    );
+                    solved += u32::from(got.0.outcome.route().is_some());
+                    let any = query.special(&mut special, world.columns(), &mut ());
+                    refused += u32::from(any.0.counters != got.0.counters);
+                }
+            }
+        }
+    }
+    assert!(solved > 250 && refused > 100, "{solved} solved, {refused} with hops refused");
+}
+
+#[test]
+fn a_graph_by_columns_has_the_successors_of_one_by_steps_in_their_order() {
+    for case in cases(60, 0.4) {
+        let (columns, mut any) = (Columns::new(&case.grid), ());
+        for offsets in neighbourhoods() {
+            let mut by_columns = ColumnGraph::new(&columns, &offsets, 0.7, &mut any);
+            let mut by_steps = LatticeGraph::new(&case.grid, &offsets, 0.7, |_, _| true);
+            for cell in case.ends {
+                let mut found = [Vec::new(), Vec::new()];
+                by_columns.successors(cell, |to, cost| found[0].push((to, cost.to_bits())));
+                by_steps.successors(cell, |to, cost| found[1].push((to, cost.to_bits())));
+                assert_eq!(found[0], found[1], "seed {}, {cell}, {offsets:?}", case.seed);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_the_specialised_search_does_not_know_is_refused() {
+    assert!(LatticeAstar::new(&Offsets::square(1), Ties::LargerG).is_none());
+    assert!(LatticeAstar::new(&Offsets::square(21), Ties::Fifo).is_none());
+    assert!(LatticeAstar::new(&Offsets::square(20), Ties::Fifo).is_some());
+}

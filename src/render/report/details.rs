@@ -1,0 +1,312 @@
+//! The details of a chapter: the evidence on each claim under an anchor, what holds together, readings, the ledger, studies. What two
+//! claims have in common is said once.
+
+use super::chapter::Page;
+use super::{COLUMNS, anchor, item, linked, paragraph, place, said};
+use crate::analysis::verdict::{Finding, Judged, Together, Verdicts};
+use crate::render::prose::{markdown, wrapped};
+use crate::render::results;
+use crate::render::tables::{self, short};
+use crate::study::paper::LedgerRow;
+use crate::study::record::Status;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How many sets of claims that hold together are listed with those that fail.
+const LISTED_SETS: usize = 5;
+/// What is shorter than this is said again where it holds again.
+const SHORT: usize = 60;
+
+impl Page<'_> {
+    /// The details; `back` leads to the report from where they lie.
+    pub fn details(&self, back: &str) -> String {
+        let (paper, verdicts) = (self.evidence.paper, self.verdicts);
+        let id = markdown(&paper.id);
+        let mut text = format!("# {id}: evidence and details\n\n[The chapter]({back}#{})", anchor(&paper.id));
+        for (name, to) in SECTIONS {
+            text += &format!(" · [{name}](#{to})");
+        }
+        text += "\n\n";
+        text += &paragraph(&format!("Made by `{}`.", verdicts.command));
+        text.extend(paper.source.notes.iter().map(|note| item(0, &markdown(note))));
+        self.section(&mut text, 0);
+        let mut known = BTreeMap::new();
+        text.extend(verdicts.claims.iter().map(|judged| evidence(judged, verdicts, &mut known)));
+        self.section(&mut text, 1);
+        self.together(&mut text);
+        self.section(&mut text, 2);
+        self.readings(&mut text);
+        self.section(&mut text, 3);
+        self.changes(&mut text);
+        self.section(&mut text, 4);
+        self.shown_besides(&mut text);
+        self.section(&mut text, 5);
+        text.extend(paper.ledger.iter().map(|row| self.ledger(row)));
+        self.section(&mut text, 6);
+        self.studies(&mut text);
+        text.trim_end().to_owned() + "\n"
+    }
+
+    fn section(&self, text: &mut String, at: usize) {
+        let (name, to) = SECTIONS[at];
+        *text += &format!("\n## {name} {}\n\n", place(to));
+    }
+
+    fn together(&self, text: &mut String) {
+        let sets = &self.verdicts.together;
+        if sets.is_empty() {
+            *text += "No claims were asked for together.\n";
+            return;
+        }
+        *text += &paragraph(&format!(
+            "Claims met exactly under one reading by one choice of contenders, each environment on one map of ours. Every such \
+             choice of maps was looked at. Of the {} sets that lie within no other the {} largest are listed, and the largest of each \
+             further reading; all stand in `verdicts.toml` beside the stored run.",
+            sets.len(),
+            sets.len().min(LISTED_SETS)
+        ));
+        let (first, rest) = sets.split_at(LISTED_SETS.min(sets.len()));
+        let mut seen: BTreeSet<&str> = first.iter().map(|set| set.reading.as_str()).collect();
+        let further = rest.iter().filter(|set| seen.insert(&set.reading));
+        let all = first.iter().map(|set| (set, true)).chain(further.map(|set| (set, false)));
+        for (set, with_fail) in all {
+            *text += &together(set, with_fail);
+        }
+    }
+
+    fn readings(&self, text: &mut String) {
+        let readings = self.evidence.paper.readings();
+        if readings.is_empty() {
+            *text += "The studies have no readings.\n";
+        }
+        for reading in readings {
+            let option = |name: &String| {
+                if *name == reading.default { format!("**{name}** (default)") } else { name.clone() }
+            };
+            let options: Vec<String> = reading.options.keys().map(option).collect();
+            let about = format!("`{}`: {}. {}", reading.id, options.join(", "), markdown(&reading.why));
+            *text += &item(0, &about);
+        }
+    }
+
+    /// What was changed after a run, each reason with its claims.
+    fn changes(&self, text: &mut String) {
+        let mut claims: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        for judged in &self.verdicts.claims {
+            if let Some(why) = &judged.changed_after_run {
+                claims.entry(why).or_default().push(&judged.claim);
+            }
+        }
+        if claims.is_empty() {
+            *text += "Nothing in how claims are judged was changed after a run had been seen.\n";
+        }
+        for (why, claims) in claims {
+            *text += &item(0, &format!("{}: {}.", links(&claims), markdown(why)));
+        }
+    }
+
+    /// Figures and tables that the chapter does not show.
+    fn shown_besides(&self, text: &mut String) {
+        let paper = self.evidence.paper;
+        for figure in self.further() {
+            *text += &self.figure(figure, "");
+        }
+        for table in paper.tables.iter().filter(|table| table.rows.iter().all(|row| row.claims.is_empty())) {
+            *text += &paragraph(&table.caption);
+            let shown = tables::markdown(self.evidence, table, self.verdicts, |_| String::new());
+            *text += &shown.unwrap_or_else(|error| paragraph(&error.to_string()));
+            *text += "\n";
+            *text += &paragraph(&table.notes.join(" "));
+        }
+        let is_shown = |id: &String| paper.report.tables.iter().any(|shown| shown.get_ref() == id);
+        for table in paper.results.iter().filter(|table| !is_shown(table.id.get_ref())) {
+            let shown = results::markdown(self.evidence, table);
+            *text += &shown.unwrap_or_else(|error| paragraph(&error.to_string()));
+            *text += "\n";
+        }
+        *text += "Every number as a macro of LaTeX: [numbers.tex](numbers.tex).";
+        let tables: Vec<String> = paper.table_ids().map(|id| format!("[{id}.tex]({id}.tex)")).collect();
+        if !tables.is_empty() {
+            *text += &format!(" Tables in LaTeX: {}.", tables.join(",\n"));
+        }
+        *text += "\n";
+    }
+
+    fn ledger(&self, row: &LedgerRow) -> String {
+        let names = |ids: &[base::settings::Spanned<String>]| {
+            ids.iter().map(|id| id.get_ref().clone()).collect::<Vec<String>>()
+        };
+        let mut answers = Vec::new();
+        // Those that answer a number stand beside it.
+        let with_number: Vec<String> =
+            row.numbers.iter().flat_map(|numbers| names(&numbers.claims)).collect();
+        let claims: Vec<String> =
+            names(&row.claims).into_iter().filter(|claim| !with_number.contains(claim)).collect();
+        if !claims.is_empty() {
+            answers.push(links(&claims));
+        }
+        answers.extend(names(&row.figures).iter().map(|id| self.file(id)));
+        answers.extend(names(&row.studies).iter().map(|study| format!("study `{study}`")));
+        answers.extend(row.none.iter().map(|none| format!("nothing: {}", markdown(none))));
+        let answers = if answers.is_empty() { String::new() } else { format!(" → {}", answers.join(", ")) };
+        let mut text =
+            item(0, &format!("**{}**: {}{answers}", markdown(row.item.get_ref()), markdown(&row.says)));
+        for numbers in &row.numbers {
+            let number = |(printed, claim): (
+                &base::settings::Spanned<String>,
+                Option<&base::settings::Spanned<String>>,
+            )| {
+                let own = claim.filter(|_| numbers.claims.len() > 1).map(|claim| links(&[claim.get_ref()]));
+                markdown(printed.get_ref()) + &own.map_or_else(String::new, |own| format!(" {own}"))
+            };
+            let listed: Vec<String> = numbers.answered().map(number).collect();
+            let why = match (&numbers.none, &numbers.claims[..]) {
+                (Some(none), _) => format!(": {}", markdown(none)),
+                (None, [claim]) => format!(": {}", links(&[claim.get_ref()])),
+                _ => String::new(),
+            };
+            text += &item(1, &format!("{}{why}", listed.join(", ")));
+        }
+        text
+    }
+
+    /// A figure or table of ours, as a link to its file.
+    fn file(&self, id: &str) -> String {
+        let is_figure = self.evidence.paper.figure_ids().any(|figure| figure == id);
+        if self.undrawn.iter().any(|undrawn| undrawn.id == id) {
+            return format!("{id} (not drawn)");
+        }
+        format!("[{id}]({id}.{})", if is_figure { "png" } else { "tex" })
+    }
+
+    fn studies(&self, text: &mut String) {
+        for run in self.evidence.runs() {
+            let (study, trials) = (run.study, run.records.batch.rows.len());
+            let (seed, spec) = (run.manifest.seed, &run.manifest.spec[..12]);
+            let about = format!(
+                "**`{}`**: {} {trials} trials, seed {seed}, spec `{spec}`.",
+                study.name,
+                markdown(&study.question)
+            );
+            *text += &item(0, &about);
+            for group in &study.groups {
+                let counted = study.contenders.iter().map(|contender| {
+                    let rows = run.rows(&group.label, &contender.label);
+                    let of = |status: &Status| rows.iter().filter(|row| row.status == *status).count();
+                    let counts =
+                        Status::ALL.iter().map(|status| (of(status), status)).filter(|(count, _)| *count > 0);
+                    let counts: Vec<String> =
+                        counts.map(|(count, status)| format!("{count} {status}")).collect();
+                    (markdown(&contender.label), counts.join(", "))
+                });
+                let counted: Vec<(String, String)> =
+                    counted.filter(|(_, counts)| !counts.is_empty()).collect();
+                *text += &item(1, &format!("{}: {}", markdown(&group.label), alike(&counted)));
+            }
+        }
+    }
+}
+
+/// Contenders with their counts, those with equal counts together.
+fn alike(counted: &[(String, String)]) -> String {
+    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (contender, counts) in counted {
+        match groups.iter_mut().find(|(known, _)| known == counts) {
+            Some((_, contenders)) => contenders.push(contender),
+            None => groups.push((counts, vec![contender])),
+        }
+    }
+    let each = |(counts, names): &(&str, Vec<&str>)| {
+        if names.len() > 1 {
+            format!("{counts} each of {}", names.join(", "))
+        } else {
+            format!("{counts} of {}", names[0])
+        }
+    };
+    if groups.is_empty() {
+        "no trials under this reading".to_owned()
+    } else {
+        groups.iter().map(each).collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// The parts of the details with their anchors.
+pub(super) const SECTIONS: [(&str, &str); 7] = [
+    ("Claims", "claims"),
+    ("What holds together", "together"),
+    ("Readings", "readings"),
+    ("Changes after a run", "changes"),
+    ("Further figures and tables", "figures"),
+    ("Ledger", "ledger"),
+    ("Studies", "studies"),
+];
+
+fn links(claims: &[impl AsRef<str>]) -> String {
+    let link = |claim: &str| format!("[`{claim}`](#{})", anchor(claim));
+    claims.iter().map(|claim| link(claim.as_ref())).collect::<Vec<_>>().join(", ")
+}
+
+fn together(set: &Together, with_fail: bool) -> String {
+    let about = format!("{} ({}: {}; {})", set.reading.replace(',', ", "), set.study, set.problem, set.under);
+    let mut text = item(0, &markdown(&about)) + &item(1, &format!("hold: {}", links(&set.hold)));
+    if with_fail && !set.fail.is_empty() {
+        text += &item(1, &format!("fail: {}", links(&set.fail)));
+    }
+    text
+}
+
+/// What was found about one claim; `known` has the claims that said something first.
+fn evidence<'a>(judged: &'a Judged, verdicts: &Verdicts, known: &mut BTreeMap<String, &'a str>) -> String {
+    let mut text = format!("{}\n", place(&judged.claim));
+    let readings =
+        judged.across_readings().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
+    let mut about = format!("**`{}`: {}{readings}**. ", judged.claim, judged.outcome());
+    about += &markdown(&format!("{}: {}", judged.at, said(judged)));
+    if let Some(whole) = &judged.part_of {
+        about += &format!(". A part of {}", links(&[whole]));
+    }
+    if judged.changed_after_run.is_some() {
+        about += ". [Changed after a run](#changes)";
+    }
+    text += &(wrapped("", &about, 0, COLUMNS) + ".\n\n");
+    let theorem = judged.theorem.iter().map(|theorem| format!("it must hold: {}", markdown(theorem)));
+    let findings =
+        judged.findings.iter().flat_map(|finding| finding_lines(finding, verdicts, known, &judged.claim));
+    let lines: Vec<(usize, String)> = theorem.map(|line| (0, line)).chain(findings).collect();
+    text.extend(lines.iter().map(|(depth, line)| item(*depth, line)));
+    text + "\n"
+}
+
+/// What one criterion found, as items of a list with their depths.
+fn finding_lines<'a>(
+    finding: &'a Finding,
+    verdicts: &Verdicts,
+    known: &mut BTreeMap<String, &'a str>,
+    claim: &'a str,
+) -> Vec<(usize, String)> {
+    let mut head = format!("`{}`", finding.criterion);
+    if let Some(verdict) = finding.verdict {
+        head += &format!(": *{}*", verdict.name());
+    }
+    if let Some(ours) = &finding.ours {
+        let solved =
+            ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
+        head += &format!("; ours {} ({}; n = {}{solved})", short(ours), markdown(&ours.what), ours.n);
+    }
+    let mut lines = vec![(0, head)];
+    let because = finding.because.iter().map(String::clone);
+    let settles = finding.settles.iter().map(|settles| format!("what would settle it: {settles}"));
+    let premises =
+        (!finding.premises.is_empty()).then(|| format!("premises: {}", finding.premises.join("; ")));
+    for said in because.chain(settles).chain(premises) {
+        let first = *known.entry(said.clone()).or_insert(claim);
+        let is_said = first != claim && said.len() > SHORT;
+        let said = if is_said { format!("as for {}", links(&[first])) } else { linked(&said, verdicts, "") };
+        if !lines.contains(&(1, said.clone())) {
+            lines.push((1, said));
+        }
+    }
+    if let Some(trial) = &finding.trial {
+        lines.push((1, format!("trial `{trial}`")));
+    }
+    lines
+}

@@ -1,0 +1,100 @@
+//! What a paper's chapter of the report shows: its findings, with places for our numbers, and which figures, tables and claims.
+
+use super::Paper;
+use base::settings::{Faults, Spanned, did_you_mean};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeSet;
+
+/// The chapter of a paper. Its texts may hold `{claim}`, which our number beside that claim replaces, and `{claim:form}` with
+/// one of [`FORMS`].
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ReportSpec {
+    /// What was found, in one sentence, for the overview.
+    pub finding: Option<String>,
+    /// What was found, with numbers; our number stands for each `{claim}`.
+    #[schemars(length(max = 5))]
+    pub findings: Vec<String>,
+    /// Its figures; the first of the studies' if absent.
+    #[schemars(length(max = 6))]
+    pub figures: Option<Vec<Spanned<String>>>,
+    /// Tables of our results that it shows beside the paper's own.
+    pub tables: Vec<Spanned<String>>,
+    /// Its claims; the first sentences and rows if absent.
+    #[schemars(length(max = 25))]
+    pub claims: Option<Vec<Spanned<String>>>,
+}
+
+/// How many figures a chapter shows at most.
+pub const FIGURES: usize = 6;
+/// How many claims a chapter lists at most.
+pub const CLAIMS: usize = 25;
+
+/// The forms in which a place can ask for what was found: with one decimal, as a percentage, the ends of the interval, the
+/// number of draws, the class.
+pub const FORMS: [&str; 6] = ["tenths", "percent", "low", "high", "n", "verdict"];
+
+/// `text` with every `{claim}` or `{claim:form}` replaced by what `with` says of the claim in that form.
+pub fn filled(text: &str, mut with: impl FnMut(&str, &str) -> String) -> String {
+    let mut pieces = text.split('{');
+    let mut whole = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (name, rest) = piece.split_once('}').unwrap_or((piece, ""));
+        let (claim, form) = name.split_once(':').unwrap_or((name, ""));
+        whole += &with(claim, form);
+        whole += rest;
+    }
+    whole
+}
+
+impl Paper {
+    /// Every claim, form, figure and table that the chapter names exists.
+    pub(super) fn check_report(
+        &self,
+        claims: &BTreeSet<&str>,
+        figures: &BTreeSet<&str>,
+        faults: &mut Faults,
+    ) {
+        let report = &self.report;
+        let finding = report.finding.iter().map(|text| ("report.finding".to_owned(), text));
+        let findings = report
+            .findings
+            .iter()
+            .enumerate()
+            .map(|(index, text)| (format!("report.findings.{index}"), text));
+        for (place, text) in finding.chain(findings) {
+            filled(text, |claim, form| {
+                let hint = did_you_mean(claim, claims.iter().copied());
+                if !claims.contains(claim) {
+                    let message = format!("the text speaks of `{{{claim}}}`; there is no such claim{hint}");
+                    faults.add(self.document.error_at(&place, message));
+                } else if !form.is_empty() && !FORMS.contains(&form) {
+                    let message = format!(
+                        "the text asks for `{{{claim}:{form}}}`; the forms are {}, or none",
+                        FORMS.join(", ")
+                    );
+                    faults.add(self.document.error_at(&place, message));
+                }
+                String::new()
+            });
+        }
+        let results: BTreeSet<&str> = self.results.iter().map(|table| table.id.get_ref().as_str()).collect();
+        self.known("figure", report.figures.as_deref().unwrap_or_default(), figures, faults);
+        self.known("table of results", &report.tables, &results, faults);
+        self.known("claim", report.claims.as_deref().unwrap_or_default(), claims, faults);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_filled_and_all_else_is_kept() {
+        let said =
+            filled("of {a.b} we find {a.b:percent}, {c:n}.", |claim, form| format!("<{claim}|{form}>"));
+        assert_eq!(said, "of <a.b|> we find <a.b|percent>, <c|n>.");
+        assert_eq!(filled("nothing to fill", |_, _| String::new()), "nothing to fill");
+    }
+}
