@@ -254,59 +254,62 @@ mod tests {
         assert!((turned[1] - 2.0 * H * H).abs() < 1e-12, "{turned:?}: x of the plank is y of the world");
     }
 
+    /// A change of the file, and what must be said of it.
+    const WRONG: &[(&str, &str, &str)] = &[
+        (
+            "0.7071067811865476]",
+            "0.8]",
+            "p.json:15:15: pose has the quaternion [0.7071067811865476, 0.0, 0.0, 0.8] of length 1.0677",
+        ),
+        (
+            "dims: [1.2,",
+            "dims: [1200,",
+            "p.json:14:15: dims has the length 1200 m; is it in millimetres? lengths in metres",
+        ),
+        (
+            "radius: 0.02",
+            "radius: -0.02",
+            "p.json:17:35: radius has the size -0.02; sizes above 0 are accepted",
+        ),
+        (
+            "position: [0, 1, 0]",
+            "position: [0, .nan, 0]",
+            "p.json:19:41: position is `.nan`; a number is accepted",
+        ),
+        (
+            "position: [0, 1, 0]",
+            "position: [0, NaN, 0]",
+            "p.json:19:41: position has the number NaN; finite numbers",
+        ),
+        (
+            "start: [0.0, 1.5]",
+            "start: [0.0, 90]",
+            "p.json:20:10: start has the angle 90; is it in degrees? radians",
+        ),
+        (
+            "start: [0.0, 1.5]",
+            "start: [0.0]",
+            "p.json:8:5: a goal has 2 angles; 1, as the start, are accepted",
+        ),
+        (
+            "goal_ik:\n  - - 0.5\n    - -0.25",
+            "goal_is: 0",
+            "p.json:6:3: a problem needs a goal in joints: `goals` or `goal_ik`; found",
+        ),
+        (
+            "    sphere:",
+            "    mesh:",
+            "p.json:19:7: an obstacle is a `mesh`; cuboid, cylinder and sphere are accepted",
+        ),
+        ("start: [0.0, 1.5]", "start: [0.0, 1.5", "this is neither YAML nor JSON"),
+    ];
+
     #[test]
     fn what_is_wrong_with_a_problem_is_told_at_its_place() {
-        for (from, to, said) in [
-            (
-                "0.7071067811865476]",
-                "0.8]",
-                "p.json:15:15: pose has the quaternion [0.7071067811865476, 0.0, 0.0, 0.8] of length 1.0677",
-            ),
-            (
-                "dims: [1.2,",
-                "dims: [1200,",
-                "p.json:14:15: dims has the length 1200 m; is it in millimetres? lengths in metres",
-            ),
-            (
-                "radius: 0.02",
-                "radius: -0.02",
-                "p.json:17:35: radius has the size -0.02; sizes above 0 are accepted",
-            ),
-            (
-                "position: [0, 1, 0]",
-                "position: [0, .nan, 0]",
-                "p.json:19:41: position is `.nan`; a number is accepted",
-            ),
-            (
-                "position: [0, 1, 0]",
-                "position: [0, NaN, 0]",
-                "p.json:19:41: position has the number NaN; finite numbers",
-            ),
-            (
-                "start: [0.0, 1.5]",
-                "start: [0.0, 90]",
-                "p.json:20:10: start has the angle 90; is it in degrees? radians",
-            ),
-            (
-                "start: [0.0, 1.5]",
-                "start: [0.0]",
-                "p.json:8:5: a goal has 2 angles; 1, as the start, are accepted",
-            ),
-            (
-                "goal_ik:\n  - - 0.5\n    - -0.25",
-                "goal_is: 0",
-                "p.json:6:3: a problem needs a goal in joints: `goals` or `goal_ik`; found",
-            ),
-            (
-                "    sphere:",
-                "    mesh:",
-                "p.json:19:7: an obstacle is a `mesh`; cuboid, cylinder and sphere are accepted",
-            ),
-            ("start: [0.0, 1.5]", "start: [0.0, 1.5", "this is neither YAML nor JSON"),
-        ] {
+        for (from, to, said) in WRONG {
             let text = ROBOMETRICS.replace("- - [0.1, 0.2]", "- [0.1, 0.2]");
-            assert!(text.contains(from), "{from}");
-            let error = read(&text.replace(from, to), None, 1).unwrap_err();
+            assert!(text.contains(*from), "{from}");
+            let error = read(&text.replace(*from, to), None, 1).unwrap_err();
             assert!(error.contains(said), "{to}: should say {said}\nsays {error}");
         }
         for (set, index, said) in [

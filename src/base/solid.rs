@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn a_quarter_turn_by_angles_is_the_one_by_a_quaternion_and_rounded_angles_are_right_angles() {
-        let by_angles = Pose::from_rpy([1.0, 2.0, 3.0], [0.0, 0.0, 1.5708]);
+        let by_angles = Pose::from_rpy([1.0, 2.0, 3.0], [0.0, 0.0, FRAC_PI_2 + 4e-6]);
         let by_quaternion = Pose::from_quaternion([1.0, 2.0, 3.0], [FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2]);
         assert_eq!(by_angles.point([1.0, 0.0, 0.0]), [1.0, 3.0, 3.0]);
         for (a, b) in by_angles.rotation.iter().flatten().zip(by_quaternion.rotation.iter().flatten()) {

@@ -79,7 +79,7 @@ impl Yaml<'_> {
     }
 
     /// The entries of a table.
-    pub fn table<'n>(self, of: &'n Node) -> Result<&'n [(String, Node)], SettingsError> {
+    pub fn table(self, of: &Node) -> Result<&[(String, Node)], SettingsError> {
         match &of.data {
             Data::Table(entries) => Ok(entries),
             _ => Err(self.0.fault(&of.at, format!("found {}; a table is accepted", of.what()))),
@@ -87,7 +87,7 @@ impl Yaml<'_> {
     }
 
     /// The elements of a list.
-    pub fn list<'n>(self, of: &'n Node) -> Result<&'n [Node], SettingsError> {
+    pub fn list(self, of: &Node) -> Result<&[Node], SettingsError> {
         match &of.data {
             Data::List(elements) => Ok(elements),
             _ => Err(self.0.fault(&of.at, format!("found {}; a list is accepted", of.what()))),
@@ -95,7 +95,7 @@ impl Yaml<'_> {
     }
 
     /// A word.
-    pub fn word<'n>(self, of: &'n Node) -> Result<&'n str, SettingsError> {
+    pub fn word(self, of: &Node) -> Result<&str, SettingsError> {
         match &of.data {
             Data::Word(word) => Ok(word),
             _ => Err(self.0.fault(&of.at, format!("found {}; a word is accepted", of.what()))),

@@ -55,7 +55,8 @@ impl Inputs {
                 return Ok(found);
             }
         }
-        let places: Vec<String> = self.roots.iter().map(|root| root.join(pattern).display().to_string()).collect();
+        let places: Vec<String> =
+            self.roots.iter().map(|root| root.join(pattern).display().to_string()).collect();
         Err(format!("no file is `{pattern}`; looked for {}", places.join(", ")))
     }
 

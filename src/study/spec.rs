@@ -69,6 +69,9 @@ pub struct ProblemsSpec {
     /// Files, such as `maps/*.map`: a group for each, whose label ends in the file's name and in whose settings the file's path
     /// stands for `{file}`.
     pub each: Option<Spanned<String>>,
+    /// The file that this group was made for.
+    #[serde(skip)]
+    pub file: Option<String>,
     /// How many independent draws.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub replicates: Option<u32>,

@@ -52,7 +52,8 @@ impl Case<'_> {
     ///
     /// A* over (straight, diagonal) counts, which opens a cell again whenever it is reached at less cost. Costs are compared as the
     /// floats they round to. Two counts of one cost are the same counts, and others differ by more than bounds are off by
-    /// rounding, so that the first time the goal is taken out its cost is the least.
+    /// rounding, so that the first time the goal is taken out its cost is the least. Of equal estimates the one that is farthest on
+    /// its way goes first.
     pub fn optimal_cost_by(&self, landmarks: Option<&Landmarks>) -> Option<f64> {
         let (start, goal) = (self.cell(self.start)?, self.cell(self.goal)?);
         if !self.grid.is_free_xy(start[0], start[1]) || !self.grid.is_free_xy(goal[0], goal[1]) {
@@ -69,9 +70,9 @@ impl Case<'_> {
         }
         // The bits of the least cost so far and one more, so that memory that is all zero knows no cell.
         let mut best = vec![0_u64; self.grid.cell_count() as usize];
-        let mut queue = BinaryHeap::from([Reverse((bound(start).to_bits(), 0_u32, 0_u32, start))]);
+        let mut queue = BinaryHeap::from([(key(bound(start)), 0_u64, 0_u32, 0_u32, start)]);
         best[self.index(start)] = 1;
-        while let Some(Reverse((_, straight, diagonal, at))) = queue.pop() {
+        while let Some((.., straight, diagonal, at)) = queue.pop() {
             let cost = octile(straight, diagonal);
             if at == goal {
                 return Some(cost);
@@ -84,7 +85,7 @@ impl Case<'_> {
                 let (cost, known) = (octile(a, b), &mut best[self.index(next)]);
                 if *known == 0 || cost.to_bits() + 1 < *known {
                     *known = cost.to_bits() + 1;
-                    queue.push(Reverse(((cost + bound(next)).to_bits(), a, b, next)));
+                    queue.push((key(cost + bound(next)), cost.to_bits(), a, b, next));
                 }
             });
         }
@@ -214,6 +215,12 @@ fn enters(from: [i32; 2], to: [i32; 2], cell: [i32; 2]) -> bool {
     let strictly_left = corners.iter().any(|s| *s > 0);
     let strictly_right = corners.iter().any(|s| *s < 0);
     from == to || (strictly_left && strictly_right)
+}
+
+/// The order of estimates, the least last. Estimates within 2^-24 are equal: rounding parts them by less, and two costs of paths of
+/// fewer than a million moves by more.
+fn key(estimate: f64) -> Reverse<u64> {
+    Reverse((estimate * 16_777_216.0) as u64)
 }
 
 fn neighbours() -> impl Iterator<Item = [i32; 2]> {

@@ -29,5 +29,6 @@ mod report;
 mod shapes;
 mod snapshots;
 mod source;
+mod urdf;
 mod worlds;
 mod wrong_words;

@@ -69,8 +69,9 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
     inside.map(|part| part.split_once('\n').unwrap()).map(|(info, text)| Block { info, text }).collect()
 }
 
-fn words(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+/// The text without its spaces, which only align.
+fn letters(text: &str) -> String {
+    text.split_whitespace().collect()
 }
 
 #[test]
@@ -92,8 +93,8 @@ fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_s
             }
             ("toml", file) if !file.is_empty() => bench.write(file, text.as_bytes()),
             ("text", "") => {
-                let said: Vec<String> = last.out.lines().map(words).collect();
-                for line in text.lines().map(words) {
+                let said: Vec<String> = last.out.lines().map(letters).collect();
+                for line in text.lines().map(letters) {
                     assert!(
                         said.iter().any(|said| said.contains(&line)),
                         "{line}\nis not said:\n{}",
@@ -106,4 +107,54 @@ fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_s
         }
     }
     assert!(commands >= 8 && shown >= 6, "{commands} commands, {shown} lines of output");
+}
+
+#[test]
+fn a_folder_of_maps_is_one_group_each_and_a_pattern_without_a_file_is_told() {
+    let bench = Bench::empty();
+    bench.done(&["new", "maps", "--from", "grid"]);
+    for (name, row) in [("b", "....\n"), ("a", ".#..\n")] {
+        bench.write(&format!("maps/rooms/{name}.txt"), format!("{row}....\n").as_bytes());
+    }
+    bench.edit(
+        "maps/compare.toml",
+        "family = \"random_rectangles\"\nreplicates = 60",
+        "family = \"grid_map\"\neach = \"rooms/*.txt\"",
+    );
+    let text = fs::read_to_string(bench.at("maps/compare.toml")).unwrap();
+    let (from, to) = (text.find("[problems.settings]").unwrap(), text.find("# What is compared").unwrap());
+    let settings =
+        "settings = { map = \"{file}\", start = [0, 1], goal = [3, 1], corner_rule = \"allow\" }\n\n";
+    let figure = text.find("# A figure, drawn").unwrap();
+    bench.write("maps/compare.toml", [&text[..from], settings, &text[to..figure]].concat().as_bytes());
+    let paper = fs::read_to_string(bench.at("maps/paper.toml")).unwrap();
+    let paper = paper.replace("problems = \"maps\"", "problems = \"maps *\"").replace(", \"maps\"]", "]");
+    bench.write("maps/paper.toml", paper.as_bytes());
+    assert!(bench.done(&["run", "./maps"]).starts_with("compare: 4 trials"));
+    bench.done(&["repro", "./maps", "--trial", "compare/maps-a/a-star"]);
+    for (pattern, said) in [
+        (
+            "rooms/*.map",
+            "maps/compare.toml:18:8: no file is `rooms/*.map`; looked for ./maps/rooms/*.map, rooms/*.map",
+        ),
+        (
+            "rooms/a.txt",
+            "maps/compare.toml:18:8: `rooms/a.txt` has no `*` in its last part; `maps/*.map` is accepted",
+        ),
+    ] {
+        bench.write("maps/compare.toml", text_with(&bench, pattern).as_bytes());
+        let answer = bench.run(&["check", "./maps"]);
+        assert!(
+            answer.code == Some(2) && answer.err.contains(said),
+            "should say {said}\nsays {}",
+            answer.err
+        );
+    }
+}
+
+/// The study of the folder of maps with another pattern.
+fn text_with(bench: &Bench, pattern: &str) -> String {
+    let text = fs::read_to_string(bench.at("maps/compare.toml")).unwrap();
+    let line = text.lines().find(|line| line.starts_with("each = ")).unwrap();
+    text.replace(line, &format!("each = \"{pattern}\""))
 }

@@ -5,7 +5,7 @@
 //! blocked where `p > occupied_thresh`, free where `p < free_thresh`, unknown in between; what is unknown is blocked. Its `resolution`
 //! must be a length, and is not used: cells are cells here.
 //!
-//! Source: wiki.ros.org/map_server, "Map format".
+//! Source: the page "Map format" of <https://wiki.ros.org/map_server>.
 
 use super::{Grid2, GridError, parse_text_map, read_movingai_map, read_text_map};
 use crate::settings::{Document, SettingsError};

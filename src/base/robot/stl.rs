@@ -1,4 +1,19 @@
-//! The vertices of STL meshes, binary and text.
+//! STL meshes: where they are looked for, and their vertices, binary and text.
+
+use std::path::{Path, PathBuf};
+
+/// Where a mesh is looked for: `package://name/rest` beside the file, and in the folders above it.
+pub(super) fn places(urdf: &Path, given: &str) -> Vec<PathBuf> {
+    let folder = urdf.parent().unwrap_or(Path::new(""));
+    match given.strip_prefix("package://") {
+        Some(below) => {
+            let rest = below.split_once('/').map_or(below, |(_, rest)| rest);
+            let up = folder.join("..");
+            vec![folder.join(rest), folder.join(below), up.join(rest), up.join("..").join(below)]
+        }
+        None => vec![folder.join(given.strip_prefix("file://").unwrap_or(given))],
+    }
+}
 
 /// The distinct vertices of the mesh in `bytes`, in an order of their own.
 ///

@@ -184,7 +184,7 @@ fn every_bad_input_is_refused_at_its_place() {
         match read(&ARM.replacen(from, to, 1), FOOT.as_bytes()) {
             Ok(_) => missed.push(format!("{to}\nis accepted; should say: {said}")),
             Err(error) if !error.contains(said) => {
-                missed.push(format!("{to}\nshould say: {said}\nsays:       {error}"))
+                missed.push(format!("{to}\nshould say: {said}\nsays:       {error}"));
             }
             Err(_) => {}
         }

@@ -13,7 +13,7 @@ use roxmltree::Node;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The robot in the URDF file at `path`; meshes are looked for beside it.
 ///
@@ -366,7 +366,7 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
                 source.fault(&at, format!("the mesh `{given}` is no STL file; STL files are accepted"))
             );
         }
-        let tried = mesh_places(source.0.path(), given);
+        let tried = stl::places(source.0.path(), given);
         let Some(file) = tried.iter().find(|path| path.is_file()) else {
             let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();
             return Err(
@@ -388,18 +388,5 @@ impl<'a, 'input> Walk<'_, 'a, 'input> {
             self.robot.files.push(file.clone());
         }
         Ok(Form::Hull(points))
-    }
-}
-
-/// Where a mesh is looked for: `package://name/rest` beside the file, and in the folders above it.
-fn mesh_places(urdf: &Path, given: &str) -> Vec<PathBuf> {
-    let folder = urdf.parent().unwrap_or(Path::new(""));
-    match given.strip_prefix("package://") {
-        Some(below) => {
-            let rest = below.split_once('/').map_or(below, |(_, rest)| rest);
-            let up = folder.join("..");
-            vec![folder.join(rest), folder.join(below), up.join(rest), up.join("..").join(below)]
-        }
-        None => vec![folder.join(given.strip_prefix("file://").unwrap_or(given))],
     }
 }

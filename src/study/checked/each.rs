@@ -30,22 +30,23 @@ pub(super) fn expanded(
     all
 }
 
-/// The group of one file: its label ends in the file's name, and the file's path stands in its settings.
+/// The group of one file, whose name its label ends in.
 fn of_file(group: &ProblemsSpec, file: &str) -> ProblemsSpec {
     let stem = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
     let label = format!("{} {stem}", group.label.get_ref());
-    let settings = filled(group.settings.get_ref(), file);
     ProblemsSpec {
         label: group.label.with(label),
         family: group.family.clone(),
         each: None,
         replicates: group.replicates,
         draw: group.draw.clone(),
-        settings: group.settings.with(settings),
+        file: Some(file.to_owned()),
+        settings: group.settings.clone(),
     }
 }
 
-fn filled(table: &Table, file: &str) -> Table {
+/// `table` with the path of the file where it belongs.
+pub(super) fn filled(table: &Table, file: &str) -> Table {
     let value = |value: &Value| match value {
         Value::String(text) => Value::String(text.replace(FILE, file)),
         Value::Table(inner) => Value::Table(filled(inner, file)),

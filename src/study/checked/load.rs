@@ -335,13 +335,18 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
     let known = family::REGISTRY.iter().map(|entry| entry.name);
     let replicates = spec.replicates.unwrap_or(1);
     let family = look_up(document, "problem family", &spec.family, family::find, known)?;
+    let written = Settings::written(document, &spec.settings);
+    let settings = match &spec.file {
+        Some(file) => written.overlaid(&each::filled(written.table(), file), &format!("file {file}")),
+        None => written,
+    };
     Ok(Group {
         label: spec.label.get_ref().clone(),
         family,
         replicates,
         draw: spec.draw.clone(),
         is_numbered: replicates > 1,
-        settings: Settings::written(document, &spec.settings).completed(family.settings),
+        settings: settings.completed(family.settings),
     })
 }
 

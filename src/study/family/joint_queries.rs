@@ -89,21 +89,25 @@ impl Posed {
         let problem = parse_problem(&document, read.set.as_deref(), read.index)?;
         let (axes, found) = (robot.joints.len(), problem.start.angles_rad.len());
         if axes != found {
-            let message = format!("the start has {found} angles; {axes}, as `{}` has joints, are accepted", robot.name);
+            let message =
+                format!("the start has {found} angles; {axes}, as `{}` has joints, are accepted", robot.name);
             return Err(document.error(problem.start.at, message));
         }
         let inputs = files.into_iter().chain(robot.files.iter().cloned()).collect();
         let queries = queries(&problem);
-        let space = JointSpace::new(robot, problem.obstacles, read.self_collision, read.step_deg.to_radians());
-        let ends = std::iter::once(("start", &problem.start)).chain(problem.goals.iter().map(|goal| ("goal", goal)));
-        let unposed = ends.filter_map(|(what, end)| unposed(&space, &document, what, end)).next();
+        let space =
+            JointSpace::new(robot, problem.obstacles, read.self_collision, read.step_deg.to_radians());
+        let mut ends =
+            std::iter::once(("start", &problem.start)).chain(problem.goals.iter().map(|goal| ("goal", goal)));
+        let unposed = ends.find_map(|(what, end)| unposed(&space, &document, what, end));
         Ok(Self { read, space, queries, unposed, inputs })
     }
 }
 
 /// From the start to each goal; a single one needs no name.
 fn queries(problem: &Problem) -> Vec<Query> {
-    let name = |index: usize| if problem.goals.len() == 1 { String::new() } else { format!("goal-{}", index + 1) };
+    let name =
+        |index: usize| if problem.goals.len() == 1 { String::new() } else { format!("goal-{}", index + 1) };
     let query = |(index, goal): (usize, &Ended)| Query {
         name: name(index),
         start: problem.start.angles_rad.clone(),
@@ -128,7 +132,9 @@ impl Family for Posed {
         while samples.len() < wanted as usize {
             if draws / DRAWS_PER_SAMPLE >= wanted {
                 let found = samples.len();
-                return Err(Invalid(format!("{found} of {wanted} free configurations were found in {draws} draws")));
+                return Err(Invalid(format!(
+                    "{found} of {wanted} free configurations were found in {draws} draws"
+                )));
             }
             let joints = self.space.chain().joints().iter();
             let config: Vec<f64> = joints

@@ -39,9 +39,9 @@ impl Landmarks {
             let index = (0..nearest.len()).max_by(|a, b| far(a).total_cmp(&far(b)))?;
             let width = case.grid.width() as usize;
             let own = case.costs_from([(index % width) as i32, (index / width) as i32]);
-            for (cell, cost) in own.iter().enumerate() {
-                costs[cell][landmark] = *cost;
-                nearest[cell] = if landmark == 0 { *cost } else { nearest[cell].min(*cost) };
+            for ((known, nearest), cost) in costs.iter_mut().zip(&mut nearest).zip(own) {
+                known[landmark] = cost;
+                *nearest = if landmark == 0 { cost } else { nearest.min(cost) };
             }
         }
         Some(Self { costs })

@@ -33,7 +33,8 @@ pub(super) fn exhibits(space: &JointSpace, queries: &[Query]) -> Vec<Exhibit> {
 /// The corners of a box, x before y before z.
 fn corners(solid: &Solid) -> Vec<f64> {
     let Form::Box(half) = solid.form else { return Vec::new() };
-    let corner = |i: usize| std::array::from_fn(|axis| if i >> axis & 1 == 1 { half[axis] } else { -half[axis] });
+    let corner =
+        |i: usize| std::array::from_fn(|axis| if i >> axis & 1 == 1 { half[axis] } else { -half[axis] });
     (0..8).flat_map(|i| solid.pose.point(corner(i)).map(|x| x * 1e3)).collect()
 }
 
@@ -44,7 +45,8 @@ fn round(capsule: &Capsule) -> Vec<f64> {
 
 fn body(space: &JointSpace, name: String, q: &[f64]) -> Exhibit {
     let frames = space.chain().frames(q);
-    let capsules = space.robot().solids.iter().filter_map(|(link, solid)| capsule_around(solid, &frames[*link]).ok());
+    let capsules =
+        space.robot().solids.iter().filter_map(|(link, solid)| capsule_around(solid, &frames[*link]).ok());
     Exhibit { name, width: 7, values: capsules.flat_map(|capsule| round(&capsule)).collect() }
 }
 
