@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import comb, isqrt
+from math import ceil, comb, floor, isqrt
 
 from certificates.spans import Span, need, point
 
@@ -70,12 +70,12 @@ def quantile(spans: list[Span], given: dict, steps: list) -> None:
     """No rule's multiples of the grain are printed so."""
     n, share, grain = integer(given["n"]), fraction(given["share"]), positive(given["grain"])
     need(n > 0 and 0 <= share <= 1 and len(spans) == 1, "n, share or numbers are wrong")
+    need(given["rule"] in ("linear", "any"), "there is no such rule")
     if share in (0, 1):
         denominators = {1}
     else:
         offsets = [1 - share]
         denominators = set()
-        need(given["rule"] in ("linear", "any"), "there is no such rule")
         if given["rule"] == "any":
             offsets += [Fraction(0), Fraction(1, 2), share, (share + 1) / 3, share / 4 + Fraction(3, 8)]
             # Rules 1 and 3 take a value; rule 2 takes the middle of two where n p is whole.
@@ -147,44 +147,64 @@ def seven_shaped(c: int) -> bool:
     return c % 8 == 7
 
 
+def least(said: Fraction | None, at: int | None, spans: list[Span], grain: Fraction) -> int | None:
+    """What no value is below, in grains: by what is said, and by the least value if it is printed."""
+    found = [] if said is None else [ceil(said / grain)]
+    found += [] if at is None else [spans[at].times(1 / grain).integers()[0]]
+    return max(found, default=None)
+
+
+def most(said: Fraction | None, at: int | None, spans: list[Span], grain: Fraction) -> int | None:
+    """What no value is above, in grains."""
+    found = [] if said is None else [floor(said / grain)]
+    found += [] if at is None else [spans[at].times(1 / grain).integers()[1]]
+    return min(found, default=None)
+
+
 def grimmer(spans: list[Span], given: dict, steps: list) -> None:
     """For no total of the values is there a sum of squares that the deviation allows."""
-    need(len(spans) == 2, "deviation and mean are needed")
     n, grain = integer(given["n"]), positive(given["grain"])
     need(n > 0 and isinstance(given["is_error"], bool), "n or is_error is wrong")
-    ends = [fraction(given["least"]), fraction(given["most"])]
+    printed_ends = given["printed_ends"]
+    # The least and the greatest value stand behind the mean, in this order, where they are printed.
+    places = list(range(2, 2 + sum(at is not None for at in printed_ends)))
+    need(
+        len(printed_ends) == 2 and len(spans) == 2 + len(places),
+        "deviation, mean and printed ends are needed",
+    )
+    need([at for at in printed_ends if at is not None] == places, "the printed ends are other numbers")
+    inner = [
+        least(fraction(given["least"]), printed_ends[0], spans, grain),
+        most(fraction(given["most"]), printed_ends[1], spans, grain),
+    ]
     divisors = [integer(divisor) for divisor in given["divisors"]]
     need(
         bool(divisors) and set(divisors) <= {n - 1, n} and min(divisors) > 0,
         "the divisors are not n - 1 or n",
     )
     first, last = spans[1].times(n / grain).integers()
-    first = first if ends[0] is None else max(first, -((-ends[0] / grain * n) // 1))
-    last = last if ends[1] is None else min(last, (ends[1] / grain * n) // 1)
+    first = first if inner[0] is None else max(first, inner[0] * n)
+    last = last if inner[1] is None else min(last, inner[1] * n)
     need(len(steps) == max(0, last - first + 1), "the totals are not all looked at")
     if spans[0].cut(Fraction(0), None).is_empty():
         return
     variance = spans[0].squared().times((n if given["is_error"] else 1) / grain**2)
-    inner = [
-        None if ends[0] is None else int(-((-ends[0] / grain) // 1)),
-        None if ends[1] is None else int((ends[1] / grain) // 1),
-    ]
-    for total, said in zip(range(int(first), int(last) + 1), steps, strict=True):
+    for total, said in zip(range(first, last + 1), steps, strict=True):
         need(set(said) == {"sum", "windows", "least", "most", "not_met"}, "a step has other fields")
         need(integer(said["sum"]) == total, f"the total is {total}")
         windows = [variance.times(Fraction(d)).plus(point(Fraction(total**2, n))) for d in divisors]
         need(said["windows"] == [window.written() for window in windows], "the sums of squares are others")
-        least, most = squares(n, total, *inner)
+        fewest, highest = squares(n, total, *inner)
         need(
-            (integer(said["least"]), integer(said["most"])) == (least, most),
+            (integer(said["least"]), integer(said["most"])) == (fewest, highest),
             "the least or the most is another",
         )
         plausible = set()
         for window in windows:
             low, high = window.integers()
-            low = max(low, least)
+            low = max(low, fewest)
             low += (low - total) % 2
-            plausible |= set(range(low, (high if most is None else min(high, most)) + 1, 2))
+            plausible |= set(range(low, (high if highest is None else min(high, highest)) + 1, 2))
         need(said["not_met"] == [str(q) for q in sorted(plausible)], "the sums of squares left are others")
         for squared in plausible:
             need(not are_met(n, total, squared, inner), f"a sum of squares is met: {squared}")
@@ -245,8 +265,8 @@ RULES = {
     "grim": (grim, {"n", "grain", "is_count", "least", "most"}),
     "clock": (clock, {"step"}),
     "quantile": (quantile, {"n", "share", "grain", "rule"}),
-    "grimmer": (grimmer, {"n", "grain", "least", "most", "divisors", "is_error"}),
-    "seed_spread": (grimmer, {"n", "grain", "least", "most", "divisors", "is_error"}),
+    "grimmer": (grimmer, {"n", "grain", "least", "most", "printed_ends", "divisors", "is_error"}),
+    "seed_spread": (grimmer, {"n", "grain", "least", "most", "printed_ends", "divisors", "is_error"}),
     "debit": (debit, {"n", "whole", "divisors"}),
     "interval": (interval, {"k", "n", "tail", "whole"}),
 }

@@ -29,12 +29,17 @@ def sd_range(spans: list[Span], given: dict, steps: list) -> None:
     n, divisor = integer(given["n"]), given["divisor"]
     need(divisor in ("sample", "population", "either"), "there is no such divisor")
     need((n is None or n > 1) and len(steps) == 1, "n or the steps are wrong")
+    said = steps[0]
+    if set(said) == {"at_most"}:
+        need(len(spans) == 1 and n is None and given["ends"] is None, "a number below 0 needs no others")
+        need(divisor == "either" and fraction(said["at_most"]) == spans[0].high, "the most is another")
+        need(spans[0].cut(Fraction(0), None).is_empty(), "the deviation may be 0 or more")
+        return
     factor = Fraction(1)
     if divisor != "population":
         factor = Fraction(2) if n is None else Fraction(n, n - 1)
     ends = given["ends"]
     least, most = spans[2:] if ends is None else [point(fraction(end)) for end in ends]
-    said = steps[0]
     if set(said) == {"squared_at_least", "most"}:
         at = min(max((least.low + most.high) / 2, spans[1].low), spans[1].high)
         bound = max(Fraction(0), (most.high - at) * (at - least.low)) * factor
@@ -67,10 +72,10 @@ def total_over_mean(spans: list[Span], given: dict, steps: list) -> None:
     """The total over the mean is no whole number, or not the one given."""
     quotient = spans[0].times(positive(given["unit"])).over(spans[1])
     n = integer(given["n"])
-    said = {"quotient": quotient.written(), "excludes": "every whole number" if n is None else str(n)}
+    said = {"quotient": quotient.written(), "excludes": "every whole number above 0" if n is None else str(n)}
     need(len(spans) == 2 and steps == [said], f"the quotient is {said}")
     first, last = quotient.integers()
-    need(first > last if n is None else not quotient.contains(Fraction(n)), "the quotient may be n")
+    need(max(first, 1) > last if n is None else not quotient.contains(Fraction(n)), "the quotient may be n")
 
 
 def formed(names: set[str]) -> object:
@@ -93,9 +98,9 @@ def form(name: str, a: Span, b: Span) -> Span:
     """What two cells allow a number to be."""
     minus_one = point(Fraction(-1))
     if name == "100(a-b)/a":
-        left = b.cut(Fraction(0), None).over(a).times(Fraction(100))
+        left = b.over(a).times(Fraction(100))
         return Span(100 - left.high, left.high_closed, 100 - left.low, left.low_closed)
-    quotient = a.cut(Fraction(0), None).over(b)
+    quotient = a.over(b)
     if name == "100(a-b)/b":
         return quotient.plus(minus_one).times(Fraction(100))
     return quotient.plus(minus_one) if name == "a/b-1" else quotient

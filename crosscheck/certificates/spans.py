@@ -55,14 +55,24 @@ class Span:
         )
 
     def over(self, other: Span) -> Span:
-        """The quotients of members that are not negative by members above 0."""
-        need(self.low >= 0 and other.low > 0, "a quotient is not bounded")
+        """The quotients of members by members of another span, which does not hold 0."""
+        if other.high < 0:
+            return self.negated().over(other.negated())
+        need(other.low > 0, "a quotient is not bounded")
+        least, most = (other.low, other.low_closed), (other.high, other.high_closed)
+        by, is_low = least if self.low < 0 else most
+        over, is_high = most if self.high < 0 else least
+        # 0 over anything is 0, whether or not the divisor's end is a member.
         return Span(
-            self.low / other.high,
-            self.low_closed and other.high_closed,
-            self.high / other.low,
-            self.high_closed and other.low_closed,
+            self.low / by,
+            self.low_closed and (is_low or self.low == 0),
+            self.high / over,
+            self.high_closed and (is_high or self.high == 0),
         )
+
+    def negated(self) -> Span:
+        """Every member with the other sign."""
+        return Span(-self.high, self.high_closed, -self.low, self.low_closed)
 
     def meets(self, other: Span) -> bool:
         """Whether the two have a member in common."""
@@ -105,11 +115,18 @@ def need(holds: bool, why: str) -> None:
         raise RefusedError(why)
 
 
-def printed(text: str, digits: str) -> Span:
-    """What the digits `text` stand for if they end as `digits` says."""
+def printed(text: str, digits: str, significant: int | None) -> Span:
+    """What `text` stands for if its digits end as `digits` says; `significant` of them count, if so said."""
     parts = NUMBER.fullmatch(text)
     need(parts is not None, f"{text!r} is no printed number")
     sign, whole, decimals = parts.groups(default="")
+    if significant is not None:
+        need(type(significant) is int and not decimals.endswith("0"), "the zeros left out are none")
+        more = significant - len((whole + decimals).lstrip("0") or "0" + decimals)
+        need(more >= 0, f"{text} has more than {significant} digits")
+        # What 15 digits do not hold is read as typed.
+        fits = len((whole + decimals).lstrip("0")) + more <= 15 and len(decimals) + more <= 15
+        decimals += "0" * more if fits else ""
     units = int(whole + decimals) * (-1 if sign else 1)
     half = Fraction(1, 2 * 10 ** len(decimals))
     centre, even = 2 * units, units % 2 == 0

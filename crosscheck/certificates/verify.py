@@ -28,9 +28,12 @@ def verify(certificate: object) -> None:
         )
         spans = []
         for number in certificate["numbers"]:
-            need(set(number) == {"name", "printed", "digits", "span"}, "a number has other fields")
+            need(
+                set(number) == {"name", "printed", "significant", "digits", "span"},
+                "a number has other fields",
+            )
             need(isinstance(number["name"], str), "a number has no name")
-            span = printed(number["printed"], number["digits"])
+            span = printed(number["printed"], number["digits"], number["significant"])
             need(span.written() == number["span"], f"{number['printed']} stands for {span.written()}")
             spans.append(span)
         steps = certificate["steps"]

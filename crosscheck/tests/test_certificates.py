@@ -36,6 +36,67 @@ def test_there_is_a_certificate_of_every_check_that_proves() -> None:
     assert {certificate["check"] for certificate in certificates()} == set(RULES)
 
 
+def has(check: str, of: str, *names: object) -> object:
+    """Whether a certificate of the check has these fields, or these values of fields, in a part of it."""
+
+    def fits(certificate: dict) -> bool:
+        part = certificate[of][0] if isinstance(certificate[of], list) else certificate[of]
+        fields = [item for pair in part.items() for item in (pair[0], pair)]
+        return certificate["check"] == check and all(name in fields for name in names)
+
+    return fits
+
+
+# Every kind of step, and every premise that changes what has to be shown.
+KINDS = [
+    has("grim", "steps", "below"),
+    has("grim", "steps", "outside"),
+    has("grim", "given", ("is_count", True)),
+    has("grim", "numbers", ("significant", 6)),
+    has("grimmer", "given", ("printed_ends", [2, 3])),
+    has("grimmer", "given", ("is_error", True)),
+    has("seed_spread", "steps", "not_met"),
+    has("debit", "steps", "variances"),
+    has("quantile", "given", ("rule", "linear")),
+    has("quantile", "given", ("rule", "any")),
+    has("quantile", "given", ("share", "1")),
+    has("order", "given", ("ranks", ["1/2", "3/4"])),
+    has("order", "given", ("ranks", [None, "1"])),
+    has("sd_range", "steps", "most"),
+    has("sd_range", "steps", "least"),
+    has("sd_range", "steps", "at_most"),
+    has("shares_sum", "steps", "misses"),
+    has("shares_sum", "steps", "counts"),
+    has("sum_of_means", "given", ("cut", None)),
+    has("sum_of_means", "given", ("cut", "1")),
+    has("total_over_mean", "given", ("n", None)),
+    has("total_over_mean", "given", ("n", "40")),
+    has("ratio", "given", ("forms", ["a/b"])),
+    has("reduction", "given", ("forms", ["100(a-b)/a"])),
+    has("reduction", "given", ("forms", ["100(a-b)/b"])),
+    has("speedup", "given", ("forms", ["a/b", "a/b-1"])),
+    has("lattice", "given", ("diagonal", None), ("displacement", None)),
+    has("lattice", "given", ("displacement", ["3", "5"])),
+    has("lattice", "given", ("diagonal", "7/5")),
+    has("path_bound", "given", ("moves", "any")),
+    has("path_bound", "given", ("moves", "eight")),
+    has("path_bound", "given", ("moves", "four")),
+    has("interval", "steps", ("end", "low"), ("lies", "above")),
+    has("interval", "steps", ("end", "low"), ("lies", "below")),
+    has("interval", "steps", ("end", "high"), ("lies", "above")),
+    has("expansions", "steps", "outside_by"),
+    has("clock", "steps", "below"),
+    has("rises", "steps", "more_at_most"),
+    has("ratio_label", "steps", "bound"),
+    has("turn_sum", "steps", "sums_deg"),
+]
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=range(len(KINDS)))
+def test_there_is_a_certificate_of_every_kind_of_step_and_premise(kind: object) -> None:
+    assert any(kind(certificate) for certificate in certificates())
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_the_certificates_of_the_program_are_verified(path: Path) -> None:
     verify(json.loads(path.read_text(encoding="utf-8")))
@@ -89,7 +150,7 @@ def mutated() -> list[tuple[str, tuple, dict]]:
                     inner = inner[key]
                 inner[path[-1]] = change
                 if change != value:
-                    found.append((certificate["check"], path, wrong))
+                    found.append((kind_of(certificate), path, wrong))
     return found
 
 
@@ -97,11 +158,18 @@ def mutated() -> list[tuple[str, tuple, dict]]:
 PROVED_ANEW = {
     # An end that does not bind.
     "grim": {"least", "most"},
+    "grimmer": {"least", "most"},
     "seed_spread": {"least", "most"},
+    # A number beyond the ends is there for any n and grain.
+    "grim outside": {"n", "grain"},
+    # Without ends that bind, counts are whole for any n.
+    "grim of a count": {"least", "most", "n"},
     # All moves are tried again.
     "lattice": {"diagonal", "displacement"},
     # The same multiples belong to more values, or to another quantile.
     "quantile": {"n", "share"},
+    # The least and the greatest value follow no rule.
+    "quantile at an end": {"n", "share", "rule"},
     # Another quantile below the same one.
     "order": {"ranks"},
     # The bound of one divisor is also that of either.
@@ -111,13 +179,22 @@ PROVED_ANEW = {
 }
 
 
+def kind_of(certificate: dict) -> str:
+    """The check, and whether it is about ends, for which other premises count."""
+    check, given = certificate["check"], certificate["given"]
+    if check == "grim":
+        is_outside = "outside" in certificate["steps"][0]
+        return "grim outside" if is_outside else "grim of a count" if given["is_count"] else check
+    return "quantile at an end" if check == "quantile" and given["share"] in ("0", "1") else check
+
+
 def test_no_change_of_any_value_is_believed_but_of_premises_that_are_proved_anew() -> None:
     believed = set()
     every = mutated()
-    for check, path, wrong in every:
+    for kind, path, wrong in every:
         if not is_refused(wrong):
-            believed.add((check, path[1] if path[0] == "given" else path[-1]))
-    allowed = {(check, field) for check, fields in PROVED_ANEW.items() for field in fields}
+            believed.add((kind, path[1] if path[0] == "given" else path[-1]))
+    allowed = {(kind, field) for kind, fields in PROVED_ANEW.items() for field in fields}
     assert believed == allowed
     assert len(every) > 4000
 
@@ -136,9 +213,12 @@ def is_printable(check: str, wrong: dict) -> bool:
         return low < value < high or (is_low and value == low) or (is_high and value == high)
 
     if check == "grim":
-        most = int(ends[0][1] * given["n"] / given["grain"]) + 2
-        means = (k * given["grain"] / given["n"] for k in range(most))
-        least, greatest = given["least"], given["most"]
+        # A count is the sum of the values, a share or mean their sum over n.
+        over = 1 if given["is_count"] else given["n"]
+        most = int(ends[0][1] * over / given["grain"]) + 2
+        means = (k * given["grain"] / over for k in range(most))
+        times = given["n"] / over
+        least, greatest = (None if given[end] is None else given[end] * times for end in ("least", "most"))
         return any(
             prints(0, mean)
             for mean in means
@@ -171,7 +251,8 @@ def ends_meet(straight: int, diagonal: int, displacement: list | None) -> bool:
 
 def test_what_is_proved_anew_of_changed_premises_is_true() -> None:
     asked = {"grim": 0, "lattice": 0}
-    for check, _, wrong in mutated():
+    for _, _, wrong in mutated():
+        check = wrong["check"]
         if check in asked and not is_refused(wrong):
             assert not is_printable(check, wrong), wrong
             asked[check] += 1

@@ -28,7 +28,7 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
         for (index, id) in study.fitted_to.iter().enumerate() {
             if paper.claim(id).is_none() {
                 let message = format!("fitted_to: {}", none_called("claim", id, ids()));
-                faults.add(study.document.error_at(&format!("fitted_to.{index}"), message));
+                faults.add(study.document.error_at(&format!("fitted_to.{index}"), message).about(id));
             }
         }
     }

@@ -3,9 +3,11 @@
 use super::metric::{self, Metric};
 use super::selection_spec::Labels;
 use crate::study::paper::{self, Claim, Paper};
-use crate::study::{ReadingChoice, Study};
+
+use crate::study::{ReadingChoice, Study, columns_of};
 use audit::printed::{Digits, Printed};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
+use std::collections::BTreeSet;
 
 /// What a criterion or rule is built from.
 #[derive(Clone, Copy)]
@@ -47,7 +49,8 @@ impl<'a> Context<'a> {
     pub fn printed(&self) -> Result<Printed, SettingsError> {
         let missing = || format!("claim `{}` prints no number, which is needed here", self.claim.id);
         let text = self.claim.printed.as_ref().ok_or_else(|| self.settings.error(missing()))?;
-        text.parse().map_err(|e: audit::AuditError| self.settings.error(e.to_string()))
+        let about = || paper::printed_by(&self.claim.id);
+        text.parse().map_err(|e: audit::AuditError| self.settings.error(e.to_string()).about(&about()))
     }
 
     /// The printed number of another claim.
@@ -142,7 +145,12 @@ impl<'a> Context<'a> {
     /// There is no such metric.
     pub fn known_metric(&self, name: &str) -> Result<&'static Metric, SettingsError> {
         metric::find(self.point.metric(name)).ok_or_else(|| {
-            let known: Vec<&str> = metric::METRICS.iter().map(|metric| metric.name).collect();
+            let readings = self.paper.readings();
+            let options = readings.iter().flat_map(|reading| reading.options.values());
+            // Names that readings give a meaning; several options give one to the same name.
+            let read: BTreeSet<&str> =
+                options.flat_map(|option| option.metric.keys()).map(String::as_str).collect();
+            let known: Vec<&str> = metric::METRICS.iter().map(|metric| metric.name).chain(read).collect();
             let hint = did_you_mean(name, known.iter().copied());
             let message = format!(
                 "there is no metric `{name}`, nor a reading that gives the name a meaning{hint}; the metrics are {}",
@@ -170,7 +178,7 @@ impl<'a> Context<'a> {
             metric.name,
             produced.join(", ")
         );
-        Err(self.settings.error_about("", &METRIC_KEYS, name, message))
+        Err(self.settings.error_about("", &METRIC_KEYS, name, message).about(&columns_of(&study.name)))
     }
 
     /// The names that the stream of a bootstrap on this claim is derived from.

@@ -1,6 +1,6 @@
 //! Metrics: what can be compared, its unit, which way is better, and how to get it from a record.
 
-use crate::study::clock;
+use crate::study::{clock, column};
 use std::collections::BTreeSet;
 
 /// Which way is better.
@@ -125,6 +125,15 @@ impl Metric {
         if self.unit.is_empty() { self.label.to_owned() } else { format!("{} ({})", self.label, self.unit) }
     }
 
+    /// What its numbers mean: what the column says that it is read from.
+    pub fn meaning(&self) -> &'static str {
+        match column::find(self.column) {
+            Some(column) => column.about,
+            None if self.is_clock() => clock::ABOUT,
+            None => "1 where a path came back, refused or not, otherwise 0",
+        }
+    }
+
     /// Whether a study whose records have these columns gives it.
     pub fn is_produced(&self, columns: &BTreeSet<&str>) -> bool {
         self.is_status() || columns.contains(self.column)
@@ -144,7 +153,6 @@ impl Metric {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::column;
 
     #[test]
     fn metrics_are_in_order_and_read_columns_that_exist() {

@@ -106,18 +106,9 @@ impl<'a> Selection<'a> {
         let mut faults = Faults::default();
         faults.keep(context.study("of", &of.study, &named));
         let groups = faults.keep(context.groups("of", study, &of.problems)).unwrap_or_default();
+        let metric = of.metric.as_ref().and_then(|name| faults.keep(context.metric(name, study)));
+        let sweep = of.sweep.as_ref().and_then(|text| faults.keep(sweep_point(context, study, text)));
         faults.done()?;
-        let metric = of.metric.as_ref().map(|name| context.metric(name, study)).transpose()?;
-        let sweep = of.sweep.as_ref().map(|text| {
-            study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
-                let known: Vec<String> =
-                    study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
-                let message =
-                    format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
-                context.settings.error_at("of.sweep", message)
-            })
-        });
-        let sweep = sweep.transpose()?;
         let (against, query, whole_draws) = (of.against.clone(), of.query.clone(), of.whole_draws);
         Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_draws })
     }
@@ -216,6 +207,14 @@ impl<'a> Selection<'a> {
         }
         self.groups.join(", ")
     }
+}
+
+fn sweep_point(context: &Context<'_>, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
+    study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
+        let known: Vec<String> = study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
+        let message = format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
+        context.settings.error_at("of.sweep", message).about(&format!("sweeps of {}", study.name))
+    })
 }
 
 impl Draw<'_> {

@@ -6,6 +6,7 @@ use super::statistic;
 use crate::study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
 use crate::study::paper::{OursSpec, TableRow};
 use crate::study::record::{Row, Status};
+use std::collections::BTreeSet;
 
 /// A table of results: its head and, block by block, its rows; a dash where there is nothing.
 pub struct Grid {
@@ -80,6 +81,58 @@ fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> St
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
     };
     found.unwrap_or_else(|| "–".to_owned())
+}
+
+/// How many draws a figure is about, and of how many trials how many were solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Trials {
+    /// Independent draws.
+    pub draws: usize,
+    /// Trials that were solved.
+    pub solved: usize,
+    /// Trials.
+    pub all: usize,
+}
+
+/// The trials of the problem groups and contenders that `settings` name, of all where they name none.
+pub fn trials(run: &Run<'_>, settings: Option<&toml::Table>) -> Trials {
+    let mut named = BTreeSet::new();
+    settings.into_iter().flat_map(toml::Table::values).for_each(|value| texts(value, &mut named));
+    let groups: Vec<&str> = run.study.groups.iter().map(|group| group.label.as_str()).collect();
+    let contenders: Vec<&str> = run.study.contenders.iter().map(|one| one.label.as_str()).collect();
+    let (groups, contenders) = (among(groups, &named), among(contenders, &named));
+    let rows = groups.iter().flat_map(|group| contenders.iter().flat_map(|one| run.rows(group, one)));
+    let rows: Vec<&Row> = rows.collect();
+    let draws: BTreeSet<_> = rows.iter().map(|row| (&row.key.on.group, row.draw())).collect();
+    let solved = rows.iter().filter(|row| row.status == Status::Solved).count();
+    Trials { draws: draws.len(), solved, all: rows.len() }
+}
+
+/// Those of `labels` that are named; all if none is.
+fn among<'a>(labels: Vec<&'a str>, named: &BTreeSet<&str>) -> Vec<&'a str> {
+    let found: Vec<&str> = labels.iter().copied().filter(|label| named.contains(label)).collect();
+    if found.is_empty() { labels } else { found }
+}
+
+fn texts<'a>(value: &'a toml::Value, found: &mut BTreeSet<&'a str>) {
+    match value {
+        toml::Value::String(text) => {
+            found.insert(text);
+        }
+        toml::Value::Array(values) => values.iter().for_each(|value| texts(value, found)),
+        toml::Value::Table(table) => table.values().for_each(|value| texts(value, found)),
+        _ => {}
+    }
+}
+
+/// Means over draws of the shares, in per cent, that `part` has of `whole`; a draw without a whole is left out.
+pub fn mean_percent<T>(
+    draws: &[T],
+    part: impl Fn(&T) -> Option<f64>,
+    whole: impl Fn(&T) -> Option<f64>,
+) -> Option<f64> {
+    let share = |draw: &T| Some(100.0 * part(draw)? / whole(draw).filter(|whole| *whole > 0.0)?);
+    statistic::mean(&draws.iter().filter_map(share).collect::<Vec<f64>>())
 }
 
 /// Of the row of one contender on one problem the value of each column's metric, or the percentage that it saves there of

@@ -193,13 +193,14 @@ impl Verdicts {
     /// Reads the verdicts in `folder`.
     ///
     /// # Errors
-    /// [`StudyError::Stored`] if there are none, or a settings error if they cannot be understood.
+    /// [`StudyError::Stored`] if there are none, [`StudyError::Touched`] if they cannot be understood.
     pub fn read(folder: &Path) -> Result<Self, StudyError> {
         let path = Self::path(folder);
         if !path.exists() {
             return Err(StudyError::stored(&path, "no verdicts; run `replan judge` first"));
         }
-        Ok(Document::open(&path)?.read_stored()?)
+        let read = Document::open(&path).and_then(|document| document.read_stored());
+        read.map_err(|error| StudyError::touched(error, "`replan judge` writes it again"))
     }
 
     /// Writes the verdicts into `folder`.

@@ -17,6 +17,7 @@ pub fn of(check: &str, test: &dyn Test, prints: &[Print], proof: &Proof) -> Valu
         json!({
             "name": number.name,
             "printed": print.printed.to_string(),
+            "significant": print.printed.significant(),
             "digits": print.digits.name(),
             "span": span(&print.span()),
         })

@@ -69,6 +69,13 @@ pub fn ceil(a: Exact) -> i128 {
     floor(a) + rest
 }
 
+/// The least multiple of `1 / scale` whose square is not below `a`, which is not negative; `scale` is above 0.
+pub fn root_above(a: Exact, scale: i64) -> Option<Exact> {
+    let squared = ceil(mul(a, whole(i128::from(scale) * i128::from(scale)))?);
+    let down = squared.max(0).isqrt();
+    Some(Exact::new(down + i128::from(down * down < squared), i128::from(scale)))
+}
+
 /// As certificates write it: `3/8`, or `3` for a whole number.
 pub fn spelled(a: Exact) -> String {
     a.to_string()
@@ -181,18 +188,30 @@ impl Span {
         Some(Self { low: mul(self.low, factor)?, high: mul(self.high, factor)?, ..*self })
     }
 
-    /// The quotients of a member by one of `other`, of which those above 0 count; none if the lower end here is
-    /// negative or `other` may be 0, where the quotient is unbounded.
+    /// The quotients of a member by one of `other`; none if `other` may be 0, where they are unbounded.
     pub fn over(&self, other: &Self) -> Option<Self> {
-        if self.low < whole(0) || other.low <= whole(0) {
+        if other.high < whole(0) {
+            return self.negated().over(&other.negated());
+        }
+        if other.low <= whole(0) {
             return None;
         }
-        Some(Self {
-            low: div(self.low, other.high)?,
-            low_closed: self.low_closed && other.high_closed,
-            high: div(self.high, other.low)?,
-            high_closed: self.high_closed && other.low_closed,
-        })
+        let [least, most] = [(other.low, other.low_closed), (other.high, other.high_closed)];
+        // 0 over anything is 0, whether or not the divisor's end is a member.
+        let end = |(a, is_member): (Exact, bool), (b, is_attained): (Exact, bool)| {
+            Some((div(a, b)?, is_member && (is_attained || a == whole(0))))
+        };
+        let (low, low_closed) =
+            end((self.low, self.low_closed), if self.low < whole(0) { least } else { most })?;
+        let (high, high_closed) =
+            end((self.high, self.high_closed), if self.high < whole(0) { most } else { least })?;
+        Some(Self { low, low_closed, high, high_closed })
+    }
+
+    /// Every member with the other sign.
+    #[must_use]
+    pub fn negated(&self) -> Self {
+        Self { low: -self.high, low_closed: self.high_closed, high: -self.low, high_closed: self.low_closed }
     }
 
     /// The squares of the members that are not negative; none of it if there are no such members.
@@ -294,6 +313,48 @@ mod tests {
         assert_eq!(span("-1.5", Digits::Rounded).times(whole(2)).unwrap().integers(), (-3, -3));
         assert_eq!(span("33.3", Digits::Any).has_multiple_of(Exact::new(100, 250)), Some(false));
         assert_eq!(span("33.2", Digits::Any).has_multiple_of(Exact::new(100, 250)), Some(true));
+    }
+
+    #[test]
+    fn a_quotient_is_what_dividing_members_gives_whatever_the_signs() {
+        let ends = [-3, -2, 0, 1, 4].map(|end| Exact::new(end, 2));
+        let spans = |is_closed: bool| -> Vec<Span> {
+            let pairs = ends.iter().flat_map(|low| ends.iter().map(move |high| (*low, *high)));
+            let of = |(low, high)| Span { low, low_closed: is_closed, high, high_closed: true };
+            pairs.filter(|(low, high)| low < high || is_closed && low == high).map(of).collect()
+        };
+        let mut bounded = 0;
+        for (a, b) in spans(true).into_iter().flat_map(|a| spans(false).into_iter().map(move |b| (a, b))) {
+            let Some(quotient) = a.over(&b) else {
+                assert!(b.low <= whole(0) && b.high >= whole(0), "{a:?} over {b:?}");
+                continue;
+            };
+            // Near an end that is no member, a fraction of a thousandth inside.
+            let inside = |span: &Span, i: i128| {
+                let step = (span.high - span.low) / whole(1000);
+                span.low + step * whole(if i == 0 && !span.low_closed { 1 } else { 100 * i })
+            };
+            let all = (0..=10).flat_map(|i| (0..=10).map(move |j| inside(&a, i) / inside(&b, j)));
+            let all: Vec<Exact> = all.collect();
+            assert!(all.iter().all(|x| quotient.contains(*x)), "{a:?} over {b:?} is {quotient:?}");
+            let near =
+                |end: Exact| all.iter().any(|x| *x - end < Exact::new(1, 50) && end - *x < Exact::new(1, 50));
+            assert!(near(quotient.low) && near(quotient.high), "{a:?} over {b:?} is {quotient:?}");
+            bounded += 1;
+        }
+        assert!(bounded >= 30, "{bounded}");
+    }
+
+    #[test]
+    fn a_root_above_is_the_least_of_its_kind() {
+        for (a, scale, root) in [
+            (whole(2), 100, "1.42"),
+            (whole(4), 10, "2"),
+            (Exact::new(1, 3), 1000, "0.578"),
+            (whole(0), 1, "0"),
+        ] {
+            assert_eq!(root_above(a, scale), parse(root));
+        }
     }
 
     #[test]

@@ -25,7 +25,10 @@ pub const ITEMS: &[(&str, &str)] = &[
         "quantiles interpolate linearly, as numpy and pandas do; any usual rule, if it is not said",
     ),
     ("rounding=R", "how digits end: any, nearest, half up, half even, floor, ceiling, truncation"),
-    ("digits=D", "D significant digits, trailing zeros left out"),
+    (
+        "digits=D",
+        "D digits count, and zeros at the end of decimals are left out: with 6, 67.408 stands for 67.4080",
+    ),
     ("of=NAME", "statistics of the same NAME in a row belong together; the column's name, if it is not said"),
     ("parts=NAME", "shares of the whole called NAME, which sum to one"),
     ("sum=A+B", "for each problem, the sum of the columns A and B"),

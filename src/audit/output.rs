@@ -4,8 +4,9 @@ use super::checks::REGISTRY;
 use super::input::Input;
 use super::meaning::{ITEMS, Kind};
 use super::reader;
-use super::report::{Class, Finding, Report};
-use super::table::Table;
+use super::report::{Class, Finding, Power, Report};
+use super::statistic::Statistic;
+use super::table::{Column, Table};
 use super::witness::Witness;
 use serde_json::{Value, json};
 
@@ -15,7 +16,7 @@ pub fn line(source: &str, finding: &Finding) -> String {
         format!("{source}:{}: {}: {}: {}", finding.place, finding.class.name(), finding.name, finding.said);
     let mut notes = vec![finding.check.to_owned()];
     if let Some(power) = finding.power {
-        notes.push(format!("refuses {:.0} % of {} prints", 100.0 * power.share(), power.tried));
+        notes.push(refuses(power));
     }
     match &finding.mend {
         Some(mend) => {
@@ -39,10 +40,44 @@ pub fn line(source: &str, finding: &Finding) -> String {
     line
 }
 
+/// A check's power in words: what share of which prints it refuses, and why these.
+fn refuses(power: Power) -> String {
+    let Power { low, high, tried, why, .. } = power;
+    format!("refuses {:.0} % of {tried} prints from {low} to {high}, {why}", 100.0 * power.share())
+}
+
 fn witness_line(witness: &Witness) -> String {
     let [taken, budget] = witness.steps;
+    if witness.vectors.is_empty() {
+        return format!("no data found in {taken} of {budget} steps");
+    }
     let how = if witness.is_all { "all" } else { "some" };
     format!("data ({how} of them, {taken} of {budget} steps): {}", witness.vectors.join(" | "))
+}
+
+/// Numbers behind `±` or in brackets that no check looks at, with what to write so that one does.
+pub fn unread_spreads(source: &str, input: &Input) -> Vec<String> {
+    let columns = input.tables.iter().flat_map(|table| (0..table.columns.len()).map(move |at| (table, at)));
+    columns.filter_map(|(table, at)| Some(format!("{source}:{}", unread_spread(table, at)?))).collect()
+}
+
+fn unread_spread(table: &Table, at: usize) -> Option<String> {
+    let cell = table.rows.iter().filter_map(|row| row.get(at)).find(|cell| cell.spread.is_some())?;
+    let Column { name, meaning, .. } = &table.columns[at];
+    let has_mean = matches!(meaning.kind, Kind::Share { .. } | Kind::Of(Statistic::Mean));
+    let what = if table.columns.iter().any(|column| column.meaning.kind == Kind::Statistics) {
+        "rows are statistics, so that a deviation has a row of its own"
+    } else if !has_mean {
+        "say `mean, n=N` and `±sd` or `±se`, if it is a mean with its deviation or standard error"
+    } else if meaning.spread.is_none() {
+        "say `±sd` if it is the deviation or `±se` if it is the standard error"
+    } else {
+        return None;
+    };
+    Some(format!(
+        "{}: column `{name}`: what stands behind {} is not looked at; {what}",
+        cell.place, cell.text
+    ))
 }
 
 /// What each check did, a line a check.
@@ -75,10 +110,10 @@ pub fn guesses(source: &str, input: &Input) -> Vec<String> {
             .filter(|column| column.written.is_none() && column.meaning.kind != Kind::Skip)
             .map(|column| column.name.as_str())
             .collect();
-        let header = reader::stub(table).join(" | ");
+        let header = reader::stub_line(table);
         (!names.is_empty()).then(|| {
             format!(
-                "{source}:{}: guessed what {} are; correct the header: | {header} |",
+                "{source}:{}: guessed what {} are; correct the header: {header}",
                 table.line,
                 names.join(", ")
             )
@@ -111,7 +146,8 @@ pub fn json(source: &str, input: &Input, report: &Report) -> Value {
         .filter(is_guessed)
         .map(|table| json!({ "line": table.line, "header": reader::stub(table) }));
     let guessed: Vec<Value> = guessed.collect();
-    json!({ "source": source, "guessed": guessed, "findings": findings, "checks": checks })
+    let unread = unread_spreads(source, input);
+    json!({ "source": source, "guessed": guessed, "unread_spreads": unread, "findings": findings, "checks": checks })
 }
 
 fn finding(finding: &Finding) -> Value {
@@ -130,6 +166,7 @@ fn finding(finding: &Finding) -> Value {
             "tried": power.tried,
             "from": power.low.to_string(),
             "to": power.high.to_string(),
+            "why": power.why,
         })),
         "mend": finding.mend.as_ref().map(|mend| json!({
             "name": mend.name,
@@ -187,7 +224,7 @@ pub fn section(title: &str, about: &str, report: &Report) -> String {
             finding.said
         );
         if let Some(power) = finding.power {
-            text += &format!(". The check refuses {:.0} % of prints here", 100.0 * power.share());
+            text += &format!(". The check {}", refuses(power));
         }
         if let Some(mend) = &finding.mend {
             text += &format!("; the least change is {} from {} to {}", mend.name, mend.from, mend.to);

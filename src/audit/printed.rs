@@ -49,11 +49,16 @@ impl Digits {
     }
 }
 
+/// One more than the greatest number that the digits without their point may be.
+const LIMIT: u64 = 10_u64.pow(15);
+
 /// A decimal number as printed: `units` in the last of `decimals` places.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Printed {
     units: i64,
     decimals: u32,
+    /// How many digits count, where zeros at the end are not written.
+    significant: Option<u32>,
 }
 
 /// The true values that print alike, in half units of the last place; an end is a member only if `closed`.
@@ -71,8 +76,56 @@ impl Printed {
     /// # Panics
     /// With more than 15 digits, or more than 15 decimals: [`FromStr`] refuses such a text.
     pub fn from_units(units: i64, decimals: u32) -> Self {
-        assert!(units.unsigned_abs() < 10_u64.pow(15) && decimals <= 15, "{units} with {decimals} decimals");
-        Self { units, decimals }
+        assert!(units.unsigned_abs() < LIMIT && decimals <= 15, "{units} with {decimals} decimals");
+        Self { units, decimals, significant: None }
+    }
+
+    /// The number if `significant` digits count and zeros at its end were left out: with 6, 67.408 stands for 67.4080. None if
+    /// it contradicts that: by a zero at the end of its decimals, or by more digits.
+    pub fn with_zeros_left_out(self, significant: u32) -> Option<Self> {
+        // Digits before the first one that counts are none: 0.097 has its first at the second decimal.
+        let units = self.units.unsigned_abs();
+        let length = if units == 0 { self.decimals + 1 } else { units.ilog10() + 1 };
+        if self.decimals > 0 && units.is_multiple_of(10) || length > significant {
+            return None;
+        }
+        let more = significant - length;
+        let widened = 10_i64.checked_pow(more).and_then(|scale| self.units.checked_mul(scale));
+        let widened = widened.filter(|units| units.unsigned_abs() < LIMIT && self.decimals + more <= 15);
+        // Where 15 digits do not hold the zeros, the number is read as it is typed, which allows more.
+        let (units, decimals) =
+            widened.map_or((self.units, self.decimals), |units| (units, self.decimals + more));
+        Some(Self { units, decimals, significant: Some(significant) })
+    }
+
+    /// The number as it is typed, without zeros that only [`with_zeros_left_out`](Self::with_zeros_left_out) says.
+    #[must_use]
+    pub fn as_typed(mut self) -> Self {
+        while self.significant.is_some() && self.decimals > 0 && self.units % 10 == 0 {
+            (self.units, self.decimals) = (self.units / 10, self.decimals - 1);
+        }
+        Self { significant: None, ..self }
+    }
+
+    /// The number with all digits that it is read to have: 67.4080 where 67.408 has six that count.
+    #[must_use]
+    pub fn as_read(self) -> Self {
+        Self { significant: None, ..self }
+    }
+
+    /// How many digits count, where zeros at the end are not written.
+    pub fn significant(self) -> Option<u32> {
+        self.significant
+    }
+
+    /// Another number of the same decimals, by its digits without their point, as it would be printed here; none if it has more
+    /// digits than can be.
+    pub fn with_units(self, units: i64) -> Option<Self> {
+        let other = (units.unsigned_abs() < LIMIT).then_some(Self { units, ..self })?;
+        match self.significant {
+            None => Some(other),
+            Some(significant) => other.as_typed().with_zeros_left_out(significant),
+        }
     }
 
     /// The number that the digits say.
@@ -173,8 +226,12 @@ impl FromStr for Printed {
     }
 }
 
+/// The number as it is typed.
 impl fmt::Display for Printed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.significant.is_some() {
+            return self.as_typed().fmt(f);
+        }
         let sign = if self.units < 0 { "-" } else { "" };
         let (units, scale) = (self.units.abs(), self.scale());
         write!(f, "{sign}{}", units / scale)?;
@@ -204,6 +261,34 @@ mod tests {
         {
             assert_eq!(text.parse::<Printed>(), Err(AuditError::NotANumber { text: text.to_owned() }));
         }
+    }
+
+    #[test]
+    fn significant_digits_give_back_the_zeros_left_out() {
+        for (text, full) in [
+            ("2.5", "2.50000"),
+            ("216", "216.000"),
+            ("0.968027", "0.968027"),
+            ("0.5", "0.500000"),
+            ("-67.408", "-67.4080"),
+            ("108226", "108226"),
+            ("0", "0.00000"),
+        ] {
+            let read = printed(text).with_zeros_left_out(6).unwrap();
+            assert_eq!((read.to_string(), read.as_typed()), (text.to_owned(), printed(text)));
+            let full = printed(full);
+            assert_eq!((read.units(), read.decimals()), (full.units(), full.decimals()), "{text}");
+        }
+        for text in ["1234567", "2.50", "0.0", "123.4567"] {
+            assert_eq!(
+                printed(text).with_zeros_left_out(6),
+                None,
+                "{text} contradicts six digits without zeros"
+            );
+        }
+        // Next to 9.99999 stands 10, of which one decimal fewer counts.
+        let next = printed("9.99999").with_zeros_left_out(6).unwrap().with_units(1_000_000).unwrap();
+        assert_eq!((next.to_string(), next.decimals()), ("10".to_owned(), 4));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::exact::{self, Exact, Print};
 use super::meaning::natural;
 use super::printed::Digits;
-use super::reader::{Number, number};
+use super::reader::{Number, number, unit};
 use super::sample::Sample;
 use super::table::{Fault, Place, Quoted};
 use std::collections::BTreeMap;
@@ -171,6 +171,9 @@ impl Relation {
         }
         let name = if self.name.is_empty() { key.to_owned() } else { format!("{key} of {}", self.name) };
         match number(text) {
+            Ok(_) if !unit(text).1.is_empty() => Err(self.fault(format!(
+                "`{key}` is `{text}`; numbers that are held against each other are written without units, all in one"
+            ))),
             Ok(Number::Plain { value, spread: None }) => {
                 let print = Print { printed: value, digits: self.digits };
                 Ok(Quoted { name, place: self.place, print, cell: None })

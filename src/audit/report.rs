@@ -2,7 +2,7 @@
 //! which power, what would mend it, and whether the table's ranking hangs on it.
 
 use super::asked;
-use super::checks::{Entry, Proof, REGISTRY, Test};
+use super::checks::{Entry, Proof, REGISTRY, Test, Window};
 use super::exact::{Exact, Print, ceil, floor, whole};
 use super::input::Input;
 use super::printed::{Digits, Printed};
@@ -46,6 +46,8 @@ pub struct Power {
     pub tried: usize,
     /// How many of them the check refuses.
     pub refused: usize,
+    /// Why this range.
+    pub why: &'static str,
 }
 
 impl Power {
@@ -220,7 +222,13 @@ impl Run<'_> {
     fn tell(&mut self, check: &'static str, test: &dyn Test, prints: &[Print], told: Told) {
         let Told { class, answer, is_odd, readings, power, proof } = told;
         let first = &test.numbers()[0];
-        let mut said = test.said(prints, answer != Some(false));
+        let mut said = match answer {
+            Some(is_possible) => test.said(prints, is_possible),
+            None => format!("not decided: {}", test.undecided(prints)),
+        };
+        if answer == Some(false) {
+            said += as_typed(test, prints);
+        }
         if is_odd {
             said += &format!("; not if digits are rounded to nearest, only by: {}", listed(&readings));
         }
@@ -260,7 +268,9 @@ impl Run<'_> {
     }
 
     fn power(&mut self, entry: &Entry, test: &dyn Test, prints: &[Print]) -> Option<Power> {
-        let Some(key) = test.power_key() else { return power(test, prints, PRINTS_EACH) };
+        let Some(key) = test.power_key() else {
+            return power(test, prints, test.power_prints().unwrap_or(PRINTS_EACH));
+        };
         let first = prints[0];
         let key = format!("{} {key} {} {:?}", entry.name, first.printed.decimals(), first.digits);
         *self.powers.entry(key).or_insert_with(|| power(test, prints, PRINTS))
@@ -272,7 +282,8 @@ impl Run<'_> {
         let (index, to) = (1..=tries).find_map(|by| {
             (0..prints.len()).find_map(|index| {
                 [by, -by].into_iter().find_map(|by| {
-                    let changed = moved(prints[index].printed, by)?;
+                    let printed = prints[index].printed;
+                    let changed = printed.with_units(printed.units().checked_add(by)?)?;
                     let mut all = prints.to_vec();
                     all[index].printed = changed;
                     (test.is_possible(&all) == Some(true)).then_some((index, changed))
@@ -313,40 +324,55 @@ fn allowing(test: &dyn Test, prints: &[Print]) -> Vec<&'static str> {
 /// How much of what could be printed instead of the first number the test refuses.
 pub fn power(test: &dyn Test, prints: &[Print], most: i128) -> Option<Power> {
     let first = prints[0].printed;
-    let (low, high) = window(test, first)?;
+    let (low, high, why) = window(test, first)?;
     let count = i128::from(high - low) + 1;
     let is_sampled = count > most;
-    let tried = if is_sampled { most } else { count };
-    let mut refused = 0;
+    let (mut tried, mut refused) = (0, 0);
     let mut all = prints.to_vec();
-    for index in 0..tried {
+    for index in 0..count.min(most) {
         // Multiples of the golden section spread evenly and fall in step with no grid.
         let share = (index as f64 * 0.618_033_988_749_894_9).fract();
         let at = if is_sampled { (share * count as f64) as i64 } else { index as i64 };
-        all[0].printed = Printed::from_units(low + at, first.decimals());
+        let Some(printed) = first.with_units(low + at) else { continue };
+        all[0].printed = printed;
+        tried += 1;
         refused += usize::from(test.is_possible(&all) == Some(false));
     }
     let end = |units| Printed::from_units(units, first.decimals());
-    Some(Power { low: end(low), high: end(high), tried: tried as usize, refused })
+    Some(Power { low: end(low), high: end(high), tried, refused, why })
 }
 
-/// The least and the greatest print of the first number, in units of its last place.
-pub fn window(test: &dyn Test, first: Printed) -> Option<(i64, i64)> {
+/// The least and the greatest print of the first number, in units of its last place, and why these.
+pub fn window(test: &dyn Test, first: Printed) -> Option<(i64, i64, &'static str)> {
     let limit = 10_i64.pow(15) - 1;
-    let ends = if let Some([low, high]) = test.window() {
+    let (low, high, why) = if let Some(Window { ends: [low, high], why }) = test.window() {
         let units = |end: Exact| super::exact::mul(end, whole(first.scale()));
-        (i64::try_from(ceil(units(low)?)).ok()?, i64::try_from(floor(units(high)?)).ok()?)
+        (i64::try_from(ceil(units(low)?)).ok()?, i64::try_from(floor(units(high)?)).ok()?, why)
     } else {
         let around = first.units().abs().max(100);
-        (first.units() - around, first.units() + around)
+        let why = if first.units().abs() < 100 {
+            "100 units of the last place to either side"
+        } else {
+            "as far to either side as it is from 0"
+        };
+        (first.units() - around, first.units() + around, why)
     };
-    let ends = (ends.0.max(-limit), ends.1.min(limit));
-    (ends.0 <= ends.1).then_some(ends)
+    let (low, high) = (low.max(-limit), high.min(limit));
+    (low <= high).then_some((low, high, why))
 }
 
-fn moved(printed: Printed, by: i64) -> Option<Printed> {
-    let units = printed.units().checked_add(by)?;
-    (units.unsigned_abs() < 10_u64.pow(15)).then(|| Printed::from_units(units, printed.decimals()))
+/// Whether what is impossible with the zeros that were left out is so as typed, in words; nothing if no zeros were.
+fn as_typed(test: &dyn Test, prints: &[Print]) -> &'static str {
+    let typed: Vec<Print> =
+        prints.iter().map(|print| Print { printed: print.printed.as_typed(), ..*print }).collect();
+    if typed.iter().zip(prints).all(|(typed, print)| typed.printed.decimals() == print.printed.decimals()) {
+        return "";
+    }
+    match test.is_possible(&typed) {
+        Some(true) => "; possible if the digits as typed are all there are",
+        Some(false) => "; impossible as well if the digits as typed are all there are",
+        None => "",
+    }
 }
 
 fn listed(names: &[&str]) -> String {
@@ -357,6 +383,8 @@ fn listed(names: &[&str]) -> String {
 mod pages;
 #[cfg(test)]
 mod power;
+#[cfg(test)]
+mod said;
 #[cfg(test)]
 mod simulation;
 #[cfg(test)]

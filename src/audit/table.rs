@@ -75,6 +75,8 @@ pub struct Table {
     pub name: String,
     /// The line of its header.
     pub line: usize,
+    /// What divides the cells of a line: a bar, a comma, a semicolon, a tab.
+    pub mark: char,
     /// Its columns.
     pub columns: Vec<Column>,
     /// Its rows, each with as many cells as there are columns.

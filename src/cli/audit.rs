@@ -8,6 +8,7 @@ use ::audit::{coverage, output};
 use clap::Args;
 use std::fs;
 use std::io::Read;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 /// Asks of a printed table, by arithmetic alone, whether any data could have given it.
@@ -25,7 +26,7 @@ pub struct Audit {
     json: bool,
     /// Show data behind what is possible, this many vectors a number at most
     #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "20")]
-    witness: Option<usize>,
+    witness: Option<NonZero<usize>>,
     /// Try data in an order drawn from this seed, for a sample instead of the first ones
     #[arg(long, value_name = "SEED", requires = "witness")]
     seed: Option<u64>,
@@ -81,10 +82,11 @@ impl Audit {
         };
         let input = reader::read(&text, format).map_err(told)?;
         if let Some(stub) = &self.stub {
-            let header = |table| format!("| {} |\n", reader::stub(table).join(" | "));
+            let header = |table| format!("{}\n", reader::stub_line(table));
             write(stub, &input.tables.iter().map(header).collect::<String>())?;
         }
-        let witness = self.witness.map(|most| Budget { most, steps: self.budget, seed: self.seed });
+        let witness =
+            self.witness.map(|most| Budget { most: most.get(), steps: self.budget, seed: self.seed });
         let options = Options { keeps_possible: self.json, witness, ..Options::default() };
         let report = audit::report::audit(&input, &options).map_err(told)?;
         if let Some(folder) = &self.certificates {
@@ -94,7 +96,9 @@ impl Audit {
             say!("{:#}", output::json(&source, &input, &report));
         } else {
             let findings = report.findings.iter().map(|finding| output::line(&source, finding));
-            let lines = output::guesses(&source, &input).into_iter().chain(findings);
+            let remarks =
+                output::guesses(&source, &input).into_iter().chain(output::unread_spreads(&source, &input));
+            let lines = remarks.chain(findings);
             for line in lines.chain(output::summary(&report)) {
                 say!("{line}");
             }
@@ -103,21 +107,24 @@ impl Audit {
         match impossible {
             0 => Ok(()),
             found => {
-                Err(Failure::stale(format!("{source}: {found} findings are impossible under their premises")))
+                let are =
+                    if found == 1 { "1 finding is".to_owned() } else { format!("{found} findings are") };
+                Err(Failure::stale(format!("{source}: {are} impossible under the premises named")))
             }
         }
     }
 }
 
-/// The files that `text` includes by `\\input` or `\\include`, but for the macros that replan writes.
-fn included(text: &str) -> Vec<String> {
+/// The files that `text` includes, but for the file of macros.
+fn included(text: &str, macros: &Path) -> Vec<String> {
     let lines = text.lines().map(|line| line.split('%').next().unwrap_or_default());
     let parts = lines.flat_map(|line| line.split('\\').skip(1));
     let named = parts.filter_map(|part| {
-        let inside = part.strip_prefix("input{").or_else(|| part.strip_prefix("include{"))?;
+        let inside =
+            ["input{", "include{", "subfile{"].iter().find_map(|command| part.strip_prefix(command))?;
         Some(inside.split('}').next()?.to_owned())
     });
-    named.filter(|name| !name.trim_end_matches(".tex").ends_with("numbers")).collect()
+    named.filter(|name| Path::new(name).file_stem() != macros.file_stem()).collect()
 }
 
 /// Tells what `text` holds that no macro backs, and which macros are not what the stored run gives now.
@@ -128,11 +135,12 @@ fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
         None => None,
     };
     if current.is_none() {
-        let why = "its first line names no paper of this folder, so that stale values were not looked for";
-        eprintln!("replan: {}: {why}", macros.display());
+        let why = "whether its values are stale cannot be told; its first line must be as `replan render PAPER` writes it, \
+                   \"% made by `replan render PAPER --only numbers`\", with a paper of this folder";
+        say!("{}:1: {why}", macros.display());
     }
     let written = read(text)?;
-    let unread = included(&written);
+    let unread = included(&written, macros);
     for file in &unread {
         say!("{}: `{file}` is included and was not read; ask about it by itself", text.display());
     }
@@ -141,9 +149,11 @@ fn covered(text: &Path, macros: &Path) -> Result<(), Failure> {
         let file = if remark.in_macros { macros } else { text };
         say!("{}:{remark}", file.display());
     }
-    match remarks.len() + unread.len() {
+    match remarks.len() + unread.len() + usize::from(current.is_none()) {
         0 => Ok(()),
-        found => Err(Failure::stale(format!("{}: {found} numbers or macros to look at", text.display()))),
+        found => {
+            Err(Failure::stale(format!("{}: {found} to look at: numbers, macros or files", text.display())))
+        }
     }
 }
 
@@ -167,7 +177,7 @@ fn write(path: &Path, text: &str) -> Result<(), Failure> {
 }
 
 fn about(path: &Path, error: &std::io::Error) -> Failure {
-    Failure { code: 1, message: format!("{}: {error}", path.display()) }
+    Failure::new(1, format!("{}: {error}", path.display()))
 }
 
 fn read(path: &Path) -> Result<String, Failure> {

@@ -1,11 +1,39 @@
 //! Everything registered, in one form: for `replan list`, for the schemas of files, and for tests of both.
 
+use super::audit_file::AuditFile;
+use super::example;
 use crate::analysis::{criterion, rule};
 use crate::render::figure;
 use crate::study::files::{self, FileKind};
 use crate::study::{family, paper, prepared, task};
 use base::settings::Accepted;
 use engine::planner::{self, Build};
+
+/// What names an entry in a file, and the table of its settings; `{}` stands for its name.
+#[derive(Clone, Copy)]
+pub struct Frame(&'static str, &'static str);
+
+const PLANNER: Frame = Frame("[[contender]]\nlabel = \"mine\"\nplanner = \"{}\"", "contender.settings");
+const STAGE: Frame = Frame("[[contender.then]]\nstage = \"{}\"", "contender.then.settings");
+const FAMILY: Frame = Frame("[[problems]]\nlabel = \"mine\"\nfamily = \"{}\"", "problems.settings");
+const TASK: Frame = Frame("task = \"{}\"", "task_settings");
+const CRITERION: Frame = Frame("[[claim]]\nid = \"mine\"\nat = \"section 1\"", "claim.check.{}");
+const RULE: Frame = Frame("[[claim]]\nid = \"mine\"\nat = \"section 1\"", "claim.rule.{}");
+const FIGURE: Frame = Frame("[[figure]]\nid = \"mine\"\nkind = \"{}\"\ncaption = \"…\"", "figure.settings");
+const NONE: Frame = Frame("", "");
+
+impl Item {
+    /// Its example as it stands in a file, within the terminal's columns; none for what has no settings in one.
+    pub fn shown(&self) -> Option<String> {
+        let [before, place] = [self.frame.0, self.frame.1].map(|text| text.replace("{}", self.name));
+        (!place.is_empty()).then(|| example::shown(&before, &place, self.example))
+    }
+
+    /// The table of its settings in a file: `contender.settings`.
+    pub fn place(&self) -> String {
+        self.frame.1.replace("{}", self.name)
+    }
+}
 
 /// Something that specs name.
 pub struct Item {
@@ -17,6 +45,8 @@ pub struct Item {
     pub settings: Option<Accepted>,
     /// Settings that it can be built from; empty if it needs none.
     pub example: &'static str,
+    /// What stands before its settings in a file, with `{}` for its name, and the table that they are.
+    pub frame: Frame,
     /// The columns that it fills.
     pub columns: &'static [&'static str],
 }
@@ -28,6 +58,7 @@ fn planners_or_stages(first: bool) -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        frame: if first { PLANNER } else { STAGE },
         columns: e.columns,
     };
     planner::REGISTRY.iter().copied().filter(fits).map(item).collect()
@@ -50,6 +81,7 @@ pub fn families() -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        frame: FAMILY,
         columns: e.columns,
     };
     family::REGISTRY.iter().map(item).collect()
@@ -62,6 +94,7 @@ pub fn tasks() -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        frame: TASK,
         columns: e.columns,
     };
     task::REGISTRY.iter().map(item).collect()
@@ -74,6 +107,7 @@ pub fn criteria() -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        frame: CRITERION,
         columns: &[],
     };
     criterion::REGISTRY.iter().map(item).collect()
@@ -86,6 +120,7 @@ pub fn rules() -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        frame: RULE,
         columns: &[],
     };
     rule::REGISTRY.iter().map(item).collect()
@@ -98,6 +133,7 @@ pub fn figures() -> Vec<Item> {
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
+        frame: FIGURE,
         columns: &[],
     };
     figure::REGISTRY.iter().map(item).collect()
@@ -110,6 +146,7 @@ pub fn prepared() -> Vec<Item> {
         about: e.about,
         settings: None,
         example: "",
+        frame: NONE,
         columns: e.columns,
     };
     prepared::REGISTRY.iter().map(item).collect()
@@ -118,6 +155,11 @@ pub fn prepared() -> Vec<Item> {
 /// Kinds of TOML file that replan reads, in the order of their names.
 pub fn files() -> Vec<Item> {
     let named = [
+        FileKind {
+            name: "audit_tables",
+            about: "printed tables, samples and relations for replan audit: docs/audit/zhang.toml",
+            accepted: Accepted::of::<AuditFile>(),
+        },
         FileKind {
             name: "crosscheck",
             about: "what an independent judge is asked: crosscheck.toml in a paper's folder",
@@ -134,6 +176,7 @@ pub fn files() -> Vec<Item> {
         about: kind.about,
         settings: Some(kind.accepted),
         example: "",
+        frame: NONE,
         columns: &[],
     };
     let mut all: Vec<Item> = named.iter().chain(files::KINDS).map(item).collect();

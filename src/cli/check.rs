@@ -1,10 +1,12 @@
 //! `replan check`: everything that can be wrong with a paper, without running it.
 
 use super::places::{Places, papers};
-use super::run::load;
-use super::{Failure, How, Which, all};
+use super::run::gather;
+use super::{Failure, Which, all};
+use crate::crosscheck::Spec;
 use crate::study::paper::Paper;
 use crate::study::rerun;
+use base::settings::Faults;
 use clap::Args;
 
 /// Checks papers and specs.
@@ -37,9 +39,13 @@ impl Check {
     /// Checks one paper.
     fn check(&self, spec: &str) -> Result<(), Failure> {
         let which = Which { paper: folder_of(spec), out: None };
-        let how = How { quick: false, seed: None, readings: None, threads: None };
         let places = Places::find(&which, "")?;
-        let paper = load(&places, &how)?;
+        let mut faults = Faults::default();
+        let paper = gather(&places, &mut faults)?;
+        if let (Some(crosscheck), Some(paper)) = (faults.keep(Spec::open(&places.folder)).flatten(), &paper) {
+            crosscheck.check(paper, &places.inputs, &mut faults);
+        }
+        let Some(paper) = paper.filter(|_| faults.is_empty()) else { return Err(faults.error().into()) };
         say!(
             "{}: {} studies, {} claims, {} ledger rows are in order",
             paper.id,
@@ -51,7 +57,7 @@ impl Check {
             say!("  {} is taken for a {kind}, not for a study", path.display());
         }
         if self.rerun > 0 {
-            rerun(&paper, &places, self.rerun, self.threads as usize)?;
+            rerun(&paper, &places, self.rerun, self.threads as usize).map_err(Failure::as_check)?;
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 mod python;
 mod statistics;
 
-use super::places::{Places, papers};
+use super::places::{Places, home, papers};
 use super::progress::Bar;
 use super::{Failure, Which};
 use crate::crosscheck::{self, Case, CrosscheckError, Depicted, Outcome, Picture, Sources, Spec};
@@ -84,7 +84,7 @@ impl Crosscheck {
         let mut posed = Vec::new();
         for name in &names {
             let places = Places::find(&Which { paper: name.clone(), out: None }, "")?;
-            match Spec::load(&places.folder)? {
+            match Spec::open(&places.folder).map_err(CrosscheckError::from)? {
                 Some(spec) => {
                     let shown = Places::find(&Which { paper: name.clone(), out: self.out.clone() }, "")?;
                     posed.push((places, shown, spec));
@@ -101,8 +101,12 @@ impl Crosscheck {
         if self.answered {
             posed.iter().try_for_each(|(_, shown, _)| are_answered(shown))?;
         }
-        let judge =
-            if self.answered { None } else { Some(Judge::ready(self.python.as_deref(), Path::new(FOLDER))?) };
+        let home = home(None)?;
+        let judge = if self.answered {
+            None
+        } else {
+            Some(Judge::ready(self.python.as_deref(), &home.join(FOLDER))?)
+        };
         let mut differences = 0;
         for (places, shown, spec) in &posed {
             differences += self.paper(places, shown, spec, judge.as_ref())?;
@@ -288,7 +292,7 @@ impl From<CrosscheckError> for Failure {
     fn from(error: CrosscheckError) -> Self {
         match error {
             CrosscheckError::Study(error) => error.into(),
-            CrosscheckError::Io { .. } => Self { code: 1, message: error.to_string() },
+            CrosscheckError::Io { .. } => Self::new(1, error.to_string()),
             CrosscheckError::Settings(_) => Self::input(error.to_string()),
             CrosscheckError::Answer { .. } => Self::stale(error.to_string()),
         }

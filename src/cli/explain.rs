@@ -27,9 +27,9 @@ pub fn explained(item: &Item) -> String {
             parts.push("\nIt has no settings of its own; the family of the problems has them.".to_owned());
         }
     }
-    if !item.example.is_empty() {
+    if let Some(example) = item.shown() {
         parts.push("\nExample".to_owned());
-        parts.extend(item.example.trim().lines().map(|line| format!("  {line}")));
+        parts.extend(example.lines().map(|line| format!("  {line}")));
     }
     parts.join("\n")
 }

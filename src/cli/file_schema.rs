@@ -1,19 +1,26 @@
 //! The JSON Schema of every kind of TOML file, made from the same types that read the files.
 //!
 //! In those of papers and studies the settings of whatever a table names are that entry's own, so that an editor completes
-//! them and `replan check` finds what is wrong in all tables of all files at once.
+//! them and `replan check` finds what is wrong in all tables of all files at once, whatever else is wrong with them.
 
 use super::catalogue::{self, Item};
-use base::settings::{Document, Faults, SettingsError, generator};
+use base::settings::generator;
 use serde_json::{Map, Value, json};
-use std::fs;
-use std::path::{Path, PathBuf};
 
 /// The schema of the kind of file called `kind`; of a table without any rule if there is no such kind.
 pub fn of(kind: &str) -> Value {
+    made(kind, true)
+}
+
+/// The same, but that it accepts names of entries that do not exist: who looks them up says more of them.
+pub fn of_any_names(kind: &str) -> Value {
+    made(kind, false)
+}
+
+fn made(kind: &str, names: bool) -> Value {
     let mut schema = match kind {
-        "study" => study(),
-        "paper" => paper(),
+        "study" => study(names),
+        "paper" => paper(names),
         other => {
             let kinds = catalogue::files();
             let found = kinds.iter().find(|item| item.name == other).and_then(|item| item.settings);
@@ -31,9 +38,9 @@ pub fn text(kind: &str) -> String {
     serde_json::to_string_pretty(&of(kind)).expect("a schema is plain JSON") + "\n"
 }
 
-/// The file of the schema of `kind` in `folder`.
-pub fn path(folder: &Path, kind: &str) -> PathBuf {
-    folder.join(format!("{kind}.schema.json"))
+/// The name of the file of the schema of `kind`.
+pub fn file_name(kind: &str) -> String {
+    format!("{kind}.schema.json")
 }
 
 /// Writes the schema of every kind of file into `folder`.
@@ -42,10 +49,12 @@ pub fn path(folder: &Path, kind: &str) -> PathBuf {
 /// A folder or file that cannot be written.
 pub fn write_all(folder: &Path) -> std::io::Result<()> {
     fs::create_dir_all(folder)?;
-    catalogue::files().iter().try_for_each(|kind| fs::write(path(folder, kind.name), text(kind.name)))
+    catalogue::files()
+        .iter()
+        .try_for_each(|kind| fs::write(folder.join(file_name(kind.name)), text(kind.name)))
 }
 
-fn study() -> Value {
+fn study(names: bool) -> Value {
     let mut generator = generator();
     let mut parts = |items: &[Item]| -> Vec<(&'static str, Value)> {
         let part = |item: &Item| Some((item.name, item.settings?.within(&mut generator)));
@@ -58,15 +67,15 @@ fn study() -> Value {
         catalogue::files().into_iter().find(|item| item.name == "study").and_then(|item| item.settings);
     let mut root = kind.map_or(Value::Null, |accepted| accepted.whole_with(generator));
     // Sweeps and readings fill in what a contender or a group leaves out: nothing is required there.
-    choose(&mut root, Some("ContenderSpec"), ("planner", "settings"), &planners, false);
-    choose(&mut root, Some("StageSpec"), ("stage", "settings"), &stages, false);
-    choose(&mut root, Some("ProblemsSpec"), ("family", "settings"), &families, false);
-    choose(&mut root, None, ("task", "task_settings"), &tasks, false);
-    choose(&mut root, Some("FigureSpec"), ("kind", "settings"), &figures, true);
+    choose(&mut root, Some("ContenderSpec"), ("planner", "settings"), &planners, false, names);
+    choose(&mut root, Some("StageSpec"), ("stage", "settings"), &stages, false, names);
+    choose(&mut root, Some("ProblemsSpec"), ("family", "settings"), &families, false, names);
+    choose(&mut root, None, ("task", "task_settings"), &tasks, false, names);
+    choose(&mut root, Some("FigureSpec"), ("kind", "settings"), &figures, true, names);
     root
 }
 
-fn paper() -> Value {
+fn paper(names: bool) -> Value {
     let mut generator = generator();
     let mut parts = |items: &[Item]| -> Map<String, Value> {
         let part = |item: &Item| Some((item.name.to_owned(), item.settings?.within(&mut generator)));
@@ -82,7 +91,9 @@ fn paper() -> Value {
         let place = format!("/$defs/ClaimSpec/properties/{key}");
         if let Some(table) = root.pointer_mut(&place).and_then(Value::as_object_mut) {
             table.insert("properties".to_owned(), Value::Object(entries));
-            table.insert("additionalProperties".to_owned(), Value::Bool(false));
+            if names {
+                table.insert("additionalProperties".to_owned(), Value::Bool(false));
+            }
         }
     }
     root
@@ -96,8 +107,9 @@ fn choose(
     (name, settings): (&str, &str),
     entries: &[(&'static str, Value)],
     whole: bool,
+    names: bool,
 ) {
-    let names: Vec<&str> = entries.iter().map(|(name, _)| *name).collect();
+    let known: Vec<&str> = entries.iter().map(|(name, _)| *name).collect();
     let mut rules = Vec::new();
     for (entry, part) in entries {
         let part = if whole { part.clone() } else { without_required(root, part) };
@@ -108,11 +120,12 @@ fn choose(
     }
     let place = holder.map_or_else(String::new, |holder| format!("/$defs/{holder}"));
     let Some(table) = root.pointer_mut(&place).and_then(Value::as_object_mut) else { return };
-    if let Some(key) =
-        table.get_mut("properties").and_then(|keys| keys.get_mut(name)).and_then(Value::as_object_mut)
+    if names
+        && let Some(key) =
+            table.get_mut("properties").and_then(|keys| keys.get_mut(name)).and_then(Value::as_object_mut)
     {
         key.insert("type".to_owned(), json!("string"));
-        key.insert("enum".to_owned(), json!(names));
+        key.insert("enum".to_owned(), json!(known));
     }
     table.insert("allOf".to_owned(), Value::Array(rules));
 }
@@ -125,30 +138,4 @@ fn without_required(root: &Value, part: &Value) -> Value {
         table.remove("required");
     }
     copy
-}
-
-/// What else the files of the paper in `folder` have that their schemas do not accept, besides `found`, which may have
-/// kept the program from looking any further.
-pub fn with_the_rest(found: SettingsError, folder: &Path) -> SettingsError {
-    let mut faults = Faults::default();
-    faults.add(found);
-    let entries = fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
-    let mut files: Vec<PathBuf> =
-        entries.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
-    files.sort();
-    for path in files {
-        let kind = match path.file_stem().and_then(|stem| stem.to_str()) {
-            Some("paper") => "paper",
-            Some("crosscheck") => "crosscheck",
-            _ => "study",
-        };
-        let Ok(document) = Document::open(&path) else { continue };
-        if kind == "study" && !document.has("paper") {
-            continue;
-        }
-        if let Err(more) = document.validate(&of(kind)) {
-            faults.add_elsewhere(more);
-        }
-    }
-    faults.error()
 }

@@ -12,7 +12,6 @@ use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
 use std::fs;
-use std::path::Path;
 
 /// Judges a paper's claims again.
 #[derive(Args)]
@@ -35,7 +34,7 @@ impl Judge {
         let paper = super::run::load(&places, &how)?;
         let point = how.point(&paper.readings())?;
         if self.check {
-            return check(&paper, point, &places);
+            return check(&paper, point, &places).map_err(Failure::as_check);
         }
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         verdicts::print(&judge(&paper, point, &places)?);
@@ -61,7 +60,7 @@ fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Fai
 
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
 pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
-    let evidence = read(paper, point, places)?.remembering(Path::new(POLYLINES));
+    let evidence = read(paper, point, places)?.remembering(&places.home.join(POLYLINES));
     let verdicts = claims::judge(&evidence)?;
     evidence.keep_polylines();
     verdicts.write(&places.runs)?;

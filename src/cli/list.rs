@@ -2,7 +2,7 @@
 
 use super::catalogue::{self, Item};
 use super::explain::{explained, wrapped};
-use super::places::{EXPERIMENTS, papers};
+use super::places::{experiments, home, papers};
 use super::{Failure, all};
 use crate::analysis::metric;
 use crate::study::Inputs;
@@ -10,7 +10,7 @@ use crate::study::paper::Paper;
 use base::settings::none_called;
 use clap::{Args, ValueEnum};
 use engine::kinematics::{Robot, robot::Body};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Where robots are shipped.
 const ROBOTS: &str = "data/robots";
@@ -113,6 +113,12 @@ fn one(what: What, name: &str) -> Result<(), Failure> {
         let found = rows.iter().find(|(known, _)| known == name);
         let (_, about) = found.ok_or_else(|| Failure::input(none_called(singular(what), name, known)))?;
         say!("{name}\n{}", wrapped("  ", about, 2));
+        if let Some(metric) = metric::find(name).filter(|_| what == What::Metrics) {
+            let unit = if metric.unit.is_empty() { "none: it is a count or a flag" } else { metric.unit };
+            say!("{}", wrapped("  unit: ", unit, 2));
+            say!("{}", wrapped("  better: ", metric.better.name(), 2));
+            say!("{}", wrapped("  read from: ", metric.column, 2));
+        }
         return all(results, "papers and robots cannot be listed");
     };
     let known = items.iter().map(|item| item.name);
@@ -158,7 +164,9 @@ fn rows(what: What, Found { papers, robots }: &Found) -> Vec<(String, String)> {
             })
             .collect(),
         What::Robots => robots.iter().map(|robot| row(robot.name(), &about(robot))).collect(),
-        _ => metric::METRICS.iter().map(|m| row(m.name, &m.title())).collect(),
+        _ => {
+            metric::METRICS.iter().map(|m| row(m.name, &format!("{}: {}", m.title(), m.meaning()))).collect()
+        }
     }
 }
 
@@ -187,8 +195,8 @@ fn robots() -> (Vec<Robot>, Vec<Result<(), Failure>>) {
 /// Every paper that can be read, and how reading each went.
 fn loaded() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
     let load = |name: String| -> Result<Paper, Failure> {
-        let folder = Path::new(EXPERIMENTS).join(name);
-        let inputs = Inputs { roots: vec![folder.clone(), PathBuf::new()] };
+        let folder = experiments().join(name);
+        let inputs = Inputs { roots: vec![folder.clone(), home(None)?] };
         Ok(Paper::load(&folder, &inputs)?)
     };
     let read: Vec<Result<Paper, Failure>> = papers().into_iter().map(load).collect();

@@ -13,9 +13,11 @@ macro_rules! say {
 }
 
 mod audit;
+mod audit_file;
 pub mod catalogue;
 mod check;
 mod crosscheck;
+mod example;
 mod explain;
 pub mod file_schema;
 mod judge;
@@ -114,15 +116,26 @@ struct How {
 struct Failure {
     code: u8,
     message: String,
+    /// Something that is stored is not what was written.
+    is_touched: bool,
 }
 
 impl Failure {
     fn input(message: impl Into<String>) -> Self {
-        Self { code: 2, message: message.into() }
+        Self::new(2, message)
     }
 
     fn stale(message: impl Into<String>) -> Self {
-        Self { code: 3, message: message.into() }
+        Self::new(3, message)
+    }
+
+    fn new(code: u8, message: impl Into<String>) -> Self {
+        Self { code, message: message.into(), is_touched: false }
+    }
+
+    /// The same as what a check says: that something is not as stored is its answer, and no wrong input.
+    fn as_check(self) -> Self {
+        Self { code: if self.is_touched { 3 } else { self.code }, ..self }
     }
 }
 
@@ -133,7 +146,7 @@ impl From<StudyError> for Failure {
             StudyError::Io { .. } | StudyError::Busy { .. } => 1,
             _ => 2,
         };
-        Self { code, message: error.to_string() }
+        Self { is_touched: matches!(error, StudyError::Touched(_)), ..Self::new(code, error.to_string()) }
     }
 }
 
@@ -146,13 +159,13 @@ impl From<SettingsError> for Failure {
 impl From<crate::render::RenderError> for Failure {
     fn from(error: crate::render::RenderError) -> Self {
         let code = if matches!(error, crate::render::RenderError::Interrupted) { 130 } else { 2 };
-        Self { code, message: error.to_string() }
+        Self::new(code, error.to_string())
     }
 }
 
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
-        Self { code: 1, message: error.to_string() }
+        Self::new(1, error.to_string())
     }
 }
 
@@ -167,7 +180,7 @@ fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
         let _ = writeln!(io::stderr(), "replan: {}", failure.message);
     }
     let code = if failures.iter().any(|failure| failure.code == 2) { 2 } else { failures[0].code };
-    Err(Failure { code, message: format!("{} of {count} {what}", failures.len()) })
+    Err(Failure::new(code, format!("{} of {count} {what}", failures.len())))
 }
 
 /// Runs the command that the process was called with.

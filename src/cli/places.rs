@@ -8,14 +8,19 @@ use crate::study::paper::Paper;
 use crate::study::{Inputs, ReadingChoice, Study};
 use std::collections::BTreeMap;
 use std::fs;
+use std::iter;
 use std::path::{Component, Path, PathBuf};
 
 /// Where the papers of the project lie.
-pub const EXPERIMENTS: &str = "experiments";
+const EXPERIMENTS: &str = "experiments";
+/// Where everything goes that is not committed.
+const TARGET: &str = "target/replan";
 
 /// Where things are.
 #[derive(Debug, Clone)]
 pub struct Places {
+    /// The folder that outputs and shared inputs lie in.
+    pub home: PathBuf,
     /// The paper's folder.
     pub folder: PathBuf,
     /// Where its records and verdicts are.
@@ -35,12 +40,12 @@ impl Places {
     /// If there is no such paper; the message lists those that exist. If `--out` names a committed place for a run that is not a
     /// full default one.
     pub fn find(which: &Which, variant: &str) -> Result<Self, Failure> {
-        let (folder, is_own) = folder(&which.paper)?;
+        let (folder, home, is_own) = folder(&which.paper)?;
         let id = paper_id(&folder)?;
-        let committed = if is_own { Path::new("target/replan").join(&id) } else { PathBuf::from(".") };
+        let committed = if is_own { home.join(TARGET).join(&id) } else { home.clone() };
         let root = match (&which.out, variant) {
             (Some(out), "") => out.clone(),
-            (Some(out), variant) if is_committed(out, &committed) => {
+            (Some(out), variant) if is_committed(out, [&committed, &home]) => {
                 return Err(Failure::input(format!(
                     "--out {} is where full runs are kept, and this is not one ({variant}); another folder is accepted",
                     out.display()
@@ -48,14 +53,15 @@ impl Places {
             }
             (Some(out), _) => out.clone(),
             (None, "") => committed,
-            (None, variant) => PathBuf::from(format!("target/replan/{id}-{variant}")),
+            (None, variant) => home.join(TARGET).join(format!("{id}-{variant}")),
         };
         let root = if root == Path::new(".") { PathBuf::new() } else { root };
         Ok(Self {
             runs: root.join("data/runs").join(&id),
             plots: root.join("plots").join(&id),
             report: root.join("paper_repro.md"),
-            inputs: Inputs { roots: vec![folder.clone(), PathBuf::new()] },
+            inputs: Inputs { roots: vec![folder.clone(), home.clone()] },
+            home,
             folder,
         })
     }
@@ -68,30 +74,49 @@ impl Places {
     }
 }
 
-/// The folder of the paper called `paper`, and whether it is a user's own: one that does not lie in the project.
-fn folder(paper: &str) -> Result<(PathBuf, bool), Failure> {
+/// The folder that outputs and shared inputs lie in, as a path from here: the nearest one from here upwards with papers or
+/// earlier outputs, and this one if there is none. It is never in `paper`, the folder of one, so that a command means the
+/// same there.
+pub fn home(paper: Option<&Path>) -> Result<PathBuf, Failure> {
+    let here = fs::canonicalize(".")?;
+    let paper = paper.map(fs::canonicalize).transpose()?;
+    let outside: Vec<(usize, &Path)> = here
+        .ancestors()
+        .enumerate()
+        .filter(|(_, at)| paper.as_ref().is_none_or(|paper| !at.starts_with(paper)))
+        .collect();
+    let is_kept = |at: &Path| at.join(EXPERIMENTS).is_dir() || at.join(TARGET).is_dir();
+    let found = outside.iter().find(|(_, at)| is_kept(at)).or(outside.first());
+    Ok(iter::repeat_n("..", found.map_or(0, |(up, _)| *up)).collect())
+}
+
+/// The folder of the paper called `paper`, the home that goes with it, and whether it is a user's own: one that does not lie
+/// in the project.
+fn folder(paper: &str) -> Result<(PathBuf, PathBuf, bool), Failure> {
     let given = Path::new(paper);
     let is_name = matches!(given.components().collect::<Vec<_>>()[..], [Component::Normal(_)]);
-    let named = Path::new(EXPERIMENTS).join(given);
+    let project = home(None)?;
+    let named = project.join(EXPERIMENTS).join(given);
     if is_name && named.join("paper.toml").is_file() {
-        return Ok((named, false));
+        return Ok((named, project, false));
     }
     if !given.join("paper.toml").is_file() {
         return Err(unknown(paper));
     }
-    let absolute = fs::canonicalize(given)?;
-    match (fs::canonicalize(EXPERIMENTS), absolute.file_name()) {
+    let (home, absolute) = (home(Some(given))?, fs::canonicalize(given)?);
+    let papers = home.join(EXPERIMENTS);
+    match (fs::canonicalize(&papers), absolute.file_name()) {
         (Ok(project), Some(name)) if absolute.parent() == Some(&project) => {
-            Ok((Path::new(EXPERIMENTS).join(name), false))
+            Ok((papers.join(name), home, false))
         }
-        _ => Ok((given.to_owned(), true)),
+        _ => Ok((given.to_owned(), home, true)),
     }
 }
 
 /// Whether writing below `out` writes a committed place: this paper's own or the project's.
-fn is_committed(out: &Path, committed: &Path) -> bool {
-    let is_project = Path::new(EXPERIMENTS).is_dir();
-    let kept = [Some(committed), is_project.then_some(Path::new("."))];
+fn is_committed(out: &Path, [own, home]: [&Path; 2]) -> bool {
+    let is_project = home.join(EXPERIMENTS).is_dir();
+    let kept = [Some(own), is_project.then_some(home)];
     kept.into_iter().flatten().any(|kept| resolved(out) == resolved(kept))
 }
 
@@ -108,9 +133,14 @@ fn resolved(folder: &Path) -> PathBuf {
     fs::canonicalize(&found).unwrap_or(found)
 }
 
+/// Where the papers of the project lie, as a path from here.
+pub fn experiments() -> PathBuf {
+    home(None).unwrap_or_default().join(EXPERIMENTS)
+}
+
 /// Every paper of the project, by name.
 pub fn papers() -> Vec<String> {
-    let entries = fs::read_dir(EXPERIMENTS).into_iter().flatten().flatten();
+    let entries = fs::read_dir(experiments()).into_iter().flatten().flatten();
     let mut names: Vec<String> = entries
         .filter(|entry| entry.path().join("paper.toml").is_file())
         .map(|entry| entry.file_name().to_string_lossy().into_owned())

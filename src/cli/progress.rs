@@ -34,7 +34,7 @@ pub fn doing(what: &str) {
 pub fn safe_point(stop: &AtomicBool, kept: &str) -> Result<(), Failure> {
     if stop.load(Ordering::Relaxed) {
         let message = format!("interrupted: {kept}; the same command goes on from there");
-        return Err(Failure { code: 130, message });
+        return Err(Failure::new(130, message));
     }
     Ok(())
 }

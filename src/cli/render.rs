@@ -35,8 +35,8 @@ impl Render {
         let paper = super::run::load(&places, &how)?;
         let stop = stop_flag();
         if self.check {
-            let drawn = draw(&paper, &places, self.only.as_deref(), stop)?;
-            return check(&paper, &places, &drawn);
+            let drawn = draw(&paper, &places, self.only.as_deref(), stop);
+            return drawn.and_then(|drawn| check(&paper, &places, &drawn)).map_err(Failure::as_check);
         }
         check_report(&paper, &places)?;
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
@@ -118,7 +118,7 @@ fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -
 
 /// Says in the chapter of `paper` that its stored run cannot be shown, and why; gives that as the failure that it is.
 fn unread(paper: &Paper, places: &Places, failure: Failure) -> Failure {
-    if failure.code != 2 {
+    if failure.code != 2 || !places.report.is_file() {
         return failure;
     }
     let chapter = report::unread(paper, &failure.message);

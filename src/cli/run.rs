@@ -1,11 +1,10 @@
 //! `replan run`: the trials, and nothing after them.
 
-use super::file_schema::with_the_rest;
+use super::file_schema::of_any_names;
 use super::places::Places;
 use super::progress::{Bar, stop_flag};
 use super::{Failure, How, Which, command_line};
 use crate::analysis::claims;
-use crate::study::StudyError;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
@@ -44,19 +43,25 @@ impl Run {
     }
 }
 
-/// The paper as the flags ask for it, with every claim's checks understood.
+/// The paper as far as it can be read, with every claim's checks, figure and table understood; everything that is wrong goes
+/// to `faults`.
+pub fn gather(places: &Places, faults: &mut Faults) -> Result<Option<Paper>, Failure> {
+    let paper = Paper::gather(&places.folder, &places.inputs, &of_any_names, faults)?;
+    if let Some(paper) = &paper {
+        faults.keep(claims::validate(paper));
+        faults.keep(crate::render::figure::validate(paper));
+        faults.keep(crate::render::results::validate(paper));
+    }
+    Ok(paper)
+}
+
+/// The paper as the flags ask for it.
 pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
-    let paper = Paper::load(&places.folder, &places.inputs).map_err(|error| match error {
-        StudyError::Settings(fault) => StudyError::Settings(with_the_rest(fault, &places.folder)),
-        other => other,
-    })?;
+    let mut faults = Faults::default();
+    let paper = gather(places, &mut faults)?;
+    let Some(paper) = paper.filter(|_| faults.is_empty()) else { return Err(faults.error().into()) };
     let paper = how.apply(paper);
     how.check_readings(&paper)?;
-    let mut faults = Faults::default();
-    faults.keep(claims::validate(&paper));
-    faults.keep(crate::render::figure::validate(&paper));
-    faults.keep(crate::render::results::validate(&paper));
-    faults.done()?;
     Ok(paper)
 }
 

@@ -1,7 +1,7 @@
 //! `replan schema`: writes a JSON Schema of every kind of TOML file, for editors.
 
 use super::catalogue::{self, Item};
-use super::file_schema::{path, text};
+use super::file_schema::{file_name, text};
 use super::{Failure, all};
 use clap::Args;
 use std::fs;
@@ -24,12 +24,29 @@ impl Schema {
         if !self.check {
             fs::create_dir_all(&self.folder)?;
         }
-        let results = catalogue::files().iter().map(|kind| self.each(kind)).collect();
-        all(results, "schemas are not current")
+        let kinds = catalogue::files();
+        let mut results: Vec<Result<(), Failure>> = kinds.iter().map(|kind| self.each(kind)).collect();
+        if self.check {
+            let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
+            let of_kind = |name: &str| kinds.iter().any(|kind| name == file_name(kind.name));
+            let mut names: Vec<String> =
+                entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+            names.sort();
+            results.extend(names.iter().filter(|name| !of_kind(name)).map(|name| {
+                let path = self.folder.join(name);
+                Err(Failure::stale(format!("{} is the schema of no kind of file; remove it", path.display())))
+            }));
+        }
+        all(results, "schemas are not current")?;
+        if self.check {
+            let names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
+            say!("{} schemas in {} are current: {}", kinds.len(), self.folder.display(), names.join(", "));
+        }
+        Ok(())
     }
 
     fn each(&self, kind: &Item) -> Result<(), Failure> {
-        let (path, text) = (path(&self.folder, kind.name), text(kind.name));
+        let (path, text) = (self.folder.join(file_name(kind.name)), text(kind.name));
         if self.check {
             let stored = fs::read_to_string(&path).unwrap_or_default();
             let stale = || Failure::stale(format!("{} is not current; run `replan schema`", path.display()));

@@ -37,16 +37,16 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
         }
     }
     let Counts { classes, parts, asserted } = verdicts.counts();
-    text += &format!("{classes}\n");
-    for more in parts.into_iter().chain(asserted) {
-        text += &format!("{more}\n");
-    }
-    if verdicts.quick {
-        text += "a quick run: few replicates, so these verdicts are not the study's\n";
+    let quick = verdicts
+        .quick
+        .then(|| "a quick run: few replicates, so these verdicts are not the study's".to_owned());
+    for said in [Some(classes), parts, asserted, quick].into_iter().flatten() {
+        text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
     if !verdicts.claims_changed_since.is_empty() {
         let studies = verdicts.claims_changed_since.join(", ");
-        text += &format!("claims or margins changed after the run of {studies}; run it again with --fresh\n");
+        let said = format!("claims or margins changed after the run of {studies}; run it again with --fresh");
+        text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
     text
 }
@@ -64,15 +64,15 @@ fn cells(judged: &Judged) -> [String; 5] {
 
 /// The cells below one another; those after one that is too wide for its column stand on a line of their own.
 fn line(cells: &[String; 5], widths: [usize; 4]) -> String {
-    let (mut text, mut end, mut at) = (String::new(), 0, 0);
+    let (mut text, mut place, mut at) = (String::new(), 0, 0);
     for (cell, width) in cells.iter().zip(widths.into_iter().chain([0])) {
-        if at > end {
-            text += &format!("\n{}", " ".repeat(end));
-            at = end;
+        if at > 0 && at + 2 > place {
+            text += "\n";
+            at = 0;
         }
-        text += &format!("{}{cell}", " ".repeat(end - at));
-        at = end + cell.chars().count() + 2;
-        end += width + 2;
+        text += &format!("{}{cell}", " ".repeat(place - at));
+        at = place + cell.chars().count();
+        place += width + 2;
     }
     text + "\n"
 }

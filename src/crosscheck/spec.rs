@@ -1,5 +1,7 @@
 //! `crosscheck.toml` in a paper's folder: which robots, scenes and stored paths are judged.
 
+mod check;
+
 use super::CrosscheckError;
 use super::case::{Case, Given};
 use super::model::{Freedom, Still};
@@ -169,7 +171,7 @@ impl Spec {
     ///
     /// # Errors
     /// The line and column of what is not understood.
-    pub fn load(folder: &Path) -> Result<Option<Self>, CrosscheckError> {
+    pub fn open(folder: &Path) -> Result<Option<Self>, SettingsError> {
         let path = folder.join(SPEC);
         if !path.is_file() {
             return Ok(None);

@@ -8,6 +8,7 @@
 //! coordinates, its mesh is the grid with ticks and labels, and [`View::plot`] draws its series and elements.
 
 pub mod axis;
+pub mod labels;
 pub mod legend;
 pub mod marks;
 pub mod rows;

@@ -6,6 +6,7 @@ use super::prose::markdown as safe;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric;
 use crate::analysis::tabulated::{Grid, grid};
+use crate::study::columns_of;
 use crate::study::paper::Paper;
 use crate::study::paper::results::ResultsSpec;
 use base::settings::{Faults, SettingsError};
@@ -17,8 +18,9 @@ use base::settings::{Faults, SettingsError};
 pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     let mut faults = Faults::default();
     for table in &paper.results {
-        let columns =
-            paper.study(table.study.get_ref()).map(crate::study::Study::columns).unwrap_or_default();
+        // A study that is not there is told by the paper's own check.
+        let Some(study) = paper.study(table.study.get_ref()) else { continue };
+        let columns = study.columns();
         for cell in &table.cells {
             let name = cell.metric.get_ref();
             if !metric::find(name).is_some_and(|metric| columns.contains(metric.column)) {
@@ -29,7 +31,8 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
                     table.study.get_ref(),
                     known.join(", ")
                 );
-                faults.add(paper.document.error(cell.metric.span(), message));
+                let fault = paper.document.error(cell.metric.span(), message);
+                faults.add(fault.about(&columns_of(table.study.get_ref())));
             }
         }
     }

@@ -2,6 +2,7 @@
 
 mod each;
 mod load;
+mod sizes;
 
 use super::contender::{Contender, Sweep, SweepPoint};
 use super::error::StudyError;
@@ -57,6 +58,11 @@ pub struct Study {
     pub figures: Vec<FigureSpec>,
     /// The file it was read from.
     pub document: Arc<Document>,
+}
+
+/// What the columns of the study called `name` are called where they may be unread.
+pub fn columns_of(name: &str) -> String {
+    format!("columns of {name}")
 }
 
 impl Study {

@@ -6,6 +6,8 @@ use std::time::Instant;
 
 /// The column that holds a trial's planning time, in nanoseconds.
 pub const COLUMN: &str = "plan_wall_ns";
+/// What the column says.
+pub const ABOUT: &str = "time of one call of the contender, nothing else between the two clock readings";
 
 /// How long `work` takes, in nanoseconds, and what it gives.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (u64, T) {

@@ -3,7 +3,7 @@
 use super::key::{SweepKey, SweepValue};
 use super::name;
 use super::reading::ReadingChoice;
-use base::settings::{Settings, SettingsError};
+use base::settings::{Faults, Settings, SettingsError};
 use engine::planner::{self, Build, Invalid, Plan, Planner, Request, Stage};
 use std::collections::BTreeMap;
 use std::mem::discriminant;
@@ -15,6 +15,8 @@ use toml::Table;
 pub struct Contender {
     /// Its name in records and tables.
     pub label: String,
+    /// Its number among the study's contenders as they are written, from 0.
+    pub place: usize,
     /// How many seeds it runs on each problem.
     pub repeats: u32,
     /// Whether the spec asks for more than one seed: the trials' names then carry a number.
@@ -48,17 +50,17 @@ impl Contender {
     /// The pipeline under the reading `point` with the sweep's settings laid on top.
     ///
     /// # Errors
-    /// A settings error of an entry.
+    /// The settings errors of all entries.
     pub fn pipeline(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Result<Pipeline, SettingsError> {
-        let mut planner = None;
-        let mut stages = Vec::new();
+        let (mut planner, mut stages, mut faults) = (None, Vec::new(), Faults::default());
         for stage in &self.stages {
             let settings = stage.effective(point, sweep);
             match stage.entry.build {
-                Build::Planner(build) => planner = Some(build(&settings)?),
-                Build::Stage(build) => stages.push(build(&settings)?),
+                Build::Planner(build) => planner = faults.keep(build(&settings)),
+                Build::Stage(build) => stages.extend(faults.keep(build(&settings))),
             }
         }
+        faults.done()?;
         let planner = planner.expect("a checked contender starts with a planner");
         Ok(Pipeline { planner, stages })
     }

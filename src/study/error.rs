@@ -35,6 +35,9 @@ pub enum StudyError {
         /// What is wrong with it, and what helps.
         reason: String,
     },
+    /// A stored file is not what was written: truncated, edited, or of another version.
+    #[error("{0}")]
+    Touched(String),
     /// Another process is running into the same folder.
     #[error("{}: another run is writing here; wait for it or choose another place with --out", path.display())]
     Busy {
@@ -70,6 +73,14 @@ impl StudyError {
     pub fn io(path: impl Into<PathBuf>, doing: &'static str) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::Io { path, doing, source }
+    }
+
+    /// A stored text that is not what was written; `again` writes it again.
+    pub fn touched(error: SettingsError, again: &str) -> Self {
+        let reworded = error.reworded(&format!(
+            "is not what replan wrote: truncated, edited, or of another version; {again}"
+        ));
+        Self::Touched(reworded.to_string())
     }
 
     /// A stored file that cannot be used.

@@ -1,11 +1,14 @@
 //! The kinds of TOML file that replan reads from a paper's folder and from `data/`, and how one is told from another.
 
+use super::StudyError;
 use super::family::{cell_queries, plane_queries};
 use super::spec::StudySpec;
-use base::settings::{Accepted, Document, Faults, SettingsError};
+use base::settings::{Accepted, Document, SettingsError};
 use engine::kinematics::robot;
 use engine::space::{cell, polyhedra};
-use std::sync::Arc;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 /// A kind of file.
 #[derive(Debug)]
@@ -53,39 +56,67 @@ pub static KINDS: &[FileKind] = &[
     },
 ];
 
-/// The kind, other than a study, that `document` is: it has neither `paper` nor `question`, as every study has, and more of
-/// its keys are that kind's than a study's.
-pub fn other_than_study(document: &Document) -> Option<&'static FileKind> {
-    if document.has("paper") || document.has("question") {
-        return None;
+/// The kind of a paper's studies.
+pub const STUDY: &str = "study";
+/// What a file is called that is of no kind of ours.
+pub const FOREIGN: &str = "file of something else";
+
+/// Files of a paper's folder that are no studies: the paper itself, and what an independent judge is asked.
+const NO_STUDIES: [&str; 2] = ["paper.toml", "crosscheck.toml"];
+
+/// The TOML files in `folder` besides those of [`NO_STUDIES`] and hidden ones, in the order of their names.
+///
+/// # Errors
+/// What the system refuses.
+pub fn beside(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
+    let entries = fs::read_dir(folder).map_err(StudyError::io(folder, "listing the folder"))?;
+    let is_meant = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.ends_with(".toml") && !name.starts_with('.') && !NO_STUDIES.contains(&&*name)
+    };
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut files: Vec<PathBuf> = paths.filter(is_meant).collect();
+    files.sort();
+    Ok(files)
+}
+
+/// What a file of the kind called `name` may hold, but for what the entries that it names know.
+pub fn schema(name: &str) -> Value {
+    let kind = KINDS.iter().find(|kind| kind.name == name);
+    kind.map_or(Value::Bool(true), |kind| (*kind.accepted.schema()).clone())
+}
+
+/// The kind of `document`.
+///
+/// A study has `paper` or `question`; what has neither is of another kind if at least half of its keys, and more than a
+/// study has of them, are that kind's; of the rest a study is what has some key of one, what `paper` speaks of, and what
+/// is no TOML.
+pub fn kind_of(document: &Document, paper: &Document) -> &'static str {
+    let keys = document.keys();
+    if ["paper", "question"].iter().any(|key| keys.contains(key)) {
+        return STUDY;
     }
     let shared = |kind: &FileKind| {
         let schema = kind.accepted.schema();
-        let keys = schema.get("properties").and_then(|keys| keys.as_object());
-        keys.map_or(0, |keys| keys.keys().filter(|key| document.has(key)).count())
+        keys.iter().filter(|key| schema.get("properties").is_some_and(|all| all.get(key).is_some())).count()
     };
-    let (studies, others): (Vec<_>, Vec<_>) = KINDS.iter().partition(|kind| kind.name == "study");
-    let as_study = studies.into_iter().map(shared).max().unwrap_or(0);
-    let fits = |kind: &&&FileKind| document.validate(&kind.accepted.schema()).is_ok();
-    let others = || others.iter().filter(|kind| shared(kind) > as_study);
-    others().find(fits).or_else(|| others().max_by_key(|kind| shared(kind))).copied()
+    let as_study = KINDS.iter().filter(|kind| kind.name == STUDY).map(shared).max().unwrap_or(0);
+    let others = || KINDS.iter().filter(|kind| shared(kind) > as_study && 2 * shared(kind) >= keys.len());
+    let fits = |kind: &&FileKind| document.validate(&kind.accepted.schema()).is_ok();
+    let other = others().find(fits).or_else(|| others().max_by_key(|kind| shared(kind)));
+    let stem = document.path().file_stem().unwrap_or_default().to_string_lossy();
+    match other {
+        Some(kind) => kind.name,
+        None if as_study > 0 || !document.is_toml() || paper.says(&stem) => STUDY,
+        None => FOREIGN,
+    }
 }
 
-/// What is wrong with a file of that kind, which it says.
+/// What is wrong with a file of `kind`, other than a study, which it says.
 ///
 /// # Errors
 /// Every fault, with what the file was taken for.
-pub fn validate(document: &Arc<Document>, kind: &FileKind) -> Result<(), SettingsError> {
-    let mut faults = Faults::default();
-    if let Err(error) = document.validate(&kind.accepted.schema()) {
-        error.each().into_iter().for_each(|fault| {
-            faults.add(
-                fault.prefixed(&format!(
-                    "without `paper` and `question` this is no study but a {}: ",
-                    kind.name
-                )),
-            );
-        });
-    }
-    faults.done()
+pub fn validate(document: &Document, kind: &str) -> Result<(), SettingsError> {
+    let before = format!("without `paper` and `question` this is no study but a {kind}: ");
+    document.validate(&schema(kind)).map_err(|error| error.prefixed(&before))
 }

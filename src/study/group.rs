@@ -13,6 +13,8 @@ use toml::Table;
 pub struct Group {
     /// Its name in records.
     pub label: String,
+    /// Its number among the study's groups as they are written, from 0.
+    pub place: usize,
     /// The family they are drawn from.
     pub family: &'static Entry,
     /// How many independent draws.

@@ -142,13 +142,14 @@ impl Manifest {
     /// Reads the manifest of `study` in `folder`.
     ///
     /// # Errors
-    /// [`StudyError::Stored`] if there is none or it cannot be understood.
+    /// [`StudyError::Stored`] if there is none, [`StudyError::Touched`] if it cannot be understood.
     pub fn read(folder: &Path, study: &str) -> Result<Self, StudyError> {
         let path = Self::path(folder, study);
         if !path.exists() {
             return Err(StudyError::stored(&path, "no stored run; run the study first"));
         }
-        Ok(Document::open(&path)?.read_stored()?)
+        let read = Document::open(&path).and_then(|document| document.read_stored());
+        read.map_err(|error| StudyError::touched(error, "run the study again"))
     }
 
     /// Stages the manifest for `folder`.

@@ -46,7 +46,7 @@ pub mod session;
 
 pub mod rerun;
 
-pub use checked::Study;
+pub use checked::{Study, columns_of};
 pub use contender::{Contender, StageUse, Sweep};
 pub use error::StudyError;
 pub use group::{Families, Group};

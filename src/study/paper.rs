@@ -9,7 +9,7 @@ pub mod results;
 mod rules;
 mod tables;
 
-pub use self::claim::{Asked, Claim, Parts};
+pub use self::claim::{Asked, Claim, Parts, printed_by};
 use self::claim::{ClaimSpec, claim};
 pub use ledger::{LedgerRow, NumbersRow};
 pub use report::{CLAIMS, FIGURES, ReportSpec, filled};
@@ -21,6 +21,7 @@ use super::{Inputs, Reading, Study, StudyError, files};
 use base::settings::{Accepted, Document, Faults};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -131,23 +132,59 @@ impl Paper {
     /// A missing folder or file, and everything that [`Study::load`] refuses; claims named twice, ledger rows that
     /// name what does not exist, gaps in the ledger's numbering.
     pub fn load(folder: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
+        let mut faults = Faults::default();
+        let schema = |kind: &str| match kind {
+            "paper" => (*FILE.schema()).clone(),
+            other => files::schema(other),
+        };
+        let paper = Self::gather(folder, inputs, &schema, &mut faults)?;
+        match paper {
+            Some(paper) if faults.is_empty() => Ok(paper),
+            _ => Err(faults.error().into()),
+        }
+    }
+
+    /// The paper in `folder` as far as it can be read, if at all; everything that is wrong goes to `faults`. `schema` gives
+    /// what a kind of file may hold.
+    ///
+    /// # Errors
+    /// A missing folder or file.
+    pub fn gather(
+        folder: &Path,
+        inputs: &Inputs,
+        schema: &dyn Fn(&str) -> Value,
+        faults: &mut Faults,
+    ) -> Result<Option<Self>, StudyError> {
         let path = folder.join("paper.toml");
         if !path.is_file() {
             let what =
                 "no such file; a paper is a folder with a paper.toml and one TOML file a study".to_owned();
             return Err(StudyError::Missing { path, what });
         }
-        let document = Document::open(&path)?;
-        let mut faults = Faults::default();
+        let files = files::beside(folder)?;
+        let written = Document::open(&path)?;
+        let document = written.salvaged(&schema("paper"), faults);
         let spec = faults.keep(document.read::<PaperSpec>());
-        let files = study_files(folder)?;
-        let (studies, others) = read_files(&files, inputs, &mut faults)?;
+        let (mut studies, mut others) = (Vec::new(), Vec::new());
+        for path in &files {
+            let Some(document) = faults.keep(Document::open(path)) else { continue };
+            match files::kind_of(&document, &written) {
+                files::STUDY => {
+                    let document = document.salvaged(&schema(files::STUDY), faults);
+                    studies.extend(Study::gather(&document, inputs, faults)?);
+                }
+                kind => others.push((path.clone(), kind)),
+            }
+        }
+        for (path, kind) in others.iter().filter(|(_, kind)| *kind != files::FOREIGN) {
+            faults.keep(Document::open(path).and_then(|document| files::validate(&document, kind)));
+        }
         if files.len() == others.len() && faults.is_empty() {
             let what = "no study; a study is a TOML file beside paper.toml".to_owned();
             return Err(StudyError::Missing { path: folder.to_owned(), what });
         }
-        let Some(spec) = spec else { return Err(faults.error().into()) };
-        Self::assemble(folder, &document, spec, (studies, others), faults)
+        let Some(spec) = spec else { return Ok(None) };
+        Self::assemble(folder, &document, spec, (studies, others), faults).map(Some)
     }
 
     /// The paper in `folder` whose paper.toml is `document`, with studies that were loaded.
@@ -155,7 +192,10 @@ impl Paper {
     /// # Errors
     /// As [`load`](Self::load), but for those of the studies.
     pub fn of(folder: &Path, document: &Arc<Document>, studies: Vec<Study>) -> Result<Self, StudyError> {
-        Self::assemble(folder, document, document.read()?, (studies, Vec::new()), Faults::default())
+        let mut faults = Faults::default();
+        let paper = Self::assemble(folder, document, document.read()?, (studies, Vec::new()), &mut faults)?;
+        faults.done()?;
+        Ok(paper)
     }
 
     fn assemble(
@@ -163,9 +203,9 @@ impl Paper {
         document: &Arc<Document>,
         spec: PaperSpec,
         (studies, others): Files,
-        mut faults: Faults,
+        faults: &mut Faults,
     ) -> Result<Self, StudyError> {
-        let claims = spec.claims.iter().filter_map(|c| faults.keep(claim(document, c))).collect();
+        let claims = spec.claims.iter().map(|spec| claim(document, spec, faults)).collect();
         let absolute = fs::canonicalize(folder).map_err(StudyError::io(folder, "opening the folder"))?;
         let paper = Self {
             id: absolute.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -182,11 +222,7 @@ impl Paper {
             others,
             document: document.clone(),
         };
-        // Names that are missing because their file is wrong are no faults of those that use them.
-        if faults.is_empty() {
-            paper.check(&spec.claims, &mut faults);
-        }
-        faults.done()?;
+        paper.check(&spec.claims, faults);
         Ok(paper)
     }
 
@@ -243,36 +279,3 @@ impl Paper {
 
 /// The studies of a paper's folder, and its other TOML files with the kind that each is.
 type Files = (Vec<Study>, Vec<(PathBuf, &'static str)>);
-
-fn read_files(files: &[PathBuf], inputs: &Inputs, faults: &mut Faults) -> Result<Files, StudyError> {
-    let (mut studies, mut others) = (Vec::new(), Vec::new());
-    for path in files {
-        if let Ok(document) = Document::open(path)
-            && let Some(kind) = files::other_than_study(&document)
-        {
-            faults.keep(files::validate(&document, kind));
-            others.push((path.clone(), kind.name));
-            continue;
-        }
-        match Study::load(path, inputs) {
-            Ok(study) => studies.push(study),
-            Err(StudyError::Settings(fault)) => faults.add(fault),
-            Err(other) => return Err(other),
-        }
-    }
-    Ok((studies, others))
-}
-
-/// Files of a paper's folder that are no studies: the paper itself, and what an independent judge is asked.
-const NO_STUDIES: [&str; 2] = ["paper.toml", "crosscheck.toml"];
-
-fn study_files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
-    let entries = fs::read_dir(folder).map_err(StudyError::io(folder, "listing the folder"))?;
-    let mut files: Vec<PathBuf> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .filter(|path| path.file_name().is_some_and(|name| !NO_STUDIES.iter().any(|other| name == *other)))
-        .collect();
-    files.sort();
-    Ok(files)
-}

@@ -72,6 +72,9 @@ pub struct ProblemsSpec {
     /// The file that this group was made for.
     #[serde(skip)]
     pub file: Option<String>,
+    /// The number, from 0, of the entry that it was made from.
+    #[serde(skip)]
+    pub place: usize,
     /// How many independent draws.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub replicates: Option<u32>,

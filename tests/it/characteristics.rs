@@ -1,7 +1,7 @@
 //! How often a verdict is wrong: synthetic papers of known truth through the whole engine, criterion by criterion.
 //!
 //! Each scenario draws records, and what a paper prints, from distributions that are known, and judges the claim as any
-//! other. The rates stand in `docs/METHODOLOGY.md`; `REPLAN_WRITE=1` writes them, `REPLAN_PAPERS` draws more.
+//! other. The rates stand in `docs/OPERATING_CHARACTERISTICS.md`; `REPLAN_WRITE=1` writes them, `REPLAN_PAPERS` draws more.
 
 mod numbers;
 mod page;

@@ -147,12 +147,28 @@ fn an_own_paper_runs_from_within_its_folder_and_through_a_link() {
     for (folder, name) in [("mini", "."), ("mini", "./"), ("mini", "../mini"), ("", "./link"), ("", "link")] {
         let said = bench.said(&bench.command(&["run", name]).current_dir(bench.at(folder)).output().unwrap());
         assert_eq!(said.code, Some(0), "{name} in `{folder}`: {}", said.err);
-        let out = bench.at(folder).join("target/replan/mini");
-        assert!(out.join("data/runs/mini/draws.manifest.toml").is_file(), "{name} in `{folder}`");
-        fs::remove_dir_all(out).unwrap();
+        let again = said.out.contains("draws: 48 trials (24 of 24 units reused)");
+        assert!(again || (folder, name) == ("mini", "."), "{name} in `{folder}`: {}", said.out);
+        assert!(bench.at("target/replan/mini/data/runs/mini/draws.manifest.toml").is_file());
+        assert!(!bench.at("mini/target").exists(), "{name} in `{folder}` wrote into the paper's folder");
     }
     let check = bench.command(&["check", "paper.toml"]).current_dir(bench.at("mini")).output().unwrap();
     assert_eq!(bench.said(&check).out, "mini: 2 studies, 2 claims, 2 ledger rows are in order\n");
+}
+
+#[test]
+fn a_paper_of_the_project_writes_the_committed_places_from_within_its_folder_too() {
+    let bench = project();
+    bench.done(&["repro", "mini"]);
+    let before = bench.tree("");
+    for (folder, name) in [("experiments/mini", "."), ("experiments", "mini"), ("experiments", "./mini")] {
+        let command = bench.command(&["repro", name]).current_dir(bench.at(folder)).output().unwrap();
+        let said = bench.said(&command);
+        assert_eq!(said.code, Some(0), "{name} in `{folder}`: {}", said.err);
+        assert!(said.out.contains("(24 of 24 units reused)"), "{name} in `{folder}`: {}", said.out);
+        let after = bench.tree("");
+        assert!(after.keys().eq(before.keys()) && after == before, "{name} in `{folder}` wrote elsewhere");
+    }
 }
 
 #[test]

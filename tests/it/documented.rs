@@ -82,6 +82,29 @@ fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
     }
 }
 
+#[test]
+fn every_example_is_shown_whole_as_it_stands_in_a_file_and_within_eighty_columns() {
+    let (mut shown, mut wide) = (0, Vec::new());
+    for (kind, items) in everything().into_iter().filter(|(kind, _)| *kind != "file") {
+        for item in items {
+            let text = item.shown().unwrap_or_else(|| panic!("{kind} {} has no example", item.name));
+            let whole: toml::Table =
+                text.parse().unwrap_or_else(|error| panic!("{}: {error}\n{text}", item.name));
+            let settings = item.place().split('.').fold(toml::Value::Table(whole), |at, key| match at {
+                toml::Value::Array(mut all) => all.remove(0)[key].clone(),
+                at => at[key].clone(),
+            });
+            let written: toml::Table = item.example.parse().unwrap();
+            assert_eq!(settings, toml::Value::Table(written), "{kind} {}\n{text}", item.name);
+            let too_wide = text.lines().filter(|line| line.chars().count() > 78);
+            wide.extend(too_wide.map(|line| format!("{kind} {}: {line}", item.name)));
+            shown += 1;
+        }
+    }
+    assert!(shown > 70, "{shown} examples");
+    assert!(wide.is_empty(), "{}", wide.join("\n"));
+}
+
 /// Builds the example with some claim of a committed paper.
 fn builds_somewhere(
     item: &Item,
@@ -205,6 +228,10 @@ fn every_committed_file_keeps_to_its_schema_and_a_misspelled_key_does_not() {
     ];
     for scene in ["c1", "c2", "e1", "e2", "e3", "e4"] {
         files.push(("polyhedra_scene", format!("data/scenes/tang_{scene}.toml")));
+    }
+    for printed in fs::read_dir(root().join("docs/audit")).unwrap() {
+        let name = printed.unwrap().file_name().into_string().unwrap();
+        files.push(("audit_tables", format!("docs/audit/{name}")));
     }
     for paper in ["fu2018", "movingai_sample", "planar", "tang2023", "zhang"] {
         for entry in fs::read_dir(root().join("experiments").join(paper)).unwrap() {

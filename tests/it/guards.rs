@@ -133,11 +133,16 @@ fn a_touched_record_is_caught_by_its_hash_and_by_the_verdict_if_the_hash_is_touc
     let text = fs::read_to_string(bench.at(&manifest)).unwrap();
     let stored = sha256(&fs::read(bench.at(&format!("{RUNS}/scenarios.trials.parquet"))).unwrap());
     let touched = touch(&bench, "path_cost_cells");
-    for command in ["judge", "render"] {
-        let said = bench.run(&[command, "movingai_sample", "--check"]);
-        assert_eq!(said.code, Some(2), "{command}: {}", said.err);
-        assert!(said.err.contains("trials.parquet: is not the file that the manifest names"), "{}", said.err);
+    let checks: [&[&str]; 3] = [
+        &["judge", "movingai_sample", "--check"],
+        &["render", "movingai_sample", "--check"],
+        &["check", "movingai_sample", "--rerun", "2"],
+    ];
+    for check in checks {
+        let said = refused(&bench, check);
+        assert!(said.contains("trials.parquet: is not the file that the manifest names"), "{said}");
     }
+    assert_eq!(bench.run(&["judge", "movingai_sample"]).code, Some(2), "what is not there to check is input");
     assert!(text.contains(&stored));
     bench.write(&manifest, text.replace(&stored, &touched).as_bytes());
     let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
@@ -146,6 +151,25 @@ fn a_touched_record_is_caught_by_its_hash_and_by_the_verdict_if_the_hash_is_touc
     bench.done(&["judge", "movingai_sample", "--check"]);
     let said = refused(&bench, &["check", "movingai_sample", "--rerun", "1000"]);
     assert!(said.contains("trials of study `scenarios` are not what is stored"), "{said}");
+}
+
+#[test]
+fn stored_texts_that_cannot_be_read_are_told_in_words_of_ours() {
+    for (name, again) in
+        [("verdicts", "`replan judge` writes it again"), ("scenarios.manifest", "run the study again")]
+    {
+        for (from, to, place) in
+            [("quick = false", "quick = 3", ":3:9: "), ("quick = false", "quick = ", ":3:9: ")]
+        {
+            let bench = committed();
+            let file = format!("{RUNS}/{name}.toml");
+            bench.edit(&file, from, to);
+            let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
+            let words = "is not what replan wrote: truncated, edited, or of another version; ";
+            assert!(said.starts_with(&format!("replan: {file}:")), "{place}: {said}");
+            assert!(said.contains(&format!("{words}{again}\n    {to}")), "{said}");
+        }
+    }
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod broken_papers;
 mod cell_threads;
 mod characteristics;
 mod circles;
+mod cli_check;
 mod cli_explains;
 mod cli_input;
 mod cli_places;

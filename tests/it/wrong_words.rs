@@ -122,7 +122,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "start = [0, 0]",
         "start = [3, 0]",
-        "mini/room.toml:15:12: the start [3.0, 0.0] is blocked",
+        "mini/room.toml:15:44: the start [3.0, 0.0] is blocked",
     ),
     wrong(
         "room",

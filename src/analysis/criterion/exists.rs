@@ -11,7 +11,7 @@ use crate::analysis::verdict::Estimate;
 use crate::study::record::Row;
 use crate::study::{Reading, ReadingChoice, Study};
 use audit::printed::{Digits, Printed};
-use base::settings::{Accepted, SettingsError, none_called};
+use base::settings::{Accepted, Faults, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::summary::median;
@@ -134,15 +134,6 @@ impl<'a> Attained<'a> {
         let readings = context.paper.readings();
         let contenders = settings.contenders.listed();
         let (places, metric) = places(context, &settings, &readings)?;
-        let wanted = contenders.iter().chain(&settings.against);
-        for label in wanted {
-            // A place need not have every contender, but each must exist in some place.
-            let known = || places.iter().flat_map(|place| &place.study.contenders).map(|c| c.label.as_str());
-            if !known().any(|own| own == label) {
-                let message = none_called("contender", label, known());
-                return Err(context.settings.error_about("", &CONTENDER_KEYS, label, message));
-            }
-        }
         let mut given = Vec::new();
         for id in &settings.given {
             let claim = context.claim_called(id)?;
@@ -260,15 +251,24 @@ fn places<'a>(
     settings: &Settings,
     readings: &[Reading],
 ) -> Result<(Vec<Place<'a>>, &'static Metric), SettingsError> {
-    let (mut places, mut metric) = (Vec::new(), None);
+    let (mut places, mut metric, mut faults) = (Vec::new(), None, Faults::default());
     for (index, place) in settings.r#in.iter().enumerate() {
         let within = format!("in.{index}");
-        let study = context.study(&within, &place.study, &[])?;
-        let groups = context.groups(&within, study, &place.problems)?;
-        metric = Some(context.metric(&settings.metric, study)?);
-        check_departures(study, readings)?;
+        let Some(study) = faults.keep(context.study(&within, &place.study, &[])) else { continue };
+        let groups = faults.keep(context.groups(&within, study, &place.problems)).unwrap_or_default();
+        metric = faults.keep(context.metric(&settings.metric, study)).or(metric);
+        faults.keep(check_departures(study, readings));
         places.push(Place { study, groups, selected: place.selected });
     }
+    for label in settings.contenders.listed().iter().chain(&settings.against) {
+        // A place need not have every contender, but each must exist in some place.
+        let known = || places.iter().flat_map(|place| &place.study.contenders).map(|c| c.label.as_str());
+        if places.len() == settings.r#in.len() && !known().any(|own| own == label) {
+            let message = none_called("contender", label, known());
+            faults.add(context.settings.error_about("", &CONTENDER_KEYS, label, message));
+        }
+    }
+    faults.done()?;
     let metric = metric.ok_or_else(|| context.settings.error_at("in", "`in` names no study to look at"))?;
     Ok((places, metric))
 }
@@ -336,7 +336,6 @@ impl<'a> Differs<'a> {
         let ([place], [contender]) = (&places[..], &contenders[..]) else {
             return Err(context.settings.error_at("differ", "`differ` takes one place and one contender"));
         };
-        context.study("", &place.study.name, &[contender])?;
         context.groups("differ", place.study, &Labels::Several(settings.differ.concat()))?;
         Ok(Self { study: place.study, contender: contender.clone(), metric, sets: settings.differ })
     }

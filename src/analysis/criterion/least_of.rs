@@ -17,7 +17,7 @@ use crate::analysis::verdict::Estimate;
 use crate::study::Study;
 use crate::study::record::{Row, Status};
 use base::seed;
-use base::settings::{Accepted, SettingsError};
+use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
@@ -106,9 +106,11 @@ impl<'a> LeastOf<'a> {
                 return Err(context.settings.error_at(key, format!("`{key}` needs at least one contender")));
             }
         }
-        let of = Selection::new(context, &settings.of)?;
         let named: Vec<&str> = lower.iter().chain(&higher).map(String::as_str).collect();
-        context.study("", &of.study.name, &named)?;
+        let mut faults = Faults::default();
+        faults.keep(context.study("", &settings.of.study, &named));
+        let of = faults.keep(Selection::new(context, &settings.of));
+        let Some(of) = of.filter(|_| faults.is_empty()) else { return Err(faults.error()) };
         let metric = of.metric(context)?;
         let with = |low: &String| higher.iter().map(|high| (low.clone(), high.clone())).collect::<Vec<_>>();
         let pairs: Vec<(String, String)> = lower.iter().flat_map(with).collect();

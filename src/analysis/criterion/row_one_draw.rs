@@ -12,7 +12,7 @@ use crate::analysis::verdict::Estimate;
 use crate::study::Study;
 use crate::study::contender::SweepPoint;
 use audit::printed::Printed;
-use base::settings::{Accepted, SettingsError};
+use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::proportion::Rank;
@@ -80,8 +80,8 @@ struct RowOneDraw<'a> {
 impl<'a> RowOneDraw<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let (mut rows, mut printed) = (Vec::new(), Vec::new());
-        for (index, row) in settings.rows.iter().enumerate() {
+        let (mut printed, mut faults) = (Vec::new(), Faults::default());
+        let mut read = |(index, row): (usize, &RowSpec)| {
             let contender = Labels::One(row.contender.clone());
             let spec = SelectionSpec { contender, against: row.against.clone(), ..settings.of.clone() };
             let of = Selection::new(context, &spec)?;
@@ -100,8 +100,11 @@ impl<'a> RowOneDraw<'a> {
             for id in &row.claims {
                 printed.push(context.printed_of(id)?.0);
             }
-            rows.push(Row { of, cells });
-        }
+            Ok(Row { of, cells })
+        };
+        let rows: Vec<Row<'a>> =
+            settings.rows.iter().enumerate().filter_map(|row| faults.keep(read(row))).collect();
+        faults.done()?;
         if rows.is_empty() {
             return Err(context.settings.error_at("rows", "at least one row is needed"));
         }

@@ -16,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     name: "lattice_length",
     about: "is a printed length a + b√2 for any 8-connected path between the cells, rounded or truncated?",
     settings: Accepted::of::<Settings>(),
-    example: "",
+    example: "start = [22, 15]\ngoal = [26, 28]",
     build: |context| {
         let settings: Settings = context.settings.read()?;
         if settings.start.is_some() != settings.goal.is_some() {

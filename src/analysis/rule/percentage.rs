@@ -28,7 +28,7 @@ after = "t1.improved.time"
         let [from, to] = cells.map(Print::span);
         let [exact_from, exact_to] = cells.map(|cell| Span::point(cell.value()));
         let spans = Form::OfFirst.span(&exact_from, &exact_to).zip(Form::OfFirst.span(&from, &to));
-        let (exact, possible) = spans.filter(|_| after.units() >= 0).ok_or_else(|| {
+        let (exact, possible) = spans.filter(|_| before.units() > 0 && after.units() >= 0).ok_or_else(|| {
             context.settings.error(format!(
                 "a reduction from {before} to {after} has no meaning: the first must be positive and the second not \
                  negative, whatever their digits stand for"

@@ -1,8 +1,8 @@
 //! Whether a polyline through cell centres has the printed length and the printed sum of turns, at any angles.
 
-use super::arguments::digits;
+use super::arguments::{digits, up_to_twice};
 use super::lattice::between;
-use super::{Entry, FromRelation, Test, none};
+use super::{Entry, FromRelation, Test, Window, none};
 use crate::exact::{Exact, Print, floor, whole};
 use crate::input::Input;
 use crate::relation::Relation;
@@ -28,6 +28,8 @@ pub static ENTRY: Entry = Entry {
 /// half cell of the first.
 const BEYOND: f64 = 2.5;
 const APART: f64 = 30.0;
+/// Searches for one relation: for what is printed, and for what power is computed from.
+const SEARCHES: u32 = 14;
 
 struct AnyAngle {
     /// The turn sum, then the length.
@@ -90,13 +92,17 @@ impl AnyAngle {
     #[expect(clippy::option_option, reason = "none found and not looked for are different answers")]
     fn polyline(&self, prints: &[Print]) -> Option<Option<Polyline>> {
         let [turn_deg, length] = [prints[0], prints[1]].map(|print| print.printed.interval(print.digits));
-        let is_asked = (0..2).all(|at| prints[at].printed == self.numbers[at].print.printed);
+        // Mending asks about many prints, each a search; power takes what searches there are.
+        let is_asked = prints[1].printed == self.numbers[1].print.printed;
         if !is_asked || length.high > distance(self.ends[0], self.ends[1]) + BEYOND {
             return None;
         }
         let key = format!("{turn_deg:?} {length:?}");
         if let Some(known) = self.found.borrow().get(&key) {
             return Some(known.clone());
+        }
+        if self.found.borrow().len() >= SEARCHES as usize {
+            return None;
         }
         let found = self.conventions.iter().find_map(|convention| self.search(*convention, turn_deg, length));
         self.found.borrow_mut().insert(key, found.clone());
@@ -131,10 +137,7 @@ impl Test for AnyAngle {
     fn said(&self, prints: &[Print], _is_possible: bool) -> String {
         let [turns, length] = [prints[0], prints[1]].map(|print| print.printed);
         match self.polyline(prints) {
-            None => {
-                format!("length {length} is more than {BEYOND} cells above the straight line, or another one")
-            }
-            Some(None) => {
+            None | Some(None) => {
                 format!("no polyline through cell centres is {length} long and turns by {turns}° in all")
             }
             Some(Some(found)) => {
@@ -166,9 +169,17 @@ impl Test for AnyAngle {
         ]
     }
 
-    /// Empty: each print asks for a search of its own, so that power is not computed.
-    fn window(&self) -> Option<[Exact; 2]> {
-        Some([whole(1), whole(0)])
+    fn window(&self) -> Option<Window> {
+        up_to_twice(self.numbers[0].print)
+    }
+
+    /// Each print asks for a search of its own.
+    fn power_prints(&self) -> Option<i128> {
+        Some(i128::from(SEARCHES) - 2)
+    }
+
+    fn undecided(&self, prints: &[Print]) -> String {
+        format!("a length of {} is more than {BEYOND} cells above the straight line", prints[1].printed)
     }
 
     fn is_about_digits(&self) -> bool {

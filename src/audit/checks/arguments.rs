@@ -1,19 +1,44 @@
 //! What several checks say or do alike.
 
-use crate::exact::{Exact, Print, Span, decimal, mul, spelled, whole};
+use super::Window;
+use crate::exact::{Exact, Print, Span, decimal, mul, root_above, spelled, sub, whole};
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::printed::Digits;
 use crate::table::{Column, Quoted, Table, quoted};
 use serde_json::{Value, json};
 
-/// How the digits are read, as a premise.
+/// How the digits are read, as a premise: of each number, where they are not read alike.
 pub fn digits(numbers: &[Quoted]) -> String {
-    let read = numbers.first().map_or(Digits::Any, |number| number.print.digits);
-    match read {
-        Digits::Any => "digits end in any usual way: rounded, cut off, up or down".to_owned(),
-        other => format!("digits end by {}", other.name()),
+    let way = |number: &Quoted| match number.print.digits {
+        Digits::Any => "in any usual way: rounded, cut off, up or down".to_owned(),
+        other => format!("by {}", other.name()),
+    };
+    let mut ways: Vec<(String, &str)> = Vec::new();
+    for number in numbers {
+        if ways.iter().all(|(known, _)| *known != way(number)) {
+            ways.push((way(number), &number.name));
+        }
     }
+    let mut said = match ways.as_slice() {
+        [] => String::new(),
+        [(way, _)] => format!("digits end {way}"),
+        several => {
+            let of = several.iter().map(|(way, name)| format!("those of {name} end {way}"));
+            format!("digits of numbers end in different ways: {}", of.collect::<Vec<_>>().join("; "))
+        }
+    };
+    let widened = numbers
+        .iter()
+        .map(|number| number.print.printed)
+        .find(|printed| printed.as_typed().decimals() < printed.decimals());
+    if let Some((printed, digits)) = widened.and_then(|printed| Some((printed, printed.significant()?))) {
+        let full = printed.as_read();
+        said += &format!(
+            "; {digits} digits count and zeros at the end are left out, so that {printed} is read as {full}"
+        );
+    }
+    said
 }
 
 /// Gives every number in columns that `is_meant` picks.
@@ -70,7 +95,21 @@ pub fn multiple(step: Exact, k: i128, decimals: usize) -> String {
 }
 
 /// From 0 to twice what is printed, and 100 units of the last place at least.
-pub fn up_to_twice(print: Print) -> Option<[Exact; 2]> {
+pub fn up_to_twice(print: Print) -> Option<Window> {
     let least = Exact::new(100, i128::from(print.printed.scale()));
-    Some([whole(0), mul(whole(2), print.value())?.max(least)])
+    let twice = mul(whole(2), print.value())?;
+    let why = if twice < least {
+        "100 units of the last place, since nothing bounds it"
+    } else {
+        "up to twice what is printed, since nothing bounds it"
+    };
+    Some(Window { ends: [whole(0), twice.max(least)], why })
+}
+
+/// From 0 to the greatest deviation that values between two ends have, whatever their mean (Popoviciu 1935): the root of
+/// `factor` times the square of half the range; n / (n − 1) for a sample's deviation, 1 for a population's.
+pub fn spreads(print: Print, ends: [Exact; 2], factor: Exact) -> Option<Window> {
+    let half = sub(ends[1], ends[0])? / whole(2);
+    let ends = [whole(0), root_above(mul(mul(half, half)?, factor)?, print.printed.scale())?];
+    Some(Window { ends, why: "up to the greatest that values between the ends have" })
 }

@@ -1,8 +1,8 @@
 //! Whether mean and deviation of values that are 0 or the whole fit each other: one is a function of the other.
 
-use super::arguments::{count, digits, shown};
-use super::{Entry, Proof, Test};
-use crate::exact::{Exact, Print, add, div, mul, spelled, whole};
+use super::arguments::{count, digits, shown, spreads};
+use super::{Entry, Proof, Test, Window};
+use crate::exact::{Exact, Print, div, mul, spelled, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
 use crate::relation::Named as _;
@@ -116,9 +116,9 @@ impl Test for Debit {
         ]
     }
 
-    fn window(&self) -> Option<[Exact; 2]> {
-        // No deviation is above half of the whole, but for n − 1.
-        Some([whole(0), mul(add(self.all, whole(0))?, Exact::new(3, 4))?])
+    fn window(&self) -> Option<Window> {
+        let least = if self.divisor == Divisor::Population { self.n } else { self.n - 1 };
+        spreads(self.numbers[0].print, [whole(0), self.all], div(count(self.n), count(least))?)
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {

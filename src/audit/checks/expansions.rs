@@ -1,8 +1,8 @@
 //! Whether a planner expands no more cells than are free.
 
 use super::arguments::{count, digits, each_number, up_to_twice};
-use super::{Entry, FromRelation, Proof, Test};
-use crate::exact::{Exact, Print, mul, spelled, sub, whole};
+use super::{Entry, FromRelation, Proof, Test, Window};
+use crate::exact::{Print, mul, spelled, sub, whole};
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
@@ -64,7 +64,7 @@ impl Test for Expansions {
         vec![format!("each of {} free cells is expanded once at most", self.free), digits(&self.numbers)]
     }
 
-    fn window(&self) -> Option<[Exact; 2]> {
+    fn window(&self) -> Option<Window> {
         up_to_twice(self.numbers[0].print)
     }
 

@@ -1,7 +1,7 @@
 //! Whether a mean of whole numbers, or a share of trials, can be what is printed, given how many there were.
 
 use super::arguments::{count, digits, gap, multiple, shown};
-use super::{Entry, FromRelation, Proof, Test};
+use super::{Entry, FromRelation, Proof, Test, Window};
 use crate::exact::{Exact, Print, Span, div, mul, spelled, whole};
 use crate::input::Input;
 use crate::relation::{Named as _, Relation};
@@ -96,7 +96,7 @@ impl Test for Grim {
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
         let printed = prints[0].printed;
-        let Some((first, last)) = self.counts(prints[0]) else { return format!("{printed} was not checked") };
+        let (first, last) = self.counts(prints[0]).unwrap_or((1, 0));
         let places = printed.decimals() as usize + 2;
         let at = |k: i128| format!("{k} × {} = {}", shown(self.step, 6), multiple(self.step, k, places));
         if is_possible {
@@ -116,8 +116,11 @@ impl Test for Grim {
         ]
     }
 
-    fn window(&self) -> Option<[Exact; 2]> {
-        Some([self.ends[0]?, self.ends[1]?])
+    fn window(&self) -> Option<Window> {
+        Some(Window {
+            ends: [self.ends[0]?, self.ends[1]?],
+            why: "all that values between the ends can print",
+        })
     }
 
     fn power_key(&self) -> Option<String> {

@@ -1,7 +1,7 @@
 //! Whether n values of a grain can have the printed mean and the printed deviation at once.
 
-use super::arguments::{count, digits, shown, up_to_twice};
-use super::{Entry, FromRelation, Proof, Test};
+use super::arguments::{count, digits, shown, spreads, up_to_twice};
+use super::{Entry, FromRelation, Proof, Test, Window};
 use crate::exact;
 use crate::exact::{Exact, Print, Span, ceil, div, floor, mul, spelled, whole};
 use crate::input::Input;
@@ -20,7 +20,7 @@ pub static ENTRY: Entry = Entry {
     name: "grimmer",
     about: "can n values of a grain have the printed mean and the printed deviation at once?",
     example: "time [mean, integers, n=10] = 3.5 with time [sd] = 0.01",
-    premises: "mean and deviation are of the same n values; each is a multiple of the grain; the deviation divides by n - 1 or n",
+    premises: "mean and deviation, and the least and greatest value if they are printed, are of the same n values; each is a multiple of the grain; the deviation divides by n - 1 or n",
     source: "Anaya, The GRIMMER test, PeerJ Preprints 4:e2400v1 (2016); Allard, Analytic-GRIMMER (2018); exact by crate::reach",
     tests,
     relation: Some(FromRelation {
@@ -31,15 +31,18 @@ pub static ENTRY: Entry = Entry {
 
 /// Mean and deviation of values on a grain.
 pub(super) struct Moment {
-    /// The deviation, then the mean.
-    pub(super) numbers: [Quoted; 2],
-    pub(super) n: u64,
-    pub(super) grain: Exact,
-    pub(super) ends: [Option<Exact>; 2],
-    pub(super) divisor: Divisor,
+    /// The deviation, the mean, and the least and the greatest value where they are printed.
+    numbers: Vec<Quoted>,
+    n: u64,
+    grain: Exact,
+    /// What is said of the values beside …
+    ends: [Option<Exact>; 2],
+    /// … and which numbers are the least and the greatest.
+    printed_ends: [Option<usize>; 2],
+    divisor: Divisor,
     /// Whether the deviation is the mean's standard error.
-    pub(super) is_error: bool,
-    pub(super) values: String,
+    is_error: bool,
+    values: String,
 }
 
 /// Sums of values that are looked through one by one.
@@ -68,11 +71,17 @@ pub(super) fn of_sample(sample: &Sample) -> Option<Moment> {
         Some(sd) => (false, sd),
         None => (true, sample.get(Statistic::Se)?),
     };
+    let mut numbers = vec![spread.clone(), sample.get(Statistic::Mean)?.clone()];
+    let printed_ends = [Statistic::Min, Statistic::Max].map(|end| {
+        numbers.push(sample.get(end)?.clone());
+        Some(numbers.len() - 1)
+    });
     Some(Moment {
-        numbers: [spread.clone(), sample.get(Statistic::Mean)?.clone()],
+        numbers,
         n: sample.n?,
         grain: sample.grain?,
         ends: [sample.least, sample.most],
+        printed_ends,
         divisor: sample.divisor,
         is_error,
         values: sample.values(),
@@ -94,15 +103,19 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     };
     let ends = [relation.exact("least")?, relation.exact("most")?];
     let values = format!("{n} values, each a multiple of {grain}");
-    let numbers = [spread, relation.number("mean", input)?];
-    Ok(Box::new(Moment { numbers, n, grain, ends, divisor, is_error, values }))
+    let numbers = vec![spread, relation.number("mean", input)?];
+    let printed_ends = [None; 2];
+    Ok(Box::new(Moment { numbers, n, grain, ends, printed_ends, divisor, is_error, values }))
 }
+
+/// The least and the greatest value, in grains, where there are such.
+type Ends = [Option<i128>; 2];
 
 /// What the sum of squares has to be for one sum of values, all in grains.
 struct Squares {
     n: u64,
     sum: i128,
-    ends: [Option<i128>; 2],
+    ends: Ends,
     /// By each way to divide.
     windows: Vec<Span>,
     least: i128,
@@ -149,28 +162,39 @@ impl Squares {
 }
 
 impl Moment {
-    /// The least and the greatest sum of the values, in grains.
-    fn sums(&self, mean: Print) -> Option<(i128, i128)> {
-        let n = count(self.n);
-        let (mut first, mut last) = mean.span().times(div(n, self.grain)?)?.integers();
-        for (index, end) in self.ends.iter().enumerate() {
-            let Some(end) = end else { continue };
-            let sum = mul(div(*end, self.grain)?, n)?;
-            if index == 0 { first = first.max(ceil(sum)) } else { last = last.min(floor(sum)) }
+    /// The least and the greatest sum of the values, in grains, between ends.
+    fn sums(&self, mean: Print, [least, most]: Ends) -> Option<(i128, i128)> {
+        let n = i128::from(self.n);
+        let (mut first, mut last) = mean.span().times(div(whole(n), self.grain)?)?.integers();
+        if let Some(least) = least {
+            first = first.max(least.checked_mul(n)?);
+        }
+        if let Some(most) = most {
+            last = last.min(most.checked_mul(n)?);
         }
         Some((first, last))
     }
 
-    /// What sums of squares `spread` asks for, by sum; none if there are too many sums or digits.
-    fn squares(&self, [spread, mean]: [Print; 2]) -> Option<Vec<Squares>> {
-        let (first, last) = self.sums(mean)?;
+    /// The ends that no value passes, in grains: what is said, and what the printed ends allow at most.
+    fn ends(&self, prints: &[Print]) -> Option<Ends> {
+        let grains = |end: Option<Exact>| end.map_or(Some(None), |end| Some(Some(div(end, self.grain)?)));
+        let printed = |at: Option<usize>| {
+            at.map_or(Some(None), |at| Some(Some(prints[at].span().times(self.grain.recip())?.integers())))
+        };
+        let least = [grains(self.ends[0])?.map(ceil), printed(self.printed_ends[0])?.map(|(first, _)| first)];
+        let most = [grains(self.ends[1])?.map(floor), printed(self.printed_ends[1])?.map(|(_, last)| last)];
+        Some([least.into_iter().flatten().max(), most.into_iter().flatten().min()])
+    }
+
+    /// What sums of squares the deviation asks for, by sum; none if there are too many sums or digits.
+    fn squares(&self, prints: &[Print]) -> Option<Vec<Squares>> {
+        let ends = self.ends(prints)?;
+        let (first, last) = self.sums(prints[1], ends)?;
         if last.checked_sub(first)? >= SUMS {
             return None;
         }
         let factor = if self.is_error { count(self.n) } else { whole(1) };
-        let variance = spread.span().squared()?.times(div(factor, mul(self.grain, self.grain)?)?)?;
-        let grains = |end: Option<Exact>| end.and_then(|end| div(end, self.grain));
-        let ends = [grains(self.ends[0]).map(ceil), grains(self.ends[1]).map(floor)];
+        let variance = prints[0].span().squared()?.times(div(factor, mul(self.grain, self.grain)?)?)?;
         let n = self.n;
         let mut all = Vec::new();
         for sum in first..=last {
@@ -197,10 +221,6 @@ impl Moment {
         all.into_iter().filter(|divisor| *divisor > 0).collect()
     }
 
-    fn both(prints: &[Print]) -> [Print; 2] {
-        [prints[0], prints[1]]
-    }
-
     fn step(squares: &Squares) -> Option<Value> {
         Some(json!({
             "sum": squares.sum.to_string(),
@@ -221,19 +241,24 @@ impl Test for Moment {
         if self.divisors().is_empty() || prints[0].span().not_negative().is_empty() {
             return if self.divisors().is_empty() { None } else { Some(false) };
         }
-        let all = self.squares(Self::both(prints))?;
+        let all = self.squares(prints)?;
         let mut steps = STEPS;
         let met: Vec<Option<bool>> = all.iter().map(|squares| squares.is_met(&mut steps)).collect();
         if met.contains(&Some(true)) { Some(true) } else { (!met.contains(&None)).then_some(false) }
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
-        let [spread, mean] = Self::both(prints).map(|print| print.printed);
+        let [spread, mean] = [prints[0], prints[1]].map(|print| print.printed);
         let what = if self.is_error { "standard error" } else { "standard deviation" };
         if is_possible {
-            return format!("{mean} with {what} {spread} is what {} can have", self.values);
+            return format!(
+                "{mean} with {what} {spread} is what {}{} can have",
+                self.values,
+                self.between(prints)
+            );
         }
-        let mut said = format!("{} have no mean {mean} with {what} {spread}", self.values);
+        let mut said =
+            format!("{}{} have no mean {mean} with {what} {spread}", self.values, self.between(prints));
         if let Some(least) = self.least_deviation(prints[1]) {
             said +=
                 &format!("; with this mean the least is {}", shown(least, spread.decimals() as usize + 2));
@@ -248,23 +273,39 @@ impl Test for Moment {
             Divisor::Either => "n − 1 or n",
         };
         vec![
-            format!("mean and deviation are of the same {}; the deviation divides by {divisor}", self.values),
+            format!(
+                "{} are of the same {}; the deviation divides by {divisor}",
+                self.statistics(),
+                self.values
+            ),
             digits(&self.numbers),
         ]
     }
 
-    fn window(&self) -> Option<[Exact; 2]> {
-        up_to_twice(self.numbers[0].print)
+    fn window(&self) -> Option<Window> {
+        let prints: Vec<Print> = self.numbers.iter().map(|number| number.print).collect();
+        let [Some(least), Some(most)] = self.ends(&prints)? else { return up_to_twice(prints[0]) };
+        let ends = [mul(self.grain, whole(least))?, mul(self.grain, whole(most.max(least)))?];
+        let by = if self.is_error { whole(1) } else { count(self.n) };
+        spreads(prints[0], ends, div(by, whole(*self.divisors().first()?))?)
+    }
+
+    fn undecided(&self, _prints: &[Print]) -> String {
+        if self.divisors().is_empty() {
+            return "one value has no sample deviation".to_owned();
+        }
+        format!("more than {SUMS} sums, {STEPS} steps of search, or too many digits for exact arithmetic")
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let all = self.squares(Self::both(prints))?;
+        let all = self.squares(prints)?;
         let end = |end: Option<Exact>| end.map(spelled);
         let given = json!({
             "n": self.n.to_string(),
             "grain": spelled(self.grain),
             "least": end(self.ends[0]),
             "most": end(self.ends[1]),
+            "printed_ends": self.printed_ends,
             "divisors": self.divisors().iter().map(ToString::to_string).collect::<Vec<_>>(),
             "is_error": self.is_error,
         });
@@ -276,7 +317,8 @@ impl Test for Moment {
         if self.n > 2000 {
             return None;
         }
-        let all = self.squares(Self::both(prints))?;
+        let all = self.squares(prints)?;
+        let ends = self.ends(prints)?;
         let before = budget.steps;
         let mut vectors: Vec<String> = Vec::new();
         let most = budget.most;
@@ -284,7 +326,7 @@ impl Test for Moment {
         for squares in &all {
             for (first, last) in squares.plausible() {
                 for sum in (first..=last).step_by(2) {
-                    let moments = self.moments(squares.sum, sum);
+                    let moments = self.moments(ends, squares.sum, sum);
                     is_all &= moments.search(budget, &mut |vector| {
                         let said = counted(vector, |value| {
                             mul(self.grain, whole(value)).map_or_else(String::new, spelled)
@@ -305,17 +347,37 @@ impl Test for Moment {
 }
 
 impl Moment {
-    fn moments(&self, sum: i128, squares: i128) -> Moments {
+    /// The statistics that it is about, in words.
+    fn statistics(&self) -> String {
+        let names = ["least value", "greatest value"].into_iter().zip(self.printed_ends);
+        let ends: Vec<&str> = names.filter_map(|(name, at)| at.map(|_| name)).collect();
+        if ends.is_empty() {
+            "mean and deviation".to_owned()
+        } else {
+            format!("mean, deviation, {}", ends.join(", "))
+        }
+    }
+
+    /// The printed ends, in words.
+    fn between(&self, prints: &[Print]) -> String {
+        match self.printed_ends.map(|at| at.map(|at| prints[at].printed)) {
+            [None, None] => String::new(),
+            [Some(least), None] => format!(", {least} the least,"),
+            [None, Some(most)] => format!(", {most} the greatest,"),
+            [Some(least), Some(most)] => format!(", {least} the least and {most} the greatest,"),
+        }
+    }
+
+    fn moments(&self, ends: Ends, sum: i128, squares: i128) -> Moments {
         let reach = squares.isqrt();
-        let grains = |end: Option<Exact>| end.and_then(|end| div(end, self.grain));
-        let least = grains(self.ends[0]).map_or(-reach, ceil).max(-reach);
-        let most = grains(self.ends[1]).map_or(reach, floor).min(reach);
+        let least = ends[0].map_or(-reach, |least| least.max(-reach));
+        let most = ends[1].map_or(reach, |most| most.min(reach));
         Moments { n: self.n, least, most, sum, squares }
     }
 
     /// The least deviation that values with this mean have, by the greatest divisor, rounded down in the sixth digit.
     fn least_deviation(&self, mean: Print) -> Option<Exact> {
-        let (first, last) = self.sums(mean)?;
+        let (first, last) = self.sums(mean, [None, None])?;
         let divisor = *self.divisors().last()?;
         let n = count(self.n);
         let of = |sum: i128| -> Option<f64> {

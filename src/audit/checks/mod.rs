@@ -61,10 +61,20 @@ pub trait Test {
     /// The premises that the answer rests on.
     fn premises(&self) -> Vec<String>;
 
-    /// The range in which the first number can be printed at all; if none, as far to either side as it is from 0, and 100
-    /// units of the last place at least.
-    fn window(&self) -> Option<[Exact; 2]> {
+    /// The range of prints of the first number over which power is stated; if none, as far to either side as it is from 0, and
+    /// 100 units of the last place at least.
+    fn window(&self) -> Option<Window> {
         None
+    }
+
+    /// The most prints that power is computed from, where each takes long.
+    fn power_prints(&self) -> Option<i128> {
+        None
+    }
+
+    /// Why [`is_possible`](Self::is_possible) gives no answer.
+    fn undecided(&self, _prints: &[Print]) -> String {
+        "too many digits or too many cases for exact arithmetic".to_owned()
     }
 
     /// A key under which power is the same, so that it is computed once.
@@ -86,6 +96,15 @@ pub trait Test {
     fn is_about_digits(&self) -> bool {
         true
     }
+}
+
+/// Prints of a test's first number over which its power is stated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Window {
+    /// The least and the greatest.
+    pub ends: [Exact; 2],
+    /// Why these, for people.
+    pub why: &'static str,
 }
 
 /// How a relation of a TOML file becomes a test.

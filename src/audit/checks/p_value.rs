@@ -1,7 +1,7 @@
 //! Whether a printed p-value is that of any usual test of two shares.
 
 use super::arguments::digits;
-use super::{Entry, FromRelation, Test, none};
+use super::{Entry, FromRelation, Test, Window, none};
 use crate::exact::{Exact, Print, whole};
 use crate::input::Input;
 use crate::relation::Relation;
@@ -119,7 +119,7 @@ impl Test for PValue {
         vec!["trials are independent and the test is one of those listed".to_owned(), digits(&self.numbers)]
     }
 
-    fn window(&self) -> Option<[Exact; 2]> {
-        Some([whole(0), whole(1)])
+    fn window(&self) -> Option<Window> {
+        Some(Window { ends: [whole(0), whole(1)], why: "all probabilities" })
     }
 }

@@ -77,7 +77,7 @@ impl Test for Formed {
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
-        let Some(allowed) = self.allowed(prints) else { return "a cell may be 0".to_owned() };
+        let allowed = self.allowed(prints).unwrap_or_default();
         let [value, a, b] = [prints[0], prints[1], prints[2]].map(|print| print.printed);
         let verb = if is_possible { "follows from" } else { "does not follow from" };
         let ranges = allowed.iter().map(|(form, span)| format!("{} is {}", form.name(), shown_span(span, 4)));
@@ -86,7 +86,13 @@ impl Test for Formed {
     }
 
     fn premises(&self) -> Vec<String> {
-        vec![self.premise.to_owned(), digits(&self.numbers)]
+        let forms: Vec<&str> = self.forms.iter().map(|form| form.name()).collect();
+        vec![format!("{}, by {}", self.premise, forms.join(" or ")), digits(&self.numbers)]
+    }
+
+    fn undecided(&self, prints: &[Print]) -> String {
+        let [a, b] = [prints[1], prints[2]].map(|print| print.printed);
+        format!("with a = {a} and b = {b} a divisor may be 0")
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {

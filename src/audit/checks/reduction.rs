@@ -12,7 +12,7 @@ pub static ENTRY: Entry = Entry {
     name: "reduction",
     about: "is a printed percentage reduction that of the two printed cells?",
     example: "percent 6.6 from 17.65 to 16.40",
-    premises: "the percentage was computed from the two cells",
+    premises: "the percentage was computed from the two cells, of the first (or as `base` says)",
     source: "interval arithmetic",
     tests: none,
     relation: Some(FromRelation { keys: &["percent", "from", "to", "base"], build }),
@@ -26,5 +26,5 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
         "either" => vec![Form::OfFirst, Form::OfSecond],
         _ => vec![Form::OfFirst],
     };
-    Ok(Box::new(Formed { numbers, forms, premise: ENTRY.premises }))
+    Ok(Box::new(Formed { numbers, forms, premise: "the percentage was computed from the two cells a and b" }))
 }

@@ -1,7 +1,7 @@
 //! Whether a deviation is possible between the least and the greatest value.
 
-use super::arguments::{count, digits, shown, up_to_twice};
-use super::{Entry, Proof, Test};
+use super::arguments::{count, digits, shown, spreads};
+use super::{Entry, Proof, Test, Window};
 use crate::exact::{Exact, Print, Span, add, div, mul, spelled, sub, whole};
 use crate::input::Input;
 use crate::meaning::Divisor;
@@ -14,7 +14,7 @@ use serde_json::json;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "sd_range",
-    about: "is SD² ≤ (max − mean)(mean − min), and not too small for the range?",
+    about: "is SD² ≤ (max − mean)(mean − min), not too small for the range, and not below 0?",
     example: "mean 2.0, sd 3.0, min 1.0, max 4.0",
     premises: "all four are of the same values; the least and the greatest printed are among them",
     source: "Bhatia & Davis, American Mathematical Monthly 107 (2000) 353-357; Nagy (1918) for the lower bound",
@@ -31,12 +31,27 @@ struct SdRange {
     divisor: Divisor,
 }
 
+/// A deviation that is printed below 0; no mean and no range is needed to refuse it.
+struct Negative {
+    numbers: [Quoted; 1],
+}
+
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    input.each_sample(&mut |sample| of_sample(sample).into_iter().for_each(|test| give(Box::new(test))));
+    input.each_sample(&mut |sample| {
+        let negative =
+            [Statistic::Sd, Statistic::Se].into_iter().filter_map(|statistic| sample.get(statistic));
+        for number in negative.filter(|number| is_negative(number.print)) {
+            give(Box::new(Negative { numbers: [number.clone()] }));
+        }
+        if let Some(test) = of_sample(sample) {
+            give(Box::new(test));
+        }
+    });
 }
 
 fn of_sample(sample: &Sample) -> Option<SdRange> {
-    let mut numbers = vec![sample.get(Statistic::Sd)?.clone(), sample.get(Statistic::Mean)?.clone()];
+    let sd = sample.get(Statistic::Sd).filter(|sd| !is_negative(sd.print))?;
+    let mut numbers = vec![sd.clone(), sample.get(Statistic::Mean)?.clone()];
     let ends = match (sample.get(Statistic::Min), sample.get(Statistic::Max)) {
         (Some(min), Some(max)) => {
             numbers.extend([min.clone(), max.clone()]);
@@ -46,6 +61,11 @@ fn of_sample(sample: &Sample) -> Option<SdRange> {
         _ => Some([sample.least?, sample.most?]),
     };
     Some(SdRange { numbers, ends, n: sample.n.filter(|n| *n > 1), divisor: sample.divisor })
+}
+
+/// Whether every value that prints so is below 0.
+fn is_negative(print: Print) -> bool {
+    print.span().not_negative().is_empty()
 }
 
 impl SdRange {
@@ -91,6 +111,9 @@ impl Test for SdRange {
     }
 
     fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        if is_negative(prints[0]) {
+            return Some(false);
+        }
         let squared = prints[0].span().squared()?;
         let is_enough = self.least(prints).is_none_or(|least| least <= squared.high);
         Some(squared.low <= self.most(prints)? && is_enough)
@@ -119,13 +142,13 @@ impl Test for SdRange {
         vec![format!("mean, deviation and range are of the same{n} values"), digits(&self.numbers)]
     }
 
-    fn window(&self) -> Option<[Exact; 2]> {
-        up_to_twice(self.numbers[0].print)
+    fn window(&self) -> Option<Window> {
+        let prints: Vec<Print> = self.numbers.iter().map(|number| number.print).collect();
+        let [min, max] = self.range(&prints);
+        spreads(prints[0], [min.low, max.high.max(min.low)], self.factor()?)
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
-        let squared = prints[0].span().squared()?;
-        let most = self.most(prints)?;
         let given = json!({
             "n": self.n.map(|n| n.to_string()),
             "divisor": match self.divisor {
@@ -135,11 +158,36 @@ impl Test for SdRange {
             },
             "ends": self.ends.map(|ends| ends.map(spelled)),
         });
+        let (squared, most) = (prints[0].span().squared()?, self.most(prints)?);
         let steps = if squared.low > most {
             json!([{ "squared_at_least": spelled(squared.low), "most": spelled(most) }])
         } else {
             json!([{ "squared_at_most": spelled(squared.high), "least": spelled(self.least(prints)?) }])
         };
         Some(Proof { given, steps })
+    }
+}
+
+impl Test for Negative {
+    fn numbers(&self) -> &[Quoted] {
+        &self.numbers
+    }
+
+    fn is_possible(&self, prints: &[Print]) -> Option<bool> {
+        Some(!is_negative(prints[0]))
+    }
+
+    fn said(&self, prints: &[Print], is_possible: bool) -> String {
+        let verb = if is_possible { "is not below 0" } else { "is below 0, as no deviation is" };
+        format!("{} {verb}", prints[0].printed)
+    }
+
+    fn premises(&self) -> Vec<String> {
+        vec!["the number is a deviation or standard error".to_owned(), digits(&self.numbers)]
+    }
+
+    fn proof(&self, prints: &[Print]) -> Option<Proof> {
+        let given = json!({ "n": null, "divisor": "either", "ends": null });
+        Some(Proof { given, steps: json!([{ "at_most": spelled(prints[0].span().high) }]) })
     }
 }

@@ -1,7 +1,7 @@
 //! Whether the shares of one whole sum to one.
 
 use super::arguments::{count, digits, shown_span, spans};
-use super::{Entry, FromRelation, Proof, Test};
+use super::{Entry, FromRelation, Proof, Test, Window};
 use crate::exact;
 use crate::exact::{Exact, Print, Span, div, spelled, whole};
 use crate::input::Input;
@@ -108,8 +108,8 @@ impl Test for SharesSum {
         vec!["the parts are all there are, and none overlaps another".to_owned(), digits(&self.numbers)]
     }
 
-    fn window(&self) -> Option<[Exact; 2]> {
-        Some([whole(0), self.all])
+    fn window(&self) -> Option<Window> {
+        Some(Window { ends: [whole(0), self.all], why: "from nothing to the whole" })
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {

@@ -29,5 +29,5 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
         "times more" => vec![Form::TimesMore],
         _ => vec![Form::Times, Form::TimesMore],
     };
-    Ok(Box::new(Formed { numbers, forms, premise: ENTRY.premises }))
+    Ok(Box::new(Formed { numbers, forms, premise: "the factor was computed from the two cells a and b" }))
 }

@@ -47,6 +47,12 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     Ok(Box::new(TotalOverMean { numbers, n: relation.natural("n")?, unit }))
 }
 
+/// The first and the last number of values in a quotient.
+fn counts(quotient: &Span) -> (i128, i128) {
+    let (first, last) = quotient.integers();
+    (first.max(1), last)
+}
+
 impl TotalOverMean {
     fn quotient(&self, prints: &[Print]) -> Option<Span> {
         prints[0].span().times(self.unit)?.over(&prints[1].span())
@@ -60,7 +66,7 @@ impl Test for TotalOverMean {
 
     fn is_possible(&self, prints: &[Print]) -> Option<bool> {
         let quotient = self.quotient(prints)?;
-        let (first, last) = quotient.integers();
+        let (first, last) = counts(&quotient);
         Some(match self.n {
             Some(n) => quotient.contains(whole(n)),
             None => first <= last,
@@ -68,8 +74,8 @@ impl Test for TotalOverMean {
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
-        let Some(quotient) = self.quotient(prints) else { return "the mean may be 0".to_owned() };
-        let (first, last) = quotient.integers();
+        let quotient = self.quotient(prints).unwrap_or(Span::point(whole(0)));
+        let (first, last) = counts(&quotient);
         let found = match (first <= last, first == last) {
             (false, _) => "no whole number".to_owned(),
             (true, true) => format!("n = {first}"),
@@ -91,9 +97,13 @@ impl Test for TotalOverMean {
         ]
     }
 
+    fn undecided(&self, prints: &[Print]) -> String {
+        format!("the mean {} may be 0", prints[1].printed)
+    }
+
     fn proof(&self, prints: &[Print]) -> Option<Proof> {
         let given = json!({ "n": self.n.map(|n| n.to_string()), "unit": spelled(self.unit) });
-        let excluded = self.n.map_or_else(|| "every whole number".to_owned(), |n| n.to_string());
+        let excluded = self.n.map_or_else(|| "every whole number above 0".to_owned(), |n| n.to_string());
         let quotient = exact::span(&self.quotient(prints)?);
         Some(Proof { given, steps: json!([{ "quotient": quotient, "excludes": excluded }]) })
     }

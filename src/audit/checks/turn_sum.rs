@@ -2,9 +2,9 @@
 
 use super::arguments::digits;
 use super::lattice::{between, moves};
-use super::{Entry, FromRelation, Proof, Test};
+use super::{Entry, FromRelation, Proof, Test, Window};
 use crate::Cell;
-use crate::exact::{Exact, Print, spelled, whole};
+use crate::exact::{Print, spelled, whole};
 use crate::input::Input;
 use crate::lattice::Octile;
 use crate::meaning::{Kind, Lattice};
@@ -112,10 +112,9 @@ impl Test for TurnSum {
         let [turns, length] = [prints[0], prints[1]].map(|print| print.printed);
         let verb = if is_possible { "is" } else { "is not" };
         let sums = self.sums(prints[1]).unwrap_or_default();
-        let ends =
-            sums.first().zip(sums.last()).map_or("no path has that length".to_owned(), |(first, last)| {
-                format!("such sums are multiples of 45° from {}° to {}°", 45 * first, 45 * last)
-            });
+        let ends = sums.first().zip(sums.last()).map_or("?".to_owned(), |(first, last)| {
+            format!("such sums are multiples of 45° from {}° to {}°", 45 * first, 45 * last)
+        });
         format!("{turns}° {verb} the turn sum of an 8-connected path of length {length}: {ends}")
     }
 
@@ -128,8 +127,24 @@ impl Test for TurnSum {
         ]
     }
 
-    fn window(&self) -> Option<[Exact; 2]> {
-        Some([whole(0), whole(720)])
+    fn window(&self) -> Option<Window> {
+        let most =
+            self.moves(self.numbers[1].print)?.iter().map(|moves| moves.straight + moves.diagonal).max()?;
+        let ends = [whole(0), whole(180 * i128::from(most.max(2) - 1))];
+        Some(Window { ends, why: "up to half a turn at each bend" })
+    }
+
+    fn undecided(&self, prints: &[Print]) -> String {
+        match self.moves(prints[1]) {
+            Some(moves) if moves.is_empty() => {
+                let [dx, dy] = self.displacement;
+                format!(
+                    "no 8-connected path over ({dx}, {dy}) cells has the length {} (see `lattice`)",
+                    prints[1].printed
+                )
+            }
+            _ => format!("a length of {} is of more than {MOVES} moves", prints[1].printed),
+        }
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {

@@ -16,6 +16,21 @@ pub enum Number {
     },
 }
 
+/// Units that may stand behind a number in its cell.
+const UNITS: [&str; 34] = [
+    "s", "ms", "us", "µs", "μs", "ns", "min", "h", "m", "dm", "cm", "mm", "km", "px", "cells", "rad", "deg",
+    "°", "Hz", "kHz", "MHz", "GHz", "kB", "KB", "MB", "GB", "J", "W", "N", "kg", "m/s", "rad/s", "x", "×",
+];
+
+/// A text that is a number and its unit: the two; the unit is empty where there is none.
+pub fn unit(text: &str) -> (&str, &str) {
+    let text = text.trim();
+    let end = text.rfind(|c: char| c.is_ascii_digit() || c == ')').map_or(0, |at| at + 1);
+    let (number, behind) = text.split_at(end);
+    let unit = behind.trim_start_matches(['\\', ',', '~', ' ', '\u{a0}', '\u{2009}', '\u{202f}']);
+    if UNITS.contains(&unit) && !number.is_empty() { (number, unit) } else { (text, "") }
+}
+
 /// What marks a cell without a number.
 const MISSING: [&str; 8] = ["", "-", "–", "—", "n/a", "na", "nan", "none"];
 
@@ -39,7 +54,7 @@ pub fn plain(text: &str) -> (String, bool) {
     }
 }
 
-/// Reads a number, `1.2 ± 0.07`, `1.2 (0.07)`, with or without `%`.
+/// Reads a number, `1.2 ± 0.07`, `1.2 (0.07)`, with or without `%` or a unit.
 ///
 /// # Errors
 /// What is wrong and what is accepted, in words.
@@ -48,10 +63,17 @@ pub fn number(text: &str) -> Result<Number, String> {
     if MISSING.contains(&text.to_lowercase().as_str()) {
         return Ok(Number::Missing);
     }
+    let (text, behind) = unit(text);
     let bracketed = || text.strip_suffix(')').and_then(|text| text.split_once('('));
     let pair = ["±", "+/-", "+-", "\\pm"].iter().find_map(|mark| text.split_once(mark)).or_else(bracketed);
     match pair {
         Some((value, spread)) => {
+            let (value, before) = unit(value);
+            if !before.is_empty() && before != behind {
+                return Err(format!(
+                    "`{text} {behind}` has two units; accepted: one for both, best in the header"
+                ));
+            }
             Ok(Number::Plain { value: one(value, text)?, spread: Some(one(spread, text)?) })
         }
         None => Ok(Number::Plain { value: one(text, text)?, spread: None }),
@@ -95,25 +117,15 @@ fn complaint(text: &str) -> &'static str {
     if text.parse::<f64>().is_ok_and(f64::is_finite) && text.contains(['e', 'E']) {
         return "has an exponent, which hides digits; write the number out";
     }
-    "is no number"
-}
-
-/// The number with as many decimals as `significant` digits give, where trailing zeros were left out.
-pub fn with_digits(printed: Printed, significant: Option<u32>) -> Printed {
-    let Some(significant) = significant else { return printed };
-    // Digits before the first one that counts: 0.097 has its first at the second decimal.
-    let units = printed.units().unsigned_abs();
-    let length = if units == 0 { printed.decimals() + 1 } else { units.ilog10() + 1 };
-    let decimals = i64::from(significant) - i64::from(length) + i64::from(printed.decimals());
-    let Ok(decimals) = u32::try_from(decimals) else { return printed };
-    let more = decimals.saturating_sub(printed.decimals());
-    let units = 10_i64.checked_pow(more).and_then(|scale| printed.units().checked_mul(scale));
-    match units {
-        Some(units) if decimals <= 15 && units.unsigned_abs() < 10_u64.pow(15) => {
-            Printed::from_units(units, printed.decimals() + more)
-        }
-        _ => printed,
+    let shortened = text.strip_suffix(['k', 'K', 'M', 'G', 'B']).is_some_and(|text| is_number(text.trim()));
+    if shortened {
+        return "leaves digits out; write the number out";
     }
+    let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit());
+    if digits.len() < text.len() && is_number(digits.trim_start_matches(['-', '−'])) {
+        return "has a unit that is not known; write it in the header, as in `time [mean s]`";
+    }
+    "is no number"
 }
 
 #[cfg(test)]
@@ -140,6 +152,12 @@ mod tests {
             ("1.2±0.07 %", "1.2 ± 0.07"),
             ("1.20 +/- 0.07", "1.20 ± 0.07"),
             ("1.2 (0.07)", "1.2 ± 0.07"),
+            ("1.20 ms", "1.20"),
+            ("1.20ms ± 0.07ms", "1.20 ± 0.07"),
+            ("1.20 (0.07) s", "1.20 ± 0.07"),
+            ("1.20\\,m/s", "1.20"),
+            ("2.0×", "2.0"),
+            ("−90°", "-90"),
             ("—", "missing"),
             ("N/A", "missing"),
         ] {
@@ -160,29 +178,15 @@ mod tests {
             ("12,5", "has a decimal comma"),
             ("1e-3", "has an exponent"),
             ("1234567890123456", "more than 15 digits"),
+            ("12k", "leaves digits out"),
+            ("1.20 s ± 70 ms", "has two units"),
+            ("3 apples", "has a unit that is not known"),
             ("fast", "is no number"),
             ("1.2 ± ", "is no number"),
             ("(", "is no number"),
         ] {
             let found = number(text).unwrap_err();
             assert!(found.contains(said) && found.contains("accepted"), "{text}: {found}");
-        }
-    }
-
-    #[test]
-    fn significant_digits_give_back_the_zeros_left_out() {
-        let shown = |text: &str| with_digits(text.parse().unwrap(), Some(6)).to_string();
-        for (text, full) in [
-            ("2.5", "2.50000"),
-            ("216", "216.000"),
-            ("0.968027", "0.968027"),
-            ("0.5", "0.500000"),
-            ("108226", "108226"),
-            ("1234567", "1234567"),
-            ("16823.6", "16823.6"),
-            ("0", "0.00000"),
-        ] {
-            assert_eq!(shown(text), full);
         }
     }
 }

@@ -36,7 +36,7 @@ pub fn raw(text: &str, faults: &mut Vec<Fault>) -> Option<Raw> {
             }
         }
     }
-    Some(Raw { name: String::new(), line, header, rows })
+    Some(Raw { name: String::new(), line, mark: delimiter, header, rows })
 }
 
 /// The first line that is neither empty nor a comment, with its number and where the next one starts.

@@ -26,7 +26,7 @@ pub fn raw(text: &str, first: usize, faults: &mut Vec<Fault>) -> Vec<Raw> {
             continue;
         }
         let header = split(line);
-        let mut raw = Raw { name: name.clone(), line: first + at, header, rows: Vec::new() };
+        let mut raw = Raw { name: name.clone(), line: first + at, mark: '|', header, rows: Vec::new() };
         at += 2;
         while let Some(line) = lines.get(at).filter(|line| line.contains('|')) {
             let texts = split(line);

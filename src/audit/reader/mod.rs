@@ -9,11 +9,13 @@ mod csv;
 mod guess;
 mod markdown;
 mod toml;
+mod units;
 
-pub use cells::{Number, number};
+pub use cells::{Number, number, unit};
 
 use super::input::Input;
 use super::meaning::{Kind, Meaning};
+use super::printed::Printed;
 use super::statistic::Statistic;
 use super::table::{Cell, Column, Fault, Place, Table};
 
@@ -61,6 +63,8 @@ impl Format {
 struct Raw {
     name: String,
     line: usize,
+    /// What divides the cells of a line.
+    mark: char,
     header: Vec<String>,
     rows: Vec<(usize, Vec<String>)>,
 }
@@ -128,8 +132,9 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
     }
     if faults.is_empty() {
         counts::check(&columns, &rows, faults);
+        units::check(&columns, &rows, faults);
     }
-    Some(Table { name: raw.name, line: raw.line, columns, rows })
+    Some(Table { name: raw.name, line: raw.line, mark: raw.mark, columns, rows })
 }
 
 /// The column that a header cell describes; guessed if it has no annotation.
@@ -173,11 +178,36 @@ fn cell(text: &str, column: &Column, place: Place) -> Result<Cell, String> {
     match cells::number(&cell.text)? {
         Number::Missing => {}
         Number::Plain { value, spread } => {
-            let widened = |value| cells::with_digits(value, column.meaning.significant);
-            (cell.value, cell.spread) = (Some(widened(value)), spread.map(widened));
+            let widened = |value| widened(value, column.meaning.significant);
+            (cell.value, cell.spread) = (Some(widened(value)?), spread.map(widened).transpose()?);
         }
     }
     Ok(cell)
+}
+
+/// The number with the zeros at its end that `digits=D` says were left out.
+fn widened(value: Printed, significant: Option<u32>) -> Result<Printed, String> {
+    let Some(significant) = significant else { return Ok(value) };
+    value.with_zeros_left_out(significant).ok_or_else(|| {
+        format!(
+            "`{value}` contradicts digits={significant}, by which a number has {significant} digits at most and no zero at \
+             the end of its decimals; leave digits={significant} out"
+        )
+    })
+}
+
+/// The header line of [`stub`], divided as the table's own.
+pub fn stub_line(table: &Table) -> String {
+    let cells = stub(table);
+    if table.mark == '|' {
+        return format!("| {} |", cells.join(" | "));
+    }
+    let quoted = |cell: &String| match cell.split('[').next() {
+        Some(name) if name.contains([table.mark, '"']) => format!("\"{}\"", cell.replace('"', "")),
+        _ if table.mark != ',' && cell.contains(table.mark) => format!("\"{cell}\""),
+        _ => cell.clone(),
+    };
+    cells.iter().map(quoted).collect::<Vec<_>>().join(&table.mark.to_string())
 }
 
 /// A header line with an annotation for every column, to be corrected: what was written, or what was guessed.

@@ -35,6 +35,9 @@ struct TableText {
     text: Spanned<String>,
 }
 
+/// What is accepted where numbers of different places meet.
+const WITHOUT: &str = "numbers that are held against each other are written without, all in one unit";
+
 /// Reads the document; none, with a fault, if it is no TOML or has other fields.
 pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
     let line = |at: usize| Place {
@@ -56,6 +59,12 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
     for (name, cell) in document.cells {
         let place = line(cell.span().start);
         match super::cells::number(cell.get_ref()) {
+            Ok(_) if !super::unit(cell.get_ref()).1.is_empty() => {
+                faults.push(Fault::new(
+                    place,
+                    format!("cell `{name}`: `{}` has a unit; {WITHOUT}", cell.get_ref()),
+                ));
+            }
             Ok(super::Number::Plain { value, spread: None }) => input.name(name, value, digits, place),
             Ok(_) => faults.push(Fault::new(place, format!("cell `{name}`: one number is accepted here"))),
             Err(message) => faults.push(Fault::new(place, format!("cell `{name}`: {message}"))),
@@ -129,9 +138,12 @@ fn take_sample(
             format!("sample `{name}` has the key `{key}`; accepted: name, is, mean, sd, se, min, q25, median, q75, max, total")
         })?;
         let text = text(Some(value))?;
+        if !super::unit(&text).1.is_empty() {
+            return Err(format!("sample `{name}`: `{text}` has a unit; {WITHOUT}"));
+        }
         match super::cells::number(&text)? {
             super::Number::Plain { value, spread: None } => {
-                statistics.push((statistic, super::cells::with_digits(value, meaning.significant)));
+                statistics.push((statistic, super::widened(value, meaning.significant)?));
             }
             _ => return Err(format!("sample `{name}`: `{key}` must be one number in quotes")),
         }

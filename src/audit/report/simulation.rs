@@ -1,64 +1,116 @@
-//! Tables printed from simulated data, each by one rounding, in exact integers throughout.
+//! Inputs printed from simulated data, each number by the rounding of its column, in exact integers throughout: tables with a row a
+//! planner, tables with a row a statistic, and relations.
 
+mod long;
+mod relations;
+mod wide;
+
+use crate::exact::{Exact, whole};
+use crate::printed::Printed;
+use crate::reader::Format;
 use rand::{RngExt, SeedableRng, rngs::SmallRng};
 
 /// Every way to end digits that a program can have.
 pub(super) const ROUNDINGS: [&str; 5] = ["half up", "half even", "floor", "ceiling", "truncation"];
 
-/// A source of data and the rounding that prints them.
-struct Printer {
-    rng: SmallRng,
-    rounding: &'static str,
-    decimals: u32,
+/// The input of a seed.
+pub(super) fn input(seed: u64) -> (String, Format) {
+    let mut rng = SmallRng::seed_from_u64(seed);
+    match seed % 4 {
+        0 | 1 => (wide::table(&mut rng), Format::Markdown),
+        2 => (long::table(&mut rng), Format::Markdown),
+        _ => (relations::document(&mut rng), Format::Toml),
+    }
 }
 
-impl Printer {
-    fn new(seed: u64) -> Self {
-        let mut rng = SmallRng::seed_from_u64(seed);
-        let rounding = ROUNDINGS[rng.random_range(0..5)];
-        let decimals = rng.random_range(0..4);
-        Self { rng, rounding, decimals }
+/// A relation on a drawn polyline, whose search takes long.
+pub(super) fn polyline(seed: u64) -> String {
+    relations::any_angle_turns(&mut SmallRng::seed_from_u64(seed))
+}
+
+/// How a column prints its numbers.
+#[derive(Clone)]
+struct Style {
+    rounding: &'static str,
+    decimals: u32,
+    /// That many digits count, and zeros at the end are left out.
+    significant: Option<usize>,
+    is_said: bool,
+}
+
+impl Style {
+    fn drawn(rng: &mut SmallRng) -> Self {
+        let significant = rng.random_bool(0.15).then_some(6);
+        Self { significant, ..Self::plain(rng) }
     }
 
-    /// `above / below`, which is not negative, as it is printed.
+    /// One that leaves no zeros out.
+    fn plain(rng: &mut SmallRng) -> Self {
+        let rounding = ROUNDINGS[rng.random_range(0..5)];
+        Self { rounding, decimals: rng.random_range(0..4), significant: None, is_said: rng.random_bool(0.5) }
+    }
+
+    /// The same with other decimals.
+    fn other(&self, rng: &mut SmallRng) -> Self {
+        Self { decimals: rng.random_range(0..4), ..self.clone() }
+    }
+
+    /// What the annotation says of it.
+    fn said(&self) -> String {
+        let rounding = if self.is_said { format!(", rounding={}", self.rounding) } else { String::new() };
+        rounding + &self.significant.map_or(String::new(), |digits| format!(", digits={digits}"))
+    }
+
+    fn value(&self, value: Exact) -> String {
+        self.ratio(*value.numer(), *value.denom())
+    }
+
+    /// `above / below` as it is printed; `below` is above 0.
     fn ratio(&self, above: i128, below: i128) -> String {
-        let scaled = above * 10_i128.pow(self.decimals);
-        let (down, rest) = (scaled.div_euclid(below), scaled.rem_euclid(below));
-        let tie = (2 * rest).cmp(&below);
-        self.units(down, rest > 0, tie)
+        self.printed(|decimals| {
+            let scaled = above * 10_i128.pow(decimals);
+            let (down, rest) = (scaled.div_euclid(below), scaled.rem_euclid(below));
+            self.units(down, rest > 0, (2 * rest).cmp(&below))
+        })
     }
 
     /// The root of `above / below` as it is printed.
     fn root(&self, above: i128, below: i128) -> String {
-        let scale = 10_i128.pow(2 * self.decimals);
-        let down = (above * scale / below).isqrt();
-        let middle = (2 * down + 1) * (2 * down + 1) * below;
-        self.units(down, down * down * below < above * scale, (4 * above * scale).cmp(&middle))
+        self.printed(|decimals| {
+            let scale = 10_i128.pow(2 * decimals);
+            let down = (above * scale / below).isqrt();
+            let middle = (2 * down + 1) * (2 * down + 1) * below;
+            self.units(down, down * down * below < above * scale, (4 * above * scale).cmp(&middle))
+        })
     }
 
-    /// The printed number next to `down` units; `has_rest` if the value is above them, `tie` how it compares with the middle.
-    fn units(&self, down: i128, has_rest: bool, tie: std::cmp::Ordering) -> String {
+    /// The printed units next to `down` of them; `has_rest` if the value is above them, `tie` how it compares with the middle.
+    fn units(&self, down: i128, has_rest: bool, tie: std::cmp::Ordering) -> i128 {
         let is_up = match self.rounding {
-            "half up" => tie.is_ge(),
-            "half even" => tie.is_gt() || tie.is_eq() && down % 2 == 1,
+            // Away from 0, whose other side has the larger absolute value below.
+            "half up" => {
+                if down < 0 {
+                    tie.is_gt()
+                } else {
+                    tie.is_ge()
+                }
+            }
+            "half even" => tie.is_gt() || tie.is_eq() && down.rem_euclid(2) == 1,
             "ceiling" => has_rest,
+            "truncation" => has_rest && down < 0,
             _ => false,
         };
-        let units = i64::try_from(down + i128::from(is_up)).unwrap();
-        crate::printed::Printed::from_units(units, self.decimals).to_string()
+        down + i128::from(is_up)
     }
 
-    /// `, rounding=…` in half of the tables.
-    fn said(&mut self) -> String {
-        if self.rng.random_bool(0.5) { format!(", rounding={}", self.rounding) } else { String::new() }
-    }
-
-    /// `n` whole numbers, sometimes all alike, sometimes spread out.
-    fn values(&mut self, n: i128) -> Vec<i128> {
-        let most = [0, 1, 3, 20, 1000][self.rng.random_range(0..5)];
-        let mut values: Vec<i128> = (0..n).map(|_| self.rng.random_range(0..=most)).collect();
-        values.sort_unstable();
-        values
+    fn printed(&self, units: impl Fn(u32) -> i128) -> String {
+        let text =
+            |decimals| Printed::from_units(i64::try_from(units(decimals)).unwrap(), decimals).to_string();
+        let Some(significant) = self.significant else { return text(self.decimals) };
+        let length = |units: i128| units.abs().to_string().len();
+        let decimals = (0..=11).rev().find(|decimals| length(units(*decimals)) <= significant).unwrap();
+        let text = text(decimals);
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     }
 }
 
@@ -68,106 +120,126 @@ fn moments(values: &[i128]) -> (i128, i128) {
     (sum, n * values.iter().map(|x| x * x).sum::<i128>() - sum * sum)
 }
 
-/// A table of shares, statistics of whole numbers, sums and quotients, and lengths on a lattice.
-pub(super) fn table(seed: u64) -> String {
-    let mut printer = Printer::new(seed);
-    let mut columns: Vec<(String, String)> = vec![("planner [label]".to_owned(), "A".to_owned())];
-    shares(&mut printer, &mut columns);
-    statistics(&mut printer, &mut columns);
-    over_seeds(&mut printer, &mut columns);
-    sums(&mut printer, &mut columns);
-    length(&mut printer, &mut columns);
-    let line = |cells: Vec<&str>| format!("| {} |\n", cells.join(" | "));
-    let header = line(columns.iter().map(|(header, _)| header.as_str()).collect());
-    let cells = line(columns.iter().map(|(_, cell)| cell.as_str()).collect());
-    format!("{header}{}\n{cells}", "|-".repeat(columns.len()) + "|")
+/// `n` whole numbers in rising order, sometimes all alike, sometimes spread out, sometimes below 0.
+fn values(rng: &mut SmallRng, n: i128) -> Vec<i128> {
+    let most = [0, 1, 3, 20, 1000][rng.random_range(0..5)];
+    let shift = if rng.random_bool(0.3) { rng.random_range(-1000..=0) } else { 0 };
+    let mut values: Vec<i128> = (0..n).map(|_| shift + rng.random_range(0..=most)).collect();
+    values.sort_unstable();
+    values
 }
 
-fn shares(printer: &mut Printer, columns: &mut Vec<(String, String)>) {
-    let said = printer.said();
-    let n: i128 = printer.rng.random_range(1..300);
-    let k = printer.rng.random_range(0..=n);
-    let first = printer.rng.random_range(0..=k);
-    for (name, count) in [("solved", first), ("late", k - first), ("never", n - k)] {
-        columns.push((format!("{name} [% of {n}, parts=all{said}]"), printer.ratio(100 * count, n)));
-    }
-    let deviation = if n > 1 { printer.root(k * (n - k), n * (n - 1)) } else { "0".to_owned() };
-    columns.push((
-        format!("share [share of {n}, ±sd, sample{said}]"),
-        format!("{} ± {deviation}", printer.ratio(k, n)),
-    ));
-}
-
-fn statistics(printer: &mut Printer, columns: &mut Vec<(String, String)>) {
-    let said = printer.said();
-    let n: i128 = printer.rng.random_range(2..60);
-    let values = printer.values(n);
-    let (sum, about) = moments(&values);
-    let (name, divisor) = if printer.rng.random_bool(0.5) { ("sample", n - 1) } else { ("population", n) };
-    let quantile = |printer: &Printer, quarters: i128| {
-        let place = (n - 1) * quarters;
-        let (at, rest) = ((place / 4) as usize, place % 4);
-        let next = values[(at + 1).min(values.len() - 1)];
-        printer.ratio(4 * values[at] + rest * (next - values[at]), 4)
+/// The quantile of rising values by one of Hyndman and Fan's nine rules; the seventh is linear.
+fn quantile(values: &[Exact], share: Exact, rule: usize) -> Exact {
+    let offset = match rule {
+        3 => Exact::new(-1, 2),
+        1 | 2 | 4 => whole(0),
+        5 => Exact::new(1, 2),
+        6 => share,
+        7 => whole(1) - share,
+        8 => (share + whole(1)) / whole(3),
+        _ => share / whole(4) + Exact::new(3, 8),
     };
-    let mean = format!("x [mean, integers, n={n}, {name}, quantiles=linear{said}]");
-    columns.push((mean, printer.ratio(sum, n)));
-    columns.push((format!("x [sd, n={n}{said}]"), printer.root(about, n * divisor)));
-    for (word, quarters) in [("min", 0), ("q25", 1), ("median", 2), ("q75", 3), ("max", 4)] {
-        columns.push((format!("x [{word}{said}]"), quantile(printer, quarters)));
-    }
-    columns.push((format!("x [total{said}]"), printer.ratio(sum, 1)));
-}
-
-fn over_seeds(printer: &mut Printer, columns: &mut Vec<(String, String)>) {
-    let said = printer.said();
-    let (seeds, trials): (i128, i128) = (printer.rng.random_range(2..12), printer.rng.random_range(1..60));
-    let hits: Vec<i128> = (0..seeds).map(|_| printer.rng.random_range(0..=trials)).collect();
-    let (sum, about) = moments(&hits);
-    let mean = printer.ratio(100 * sum, seeds * trials);
-    let is_error = printer.rng.random_bool(0.5);
-    // The error's square is the deviation's over the number of seeds.
-    let by = if is_error { seeds } else { 1 };
-    let spread = printer.root(10_000 * about, seeds * (seeds - 1) * trials * trials * by);
-    let word = if is_error { "±se" } else { "±sd" };
-    columns.push((
-        format!("rate [% of {trials}, seeds={seeds}, {word}, sample{said}]"),
-        format!("{mean} ± {spread}"),
-    ));
-}
-
-fn sums(printer: &mut Printer, columns: &mut Vec<(String, String)>) {
-    let said = printer.said();
-    let n: i128 = printer.rng.random_range(1..60);
-    let [a, b]: [i128; 2] = [0; 2].map(|_| printer.rng.random_range(1..5000));
-    for (header, above, below) in [
-        (format!("a [value{said}]"), a, n),
-        (format!("b [value{said}]"), b, n),
-        (format!("both [value, sum=a+b{said}]"), a + b, n),
-        (format!("times [value, ratio=a/b{said}]"), a, b),
-    ] {
-        columns.push((header, printer.ratio(above, below)));
-    }
-}
-
-fn length(printer: &mut Printer, columns: &mut Vec<(String, String)>) {
-    let said = printer.said();
-    let mut at = [0_i128; 2];
-    let (mut straight, mut diagonal) = (0, 0);
-    for _ in 0..printer.rng.random_range(1..25) {
-        let step = [printer.rng.random_range(-1..=1), printer.rng.random_range(-1..=1)];
-        if step == [0, 0] {
-            continue;
+    let place = whole(values.len() as i128) * share + offset;
+    let at = place.floor();
+    let rest = place - at;
+    let value = |at: Exact| values[(at.to_integer() - 1).clamp(0, values.len() as i128 - 1) as usize];
+    let weight = match rule {
+        1 => {
+            if rest > whole(0) {
+                whole(1)
+            } else {
+                whole(0)
+            }
         }
-        at = [at[0] + step[0], at[1] + step[1]];
-        *(if step.contains(&0) { &mut straight } else { &mut diagonal }) += 1;
+        2 => {
+            if rest > whole(0) {
+                whole(1)
+            } else {
+                Exact::new(1, 2)
+            }
+        }
+        3 => {
+            if rest == whole(0) && at.to_integer() % 2 == 0 {
+                whole(0)
+            } else {
+                whole(1)
+            }
+        }
+        _ => rest,
+    };
+    value(at) * (whole(1) - weight) + value(at + whole(1)) * weight
+}
+
+/// Columns with as many cells as there are rows.
+struct Sheet {
+    rows: usize,
+    columns: Vec<(String, Vec<String>)>,
+}
+
+impl Sheet {
+    fn add(&mut self, header: String, cells: Vec<String>) {
+        assert_eq!(cells.len(), self.rows, "{header}");
+        self.columns.push((header, cells));
     }
-    let scale = 10_i128.pow(printer.decimals);
-    let root = 2 * diagonal * diagonal * scale * scale;
-    let down = straight * scale + root.isqrt();
-    // The length is whole or irrational, so that it never lies in the middle.
-    let doubled = 2 * straight * scale + (4 * root).isqrt();
-    let tie = if doubled > 2 * down { std::cmp::Ordering::Greater } else { std::cmp::Ordering::Less };
-    let cell = printer.units(down, diagonal > 0, tie);
-    columns.push((format!("length [a+b√2, from=0:0, to={}:{}{said}]", at[0], at[1]), cell));
+
+    fn markdown(&self) -> String {
+        let line = |cells: Vec<&str>| format!("| {} |\n", cells.join(" | "));
+        let header = line(self.columns.iter().map(|(header, _)| header.as_str()).collect());
+        let rows = (0..self.rows)
+            .map(|row| line(self.columns.iter().map(|(_, cells)| cells[row].as_str()).collect()));
+        format!("{header}{}|\n{}", "|-".repeat(self.columns.len()), rows.collect::<String>())
+    }
+}
+
+/// Moves to one of eight neighbours, of which the number of straight and diagonal ones, the displacement and the turns are told.
+struct Walk {
+    moves: Vec<[i128; 2]>,
+}
+
+impl Walk {
+    fn drawn(rng: &mut SmallRng, most: usize) -> Self {
+        let count = rng.random_range(1..=most);
+        let drawn = (0..count).map(|_| [rng.random_range(-1..=1), rng.random_range(-1..=1)]);
+        let moves: Vec<[i128; 2]> = drawn.filter(|step| *step != [0, 0]).collect();
+        if moves.is_empty() { Self { moves: vec![[1, 1]] } } else { Self { moves } }
+    }
+
+    fn straight(&self) -> i128 {
+        self.moves.iter().filter(|step| step.contains(&0)).count() as i128
+    }
+
+    fn diagonal(&self) -> i128 {
+        self.moves.len() as i128 - self.straight()
+    }
+
+    fn end(&self) -> [i128; 2] {
+        [0, 1].map(|axis| self.moves.iter().map(|step| step[axis]).sum())
+    }
+
+    /// The sum of changes of direction, or of the angles between moves that differ, in degrees.
+    fn turns(&self, is_interior: bool) -> i128 {
+        const AROUND: [[i128; 2]; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
+        let at = |step: &[i128; 2]| AROUND.iter().position(|known| known == step).unwrap() as i128;
+        let change = |pair: &[[i128; 2]]| {
+            let apart = (at(&pair[0]) - at(&pair[1])).abs();
+            apart.min(8 - apart)
+        };
+        let changes = self.moves.windows(2).map(change).filter(|change| *change > 0);
+        changes.map(|change| 45 * if is_interior { 4 - change } else { change }).sum()
+    }
+
+    /// Its length as it is printed, with diagonal moves of √2.
+    fn length(&self, style: &Style) -> String {
+        let (straight, diagonal) = (self.straight(), self.diagonal());
+        style.printed(|decimals| {
+            let scale = 10_i128.pow(decimals);
+            let root = 2 * diagonal * diagonal * scale * scale;
+            let down = straight * scale + root.isqrt();
+            // The length is whole or irrational, so that it never lies in the middle.
+            let doubled = 2 * straight * scale + (4 * root).isqrt();
+            let tie = if doubled > 2 * down { std::cmp::Ordering::Greater } else { std::cmp::Ordering::Less };
+            style.units(down, diagonal > 0, tie)
+        })
+    }
 }

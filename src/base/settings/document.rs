@@ -3,27 +3,40 @@
 use super::validate::{Fault, faults};
 use super::{Faults, SettingsError, schema_of};
 use schemars::JsonSchema;
+use self_cell::self_cell;
 use serde::de::{DeserializeOwned, IntoDeserializer as _};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// A TOML file held in memory with its path. It is parsed once, however often its tables are read.
-///
-/// Its text stays until the program ends: what was parsed refers to it, and the TOML library has no parsed value that
-/// owns its text.
 #[derive(Debug)]
 pub struct Document {
     path: PathBuf,
-    text: &'static str,
-    parsed: OnceLock<Result<Spanned<DeValue<'static>>, toml::de::Error>>,
+    parsed: Parsed,
+    /// The keys at its top under which a part of it was taken away.
+    parted: BTreeSet<String>,
+}
+
+/// What a text says, or why it is no TOML.
+type Outcome<'t> = Result<Spanned<DeValue<'t>>, toml::de::Error>;
+
+// What is parsed refers to its text, and the TOML library has no parsed value that owns it.
+self_cell! {
+    struct Parsed {
+        owner: String,
+        #[covariant]
+        dependent: Outcome,
+    }
+    impl {Debug}
 }
 
 impl PartialEq for Document {
     fn eq(&self, other: &Self) -> bool {
-        (&self.path, self.text) == (&other.path, other.text)
+        (&self.path, self.text()) == (&other.path, other.text())
     }
 }
 
@@ -44,7 +57,26 @@ impl Document {
 
     /// A document with the given text, as if read from `path`.
     pub fn new(path: &Path, text: String) -> Arc<Self> {
-        Arc::new(Self { path: path.to_owned(), text: text.leak(), parsed: OnceLock::new() })
+        Arc::new(Self {
+            path: path.to_owned(),
+            parsed: Parsed::new(text, |text| parse(text)),
+            parted: BTreeSet::new(),
+        })
+    }
+
+    /// The document with a part of what it says taken away, and its text as it was; `change` gives the keys at its top under
+    /// which it took something.
+    pub(super) fn in_part(
+        &self,
+        change: impl FnOnce(&mut Spanned<DeValue<'_>>) -> BTreeSet<String>,
+    ) -> Arc<Self> {
+        let mut parted = BTreeSet::new();
+        let parsed = Parsed::new(self.text().to_owned(), |text| {
+            let mut value = parse(text)?;
+            parted = change(&mut value);
+            Ok(value)
+        });
+        Arc::new(Self { path: self.path.clone(), parsed, parted })
     }
 
     /// The path it was read from.
@@ -54,7 +86,7 @@ impl Document {
 
     /// The text as read.
     pub fn text(&self) -> &str {
-        self.text
+        self.parsed.borrow_owner()
     }
 
     /// The whole document as a `T`, held against the schema of `T` first.
@@ -62,7 +94,7 @@ impl Document {
     /// # Errors
     /// A syntax error, or every unknown key, missing key and value that is not accepted, each at its own place.
     pub fn read<T: DeserializeOwned + JsonSchema + 'static>(&self) -> Result<T, SettingsError> {
-        if self.text.trim().is_empty() {
+        if self.text().trim().is_empty() {
             return Err(self.error(0..0, "the file is empty; a TOML table is expected"));
         }
         self.read_value(self.parsed()?)
@@ -85,22 +117,41 @@ impl Document {
         self.refuse(faults(schema, self.parsed()?))
     }
 
-    /// Whether the document has `key` at its top; `false` if it is not TOML.
-    pub fn has(&self, key: &str) -> bool {
-        self.parsed().is_ok_and(|value| value.get_ref().get(key).is_some())
+    /// Whether something was taken away under the key at its top: what seems to be missing there may be written.
+    pub fn is_part(&self, key: &str) -> bool {
+        self.parted.contains(key)
+    }
+
+    /// Whether it is TOML.
+    pub fn is_toml(&self) -> bool {
+        self.parsed().is_ok()
+    }
+
+    /// The keys at its top; none if it is not TOML.
+    pub fn keys(&self) -> Vec<&str> {
+        let table = self.parsed().ok().and_then(|value| value.get_ref().as_table());
+        table.into_iter().flatten().map(|(key, _)| key.get_ref().as_ref()).collect()
+    }
+
+    /// Whether some value in it is the text `word`.
+    pub fn says(&self, word: &str) -> bool {
+        self.parsed().is_ok_and(|value| says(value.get_ref(), word))
     }
 
     /// An error at the byte range `span` of this document.
     pub fn error(&self, span: Range<usize>, message: impl Into<String>) -> SettingsError {
-        let start = span.start.min(self.text.len());
-        let before = &self.text[..start];
+        let text = self.text();
+        let start = span.start.min(text.len());
+        let before = &text[..start];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
         SettingsError::At {
             path: self.path.clone(),
             line: before.matches('\n').count() + 1,
-            column: self.text[line_start..start].chars().count() + 1,
+            column: text[line_start..start].chars().count() + 1,
+            with: Vec::new(),
+            about: None,
             message: message.into(),
-            excerpt: printable(self.text[line_start..].lines().next().unwrap_or_default().trim_end()),
+            excerpt: printable(text[line_start..].lines().next().unwrap_or_default().trim_end()),
         }
     }
 
@@ -111,13 +162,13 @@ impl Document {
         self.error(span, message)
     }
 
-    pub(super) fn parsed(&self) -> Result<&Spanned<DeValue<'static>>, SettingsError> {
-        self.parsed.get_or_init(|| parse(self.text)).as_ref().map_err(|e| self.toml_error(e, 0..0))
+    pub(super) fn parsed(&self) -> Result<&Spanned<DeValue<'_>>, SettingsError> {
+        self.parsed.borrow_dependent().as_ref().map_err(|e| self.toml_error(e, 0..0))
     }
 
     pub(super) fn read_value<T: DeserializeOwned + JsonSchema + 'static>(
         &self,
-        value: &Spanned<DeValue<'static>>,
+        value: &Spanned<DeValue<'_>>,
     ) -> Result<T, SettingsError> {
         self.refuse(faults(&schema_of::<T>(), value))?;
         T::deserialize(value.clone().into_deserializer()).map_err(|e| self.toml_error(&e, value.span()))
@@ -126,13 +177,25 @@ impl Document {
     fn refuse(&self, found: Vec<Fault>) -> Result<(), SettingsError> {
         let mut all = Faults::default();
         for fault in found {
-            all.add(self.error(fault.span, fault.message));
+            // What a part lacks may stand in the whole.
+            let lacks = fault.lacks.filter(|_| !self.parted.is_empty());
+            let error = self.error(fault.span, fault.message);
+            all.add(lacks.into_iter().fold(error, |error, key| error.about(&key)));
         }
         all.done()
     }
 
     fn toml_error(&self, error: &toml::de::Error, fallback: Range<usize>) -> SettingsError {
         self.error(error.span().unwrap_or(fallback), in_words(error.message()))
+    }
+}
+
+fn says(value: &DeValue<'_>, word: &str) -> bool {
+    match value {
+        DeValue::String(text) => text == word,
+        DeValue::Table(table) => table.iter().any(|(_, inner)| says(inner.get_ref(), word)),
+        DeValue::Array(elements) => elements.iter().any(|inner| says(inner.get_ref(), word)),
+        _ => false,
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is wrong with a document: one fault, or all of a file at once.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// What is wrong with a document or a table in it.
@@ -14,7 +15,7 @@ pub enum SettingsError {
         reason: String,
     },
     /// The file is read, but a value in it is not what was expected.
-    #[error("{}:{line}:{column}: {message}{}", path.display(), below(excerpt))]
+    #[error("{}:{line}:{column}: {}{message}{}", path.display(), said_with(with), below(excerpt))]
     At {
         /// The file.
         path: PathBuf,
@@ -22,6 +23,10 @@ pub enum SettingsError {
         line: usize,
         /// Column in characters, from 1.
         column: usize,
+        /// What was laid over what stands there: readings, sweeps.
+        with: Vec<String>,
+        /// The name that was looked up, if it was not found.
+        about: Option<String>,
         /// What was found and what is accepted.
         message: String,
         /// The line itself.
@@ -54,8 +59,9 @@ impl SettingsError {
     #[must_use]
     pub fn prefixed(self, before: &str) -> Self {
         match self {
-            Self::At { path, line, column, message, excerpt } => {
-                Self::At { path, line, column, message: format!("{before}{message}"), excerpt }
+            Self::At { path, line, column, with, about, message, excerpt } => {
+                let message = format!("{before}{message}");
+                Self::At { path, line, column, with, about, message, excerpt }
             }
             Self::Composed { origin, message } => {
                 Self::Composed { origin, message: format!("{before}{message}") }
@@ -67,11 +73,56 @@ impl SettingsError {
         }
     }
 
+    /// The same places with other words for what is wrong there.
+    #[must_use]
+    pub fn reworded(self, words: &str) -> Self {
+        match self {
+            Self::At { path, line, column, with, about, excerpt, .. } => {
+                Self::At { path, line, column, with, about, message: words.to_owned(), excerpt }
+            }
+            Self::Several(errors) => {
+                Self::Several(errors.into_iter().map(|error| error.reworded(words)).collect())
+            }
+            other => other,
+        }
+    }
+
+    /// The same with `by` laid over what stands there.
+    #[must_use]
+    pub(super) fn under(mut self, by: &str) -> Self {
+        match &mut self {
+            Self::At { with, .. } => with.push(by.to_owned()),
+            Self::Composed { message, .. } => *message = format!("with {by}: {message}"),
+            Self::Unreadable { .. } | Self::Several(_) => {}
+        }
+        self
+    }
+
+    /// The same, as a fault of the name `word`, which was looked up and not found. Where what bears the name could not be
+    /// read ([`Faults::unread`]), nothing is said of it.
+    #[must_use]
+    pub fn about(mut self, word: &str) -> Self {
+        if let Self::At { about, .. } = &mut self {
+            *about = Some(word.to_owned());
+        }
+        self
+    }
+
     /// Each fault by itself.
     pub fn each(self) -> Vec<Self> {
         match self {
             Self::Several(errors) => errors,
             one => vec![one],
+        }
+    }
+
+    /// The same thing at the same place, whatever was laid over it.
+    fn repeats(&self, known: &Self) -> bool {
+        match (self, known) {
+            (Self::At { message: own, .. }, Self::At { message, .. }) => {
+                self.place() == known.place() && own == message
+            }
+            _ => self == known,
         }
     }
 
@@ -94,25 +145,30 @@ fn lines(errors: &[SettingsError]) -> String {
     errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
+fn said_with(with: &[String]) -> String {
+    if with.is_empty() { String::new() } else { format!("with {}: ", with.join(", ")) }
+}
+
 /// Faults gathered from several places, each once, so that who wrote a file sees all of them in one round.
 #[derive(Debug, Default)]
-pub struct Faults(Vec<SettingsError>);
+pub struct Faults {
+    found: Vec<SettingsError>,
+    /// Names of what could not be read.
+    unread: BTreeSet<String>,
+}
 
 impl Faults {
-    /// Adds what is wrong.
+    /// Adds what is wrong. What is wrong under several readings is told once, with what they have in common.
     pub fn add(&mut self, error: SettingsError) {
         for fault in error.each() {
-            if !self.0.contains(&fault) {
-                self.0.push(fault);
-            }
-        }
-    }
-
-    /// Adds what is wrong where nothing was found yet: a second look that says the same in other words adds nothing.
-    pub fn add_elsewhere(&mut self, error: SettingsError) {
-        for fault in error.each() {
-            if !self.0.iter().any(|known| known.place() == fault.place()) {
-                self.0.push(fault);
+            match self.found.iter_mut().find(|known| fault.repeats(known)) {
+                Some(SettingsError::At { with: known, .. }) => {
+                    if let SettingsError::At { with, .. } = &fault {
+                        known.retain(|by| with.contains(by));
+                    }
+                }
+                Some(_) => {}
+                None => self.found.push(fault),
             }
         }
     }
@@ -122,15 +178,26 @@ impl Faults {
         result.map_err(|error| self.add(error)).ok()
     }
 
+    /// Says that something called `name` is there but could not be read, for a reason that was added: that the name is not
+    /// found elsewhere is no fault then.
+    pub fn unread(&mut self, name: impl Into<String>) {
+        self.unread.insert(name.into());
+    }
+
     /// Whether nothing is wrong so far.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.found.is_empty()
     }
 
     /// All that is wrong, in the order of the places; only for who has added a fault.
     pub fn error(mut self) -> SettingsError {
-        self.0.sort_by(|a, b| a.place().cmp(&b.place()));
-        if self.0.len() == 1 { self.0.remove(0) } else { SettingsError::Several(self.0) }
+        let is_told = |fault: &SettingsError| match fault {
+            SettingsError::At { about: Some(name), .. } => !self.unread.contains(name),
+            _ => true,
+        };
+        self.found.retain(is_told);
+        self.found.sort_by(|a, b| a.place().cmp(&b.place()));
+        if self.found.len() == 1 { self.found.remove(0) } else { SettingsError::Several(self.found) }
     }
 
     /// Nothing, or all that is wrong.

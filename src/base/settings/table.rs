@@ -108,7 +108,8 @@ impl Settings {
         let value = parse(&text).map_err(|e| self.error(in_words(e.message())))?;
         let mut all = Faults::default();
         for fault in faults(&schema_of::<T>(), &value) {
-            all.add(self.error_at(&path_to(&value, &fault.span), fault.message));
+            let error = self.error_at(&path_to(&value, &fault.span), fault.message);
+            all.add(fault.lacks.into_iter().fold(error, |error, key| error.about(&key)));
         }
         all.done()?;
         T::deserialize(value.into_deserializer()).map_err(|e| self.error(in_words(e.message())))
@@ -140,6 +141,7 @@ impl Settings {
             let found = found.or_else(|| text(part, "", &[""], word));
             found.or_else(|| text(table, "", &[""], word)).unwrap_or_else(|| part.span())
         })
+        .about(word)
     }
 
     /// An error at the span that `at` finds in the table as it is written.
@@ -152,7 +154,7 @@ impl Settings {
             Origin::Absent { document, span, whose } => {
                 document.error(span.clone(), format!("{whose}: {message}"))
             }
-            Origin::Overlaid { under, by } => under.placed(format!("with {by}: {message}"), at),
+            Origin::Overlaid { under, by } => under.placed(message, at).under(by),
             Origin::Composed(origin) => SettingsError::Composed { origin: origin.clone(), message },
         }
     }

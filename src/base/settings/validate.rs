@@ -15,6 +15,14 @@ pub(super) struct Fault {
     pub(super) span: Range<usize>,
     /// What was found and what is accepted.
     pub(super) message: String,
+    /// The key that is missing, or that an unknown key was meant to be.
+    pub(super) lacks: Option<String>,
+}
+
+impl Fault {
+    fn new(span: Range<usize>, message: String) -> Self {
+        Self { span, message, lacks: None }
+    }
 }
 
 /// A value, what it is called in messages, and where that name stands.
@@ -107,7 +115,7 @@ fn tagged(branches: &[Node<'_>], subject: Subject<'_>, table: &DeTable<'_>, foun
     let accepted = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
     let Some(value) = table.get(tag) else {
         let message = format!("missing key `{tag}`; accepted: {accepted}");
-        found.push(Fault { span: subject.span(), message });
+        found.push(Fault::new(subject.span(), message));
         return true;
     };
     let inner = Subject { name: tag, key: None, value };
@@ -183,15 +191,17 @@ fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut V
                 check(part, Subject { name, key: Some(&span), value }, found);
             }
             Some(_) => {
-                meant.extend(nearest(name, node.properties().map(|(key, _)| key)));
-                found.push(Fault { span, message: unknown(node, name) });
+                let near = nearest(name, node.properties().map(|(key, _)| key));
+                meant.extend(near);
+                found.push(Fault { lacks: near.map(str::to_owned), ..Fault::new(span, unknown(node, name)) });
             }
             None => {}
         }
     }
     // A key that is only misspelled is not missing as well.
     for key in node.required().filter(|key| table.get(*key).is_none() && !meant.contains(key)) {
-        found.push(Fault { span: subject.span(), message: missing(node, key) });
+        let fault = Fault::new(subject.span(), missing(node, key));
+        found.push(Fault { lacks: Some(key.to_owned()), ..fault });
     }
 }
 
@@ -218,13 +228,13 @@ fn refused(subject: Subject<'_>, accepted: &str) -> Fault {
     let accepted =
         if is_finite { accepted.to_owned() } else { accepted.replace("a number", "a finite number") };
     let name = if subject.name.is_empty() { "the value".to_owned() } else { format!("`{}`", subject.name) };
-    Fault { span: subject.span(), message: format!("{name} is {found}; {accepted} is accepted") }
+    Fault::new(subject.span(), format!("{name} is {found}; {accepted} is accepted"))
 }
 
 fn no_such_word(subject: Subject<'_>, word: &str, known: &[&str], accepted: &str) -> Fault {
     let hint = did_you_mean(word, known.iter().copied());
     let message = format!("`{}` is \"{word}\"{hint}; {accepted} is accepted", subject.name);
-    Fault { span: subject.span(), message }
+    Fault::new(subject.span(), message)
 }
 
 fn is_of(value: &Spanned<DeValue<'_>>, kind: &str) -> bool {

@@ -43,7 +43,7 @@ pub struct Snapshot {
 }
 
 fn missing(message: String) -> Failure {
-    Failure { code: MISSING, message }
+    Failure::new(MISSING, message)
 }
 
 impl Judge {
@@ -104,7 +104,7 @@ impl Judge {
             return Ok(());
         }
         let message = format!("the judge ended with {status}; what it said stands above");
-        Err(Failure { code: 1, message })
+        Err(Failure::new(1, message))
     }
 
     /// Has the statistics that the file `request` names computed again, on two processes; says whether all agree.
@@ -119,7 +119,7 @@ impl Judge {
             Some(DIFFERS) => Ok(false),
             _ => {
                 let message = format!("the judge ended with {status}; what it said stands above");
-                Err(Failure { code: 1, message })
+                Err(Failure::new(1, message))
             }
         }
     }

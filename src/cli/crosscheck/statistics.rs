@@ -2,7 +2,7 @@
 //!
 //! The judge is told what metrics mean and where papers lie, and nothing else of what is computed here.
 
-use super::super::places::{Places, papers};
+use super::super::places::{Places, home, papers};
 use super::super::{Failure, Which};
 use super::FOLDER;
 use super::python::Judge;
@@ -36,7 +36,7 @@ pub fn run(paper: Option<&str>, out: Option<&Path>, python: Option<&str>) -> Res
             )));
         }
     }
-    let judge = Judge::ready(python, Path::new(FOLDER))?;
+    let judge = Judge::ready(python, &home(None)?.join(FOLDER))?;
     let request = out.unwrap_or(Path::new("")).join(FOLDER).join(REQUEST);
     std::fs::create_dir_all(request.parent().unwrap_or(Path::new("")))?;
     write_whole(&request, format!("{:#}\n", asked(&places)).as_bytes())?;

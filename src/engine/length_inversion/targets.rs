@@ -1,4 +1,4 @@
-//! How easily other lengths would have been met.
+//! How many other lengths some pair would have met as well: the null rate of an identification.
 
 use super::choices::{self, Choices, Match};
 use super::union;

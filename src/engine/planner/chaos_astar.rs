@@ -201,6 +201,10 @@ impl Successors for ChaosPart<'_> {
 }
 
 impl Planner for Ready {
+    fn draws(&self) -> bool {
+        true
+    }
+
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
         let mut part = ChaosPart {

@@ -102,6 +102,11 @@ pub trait Planner: Send + Sync {
     /// Whether [`Ending::NoPath`] proves that the world's graph has no path.
     fn is_complete(&self) -> bool;
 
+    /// Whether what it returns depends on the request's seed: only then does it run on several.
+    fn draws(&self) -> bool {
+        false
+    }
+
     /// Whether its path may leave the graph of the world for any free segment; the verifier then judges segments and not
     /// moves.
     fn is_any_angle(&self) -> bool {

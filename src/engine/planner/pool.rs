@@ -1,4 +1,4 @@
-//! A pool of search memory, so that a query need not allocate what an earlier query has left.
+//! A pool of search memory, which later queries use again instead of allocating.
 
 use std::sync::Mutex;
 

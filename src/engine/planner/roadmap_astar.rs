@@ -7,7 +7,7 @@ use crate::search::{
 };
 use crate::space::WorldKind;
 use crate::space::roadmap::{Extent, Roadmap};
-use base::settings::{Accepted, Settings, SettingsError};
+use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -38,21 +38,20 @@ blind = true
 goal_shot = "never"
 path = "parents"
 "#,
-    build: Build::Planner(|settings| {
-        let read: RoadmapAstar = settings.read()?;
-        read.check(settings)?;
-        Ok(Box::new(read))
-    }),
+    build: Build::Planner(|settings| Ok(Box::new(settings.read::<RoadmapAstar>()?))),
 };
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct RoadmapAstar {
     /// How many samples: N.
+    #[schemars(range(min = 1))]
     samples: u32,
     /// How far apart neighbours may be: ρ.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     neighbour_mm: f64,
     /// At most this many nearest samples are neighbours of a node.
+    #[schemars(range(min = 1))]
     nearest: Option<u32>,
     /// What g counts.
     cost: CostSetting,
@@ -95,20 +94,6 @@ enum PathSetting {
 }
 
 impl RoadmapAstar {
-    fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
-        if self.samples == 0 {
-            return Err(settings.error_at("samples", "samples is 0; at least 1 is accepted"));
-        }
-        if !self.neighbour_mm.is_finite() || self.neighbour_mm <= 0.0 {
-            let message = format!("neighbour_mm is {}; a length above 0 is accepted", self.neighbour_mm);
-            return Err(settings.error_at("neighbour_mm", message));
-        }
-        if self.nearest == Some(0) {
-            return Err(settings.error_at("nearest", "nearest is 0; at least 1 is accepted, or leave it out"));
-        }
-        Ok(())
-    }
-
     fn extent(&self) -> Extent {
         Extent { samples: self.samples, radius_mm: self.neighbour_mm }
     }

@@ -1,8 +1,9 @@
 //! A yardstick for path lengths: a visibility graph over points sampled on the obstacles' edges, then each point
 //! moved along its edge to where the path is shortest.
 //!
-//! A shortest path among polyhedra bends on edges only, so the sampled graph's optimum is above the true one by the
-//! spacing's share, and sliding takes most of that away. It is no lower bound: it is a path.
+//! A shortest path among polyhedra bends on edges only. The optimum of the sampled graph exceeds the true one by an amount that
+//! shrinks with the spacing, and moving the points along their edges removes most of it. The result is a path, and so no
+//! lower bound.
 
 use super::key_nodes::{GUARDED, key};
 use super::polyhedra::{Posed, plan};

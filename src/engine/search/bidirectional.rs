@@ -1,4 +1,4 @@
-//! Two sides that search towards each other.
+//! Bidirectional search: one side from the start, one from the goal.
 //!
 //! Side 0 starts at the start, side 1 at the goal; a path is the two chains joined at the meeting node. Both use
 //! one graph, whose steps must be symmetric. Each side is the same search as [`Search`](super::Search) runs and

@@ -2,11 +2,12 @@
 //!
 //! It is [`Search`](super::Search) over [`GridGraph`](super::GridGraph) with [`euclidean_to`](super::euclidean_to),
 //! [`sum`](super::sum) and [`Heap`](super::Heap), where [`Update`](super::Update) lowers and reopens nothing, and
-//! returns the same lengths up to a bound; a test holds the two equal. What makes it fast: the way that opens a node
-//! stays its way, so that the goal's length is known once it is opened and a cell opened before needs no second
-//! look; cells not opened yet are bits, those around a cell three times three of them; nodes whose f exceeds the
-//! bound are noted as opened and not offered; open nodes lie in buckets of f, and only those of the bucket in hand are
-//! put in order.
+//! returns the same lengths up to a bound; a test holds the two equal. What makes it fast:
+//!
+//! - The first way to a node is final. The length is known when the goal is opened, and an opened cell is never looked at again.
+//! - Unopened cells are bits; the neighbours of a cell are nine of them.
+//! - A node whose f exceeds the bound is marked as opened and never enters OPEN.
+//! - Open nodes lie in buckets of f, and only the current bucket is sorted.
 
 use super::buckets::Buckets;
 use super::cost::{Cost as _, Octile, quantised};

@@ -1,8 +1,8 @@
 //! Least costs from one cell on up to 64 grids of one size at once.
 //!
-//! What [`OctileAstar::flood`](super::OctileAstar::flood) finds grid by grid; a test holds the two equal. A set of grids
-//! is the bits of a word, and a cell is looked at once for all grids on which it costs the same. Grids that differ
-//! in few cells thus cost little more than one.
+//! It finds what [`OctileAstar::flood`](super::OctileAstar::flood) finds on each grid alone; a test holds the two equal. A
+//! set of grids is the bits of a word, and a cell is expanded once for all grids on which it costs the same. Grids that
+//! differ in few cells thus cost little more than one.
 
 use super::SearchError;
 use super::buckets::Buckets;

@@ -1,11 +1,15 @@
 //! A* on 8-connected grids with the octile distance, specialised for speed.
 //!
 //! It is [`Search`](super::Search) over [`GridGraph`](super::GridGraph), [`ScaledOctile`] and
-//! [`Buckets`](super::Buckets) with everything generic folded in, and returns the same costs and counters; a test
-//! holds the two equal. What makes it fast: g lies above a base that falls from query to query, so that whatever an
-//! earlier query left behind is larger than any g of this one and nothing is cleared; parents are recovered from
-//! g; a row is padded to a power of two, so that columns and rows are bits of an index; empty rows below and above keep
-//! every neighbour inside the arrays, so that a forbidden move is one that improves nothing and costs no branch.
+//! [`Buckets`](super::Buckets), written out for one case, and returns the same costs and counters; a test holds the
+//! two equal. What makes it fast:
+//!
+//! - Nothing is cleared between queries. Each query counts g from a lower base than the one before, so that every g left
+//!   behind is larger than any of its own.
+//! - Parents are not stored; they are recovered from g.
+//! - A row is padded to a power of two, so that column and row are bits of an index.
+//! - Empty rows above and below keep every neighbour inside the arrays. A forbidden move then improves nothing and needs no
+//!   branch.
 //!
 //! Costs are ordered in units of 985 and 1393, which is exact while ways to one cell differ by less than 985 in
 //! their diagonal moves ([`ScaledOctile`]).

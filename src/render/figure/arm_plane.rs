@@ -21,6 +21,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "arm_plane",
     about: "a planar arm among obstacles: zones, paths of the tip, the arm at stations along them; or both postures at the goal",
+    statistic: "One stored trial a panel.",
     settings: Accepted::of::<ArmPlane>(),
     example: r#"
 stations = 7

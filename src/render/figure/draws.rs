@@ -19,6 +19,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "draws",
     about: "cumulative distributions of our draws with the printed number marked, one panel a claim",
+    statistic: "Cumulative share of the draws that have the claim's statistic, others left out, the outermost hundredth on either side cut off; {n}.",
     settings: Accepted::of::<Draws>(),
     example: r#"
 columns = 4

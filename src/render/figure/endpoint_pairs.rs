@@ -13,6 +13,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "endpoint_pairs",
     about: "where pairs of end points lie that have the printed lengths, one series a variant",
+    statistic: "Every pair that was found; nothing is left out.",
     settings: Accepted::of::<EndpointPairs>(),
     example: r#"
 problem = "workspace"

@@ -20,6 +20,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "grid_search",
     about: "searches on grid maps: opened cells of each side, then or by moments, paths, bends; one panel a trial or moment",
+    statistic: "One stored trial a panel.",
     settings: Accepted::of::<GridSearch>(),
     example: r#"
 problems = ["W1"]

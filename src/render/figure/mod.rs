@@ -24,6 +24,7 @@ use super::RenderError;
 use super::chart::Sheet;
 use super::latex::Table;
 use crate::analysis::evidence::{Evidence, Run};
+use crate::analysis::tabulated::{Trials, trials};
 use crate::analysis::verdict::Verdicts;
 use crate::study::Study;
 use crate::study::paper::{Claim, Paper};
@@ -100,12 +101,23 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
+    /// What it shows of how many, and what it leaves out, for captions; `{n}` stands for the number of draws and trials.
+    pub statistic: &'static str,
     /// The shape of its settings, which documents them.
     pub settings: Accepted,
     /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
     pub example: &'static str,
     /// How to build it from its settings.
     pub build: fn(&Settings, &Study, &Paper) -> Result<Box<dyn Kind>, SettingsError>,
+}
+
+/// What stands below a figure: its caption, and what its kind shows of how many draws and trials.
+pub fn caption(spec: &FigureSpec, run: &Run<'_>) -> String {
+    let Some(entry) = find(spec.kind.get_ref()) else { return spec.caption.clone() };
+    let settings = spec.settings.as_ref().map(|settings| settings.get_ref());
+    let Trials { draws, solved, all } = trials(run, settings);
+    let n = format!("n = {draws} draws, {solved} of {all} trials solved");
+    format!("{} {}", spec.caption, entry.statistic.replace("{n}", &n))
 }
 
 /// Every kind, in the order of their names.
@@ -218,27 +230,29 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
     };
     let kind = (entry.build)(&settings, study, paper).map_err(|error| match figure.settings {
         Some(_) => error,
-        None => study.document.error(
-            figure.id.span(),
-            format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message()),
-        ),
+        None => {
+            let message = format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message());
+            study.document.error(figure.id.span(), message).about("settings")
+        }
     })?;
-    check_kept(figure, study, kind.as_ref())?;
+    if !["figure", "keep"].iter().any(|key| study.document.is_part(key)) {
+        check_kept(figure, study, kind.as_ref())?;
+    }
     Ok(kind)
 }
 
 /// Refuses a figure that draws what no trial of the study would keep.
 fn check_kept(figure: &FigureSpec, study: &Study, kind: &dyn Kind) -> Result<(), SettingsError> {
-    let Some(Shown { problems, contender, draw }) =
-        kind.shown().into_iter().find(|shown| !shown.is_kept(study))
-    else {
-        return Ok(());
-    };
-    let (id, replicates) = (figure.id.get_ref(), draw + 1);
-    let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));
-    let message = format!(
-        "figure `{id}` draws what is kept of trials on `{problems}`, and none is kept; accepted is \
-         shows = [{{ problems = \"{problems}\"{by}, replicates = {replicates} }}]"
-    );
-    Err(study.document.error(figure.id.span(), message))
+    let mut faults = Faults::default();
+    for Shown { problems, contender, draw } in kind.shown().into_iter().filter(|shown| !shown.is_kept(study))
+    {
+        let (id, replicates) = (figure.id.get_ref(), draw + 1);
+        let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));
+        let message = format!(
+            "figure `{id}` draws what is kept of trials on `{problems}`, and none is kept; accepted is \
+             shows = [{{ problems = \"{problems}\"{by}, replicates = {replicates} }}]"
+        );
+        faults.add(study.document.error(figure.id.span(), message));
+    }
+    faults.done()
 }

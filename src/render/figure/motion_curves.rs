@@ -16,6 +16,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "motion_curves",
     about: "how tip, posture or joints change along a motion, over its time or the tip's way; one panel a contender or joint",
+    statistic: "One stored trial a panel.",
     settings: Accepted::of::<Read>(),
     example: r#"
 panels = [{ problem = "C1", contenders = ["This method"] }]

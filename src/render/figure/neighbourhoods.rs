@@ -15,6 +15,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "neighbourhoods",
     about: "the neighbours of a lattice point, one panel a contender; those that were drawn, where some are",
+    statistic: "One draw of each.",
     settings: Accepted::of::<Neighbourhoods>(),
     example: r#"
 problem = "case 1"

@@ -20,6 +20,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "paired_boxes",
     about: "a metric by query and contender, boxes over the draws on which all compared contenders solve the query, and savings",
+    statistic: "Median, quartiles, 5 and 95 %; a draw on which a contender does not solve the query is left out; {n}.",
     settings: Accepted::of::<Read>(),
     example: r#"
 problems = "cell"

@@ -16,6 +16,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "plane_search",
     about: "a particle's searches on one roadmap in the plane: nodes closed so far, shots at the goal, paths",
+    statistic: "One stored trial a panel.",
     settings: Accepted::of::<PlaneSearch>(),
     example: r#"
 problems = "plane"

@@ -22,6 +22,7 @@ use std::sync::Arc;
 pub static ENTRY: Entry = Entry {
     name: "polyhedra",
     about: "tip paths, or the whole arm along its path, among solid polyhedra; one row a contender, one panel a view",
+    statistic: "One stored trial a panel.",
     settings: Accepted::of::<Read>(),
     example: r#"
 problem = "E1"

@@ -1,7 +1,7 @@
 //! What became of the pairs that roadmaps tried: shares by reason, mean over draws.
 
 use super::{Entry, Kind, Scene, ask};
-use crate::analysis::statistic::mean;
+use crate::analysis::tabulated::mean_percent;
 use crate::render::RenderError;
 use crate::render::canvas::{Align, Stand, Type};
 use crate::render::chart::marks::Note;
@@ -18,6 +18,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "rejections",
     about: "what became of the pairs of samples that roadmaps tried, by the first reason: mean share over draws",
+    statistic: "Means over draws; a draw without such pairs is left out; {n}.",
     settings: Accepted::of::<Rejections>(),
     example: r#"
 problems = ["cell"]
@@ -79,16 +80,14 @@ impl Rejections {
         let width = 0.8 / self.problems.len() as f64;
         for (index, problems) in self.problems.iter().enumerate() {
             let rows = Self::rows(scene, problems);
-            let share = |row: &&PreparedRow, column: &str| {
+            let all = |row: &&PreparedRow| {
                 let out: f64 = left_out.iter().filter_map(|column| count(row, column)).sum();
-                let all = Some(count(row, "pairs")? - out).filter(|all| *all > 0.0);
-                Some(100.0 * count(row, column)? / all?)
+                Some(count(row, "pairs")? - out)
             };
             let mut bars = Vec::new();
             for (place, (column, _)) in named.iter().enumerate() {
-                let shares: Vec<f64> = rows.iter().filter_map(|row| share(row, column)).collect();
                 // Where nothing was counted there is no share, and no bar.
-                let Some(mean) = mean(&shares) else { continue };
+                let Some(mean) = mean_percent(&rows, |row| count(row, column), all) else { continue };
                 let left = place as f64 - 0.4 + index as f64 * width;
                 bars.push([left, left + width, mean]);
                 let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Base);

@@ -17,6 +17,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "saving_over",
     about: "one contender's saving over another along a column of the problem, one panel a problem group",
+    statistic: "One dot a draw, a draw that one of both does not solve left out; {n}.",
     settings: Accepted::of::<Settings>(),
     example: r#"
 problems = ["disjoint", "overlapping"]

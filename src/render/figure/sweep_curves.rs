@@ -20,6 +20,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "sweep_curves",
     about: "along a sweep: shares of solved queries with simultaneous bands or draw by draw, printed rows on top; or metrics",
+    statistic: "Shares are means over draws, unsolved queries counted as such; other metrics are of single trials; {n}.",
     settings: Accepted::of::<Read>(),
     example: r#"
 problems = "cell"

@@ -6,6 +6,7 @@ use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Draw, Selection};
 use crate::analysis::statistic::{OfAll, median, plan};
 use crate::render::RenderError;
+use crate::render::chart::labels::Labels;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{BLACK, SERIES, Stroke, WHITE, Width, series_color, series_marker};
@@ -19,6 +20,7 @@ use stats::bootstrap::Estimate;
 pub static ENTRY: Entry = Entry {
     name: "tradeoff",
     about: "one metric against another, a point a contender: means with intervals both ways, or all trials and their medians",
+    statistic: "Means over draws that every contender solves, or medians with failures at infinity, which are not drawn; {n}.",
     settings: Accepted::of::<Tradeoff>(),
     example: r#"
 x = "opened"
@@ -130,11 +132,15 @@ impl Ready {
         for (label, all) in series.iter().filter(|(_, all)| all.len() > 1) {
             panel.add(marked(all.clone(), 0.9, ask::place(scene, label), 0.45));
         }
+        let (is_named, mut names) = (series.len() > SERIES.len(), Vec::new());
         for (label, all) in &series {
             let middle = [0, 1].map(|axis| median(&all.iter().map(|point| point[axis]).collect::<Vec<_>>()));
             let at = middle[0].zip(middle[1]).map(|(x, y)| [x, y]);
-            panel.add(marked(at.into_iter().collect(), 3.6, ask::place(scene, label), 0.0).labelled(*label));
+            let point = marked(at.into_iter().collect(), 3.6, ask::place(scene, label), 0.0);
+            names.extend(at.filter(|_| is_named).map(|at| (at, (*label).clone())));
+            panel.add(if is_named { point } else { point.labelled(*label) });
         }
+        panel.add(Labels { points: names });
         Ok(panel)
     }
 }

@@ -21,6 +21,7 @@ use std::sync::Arc;
 pub static ENTRY: Entry = Entry {
     name: "work_cell",
     about: "a work cell from two sides: its robot at several poses, or the ways of its tool by contenders on one query",
+    statistic: "One stored trial a way.",
     settings: Accepted::of::<WorkCell>(),
     example: r#"
 problems = "cell"
@@ -127,7 +128,8 @@ fn floor(scene: &Scene<'_>, draw: &Arc<DrawKey>, stills: [&Exhibit; 2], height: 
 /// The parts of `body` that do not stand where they stand in `first`.
 fn moved(body: &Exhibit, first: &Exhibit) -> Exhibit {
     let parts = body.values.chunks(body.width).zip(first.values.chunks(first.width));
-    let stands = |(part, other): &(&[f64], &[f64])| part.iter().zip(*other).all(|(a, b)| (a - b).abs() <= STILL_MM);
+    let stands =
+        |(part, other): &(&[f64], &[f64])| part.iter().zip(*other).all(|(a, b)| (a - b).abs() <= STILL_MM);
     let values = parts.filter(|pair| !stands(pair)).flat_map(|(part, _)| part.to_vec()).collect();
     Exhibit { values, ..body.clone() }
 }
@@ -178,7 +180,8 @@ impl WorkCell {
 
     /// The ways of the tool, one column a contender.
     fn ways(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let shared = |exhibit| ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, exhibit);
+        let shared =
+            |exhibit| ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, exhibit);
         let replicate = shared("trajectory").or_else(|_| shared("way_mm"))?;
         let mut sheet = Sheet::new(Width::Double, self.contenders.len(), 200.0);
         if let Some(rank) = self.rank(scene, replicate) {
@@ -206,10 +209,14 @@ impl WorkCell {
         let pale = Paint { outlined: false, ..Paint::solid(GREY.mixed(WHITE, 0.45)) };
         add_capsules(&mut solids, body, pale);
         let row = ask::trial(scene, &self.problems, replicate, Some(&self.query), contender)?;
-        let stops = ask::exhibit(scene, &row.key, "trajectory").or_else(|_| ask::exhibit(scene, &row.key, "way_mm"))?;
+        let stops = ask::exhibit(scene, &row.key, "trajectory")
+            .or_else(|_| ask::exhibit(scene, &row.key, "way_mm"))?;
         // The tip is the last of what is said of each stop.
-        let points: Vec<[f64; 3]> =
-            stops.values.chunks(stops.width).map(|stop| [stop[stop.len() - 3], stop[stop.len() - 2], stop[stop.len() - 1]]).collect();
+        let points: Vec<[f64; 3]> = stops
+            .values
+            .chunks(stops.width)
+            .map(|stop| [stop[stop.len() - 3], stop[stop.len() - 2], stop[stop.len() - 1]])
+            .collect();
         let color = series_color(ask::series(scene, contender, index));
         for (name, at) in [("start", points.first()), ("goal", points.last())] {
             if let Some(at) = at {

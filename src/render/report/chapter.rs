@@ -3,8 +3,9 @@
 use super::details::SECTIONS;
 use super::{COLUMNS, Undrawn, begin_of_line, item, link, linked, paragraph, place, said};
 use crate::analysis::class::Verdict;
-use crate::analysis::evidence::Evidence;
+use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{Judged, Verdicts};
+use crate::render::figure::caption;
 use crate::render::prose::{markdown, prose, wrapped};
 use crate::render::tables::{self, short};
 use crate::render::{RenderError, results, state};
@@ -131,7 +132,11 @@ impl Page<'_> {
 
     /// A figure that lies in `folder`, with its caption.
     pub(super) fn figure(&self, figure: &FigureSpec, folder: &str) -> String {
-        let (id, caption) = (figure.id.get_ref(), format!("{}: {}", figure.id.get_ref(), figure.caption));
+        let id = figure.id.get_ref();
+        let of = |run: &&Run<'_>| run.study.figures.iter().any(|own| own.id == figure.id);
+        let caption =
+            self.evidence.runs().find(of).map_or_else(|| figure.caption.clone(), |run| caption(figure, run));
+        let caption = if caption.starts_with("Fig. ") { caption } else { format!("{id}: {caption}") };
         let image = match self.undrawn.iter().find(|undrawn| undrawn.id == *id) {
             Some(undrawn) => format!("**{id} could not be drawn: {}.**\n\n", markdown(&undrawn.why)),
             None => format!("![{id}]({folder}{id}.png)\n\n"),

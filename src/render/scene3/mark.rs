@@ -4,7 +4,7 @@ use super::order::{Item, Look, back_to_front};
 use super::{Camera, Scene, Vec3, along, dot, sub};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
 use crate::render::chart::{Key, Mark, View};
-use crate::render::style::{BLUE, Fill, GREEN, INK, Rgb, Stroke, TextSize, VERMILLION};
+use crate::render::style::{BLUE, Fill, GREEN, HAIR_PT, INK, Rgb, Stroke, TextSize, VERMILLION};
 
 /// A bar that shows how long a length looks.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,28 +127,78 @@ impl SceneMark {
     }
 }
 
-fn draw_face(canvas: &mut Canvas, lens: &Lens, item: &Item, color: Rgb, opacity: f64) {
-    let points: Vec<[f64; 2]> = item.points.iter().map(|&point| lens.at(point)).collect();
-    if opacity >= 1.0 {
-        canvas.face(&points, color);
-    } else {
-        canvas.polygon(&points, Some(Fill::sheer(color, opacity)), None);
-    }
+/// Pieces of one look that are drawn together, each with the room it takes on the page.
+struct Batch {
+    look: Look,
+    pieces: Vec<(Vec<[f64; 2]>, [f64; 4])>,
 }
 
-/// Draws faces one by one and line pieces that follow each other as one line, so that dashes run on.
-fn draw_items(canvas: &mut Canvas, lens: &Lens, items: &[Item]) {
+/// How many batches back a face looks for one of its colour.
+const LOOK_BACK: usize = 300;
+/// Faces with less on the page, square points, show nothing: the hairs of their neighbours cover them.
+const LEAST_FACE: f64 = 0.05;
+
+/// The least box around `points`, with room for a hair.
+fn room_of(points: &[[f64; 2]]) -> [f64; 4] {
+    let start = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    points.iter().fold(start, |[a, b, c, d], [x, y]| {
+        [a.min(x - HAIR_PT), b.min(y - HAIR_PT), c.max(x + HAIR_PT), d.max(y + HAIR_PT)]
+    })
+}
+
+fn meets(a: &[f64; 4], b: &[f64; 4]) -> bool {
+    a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
+}
+
+fn area(points: &[[f64; 2]]) -> f64 {
+    let next = points.iter().cycle().skip(1);
+    points.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>().abs() / 2.0
+}
+
+/// Items from back to front in batches: a face joins an earlier one of its colour if nothing drawn since meets it; line pieces that
+/// follow each other are one line, so that dashes run on.
+fn batches(lens: &Lens, items: &[Item]) -> Vec<Batch> {
     let follows = |a: &Item, b: &Item| {
         let alike = matches!((a.look, b.look), (Look::Line(one), Look::Line(two)) if one == two);
         alike && a.points.last() == b.points.first()
     };
+    let mut batches: Vec<Batch> = Vec::new();
     for run in items.chunk_by(follows) {
-        match run[0].look {
-            Look::Face(_, color, opacity) => draw_face(canvas, lens, &run[0], color, opacity),
-            Look::Line(stroke) => {
-                let rest = run.iter().flat_map(|item| item.points.iter().skip(1));
-                let chain = run[0].points.iter().take(1).chain(rest);
-                canvas.polyline(&chain.map(|&point| lens.at(point)).collect::<Vec<_>>(), &stroke);
+        let rest = run.iter().skip(1).flat_map(|item| item.points.iter().skip(1));
+        let points: Vec<[f64; 2]> = run[0].points.iter().chain(rest).map(|&point| lens.at(point)).collect();
+        let (look, room) = (run[0].look, room_of(&points));
+        let own = opaque(look);
+        if own.is_some() && area(&points) < LEAST_FACE {
+            continue;
+        }
+        let free = |batch: &&mut Batch| !batch.pieces.iter().any(|(_, other)| meets(&room, other));
+        let mut before = batches.iter_mut().rev().take(LOOK_BACK);
+        let joined = before.find(|batch| own.is_some() && opaque(batch.look) == own || !free(batch));
+        match joined.filter(|batch| own.is_some() && opaque(batch.look) == own) {
+            Some(batch) => batch.pieces.push((points, room)),
+            None => batches.push(Batch { look, pieces: vec![(points, room)] }),
+        }
+    }
+    batches
+}
+
+/// The colour of a face that nothing shows through.
+fn opaque(look: Look) -> Option<Rgb> {
+    match look {
+        Look::Face(_, color, opacity) if opacity >= 1.0 => Some(color),
+        _ => None,
+    }
+}
+
+fn draw_items(canvas: &mut Canvas, lens: &Lens, items: &[Item]) {
+    for Batch { look, pieces } in batches(lens, items) {
+        for (points, _) in &pieces {
+            match look {
+                Look::Face(_, color, opacity) if opacity >= 1.0 => canvas.face(points, color),
+                Look::Face(_, color, opacity) => {
+                    canvas.polygon(points, Some(Fill::sheer(color, opacity)), None)
+                }
+                Look::Line(stroke) => canvas.polyline(points, &stroke),
             }
         }
     }

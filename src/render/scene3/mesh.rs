@@ -146,7 +146,8 @@ fn capsule_faces() -> Vec<Vec<usize>> {
 fn lit(color: Rgb, outward: Vec3, camera: &Camera) -> Rgb {
     let [right, up, back] = camera.axes();
     let light = unit(along(along(along([0.0; 3], right, -0.45), up, 0.75), back, 0.7));
-    let share = dot(outward, light).max(0.0);
+    // In steps, so that most neighbours share a colour and one path of the SVG.
+    let share = (dot(outward, light).max(0.0) * 12.0).round() / 12.0;
     if share > 0.8 {
         color.mixed(WHITE, (share - 0.8) * 1.2)
     } else {

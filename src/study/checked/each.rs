@@ -17,13 +17,13 @@ pub(super) fn expanded(
     faults: &mut Faults,
 ) -> Vec<ProblemsSpec> {
     let mut all = Vec::new();
-    for group in problems {
-        let Some(pattern) = &group.each else {
-            all.push(group);
+    for (place, mut group) in problems.into_iter().enumerate() {
+        let Some(pattern) = group.each.take() else {
+            all.push(ProblemsSpec { place, ..group });
             continue;
         };
         match inputs.list(pattern.get_ref()) {
-            Ok(files) => all.extend(files.iter().map(|file| of_file(&group, file))),
+            Ok(files) => all.extend(files.iter().map(|file| of_file(&group, place, file))),
             Err(message) => faults.add(document.error(pattern.span(), message)),
         }
     }
@@ -31,7 +31,7 @@ pub(super) fn expanded(
 }
 
 /// The group of one file, whose name its label ends in.
-fn of_file(group: &ProblemsSpec, file: &str) -> ProblemsSpec {
+fn of_file(group: &ProblemsSpec, place: usize, file: &str) -> ProblemsSpec {
     let stem = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
     let label = format!("{} {stem}", group.label.get_ref());
     ProblemsSpec {
@@ -41,6 +41,7 @@ fn of_file(group: &ProblemsSpec, file: &str) -> ProblemsSpec {
         replicates: group.replicates,
         draw: group.draw.clone(),
         file: Some(file.to_owned()),
+        place,
         settings: group.settings.clone(),
     }
 }

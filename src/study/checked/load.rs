@@ -6,9 +6,10 @@ use super::super::family::Family;
 use super::super::group::Families;
 use super::super::inputs::Inputs;
 use super::super::name::{self, slug};
-use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StageSpec, StudySpec, SweepSpec};
+use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
-use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint, each};
+use super::sizes::SWEPT;
+use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint, columns_of, each};
 use base::settings::{Document, Faults, SettingsError, Spanned, did_you_mean, none_called};
 use engine::planner::{self, Build};
 use engine::space::roadmap::Extent;
@@ -26,15 +27,32 @@ impl Study {
     /// Every name that does not exist, every settings table that its entry does not understand, every label
     /// that is used twice: all of them at once, each with file, line, column, what was found and what is accepted.
     pub fn load(path: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
-        let document = Document::open(path)?;
-        let mut spec: StudySpec = document.read()?;
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let mut faults = Faults::default();
-        spec.problems = each::expanded(spec.problems, &document, inputs, &mut faults);
-        let study = Self::resolve(name, spec, &document, &mut faults);
-        study.check(inputs, &mut faults)?;
-        faults.done()?;
-        Ok(study)
+        let study = Self::gather(&Document::open(path)?, inputs, &mut faults)?;
+        match study {
+            Some(study) if faults.is_empty() => Ok(study),
+            _ => Err(faults.error().into()),
+        }
+    }
+
+    /// The study in `document` as far as it can be read, if at all; everything that is wrong goes to `faults`.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub(in crate::study) fn gather(
+        document: &Arc<Document>,
+        inputs: &Inputs,
+        faults: &mut Faults,
+    ) -> Result<Option<Self>, StudyError> {
+        let name = document.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let Some(mut spec) = faults.keep(document.read::<StudySpec>()) else {
+            faults.unread(name);
+            return Ok(None);
+        };
+        spec.problems = each::expanded(spec.problems, document, inputs, faults);
+        let mut study = Self::resolve(name, spec, document, faults);
+        study.check(inputs, faults)?;
+        Ok(Some(study))
     }
 
     /// The study as far as its names exist; what does not goes to `faults`.
@@ -49,7 +67,6 @@ impl Study {
             .as_ref()
             .map(|task| look_up(document, "task", task, task::find, task::REGISTRY.iter().map(|e| e.name)));
         Self {
-            name,
             paper: spec.paper.into_inner(),
             question: spec.question,
             seed: spec.seed,
@@ -62,8 +79,14 @@ impl Study {
             ),
             searched: spec.searched,
             fitted_to: spec.fitted_to.into_iter().map(Spanned::into_inner).collect(),
-            groups: spec.problems.iter().filter_map(|p| faults.keep(group(document, p))).collect(),
-            contenders: spec.contenders.iter().filter_map(|c| faults.keep(contender(document, c))).collect(),
+            groups: read_all(&spec.problems, |_, p| (&p.label, group(document, p)), &name, faults),
+            contenders: read_all(
+                &spec.contenders,
+                |at, c| (&c.label, contender(document, at, c)),
+                &name,
+                faults,
+            ),
+            name,
             sweeps: spec.sweeps.into_iter().map(sweep).collect(),
             readings: spec.readings.into_iter().map(reading).collect(),
             explore: spec.explore,
@@ -76,79 +99,74 @@ impl Study {
         }
     }
 
-    /// Builds everything once under every single option, so that nothing can fail for its settings later.
-    fn check(&self, inputs: &Inputs, faults: &mut Faults) -> Result<(), StudyError> {
+    /// Builds everything once under every single option, so that nothing can fail for its settings later. What cannot be
+    /// built is left out.
+    fn check(&mut self, inputs: &Inputs, faults: &mut Faults) -> Result<(), StudyError> {
         let path = self.document.path();
         let absolute = fs::canonicalize(path).map_err(StudyError::io(path, "opening the study"))?;
         let folder = absolute.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
-        if folder != self.paper {
+        if folder != self.paper && !self.paper.is_empty() {
             let message =
                 format!("`paper` is `{}`, but the study lies in the folder of `{folder}`", self.paper);
             faults.add(self.document.error_at("paper", message));
         }
         faults.keep((self.task.build)(&self.task_settings));
         faults.keep((self.task.build)(&self.quick_task_settings()));
-        if faults.is_empty() {
-            self.check_sweeps(faults);
-        }
-        if !self.check_defaults(faults) {
-            return Ok(());
-        }
-        match self.single_options() {
-            Ok(points) => {
-                let mut known = Families::default();
-                let mut check = |point| self.check_point(point, inputs, &mut known, faults);
-                points.iter().try_for_each(&mut check)?;
-                if faults.is_empty() {
-                    self.check_ends(&points[0], inputs, &mut known, faults)
-                } else {
-                    Ok(())
-                }
+        self.check_sweeps(faults);
+        self.check_defaults(faults);
+        let mut known = Families::default();
+        if let Some(points) = keep(faults, self.single_options())? {
+            for point in &points {
+                self.check_point(point, inputs, &mut known, faults)?;
             }
-            Err(error) => keep(faults, Err(error)).map(|_: Option<()>| ()),
+            let families = self.check_ends(&points[0], inputs, &mut known, faults)?;
+            self.check_sizes(&families, faults);
         }
+        Ok(())
     }
 
-    /// Whether each reading's default is one of its options.
-    fn check_defaults(&self, faults: &mut Faults) -> bool {
-        let mut is_right = true;
-        for (index, reading) in self.readings.iter().enumerate() {
+    /// Refuses readings whose default is not one of their options; the first option stands in for it.
+    fn check_defaults(&mut self, faults: &mut Faults) {
+        for (index, reading) in self.readings.iter_mut().enumerate() {
             let (id, default) = (&reading.id, &reading.default);
-            if !reading.options.contains_key(default) {
-                let known: Vec<&str> = reading.options.keys().map(String::as_str).collect();
-                let hint = did_you_mean(default, known.iter().copied());
-                let message =
-                    format!("reading `{id}` has no option `{default}`{hint}; it has {}", known.join(", "));
-                faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
-                is_right = false;
+            if reading.options.contains_key(default) {
+                continue;
             }
+            let known: Vec<&str> = reading.options.keys().map(String::as_str).collect();
+            let hint = did_you_mean(default, known.iter().copied());
+            let message =
+                format!("reading `{id}` has no option `{default}`{hint}; it has {}", known.join(", "));
+            faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
+            reading.default = reading.options.keys().next().cloned().unwrap_or_default();
         }
-        is_right
+        self.readings.retain(|reading| !reading.options.is_empty());
     }
 
     /// Refuses problems whose start or goal is in collision under the default reading.
     ///
     /// Under other readings, and in groups that vary another group of their family, an end may be in collision: the
-    /// trials are then rows that say so.
+    /// trials are then rows that say so. The families of the groups are given back.
     fn check_ends(
         &self,
         default: &ReadingChoice,
         inputs: &Inputs,
         known: &mut Families,
         faults: &mut Faults,
-    ) -> Result<(), StudyError> {
-        let mut posed = BTreeMap::new();
+    ) -> Result<Vec<(&Group, Arc<dyn Family>)>, StudyError> {
+        let (mut families, mut posed) = (Vec::new(), BTreeMap::new());
         for group in &self.groups {
-            let ends = known.of(group, default, inputs)?.check_ends();
+            let Some(family) = keep(faults, known.of(group, default, inputs))? else { continue };
+            let ends = family.check_ends();
             let of_family = posed.entry(group.family.name).or_insert(ends.clone());
             if ends.is_ok() {
                 *of_family = ends;
             }
+            families.push((group, family));
         }
         for ends in posed.into_values() {
             faults.keep(ends);
         }
-        Ok(())
+        Ok(families)
     }
 
     fn check_point(
@@ -165,8 +183,15 @@ impl Study {
         let kinds: BTreeSet<_> = families.iter().map(|(_, family)| family.world()).collect();
         for contender in &self.contenders {
             for sweep in self.sweep_points() {
-                if let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) {
-                    faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), &families));
+                let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) else { continue };
+                faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), &families));
+                if contender.repeats > 1 && !pipeline.planner.draws() {
+                    let message = format!(
+                        "`repeats` is {}, and contender `{}` draws nothing at random; 1 is accepted",
+                        contender.repeats, contender.label
+                    );
+                    let place = format!("contender.{}.repeats", contender.place);
+                    faults.add(self.document.error_at(&place, message));
                 }
             }
             for stage in &contender.stages {
@@ -185,36 +210,71 @@ impl Study {
         Ok(())
     }
 
-    fn check_sweeps(&self, faults: &mut Faults) {
-        let mut keys = BTreeSet::new();
-        for (index, sweep) in self.sweeps.iter().enumerate() {
-            let wrong = if sweep.key_values().is_none() {
-                Some("has a value that is neither a number nor a word nor a truth value")
-            } else {
-                (!keys.insert(&sweep.key)).then_some("is the second over this setting; one is accepted")
+    /// Refuses sweeps that no record could name or that change nothing, and leaves out the former.
+    fn check_sweeps(&mut self, faults: &mut Faults) {
+        let used = self.stage_names();
+        let (mut keys, mut kept, mut points) = (BTreeSet::new(), Vec::new(), 1_usize);
+        for (index, sweep) in std::mem::take(&mut self.sweeps).into_iter().enumerate() {
+            let wrong = match sweep.key_values() {
+                None => Some("has a value that is neither a number nor a word nor a truth value"),
+                Some(values) if values.is_empty() => Some("has no value; one or more is accepted"),
+                _ => (!keys.insert(sweep.key.clone()))
+                    .then_some("is the second over this setting; one is accepted"),
             };
             if let Some(wrong) = wrong {
                 let message = format!("sweep `{}` {wrong}", sweep.key);
                 faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
+                faults.unread(format!("sweeps of {}", self.name));
                 continue;
             }
-            let used: BTreeSet<&str> = self.stage_names();
+            points = points.saturating_mul(sweep.values.len());
+            if points > SWEPT {
+                let message = format!(
+                    "the values of the sweeps have {points} combinations; at most {SWEPT} are accepted"
+                );
+                faults.add(self.document.error_at(&format!("sweep.{index}.values"), message));
+                faults.unread(format!("sweeps of {}", self.name));
+                break;
+            }
             if !used.contains(sweep.of.as_str()) {
                 let hint = did_you_mean(&sweep.of, used.iter().copied());
                 let message = format!(
                     "sweep `{}` is over `{}`, which no contender uses{hint}; they use {}",
                     sweep.key,
                     sweep.of,
-                    Vec::from_iter(used).join(", ")
+                    Vec::from_iter(used.clone()).join(", ")
                 );
-                faults.add(self.document.error_at(&format!("sweep.{index}.of"), message));
+                faults.add(self.document.error_at(&format!("sweep.{index}.of"), message).about(&sweep.of));
             }
+            kept.push(sweep);
         }
+        self.sweeps = kept;
     }
 
     fn stage_names(&self) -> BTreeSet<&'static str> {
         self.contenders.iter().flat_map(|c| &c.stages).map(|stage| stage.entry.name).collect()
     }
+}
+
+/// Every entry that can be read; the others go to `faults` under their labels, and with them columns of the study.
+fn read_all<S, T>(
+    specs: &[S],
+    read: impl Fn(usize, &S) -> (&Spanned<String>, Result<T, SettingsError>),
+    study: &str,
+    faults: &mut Faults,
+) -> Vec<T> {
+    let mut all = Vec::new();
+    for (label, entry) in specs.iter().enumerate().map(|(place, spec)| read(place, spec)) {
+        match entry {
+            Ok(entry) => all.push(entry),
+            Err(fault) => {
+                faults.add(fault);
+                faults.unread(label.get_ref());
+                faults.unread(columns_of(study));
+            }
+        }
+    }
+    all
 }
 
 /// The value, if there is one; what is wrong with the study's text goes to `faults`, any other error is passed on.
@@ -255,7 +315,7 @@ fn check_selections(spec: &StudySpec, document: &Document, faults: &mut Faults) 
         if !known.contains(&name) {
             let hint = did_you_mean(name, known.iter().copied());
             let message = format!("no {what} is called `{name}`{hint}; they are {}", known.join(", "));
-            faults.add(document.error_at(&place, message));
+            faults.add(document.error_at(&place, message).about(name));
         }
     };
     let shown = spec.figures.iter().enumerate().flat_map(|(figure, spec)| {
@@ -342,6 +402,7 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
     };
     Ok(Group {
         label: spec.label.get_ref().clone(),
+        place: spec.place,
         family,
         replicates,
         draw: spec.draw.clone(),
@@ -350,15 +411,22 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
     })
 }
 
-fn contender(document: &Arc<Document>, spec: &ContenderSpec) -> Result<Contender, SettingsError> {
+fn contender(
+    document: &Arc<Document>,
+    place: usize,
+    spec: &ContenderSpec,
+) -> Result<Contender, SettingsError> {
     let label = spec.label.get_ref();
     let repeats = spec.repeats.unwrap_or(1);
-    let mut stages = vec![stage(document, label, &spec.planner, spec.settings.as_ref(), true)?];
-    for StageSpec { stage: name, settings } in &spec.then {
-        stages.push(stage(document, label, name, settings.as_ref(), false)?);
-    }
+    let mut faults = Faults::default();
+    let planner = faults.keep(stage(document, label, &spec.planner, spec.settings.as_ref(), true));
+    let then =
+        spec.then.iter().map(|then| stage(document, label, &then.stage, then.settings.as_ref(), false));
+    let stages = planner.into_iter().chain(then.filter_map(|stage| faults.keep(stage))).collect();
+    faults.done()?;
     Ok(Contender {
         label: label.clone(),
+        place,
         repeats,
         is_numbered: repeats > 1,
         stages,

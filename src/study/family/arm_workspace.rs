@@ -5,7 +5,7 @@ use crate::study::StudyError;
 use crate::study::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::ARM_COLUMNS;
-use base::settings::{Accepted, Settings, SettingsError};
+use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::kinematics::planar_2r::Planar2r;
 use engine::planner::Invalid;
 use engine::space::{ArmRules, ArmWorld, Obstacle, TipLattice, WorldKind};
@@ -109,12 +109,14 @@ impl ArmWorkspace {
         };
         let obstacles = self.obstacles().map_err(|(key, message)| settings.error_at(&key, message))?;
         let world = ArmWorld::new(rules, obstacles.clone());
+        let mut faults = Faults::default();
         for query in &queries {
             for (what, key, point) in [("start", "start_cm", &query.start), ("goal", "goal_cm", &query.goal)]
             {
-                world.free_cell(what, point).map_err(refuse(key))?;
+                faults.keep(world.free_cell(what, point).map_err(refuse(key)));
             }
         }
+        faults.done()?;
         Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
     }
 

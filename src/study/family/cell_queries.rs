@@ -7,7 +7,7 @@ use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::ARM_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::seed;
-use base::settings::{Accepted, Document, Settings, SettingsError, Spanned};
+use base::settings::{Accepted, Document, Faults, Settings, SettingsError, Spanned};
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, Joints, Robot};
 use engine::planner::Invalid;
@@ -71,23 +71,28 @@ struct CellQueries {
     /// The file with the groups of poses that are started from and planned to.
     queries: String,
     /// How many samples the roadmap is built from.
-    #[schemars(range(max = 100_000))]
+    #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
     /// Which samples the number counts.
     counted: CountedSetting,
     /// Where samples are drawn from.
     region: Region,
     /// How far the tools of two samples may be apart to be tried as neighbours.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     radius_mm: f64,
     /// What moves straight between neighbours.
     path: PathSetting,
     /// How far the tool may move between two configurations that are checked.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     step_mm: f64,
     /// How far the tool may turn between two configurations that are checked.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     step_deg: f64,
     /// How far a joint may move between two of them before the path counts as broken.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     jump_deg: f64,
     /// How far the tool may turn along one local path.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     turn_deg: f64,
     /// What the end of a local path must be.
     end: EndSetting,
@@ -142,32 +147,14 @@ enum EndSetting {
 #[serde(deny_unknown_fields)]
 struct SpeedSetting {
     /// The greatest speed of the tool.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     tool_mm_s: f64,
     /// The greatest acceleration of the tool, in millimetres a second squared.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     acceleration_mm_s2: f64,
 }
 
 impl CellQueries {
-    /// The key of the first number that cannot be, and what is wrong with it.
-    fn fault(&self) -> Option<(&'static str, String)> {
-        let speed = self.speed.unwrap_or(SpeedSetting { tool_mm_s: 1.0, acceleration_mm_s2: 1.0 });
-        let numbers = [
-            ("radius_mm", self.radius_mm),
-            ("step_mm", self.step_mm),
-            ("step_deg", self.step_deg),
-            ("jump_deg", self.jump_deg),
-            ("turn_deg", self.turn_deg),
-            ("speed.tool_mm_s", speed.tool_mm_s),
-            ("speed.acceleration_mm_s2", speed.acceleration_mm_s2),
-        ];
-        let wrong = numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
-        let wrong =
-            wrong.map(|(key, value)| (key, format!("{key} is {value}; a finite number above 0 is accepted")));
-        wrong.or_else(|| {
-            (self.samples == 0).then(|| ("samples", "samples is 0; at least 1 is accepted".to_owned()))
-        })
-    }
-
     fn rules(&self) -> LineRules {
         LineRules {
             path: match self.path {
@@ -245,17 +232,19 @@ fn read_queries(document: &Document) -> Result<Placed, SettingsError> {
     Ok((queries, places))
 }
 
-/// The first end of a query that the arm cannot stand at in `cell`.
-fn unposed(cell: &Cell, document: &Document, (queries, places): &Placed) -> Option<SettingsError> {
-    queries.iter().zip(places).find_map(|(query, places)| {
-        let ends = [("start", &query.start), ("goal", &query.goal)].into_iter().zip(places);
-        ends.into_iter().find_map(|((what, end), place)| {
+/// That the arm can stand at all ends of queries in `cell`.
+fn posed(cell: &Cell, document: &Document, (queries, places): &Placed) -> Result<(), SettingsError> {
+    let mut faults = Faults::default();
+    for (query, places) in queries.iter().zip(places) {
+        for ((what, end), place) in [("start", &query.start), ("goal", &query.goal)].into_iter().zip(places) {
             let pose: Joints = end.as_slice().try_into().expect("a pose has six angles");
-            let refusal = cell.refusal(&pose)?;
-            let message = format!("the {what} of group `{}` cannot be posed: {refusal}", query.name);
-            Some(document.error(place.clone(), message))
-        })
-    })
+            if let Some(refusal) = cell.refusal(&pose) {
+                let message = format!("the {what} of group `{}` cannot be posed: {refusal}", query.name);
+                faults.add(document.error(place.clone(), message));
+            }
+        }
+    }
+    faults.done()
 }
 
 struct Posed {
@@ -264,16 +253,13 @@ struct Posed {
     bounds_rad: [[f64; 2]; AXES],
     branch: Option<Branch>,
     queries: Vec<Query>,
-    unposed: Option<SettingsError>,
+    posed: Result<(), SettingsError>,
     inputs: Vec<PathBuf>,
 }
 
 impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
-        if let Some((key, message)) = read.fault() {
-            return Err(settings.error_at(key, message));
-        }
         let locate =
             |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
         let files =
@@ -290,13 +276,13 @@ impl Posed {
         let placed = read_queries(&document)?;
         let scene = if read.obstacles { scene } else { Scene::empty() };
         let cell = Cell::new(robot, scene, read.self_collision);
-        let unposed = unposed(&cell, &document, &placed);
+        let posed = posed(&cell, &document, &placed);
         let (queries, _) = placed;
         let bounds_rad = bounds_rad(&cell, read.region, &queries);
         let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
         let branch = (read.region == Region::OneBranch).then(|| cell.robot().arm().branch_of(&home));
         let inputs = files.into_iter().chain(cell.robot().files().iter().cloned()).collect();
-        Ok(Self { read, cell, bounds_rad, branch, queries, unposed, inputs })
+        Ok(Self { read, cell, bounds_rad, branch, queries, posed, inputs })
     }
 
     /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.
@@ -375,7 +361,11 @@ impl Family for Posed {
     }
 
     fn check_ends(&self) -> Result<(), SettingsError> {
-        self.unposed.clone().map_or(Ok(()), Err)
+        self.posed.clone()
+    }
+
+    fn cells(&self) -> u64 {
+        u64::from(self.read.samples)
     }
 
     fn extent(&self) -> Option<Extent> {

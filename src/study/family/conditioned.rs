@@ -13,7 +13,7 @@ use crate::study::verification::{LATTICE_COLUMNS, measured};
 use crate::study::{Inputs, StudyError, column};
 use base::hash::sha256;
 use base::seed;
-use base::settings::{Accepted, AnyTable, Settings, SettingsError};
+use base::settings::{Accepted, AnyTable, Faults, Settings, SettingsError};
 use engine::planner::{self, Build, Ending, Invalid, Planner, Request, Value};
 use engine::space::{World, WorldKind};
 use rand::RngExt as _;
@@ -283,7 +283,15 @@ impl Family for Rejection {
     }
 
     fn check_ends(&self) -> Result<(), SettingsError> {
-        self.families.iter().try_for_each(|family| family.check_ends())
+        let mut faults = Faults::default();
+        for family in &self.families {
+            faults.keep(family.check_ends());
+        }
+        faults.done()
+    }
+
+    fn cells(&self) -> u64 {
+        self.families.iter().map(|family| family.cells()).max().unwrap_or(1)
     }
 
     fn inputs(&self) -> &[PathBuf] {

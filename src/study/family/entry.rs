@@ -51,9 +51,14 @@ pub trait Family: Send + Sync {
     /// That every start and goal written in its settings or files can be stood at.
     ///
     /// # Errors
-    /// The first that cannot, at its place.
+    /// Those that cannot, each at its place.
     fn check_ends(&self) -> Result<(), SettingsError> {
         Ok(())
+    }
+
+    /// About how many cells, samples or the like a draw is made of.
+    fn cells(&self) -> u64 {
+        1
     }
 
     /// How large its roadmaps are, if it poses problems on roadmaps.

@@ -5,9 +5,9 @@ use crate::study::StudyError;
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::{Grid2, read_map};
-use base::settings::Accepted;
+use base::settings::{Accepted, Faults};
 use engine::planner::Invalid;
-use engine::space::WorldKind;
+use engine::space::{LatticeWorld, WorldKind};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -30,8 +30,13 @@ corner_rule = "allow"
         let read: GridMap = settings.read()?;
         let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
         let (grid, inputs) = read_map(&file).map_err(|e| settings.error_at("map", e.to_string()))?;
-        lattice::prepare(grid.clone(), read.corner_rule, read.start, read.goal)
-            .map_err(|invalid| settings.error(invalid.0))?;
+        let world = LatticeWorld::new(grid.clone(), read.corner_rule.into());
+        let mut faults = Faults::default();
+        for (what, cell) in [("start", read.start), ("goal", read.goal)] {
+            let free = world.free_cell(what, &cell.map(f64::from));
+            faults.keep(free.map_err(|message| settings.error_at(what, message)));
+        }
+        faults.done()?;
         let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());
         let queries = [Query { name: String::new(), start, goal }];
         Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { read, grid, queries, inputs }))
@@ -70,6 +75,10 @@ impl Family for Posed {
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn cells(&self) -> u64 {
+        u64::from(self.grid.cell_count())
     }
 
     fn inputs(&self) -> &[PathBuf] {

@@ -122,6 +122,10 @@ impl Family for Posed {
         Counts::from([("printed_optimal_cells", Value::Real(self.scenarios[query].optimal_length_cells))])
     }
 
+    fn cells(&self) -> u64 {
+        u64::from(self.grid.cell_count())
+    }
+
     fn inputs(&self) -> &[PathBuf] {
         &self.files
     }

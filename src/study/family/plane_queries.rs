@@ -5,7 +5,7 @@ use crate::study::StudyError;
 use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::PLANE_COLUMNS;
 use base::seed;
-use base::settings::{Accepted, Document, SettingsError, Spanned};
+use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
 use engine::planner::{Exhibit, Invalid};
@@ -31,21 +31,14 @@ radius_mm = 220
 "#,
     build: |settings, inputs| {
         let read: PlaneQueries = settings.read()?;
-        if read.samples == 0 || !read.radius_mm.is_finite() || read.radius_mm <= 0.0 {
-            let message = format!(
-                "samples is {} and radius_mm {}; at least 1 and a length above 0 are accepted",
-                read.samples, read.radius_mm
-            );
-            return Err(settings.error_at("samples", message).into());
-        }
         let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
         let document = Document::open(&file)?;
         let map: MapFile = document.read()?;
         let plane = map.plane(&document)?;
-        let unposed = map.unposed(&plane, &document);
+        let posed = map.posed(&plane, &document);
         let [start, goal] = [map.start_mm, map.goal_mm].map(|point| point.into_inner().to_vec());
         let queries = [Query { name: String::new(), start, goal }];
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, unposed, inputs: [file] }))
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn { read, plane, queries, posed, inputs: [file] }))
     },
 };
 
@@ -58,9 +51,10 @@ struct PlaneQueries {
     /// The map file.
     map: String,
     /// How many samples the roadmap is built from.
-    #[schemars(range(max = 100_000))]
+    #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
     /// How far two samples may be apart to be tried as neighbours.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     radius_mm: f64,
 }
 
@@ -92,12 +86,16 @@ struct ObstacleEntry {
 }
 
 impl MapFile {
-    /// The end at which the particle cannot stand, the start first.
-    fn unposed(&self, plane: &PlaneMap, document: &Document) -> Option<SettingsError> {
-        [("start", &self.start_mm), ("goal", &self.goal_mm)].into_iter().find_map(|(what, end)| {
-            let refusal = plane.refusal(*end.get_ref())?;
-            Some(document.error(end.span(), format!("the {what} cannot be posed: {refusal}")))
-        })
+    /// That the particle can stand at both ends.
+    fn posed(&self, plane: &PlaneMap, document: &Document) -> Result<(), SettingsError> {
+        let mut faults = Faults::default();
+        for (what, end) in [("start", &self.start_mm), ("goal", &self.goal_mm)] {
+            if let Some(refusal) = plane.refusal(*end.get_ref()) {
+                let message = format!("the {what} cannot be posed: {refusal}");
+                faults.add(document.error(end.span(), message));
+            }
+        }
+        faults.done()
     }
 
     fn plane(&self, document: &Document) -> Result<PlaneMap, SettingsError> {
@@ -123,7 +121,7 @@ struct Drawn {
     read: PlaneQueries,
     plane: PlaneMap,
     queries: [Query; 1],
-    unposed: Option<SettingsError>,
+    posed: Result<(), SettingsError>,
     inputs: [PathBuf; 1],
 }
 
@@ -164,7 +162,11 @@ impl Family for Drawn {
     }
 
     fn check_ends(&self) -> Result<(), SettingsError> {
-        self.unposed.clone().map_or(Ok(()), Err)
+        self.posed.clone()
+    }
+
+    fn cells(&self) -> u64 {
+        u64::from(self.read.samples)
     }
 
     fn extent(&self) -> Option<Extent> {

@@ -6,7 +6,7 @@ use crate::study::prepared::{Prepared, polyhedra};
 use crate::study::verification::CARRIED_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::seed;
-use base::settings::{Accepted, Settings, SettingsError};
+use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::geometry::Vec3;
 use engine::kinematics::Robot;
 use engine::planner::Invalid;
@@ -130,17 +130,19 @@ pub(super) fn check(
     if queries.is_empty() {
         return Err(settings.error_at("queries", "queries is empty; at least one start and goal is needed"));
     }
+    let stands = |what: &str, end: &[f64]| {
+        let at = world.free_point(what, end)?;
+        let missed = || format!("the arm cannot reach the {what} {end:?} with its tool pointing down");
+        if is_reachable(world, &at) { Ok(()) } else { Err(missed()) }
+    };
+    let mut faults = Faults::default();
     for (index, query) in queries.iter().enumerate() {
         for (what, end) in [("start", &query.start), ("goal", &query.goal)] {
             let key = format!("queries.{index}.{what}");
-            let at = world.free_point(what, end).map_err(|message| settings.error_at(&key, message))?;
-            if !is_reachable(world, &at) {
-                let message = format!("the arm cannot reach the {what} {end:?} with its tool pointing down");
-                return Err(settings.error_at(&key, message));
-            }
+            faults.keep(stands(what, end).map_err(|message| settings.error_at(&key, message)));
         }
     }
-    Ok(())
+    faults.done()
 }
 
 /// Whether the arm, if there is one, reaches `tip` with its tool down.

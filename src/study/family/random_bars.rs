@@ -32,8 +32,9 @@ corner_rule = "allow"
         let (count, range) = (read.count, read.length_cells);
         check_range(settings, "length_cells", range)?;
         let draw = move |stream: &mut Stream, size, free: &[u32]| bars(stream, size, count, range, free);
+        let blocked = u64::from(count) * u64::from(range[1]);
         let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, draw)?))
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, blocked, draw)?))
     },
 };
 

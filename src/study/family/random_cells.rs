@@ -6,7 +6,7 @@ use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::{Grid2, GridError, independent_cells};
 use base::seed::{self, Stream};
-use base::settings::{Accepted, Settings, SettingsError};
+use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::planner::Invalid;
 use engine::space::{LatticeWorld, World, WorldKind};
 use schemars::JsonSchema;
@@ -37,7 +37,7 @@ corner_rule = "allow"
         let draw =
             move |stream: &mut Stream, size, free: &[u32]| independent_cells(stream, size, share, free);
         let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, draw)?))
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, 0, draw)?))
     },
 };
 
@@ -64,6 +64,8 @@ pub(super) struct Drawn<D> {
     frame: Frame,
     keep_free: [u32; 2],
     queries: [Query; 1],
+    /// How many cells a draw's obstacles have at most, each counted by itself.
+    blocked: u64,
     draw: D,
 }
 
@@ -71,11 +73,17 @@ impl<D> Drawn<D>
 where
     D: Fn(&mut Stream, [u32; 2], &[u32]) -> Result<Grid2, GridError> + Send + Sync,
 {
-    /// The family whose maps `draw` makes of a stream, the size and the cells that are kept free.
+    /// The family whose maps `draw` makes of a stream, the size and the cells that are kept free; its obstacles have up to
+    /// `blocked` cells, each counted by itself.
     ///
     /// # Errors
-    /// A size that no grid has, or a start or goal outside.
-    pub(super) fn new(settings: &Settings, frame: Frame, draw: D) -> Result<Self, SettingsError> {
+    /// A size that no grid has, or start and goal as far as they are outside.
+    pub(super) fn new(
+        settings: &Settings,
+        frame: Frame,
+        blocked: u64,
+        draw: D,
+    ) -> Result<Self, SettingsError> {
         let ([width, height], start, goal, _) = frame;
         let empty = Grid2::new(width, height)
             .map_err(|e| settings.error_at("size_cells", format!("size_cells: {e}")))?;
@@ -86,9 +94,13 @@ where
                 settings.error_at(what, message)
             })
         };
-        let keep_free = [cell("start", start)?, cell("goal", goal)?];
+        let mut faults = Faults::default();
+        let ends = [("start", start), ("goal", goal)].map(|(what, at)| faults.keep(cell(what, at)));
+        faults.done()?;
+        let keep_free = ends.map(Option::unwrap_or_default);
         let [from, to] = [start, goal].map(|cell| cell.map(f64::from).to_vec());
-        Ok(Self { frame, keep_free, queries: [Query { name: String::new(), start: from, goal: to }], draw })
+        let queries = [Query { name: String::new(), start: from, goal: to }];
+        Ok(Self { frame, keep_free, queries, blocked, draw })
     }
 
     fn map(&self, seed: u64) -> Grid2 {
@@ -130,5 +142,9 @@ where
 
     fn queries(&self) -> &[Query] {
         &self.queries
+    }
+
+    fn cells(&self) -> u64 {
+        self.frame.0.map(u64::from).iter().product::<u64>() + self.blocked
     }
 }

@@ -103,7 +103,7 @@ impl RandomPolyhedra {
         if let Some((key, message)) = fault {
             return Err(settings.error_at(key, message));
         }
-        let empty = self.world(Vec::new()).map_err(|invalid| settings.error(invalid.0))?;
+        let empty = self.world(Vec::new()).map_err(|invalid| settings.error_at("step_cm", invalid.0))?;
         let queries: Vec<Query> = self.queries.iter().map(QuerySettings::query).collect();
         super::polyhedra_scene::check(settings, &empty, &queries)
     }

@@ -33,8 +33,10 @@ corner_rule = "allow"
         check_range(settings, "side_cells", range)?;
         let draw =
             move |stream: &mut Stream, size, free: &[u32]| rectangles(stream, size, count, range, free);
+        let longest = read.size_cells[0].max(read.size_cells[1]);
+        let blocked = u64::from(count) * u64::from(range[1].min(longest)).pow(2);
         let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, draw)?))
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, blocked, draw)?))
     },
 };
 

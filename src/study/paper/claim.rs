@@ -1,7 +1,7 @@
 //! What a paper says: claims, what they ask, and the claims that they are made of.
 
 use super::Digits;
-use base::settings::{AnyTable, Document, Settings, SettingsError, Spanned};
+use base::settings::{AnyTable, Document, Faults, Settings, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -141,11 +141,8 @@ impl Claim {
     }
 }
 
-/// The claim that `spec` writes.
-///
-/// # Errors
-/// A number that is none, a claim that nothing can judge.
-pub(super) fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim, SettingsError> {
+/// The claim that `spec` writes; a number that is none and a claim that nothing can judge go to `faults`.
+pub(super) fn claim(document: &Arc<Document>, spec: &ClaimSpec, faults: &mut Faults) -> Claim {
     let id = spec.id.get_ref();
     if let Some(printed) = &spec.printed
         && printed.get_ref().parse::<f64>().is_err()
@@ -154,17 +151,22 @@ pub(super) fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim,
             "claim `{id}`: printed is `{}`; the digits of one number as the paper prints them are accepted",
             printed.get_ref()
         );
-        return Err(document.error(printed.span(), message));
+        faults.add(document.error(printed.span(), message));
+        faults.unread(printed_by(id));
     }
-    let parts = parts(document, spec)?;
+    let parts = faults.keep(parts(document, spec)).unwrap_or(Parts::None);
     let asked = asked(document, spec);
-    if asked.is_empty() && spec.untestable.is_none() && parts == Parts::None {
+    if asked.is_empty()
+        && spec.untestable.is_none()
+        && given(spec).next().is_none()
+        && !document.is_part("claim")
+    {
         let message = format!(
             "claim `{id}` needs `check`, `rule`, parts, or `untestable` with what the paper leaves out"
         );
-        return Err(document.error(spec.id.span(), message));
+        faults.add(document.error(spec.id.span(), message));
     }
-    Ok(Claim {
+    Claim {
         id: id.clone(),
         at: spec.at.clone(),
         says: spec.says.clone(),
@@ -177,7 +179,12 @@ pub(super) fn claim(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Claim,
         changed_after_run: spec.changed_after_run.clone(),
         asked,
         parts,
-    })
+    }
+}
+
+/// What the number that the claim `id` prints is called where it may be unread.
+pub fn printed_by(id: &str) -> String {
+    format!("printed by {id}")
 }
 
 fn asked(document: &Arc<Document>, spec: &ClaimSpec) -> Vec<(Asked, String, Settings)> {
@@ -191,14 +198,19 @@ fn asked(document: &Arc<Document>, spec: &ClaimSpec) -> Vec<(Asked, String, Sett
     rules.chain(spec.check.iter().map(one(Asked::Decides))).chain(shown.map(one(Asked::Shown))).collect()
 }
 
-fn parts(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Parts, SettingsError> {
+/// The kinds of parts that a claim is given, with their ids.
+fn given(spec: &ClaimSpec) -> impl Iterator<Item = (&Vec<Spanned<String>>, fn(Vec<String>) -> Parts)> {
     let kinds = [
         (&spec.all_of, Parts::AllOf as fn(Vec<String>) -> Parts),
         (&spec.any_of, Parts::AnyOf),
         (&spec.means_one_of, Parts::MeansOneOf),
         (&spec.cells, Parts::Cells),
     ];
-    let mut given = kinds.into_iter().filter(|(ids, _)| !ids.is_empty());
+    kinds.into_iter().filter(|(ids, _)| !ids.is_empty())
+}
+
+fn parts(document: &Arc<Document>, spec: &ClaimSpec) -> Result<Parts, SettingsError> {
+    let mut given = given(spec);
     match (given.next(), given.next()) {
         (None, _) => Ok(Parts::None),
         (Some((ids, of)), None) => Ok(of(ids.iter().map(|id| id.get_ref().clone()).collect())),

@@ -68,7 +68,7 @@ impl Paper {
                 let hint = did_you_mean(claim, claims.iter().copied());
                 if !claims.contains(claim) {
                     let message = format!("the text speaks of `{{{claim}}}`; there is no such claim{hint}");
-                    faults.add(self.document.error_at(&place, message));
+                    faults.add(self.document.error_at(&place, message).about(claim));
                 } else if !form.is_empty() && !FORMS.contains(&form) {
                     let message = format!(
                         "the text asks for `{{{claim}:{form}}}`; the forms are {}, or none",

@@ -79,7 +79,7 @@ impl Paper {
             let Some(study) = self.study(table.study.get_ref()) else {
                 let known = self.studies.iter().map(|study| study.name.as_str());
                 let message = none_called("study", table.study.get_ref(), known);
-                faults.add(self.document.error(table.study.span(), message));
+                faults.add(self.document.error(table.study.span(), message).about(table.study.get_ref()));
                 continue;
             };
             for named in
@@ -93,7 +93,7 @@ impl Paper {
                         named.get_ref(),
                         known.join(", ")
                     );
-                    faults.add(self.document.error(named.span(), message));
+                    faults.add(self.document.error(named.span(), message).about(named.get_ref()));
                 }
             }
         }

@@ -104,7 +104,8 @@ impl Paper {
         for (number, table) in self.tables.iter().enumerate() {
             for (index, row) in table.rows.iter().enumerate() {
                 let (claims, cells) = (row.claims.len(), row.cells.len());
-                if claims.max(cells) != table.columns.len() || claims.min(cells) > 0 {
+                let fits = claims.max(cells) == table.columns.len() && claims.min(cells) == 0;
+                if !fits && !self.document.is_part("table") {
                     let message = format!(
                         "row `{}` of table `{}` has {claims} claims and {cells} cells; either are accepted, one for each of \
                          the {} columns",
@@ -130,7 +131,7 @@ impl Paper {
         for name in names {
             if !known.contains(name.get_ref().as_str()) {
                 let message = none_called(what, name.get_ref(), known.iter().copied());
-                faults.add(self.document.error(name.span(), message));
+                faults.add(self.document.error(name.span(), message).about(name.get_ref()));
             }
         }
     }

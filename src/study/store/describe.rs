@@ -40,11 +40,7 @@ const KEYS: [(&str, Option<&str>, &str); 16] = [
     ("values", None, "numbers of the exhibit, point after point"),
     ("session", None, "session in which the clock was read, from 1; sessions are never pooled"),
     ("clock_repeat", None, "which reading of the clock in its session, from 0"),
-    (
-        clock::COLUMN,
-        Some("ns"),
-        "time of one call of the contender, nothing else between the two clock readings",
-    ),
+    (clock::COLUMN, Some("ns"), clock::ABOUT),
 ];
 
 /// What one column means.

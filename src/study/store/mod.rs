@@ -79,7 +79,7 @@ pub fn stage_records(
 /// Reads every part of `study`'s records in `folder`, each checked against its hash in `hashes`.
 ///
 /// # Errors
-/// [`StudyError::Stored`] for a file that is missing, truncated or not the one that the manifest speaks of.
+/// [`StudyError::Stored`] for a file that is missing, [`StudyError::Touched`] for one that is not what the manifest speaks of.
 pub fn read_records(
     folder: &Path,
     study: &str,
@@ -92,12 +92,13 @@ pub fn read_records(
         let (found, wanted) = (sha256(&bytes), hashes.get(part).map_or("none", String::as_str));
         if found != wanted {
             let message = format!(
-                "is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from \
+                "{}: is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from \
                  another spec; run the study again",
+                path.display(),
                 &found[..12],
                 wanted.get(..12).unwrap_or(wanted)
             );
-            return Err(StudyError::stored(&path, message));
+            return Err(StudyError::Touched(message));
         }
         Stored::open(path, bytes)
     };

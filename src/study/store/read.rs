@@ -13,7 +13,8 @@ use polars::prelude::{Column, DataFrame, DataType};
 use polars_io::prelude::{ParquetReader, SerReader as _};
 use std::collections::BTreeMap;
 use std::io::Cursor;
-use std::path::PathBuf;
+use std::panic::catch_unwind;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Draws that several files of a study name.
@@ -76,6 +77,10 @@ impl<T: Clone> Numbered<T> {
     }
 }
 
+fn touched(path: &Path, what: &str) -> StudyError {
+    StudyError::Touched(format!("{}: {what}; run the study again", path.display()))
+}
+
 /// A Parquet file that was opened.
 pub struct Stored {
     path: PathBuf,
@@ -85,22 +90,20 @@ pub struct Stored {
 impl Stored {
     /// The frame in `bytes`, read from `path`.
     pub fn open(path: PathBuf, bytes: Vec<u8>) -> Result<Self, StudyError> {
-        let frame = ParquetReader::new(Cursor::new(bytes)).finish();
-        let frame = frame.map_err(|e| StudyError::stored(&path, format!("is not a Parquet file: {e}")))?;
-        Ok(Self { path, frame })
+        // polars takes the lengths in a file at its word and panics at some that are wrong.
+        let frame = catch_unwind(|| ParquetReader::new(Cursor::new(bytes)).finish().ok());
+        match frame.ok().flatten() {
+            Some(frame) => Ok(Self { path, frame }),
+            None => Err(touched(&path, "is no Parquet file that can be read")),
+        }
     }
 
     fn column(&self, name: &str) -> Result<&Column, StudyError> {
-        self.frame.column(name).map_err(|_| {
-            StudyError::stored(&self.path, format!("has no column `{name}`; run the study again"))
-        })
+        self.frame.column(name).map_err(|_| touched(&self.path, &format!("has no column `{name}`")))
     }
 
     fn wrong(&self, name: &str) -> StudyError {
-        StudyError::stored(
-            &self.path,
-            format!("column `{name}` does not hold what it should; run the study again"),
-        )
+        touched(&self.path, &format!("column `{name}` does not hold what it should"))
     }
 
     fn texts(&self, name: &str) -> Result<Numbered<Option<Text>>, StudyError> {

@@ -1,4 +1,4 @@
-//! The table of rates in `docs/METHODOLOGY.md`, held current.
+//! The table of rates in `docs/OPERATING_CHARACTERISTICS.md`, held current.
 
 use super::scenario::{Counts, Scenario};
 use super::{PAPERS, outcomes, papers};
@@ -42,11 +42,11 @@ fn row(one: &Scenario, counts: &Counts) -> String {
 }
 
 #[test]
-fn the_rates_that_the_methodology_prints_are_those_found() {
+fn the_rates_that_are_printed_are_those_found() {
     if papers() != PAPERS {
         return;
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/METHODOLOGY.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/OPERATING_CHARACTERISTICS.md");
     let text = fs::read_to_string(&path).unwrap();
     let (before, rest) = text.split_once(BEGIN).expect("the page has a place for the rates");
     let (_, after) = rest.split_once(END).expect("the rates end somewhere");
@@ -56,6 +56,6 @@ fn the_rates_that_the_methodology_prints_are_those_found() {
     }
     assert!(
         fs::read_to_string(&path).unwrap() == page,
-        "the rates in docs/METHODOLOGY.md are not those found; REPLAN_WRITE=1 writes them"
+        "the rates in docs/OPERATING_CHARACTERISTICS.md are not those found; REPLAN_WRITE=1 writes them"
     );
 }

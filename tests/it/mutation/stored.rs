@@ -1,8 +1,9 @@
 //! Damaged files of a stored run, read as `judge` and `render` read them. A Parquet file is opened only if its hash is the
-//! manifest's, so that no damage reaches the reader.
+//! manifest's; for every other case the manifest's is changed too, so that the damage reaches the reader.
 
 use super::damage::{damaged, flipped};
 use super::{cases, fault};
+use base::hash::sha256;
 use base::seed::{self, Stream};
 use rand::RngExt as _;
 use replan::analysis::claims;
@@ -14,6 +15,8 @@ use replan::study::{Inputs, ReadingChoice};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
+
+const MANIFEST: &str = "scenarios.manifest.toml";
 
 /// What `judge` and `render` do with what is stored in `folder`.
 fn used(paper: &Paper, folder: &Path) -> Result<(), String> {
@@ -58,6 +61,11 @@ fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
         let is_text = path.extension().is_some_and(|ending| ending == "toml");
         let new = if is_text { damaged(&mut stream, bytes) } else { broken(&mut stream, bytes) };
         fs::write(path, &new).unwrap();
+        if !is_text && case % 2 == 0 {
+            let (manifest, text) = files.iter().find(|(path, _)| path.ends_with(MANIFEST)).unwrap();
+            let text = String::from_utf8(text.clone()).unwrap();
+            fs::write(manifest, text.replace(&sha256(bytes), &sha256(&new))).unwrap();
+        }
         match fault(|| used(&paper, copy.path())) {
             Ok(is_accepted) => accepted += u64::from(is_accepted),
             Err(what) => faults.push(format!("case {case}, {}: {what}", path.display())),

@@ -88,7 +88,7 @@ impl Subject {
             Study::load(&path, &inputs(self.root.path(), &paper.folder)).map_err(|e| e.to_string())
         };
         match file.role {
-            Role::Crosscheck => crosscheck::Spec::load(&paper.folder).map(|_| ()).map_err(|e| e.to_string()),
+            Role::Crosscheck => crosscheck::Spec::open(&paper.folder).map(|_| ()).map_err(|e| e.to_string()),
             Role::Paper => {
                 let document = Document::open(&file.path).map_err(|e| e.to_string())?;
                 let damaged = Paper::of(&paper.folder, &document, paper.studies.clone());

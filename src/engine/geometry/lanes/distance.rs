@@ -1,8 +1,8 @@
 //! Distances of segments in rough lanes: the closed forms of the scalar code, with choices in place of branches.
 //!
-//! Of two segments the squared distance is what is rounded: it is off by about the last digit of a f32 times the square of
-//! the lengths at hand, also where they are nearly parallel, because a share that is badly known there hardly matters. Its
-//! root is as good as [`ROUGHNESS`](super::ROUGHNESS) asks only above [`ROUGH_LEAST`](super::ROUGH_LEAST).
+//! The rounding error of the squared distance of two segments is about the last digit of an f32 times the square of the
+//! lengths involved. This holds for nearly parallel segments too: their nearest points are ill-determined, but the distance
+//! hardly depends on them. Its root is as good as [`ROUGHNESS`](super::ROUGHNESS) asks only above [`ROUGH_LEAST`](super::ROUGH_LEAST).
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"

@@ -3,8 +3,8 @@
 //! Angles are found in f64, four cases at once ([`Lane`]); places and distances in f32, eight at once ([`Rough`]). The
 //! instructions are chosen when the program runs ([`level`], `dispatch!`), and results differ from the scalar code in
 //! their last digits: fused multiply-adds, other polynomials, fewer digits. So nothing here decides a close call:
-//! callers compare with a band ([`SLACK`] for f64, [`ROUGHNESS`] for f32) and ask the scalar code inside it. A NaN must
-//! end inside the band too: write comparisons so that it fails the certain side.
+//! callers compare with a band ([`SLACK`] for f64, [`ROUGHNESS`] for f32) and ask the scalar code inside it. Comparisons are
+//! written so that a NaN counts as inside the band.
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"

@@ -1,6 +1,6 @@
 //! What the paper leaves open about posture adjustment, as settings.
 
-use base::settings::{Settings, SettingsError};
+use base::settings::{Faults, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -104,6 +104,7 @@ impl Posture {
     /// The settings, checked.
     pub(super) fn read(settings: &Settings) -> Result<Self, SettingsError> {
         let read: Self = settings.read()?;
+        let mut faults = Faults::default();
         for (name, value, above) in [
             ("act_cm", read.act_cm, 0.0),
             ("d0_cm", read.d0_cm, 0.0),
@@ -114,9 +115,10 @@ impl Posture {
         ] {
             if value.is_nan() || value <= above || (value.is_infinite() && name != "bounds_rad") {
                 let least = if above < 0.0 { "0 or more" } else { "more than 0" };
-                return Err(settings.error_at(name, format!("{name} is {value}; {least} is accepted")));
+                faults.add(settings.error_at(name, format!("{name} is {value}; {least} is accepted")));
             }
         }
+        faults.done()?;
         Ok(read)
     }
 

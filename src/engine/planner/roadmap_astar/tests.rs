@@ -4,6 +4,7 @@ use crate::geometry::planar::ConvexPolygon;
 use crate::space::World;
 use crate::space::roadmap::{Counted, Local, PlaneMap, Sample};
 use base::seed;
+use base::settings::{Settings, SettingsError};
 use rand::RngExt as _;
 use std::collections::{BTreeMap, VecDeque};
 

@@ -1,0 +1,248 @@
+//! A walk through an author's LaTeX, line by line, that finds the numbers a reader sees.
+
+/// Commands of which arguments hold no number of the text, with how many they have.
+const SILENT: &[(&str, usize)] = &[
+    ("label", 1),
+    ("ref", 1),
+    ("eqref", 1),
+    ("cref", 1),
+    ("Cref", 1),
+    ("autoref", 1),
+    ("pageref", 1),
+    ("cite", 1),
+    ("citep", 1),
+    ("citet", 1),
+    ("nocite", 1),
+    ("includegraphics", 1),
+    ("input", 1),
+    ("include", 1),
+    ("subfile", 1),
+    ("usepackage", 1),
+    ("documentclass", 1),
+    ("begin", 3),
+    ("end", 1),
+    ("vspace", 1),
+    ("hspace", 1),
+    ("bibliography", 1),
+    ("bibliographystyle", 1),
+    ("url", 1),
+    ("href", 1),
+    ("setcounter", 2),
+    ("addtocounter", 2),
+    ("setlength", 2),
+    ("addtolength", 2),
+    ("hypersetup", 1),
+    ("geometry", 1),
+    ("color", 1),
+    ("textcolor", 1),
+    ("definecolor", 3),
+    ("newcommand", 2),
+    ("renewcommand", 2),
+    ("providecommand", 2),
+    ("def", 1),
+    ("multicolumn", 2),
+    ("multirow", 2),
+    ("cmidrule", 1),
+];
+
+/// Numbers in words; `one` is as often a pronoun.
+const WORDS: [&str; 36] = [
+    "zero",
+    "two",
+    "three",
+    "four",
+    "five",
+    "six",
+    "seven",
+    "eight",
+    "nine",
+    "ten",
+    "eleven",
+    "twelve",
+    "thirteen",
+    "fourteen",
+    "fifteen",
+    "sixteen",
+    "seventeen",
+    "eighteen",
+    "nineteen",
+    "twenty",
+    "thirty",
+    "forty",
+    "fifty",
+    "sixty",
+    "seventy",
+    "eighty",
+    "ninety",
+    "hundred",
+    "thousand",
+    "million",
+    "billion",
+    "dozen",
+    "half",
+    "twice",
+    "thrice",
+    "tenfold",
+];
+
+/// A number that stands in the text.
+pub(super) struct Found {
+    /// Line, from 1.
+    pub(super) line: usize,
+    /// Column in characters, from 1.
+    pub(super) column: usize,
+    /// Its digits, without marks of thousands, or its word.
+    pub(super) number: String,
+}
+
+/// Every number that stands in the text as such, in digits or in words, but for those that a comment on their line excuses:
+/// `% typed: 2, twelve`.
+pub(super) fn numbers(text: &str) -> Vec<Found> {
+    let body = text.find("\\begin{document}").map_or(0, |at| at + "\\begin{document}".len());
+    let end = text.find("\\end{document}").unwrap_or(text.len()).max(body);
+    let first = text[..body].matches('\n').count();
+    let mut scan = Scan { depth: 0, left: 0, found: Vec::new() };
+    for (index, line) in text[body..end].split('\n').enumerate() {
+        let offset = if index == 0 {
+            text[..body].rsplit('\n').next().map_or(0, |before| before.chars().count())
+        } else {
+            0
+        };
+        let written = uncommented(line);
+        let known = scan.found.len();
+        scan.line(first + index + 1, offset, written);
+        let comment = line[written.len()..].trim_start_matches('%').trim();
+        if let Some(typed) = comment.strip_prefix("typed:") {
+            let excused: Vec<&str> = typed.split(',').map(str::trim).collect();
+            let on_line = scan.found.split_off(known);
+            scan.found.extend(on_line.into_iter().filter(|found| !excused.contains(&found.number.as_str())));
+        }
+    }
+    scan.found
+}
+
+/// A line without its comment.
+pub(super) fn uncommented(line: &str) -> &str {
+    let mut is_escaped = false;
+    for (at, c) in line.char_indices() {
+        if c == '%' && !is_escaped {
+            return &line[..at];
+        }
+        is_escaped = c == '\\' && !is_escaped;
+    }
+    line
+}
+
+struct Scan {
+    /// Open brackets of an argument that is not looked at …
+    depth: usize,
+    /// … and how many such arguments of the command are left.
+    left: usize,
+    found: Vec<Found>,
+}
+
+impl Scan {
+    fn line(&mut self, line: usize, offset: usize, text: &str) {
+        let chars: Vec<char> = text.chars().collect();
+        let mut at = 0;
+        while at < chars.len() {
+            let c = chars[at];
+            let start = at;
+            let number = if self.depth > 0 {
+                at = self.silent(&chars, at);
+                None
+            } else if c == '\\' {
+                at = self.command(&chars, at + 1);
+                None
+            } else if c.is_ascii_digit() {
+                let (number, end) = digits(&chars, at);
+                at = end;
+                (!is_part_of_more(&chars, start, end)).then_some(number)
+            } else if c.is_alphabetic() {
+                at = (at..chars.len()).find(|at| !chars[*at].is_alphanumeric()).unwrap_or(chars.len());
+                let word = chars[start..at].iter().collect::<String>();
+                WORDS.contains(&word.to_lowercase().as_str()).then_some(word)
+            } else {
+                at += 1;
+                None
+            };
+            let column = offset + start + 1;
+            self.found.extend(number.map(|number| Found { line, column, number }));
+        }
+    }
+
+    /// Passes a character of an argument that is not looked at.
+    fn silent(&mut self, chars: &[char], at: usize) -> usize {
+        match chars[at] {
+            '{' | '[' => self.depth += 1,
+            '}' | ']' => self.depth -= 1,
+            _ => {}
+        }
+        if self.depth > 0 {
+            return at + 1;
+        }
+        self.left -= usize::from(chars[at] == '}').min(self.left);
+        self.enter(chars, at + 1)
+    }
+
+    /// Enters the argument that starts here, if one is left.
+    fn enter(&mut self, chars: &[char], at: usize) -> usize {
+        let opens = self.left > 0 && matches!(chars.get(at), Some('{' | '['));
+        self.depth = usize::from(opens);
+        at + usize::from(opens)
+    }
+
+    /// Passes a command's name and, if it is a silent one, enters its arguments.
+    fn command(&mut self, chars: &[char], start: usize) -> usize {
+        let name_end = |start: usize| {
+            (start..chars.len()).find(|at| !chars[*at].is_ascii_alphabetic()).unwrap_or(chars.len())
+        };
+        let mut end = name_end(start);
+        let name: String = chars[start..end].iter().collect();
+        let Some((_, arguments)) = SILENT.iter().find(|(known, _)| *known == name) else {
+            return end.max(start + usize::from(end == start));
+        };
+        while chars.get(end) == Some(&'*') {
+            end += 1;
+        }
+        // `\def\name{…}` has its name outside of brackets.
+        if name == "def" && chars.get(end) == Some(&'\\') {
+            end = name_end(end + 1);
+        }
+        self.left = *arguments;
+        self.enter(chars, end)
+    }
+}
+
+/// The number that starts at `start`, without marks between its thousands, and where it ends.
+fn digits(chars: &[char], start: usize) -> (String, usize) {
+    let is_digit = |at: usize| chars.get(at).is_some_and(char::is_ascii_digit);
+    let (mut number, mut at) = (String::new(), start);
+    while is_digit(at) || chars.get(at) == Some(&'.') && is_digit(at + 1) {
+        number.push(chars[at]);
+        at += 1;
+        let mark = ["{,}", "\\,", ","].into_iter().find(|mark| {
+            mark.chars().enumerate().all(|(index, c)| chars.get(at + index) == Some(&c))
+                && (0..3).all(|digit| is_digit(at + mark.len() + digit))
+                && !is_digit(at + mark.len() + 3)
+        });
+        if let Some(mark) = mark.filter(|_| !number.contains('.') && !is_digit(at)) {
+            at += mark.len();
+        }
+    }
+    (number, at)
+}
+
+/// Whether digits are part of a word, a length, or a script.
+fn is_part_of_more(chars: &[char], start: usize, end: usize) -> bool {
+    let before = start.checked_sub(1).map(|at| chars[at]);
+    let in_script = before == Some('{') && start >= 2 && matches!(chars[start - 2], '_' | '^');
+    let in_word = before.is_some_and(|c| c.is_alphanumeric() || matches!(c, '_' | '^'));
+    let after: String = chars[end..].iter().take(4).collect();
+    let follows = |units: &[&str]| units.iter().any(|unit| after.starts_with(unit));
+    // A centimetre in a sentence is a result; in brackets it is the size of something on the page.
+    let in_brackets = matches!(before, Some('{' | '[' | '='));
+    let is_length = follows(&["pt", "em", "ex", "\\tex", "\\lin", "\\col"])
+        || in_brackets && follows(&["cm}", "cm]", "mm}", "mm]", "in}", "in]"]);
+    in_word || in_script || is_length
+}

@@ -1,0 +1,188 @@
+//! What findings and remarks say, and what they rest on.
+
+use super::tests::audited;
+use super::*;
+use crate::output;
+use crate::reader::{Format, read, stub_line};
+
+fn found(text: &str, format: Format, check: &str) -> Finding {
+    let report = audited(text, format, &Options { keeps_possible: true, ..Options::default() });
+    report.findings.into_iter().find(|finding| finding.check == check).unwrap()
+}
+
+#[test]
+fn zeros_left_out_are_a_premise_and_the_finding_says_what_the_typed_digits_allow() {
+    let table = "| p | time [mean, integers, n=699, digits=6] |\n|-|-|\n| A | 67.408 |\n";
+    let finding = found(table, Format::Markdown, "grim");
+    assert_eq!(finding.class, Class::Impossible);
+    assert!(finding.said.starts_with("67.408 is the mean of no 699 values"), "{}", finding.said);
+    assert!(finding.said.ends_with("possible if the digits as typed are all there are"), "{}", finding.said);
+    let premise = finding.premises.last().unwrap();
+    assert!(
+        premise.ends_with("zeros at the end are left out, so that 67.408 is read as 67.4080"),
+        "{premise}"
+    );
+    let certificate = finding.certificate.unwrap();
+    let number = &certificate["numbers"][0];
+    assert_eq!((&number["printed"], &number["significant"]), (&"67.408".into(), &6.into()));
+    assert!(certificate["premises"].to_string().contains("67.4080"));
+    assert_eq!(finding.mend.unwrap().to.to_string(), "67.4078");
+    let both = found(&table.replace("67.408", "67.4"), Format::Markdown, "grim");
+    assert!(both.said.ends_with("; possible if the digits as typed are all there are"), "{}", both.said);
+    let neither = found(&table.replace("n=699", "n=2"), Format::Markdown, "grim");
+    assert!(
+        neither.said.ends_with("; impossible as well if the digits as typed are all there are"),
+        "{}",
+        neither.said
+    );
+    let typed = found(&table.replace(", digits=6", ""), Format::Markdown, "grim");
+    assert_eq!((typed.class, typed.said.contains("as typed")), (Class::Possible, false));
+}
+
+#[test]
+fn a_deviation_below_0_is_impossible_without_mean_range_or_n() {
+    let column = "p,time [mean],time [sd]\nA,2.0,-0.5\n";
+    let behind = "p,time [mean, ±sd]\nA,2.0 ± −0.5\n";
+    let error = "p,time [mean],time [se]\nA,2.0,-0.5\n";
+    for text in [column, behind, error] {
+        let finding = found(text, Format::Csv, "sd_range");
+        assert_eq!(
+            (finding.class, &*finding.said),
+            (Class::Impossible, "-0.5 is below 0, as no deviation is"),
+            "{text}"
+        );
+        assert!(finding.certificate.is_some());
+    }
+    let ranged = "p,t [mean, integers, n=5],t [sd],t [min],t [max]\nA,2.0,-0.5,1,4\n";
+    let report = audited(ranged, Format::Csv, &Options::default());
+    assert!(report.findings.iter().all(|finding| finding.class == Class::Impossible), "{report:?}");
+}
+
+#[test]
+fn printed_ends_bound_the_values_behind_mean_and_deviation() {
+    let sample =
+        "[[sample]]\nname = \"x\"\nis = \"integers, n=6, population\"\nmean = \"2.00\"\nsd = \"1.15\"\n";
+    assert_eq!(found(sample, Format::Toml, "grimmer").class, Class::Possible, "4, 3, 2, 2, 1, 0");
+    let ends = |min: &str, max: &str| {
+        found(&format!("{sample}min = \"{min}\"\nmax = \"{max}\"\n"), Format::Toml, "grimmer")
+    };
+    assert_eq!(ends("0", "4").class, Class::Possible);
+    let bounded = ends("1", "3");
+    assert_eq!(bounded.class, Class::Impossible, "from 1 to 3 the deviation is 1 at most");
+    assert!(bounded.said.contains("1 the least and 3 the greatest"), "{}", bounded.said);
+    assert_eq!(bounded.certificate.unwrap()["given"]["printed_ends"], serde_json::json!([2, 3]));
+}
+
+#[test]
+fn what_stands_behind_plus_or_minus_is_asked_for_where_no_check_would_look_at_it() {
+    let asked = |text: &str| output::unread_spreads("t.csv", &read(text, Format::Csv).unwrap());
+    let said = asked("p,rate [% of 20]\nA,-\nB,25 ± 9\n");
+    let expected = "t.csv:3:2: column `rate`: what stands behind 25 ± 9 is not looked at; say `±sd` if it is the deviation or `±se` if it is the standard error";
+    assert_eq!(said, [expected]);
+    assert!(asked("p,length [value]\nA,2.5 (0.1)\n")[0].contains("`mean, n=N` and `±sd` or `±se`"));
+    assert!(asked("p,length [value, ±sd]\nA,2.5 (0.1)\n")[0].contains("`mean, n=N`"));
+    assert!(asked("s [statistic],time\nmean,2.5 (0.1)\n")[0].contains("a row of its own"));
+    for silent in
+        ["p,rate [% of 20, ±se]\nA,25 ± 9\n", "p,time [mean, ±sd]\nA,2.5 (0.1)\n", "p,rate [% of 20]\nA,25\n"]
+    {
+        assert!(asked(silent).is_empty(), "{silent}");
+    }
+}
+
+#[test]
+fn what_is_not_decided_is_not_worded_as_a_claim() {
+    let relation = |keys: &str| format!("[[relation]]\n{keys}\n");
+    for (keys, check, said) in [
+        (
+            "check = \"turn_sum\"\nturns = \"90\"\nlength = \"6.50\"\nfrom = \"0:0\"\nto = \"3:5\"",
+            "turn_sum",
+            "not decided: no 8-connected path over (3, 5) cells has the length 6.50 (see `lattice`)",
+        ),
+        (
+            "check = \"ratio\"\nvalue = \"2\"\nof = \"1.0\"\nover = \"0.0\"",
+            "ratio",
+            "not decided: with a = 1.0 and b = 0.0 a divisor may be 0",
+        ),
+        (
+            "check = \"total_over_mean\"\ntotal = \"1\"\nmean = \"0.0\"",
+            "total_over_mean",
+            "not decided: the mean 0.0 may be 0",
+        ),
+        (
+            "check = \"any_angle_turns\"\nturns = \"90\"\nlength = \"60\"\nfrom = \"0:0\"\nto = \"3:5\"",
+            "any_angle_turns",
+            "not decided: a length of 60 is more than 2.5 cells above the straight line",
+        ),
+        (
+            "check = \"grimmer\"\nmean = \"2\"\nsd = \"1\"\nn = 1\ndivisor = \"sample\"",
+            "grimmer",
+            "not decided: one value has no sample deviation",
+        ),
+    ] {
+        let finding = found(&relation(keys), Format::Toml, check);
+        assert_eq!((finding.class, &*finding.said), (Class::Unchecked, said));
+    }
+}
+
+#[test]
+fn power_names_its_range_and_why() {
+    let share =
+        found("p,rate [share of 20, ±sd, sample]\nA,0.25 ± 0.44\n", Format::Csv, "debit").power.unwrap();
+    // Half of the whole, by the root of 20/19: 0.51299, rounded up.
+    assert_eq!((share.low.to_string(), share.high.to_string()), ("0.00".to_owned(), "0.52".to_owned()));
+    let ranged = "p,t [mean],t [sd],t [min],t [max]\nA,2.0,1.0,1.0,4.0\n";
+    let line = output::line("t.csv", &found(ranged, Format::Csv, "sd_range"));
+    assert!(
+        line.contains(" prints from 0.0 to 2.3, up to the greatest that values between the ends have"),
+        "{line}"
+    );
+}
+
+#[test]
+fn a_reduction_names_what_it_is_a_share_of() {
+    let text = "[[relation]]\ncheck = \"reduction\"\npercent = \"7.6\"\nfrom = \"17.65\"\nto = \"16.40\"\nbase = \"to\"\n";
+    let premise = &found(text, Format::Toml, "reduction").premises[0];
+    assert_eq!(premise, "the percentage was computed from the two cells a and b, by 100(a-b)/b");
+}
+
+#[test]
+fn ways_to_end_digits_that_differ_are_each_a_premise() {
+    let table = "p,x [mean, integers, n=4, rounding=half up],x [sd]\nA,2.50,1.29\n";
+    let premise = found(table, Format::Csv, "grimmer").premises[1].clone();
+    assert!(
+        premise.contains("those of x of A end in any usual way") && premise.contains("end by half up"),
+        "{premise}"
+    );
+}
+
+#[test]
+fn a_stub_is_written_as_the_table_is_and_can_be_read() {
+    for text in ["\"a, b\",rate\nx,25\n", "a;rate [% of 20, ±sd]\nx;25 ± 3\n", "a\trate\nx\t25\n"] {
+        let input = read(text, Format::Csv).unwrap();
+        let line = stub_line(&input.tables[0]);
+        assert!(!line.contains('|'), "{line}");
+        let again = format!("{}\n{}\n", line.replace('?', "20"), text.lines().nth(1).unwrap());
+        let read = read(&again, Format::Csv).unwrap_or_else(|faults| panic!("{again}: {faults:?}"));
+        let names = |input: &Input| {
+            input.tables[0].columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(names(&read), names(&input));
+        assert!(read.tables[0].columns.iter().all(|column| column.written.is_some()));
+    }
+    let table = "|a|rate|\n|-|-|\n|x|25|\n";
+    let line = stub_line(&read(table, Format::Markdown).unwrap().tables[0]);
+    assert_eq!(line, "| a [label] | rate [share of ?] |");
+}
+
+#[test]
+fn a_search_that_ends_without_data_says_so() {
+    let text = "[[sample]]\nname = \"x\"\nis = \"integers, n=40, sample\"\nmean = \"2.50\"\nsd = \"1.28\"\n";
+    let witness = Some(Budget { most: 5, steps: 3, seed: None });
+    let report = audited(text, Format::Toml, &Options { witness, ..Options::default() });
+    let finding = report.findings.iter().find(|finding| finding.check == "grimmer").unwrap();
+    assert!(
+        output::line("t", finding).ends_with("no data found in 3 of 3 steps"),
+        "{}",
+        output::line("t", finding)
+    );
+}

@@ -1,0 +1,134 @@
+//! What is left of a document without what its schema does not accept: so that one mistake hides no other.
+
+use super::schema::Node;
+use super::validate::faults;
+use super::{Document, Faults};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::sync::Arc;
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+/// Rounds after which a document is given up: what is taken away may leave something else without a key that it needs.
+const ROUNDS: usize = 20;
+
+impl Document {
+    /// The document without what `schema` does not accept; that goes to `faults`, with the names that went with it.
+    ///
+    /// What a table at the top must have is filled in with something that is accepted. A document that is no TOML stays as it
+    /// is.
+    pub fn salvaged(self: &Arc<Self>, schema: &Value, faults: &mut Faults) -> Arc<Self> {
+        match self.validate(schema) {
+            Err(refused) if self.parsed().is_ok() => faults.add(refused),
+            _ => return self.clone(),
+        }
+        let mut names = Vec::new();
+        let salvaged = self.in_part(|value| salvage(schema, value, &mut names));
+        names.into_iter().for_each(|name| faults.unread(name));
+        salvaged
+    }
+}
+
+/// Takes away what is not accepted, gathers the names in it, and gives the keys at the top under which it stood.
+fn salvage(schema: &Value, value: &mut Spanned<DeValue<'_>>, names: &mut Vec<String>) -> BTreeSet<String> {
+    let mut parted = BTreeSet::new();
+    for _ in 0..ROUNDS {
+        let refused = faults(schema, value);
+        if refused.is_empty() {
+            break;
+        }
+        for fault in refused {
+            names.extend(fault.lacks);
+            parted.extend(key_of(value.get_ref(), &fault.span));
+            if !remove(value.get_mut(), &fault.span, names) {
+                fill(Node::root(schema), value);
+            }
+        }
+    }
+    parted
+}
+
+/// The key at the top under which what is at `span` stands.
+fn key_of(value: &DeValue<'_>, span: &Range<usize>) -> Option<String> {
+    let holds = |value: &Spanned<DeValue<'_>>| remove(&mut value.get_ref().clone(), span, &mut Vec::new());
+    let found = value
+        .as_table()?
+        .iter()
+        .find(|(key, inner)| key.span() == *span || inner.span() == *span || holds(inner));
+    found.map(|(key, _)| key.get_ref().to_string())
+}
+
+/// Removes the key or element that stands at `span`, and gathers the names inside; whether there was one.
+fn remove(value: &mut DeValue<'_>, span: &Range<usize>, names: &mut Vec<String>) -> bool {
+    let is_it = |key: Option<Range<usize>>, value: &Spanned<DeValue<'_>>| {
+        key.is_some_and(|key| key == *span) || value.span() == *span
+    };
+    match value {
+        DeValue::Table(table) => {
+            let found = table.iter().find(|(key, inner)| is_it(Some(key.span()), inner));
+            if let Some(key) = found.map(|(key, _)| key.get_ref().clone()) {
+                names.push(key.to_string());
+                if let Some(gone) = table.remove(&*key) {
+                    gather(gone.get_ref(), names);
+                }
+                return true;
+            }
+            table.iter_mut().any(|(_, inner)| remove(inner.get_mut(), span, names))
+        }
+        DeValue::Array(elements) => {
+            if elements.iter().any(|inner| is_it(None, inner)) {
+                let all = std::mem::replace(elements, DeArray::new()).into_iter();
+                let (gone, kept): (Vec<_>, Vec<_>) = all.partition(|inner| is_it(None, inner));
+                gone.iter().for_each(|inner| gather(inner.get_ref(), names));
+                *elements = kept.into_iter().collect();
+                return true;
+            }
+            elements.iter_mut().any(|inner| remove(inner.get_mut(), span, names))
+        }
+        _ => false,
+    }
+}
+
+/// Every text inside `value`: any of them may be a name that is used elsewhere.
+fn gather(value: &DeValue<'_>, names: &mut Vec<String>) {
+    match value {
+        DeValue::String(text) => names.push(text.to_string()),
+        DeValue::Table(table) => table.iter().for_each(|(key, inner)| {
+            names.push(key.get_ref().to_string());
+            gather(inner.get_ref(), names);
+        }),
+        DeValue::Array(elements) => elements.iter().for_each(|inner| gather(inner.get_ref(), names)),
+        _ => {}
+    }
+}
+
+/// Fills in what the table at the top must have and has not.
+fn fill(node: Node<'_>, value: &mut Spanned<DeValue<'_>>) {
+    let DeValue::Table(table) = value.get_mut() else { return };
+    let missing: Vec<&str> = node.required().filter(|key| table.get(*key).is_none()).collect();
+    for key in missing {
+        if let Some(inner) = node.property(key).and_then(plain) {
+            table.insert(Spanned::new(0..0, key.to_owned().into()), Spanned::new(0..0, inner));
+        }
+    }
+}
+
+/// A value that is likely to be accepted.
+fn plain<'t>(node: Node<'_>) -> Option<DeValue<'t>> {
+    let node = node.branches().first().copied().unwrap_or(node);
+    let parsed = |text: &'static str| DeValue::parse(text).ok().map(Spanned::into_inner);
+    match node.kinds().first().copied()? {
+        "integer" | "number" => parsed("1"),
+        "boolean" => parsed("false"),
+        "string" => {
+            Some(DeValue::String(node.words().first().copied().unwrap_or_default().to_owned().into()))
+        }
+        "array" => Some(DeValue::Array(DeArray::new())),
+        _ => {
+            let mut table = Spanned::new(0..0, DeValue::Table(DeTable::new()));
+            fill(node, &mut table);
+            Some(table.into_inner())
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What is wrong with a cross-check, as far as that is known before anything is run or asked.
+
+use super::{SceneFormat, Spec};
+use crate::crosscheck::stored::StoredPaths;
+use crate::study::Inputs;
+use crate::study::paper::Paper;
+use base::settings::{Faults, none_called};
+use engine::kinematics::{Robot, robot::Body};
+use engine::space::cell::Scene;
+use engine::space::polyhedra::read_scene;
+
+impl Spec {
+    /// Files, bodies, studies and problem groups that do not exist go to `faults`, with all other names that are wrong.
+    pub fn check(&self, paper: &Paper, inputs: &Inputs, faults: &mut Faults) {
+        faults.keep(self.check_names());
+        for (index, robot) in self.file.robots.iter().enumerate() {
+            let (robot, at) = (robot.get_ref(), |key: &str| format!("robot.{index}.{key}"));
+            let loaded =
+                inputs.locate(&robot.file).and_then(|file| Robot::load(&file).map_err(|e| e.to_string()));
+            match loaded {
+                Err(message) => faults.add(self.document.error_at(&at("file"), message)),
+                Ok(loaded) => {
+                    let known: Vec<&str> = loaded.bodies().iter().map(Body::name).collect();
+                    if !known.contains(&robot.body.as_str()) {
+                        let message = none_called("body", &robot.body, known);
+                        faults.add(self.document.error_at(&at("body"), message));
+                    }
+                }
+            }
+        }
+        for (index, scene) in self.file.scenes.iter().enumerate() {
+            let scene = scene.get_ref();
+            let place = format!("scene.{index}.file");
+            let file = inputs.locate(&scene.file).map_err(|message| self.document.error_at(&place, message));
+            if let Some(file) = faults.keep(file) {
+                let read = match scene.format {
+                    SceneFormat::Cell => Scene::load(&file).map(|_| ()),
+                    SceneFormat::Polyhedra => read_scene(&file).map(|_| ()),
+                };
+                faults.keep(read);
+            }
+        }
+        for (index, stored) in self.file.stored.iter().enumerate() {
+            self.check_paths(&stored.get_ref().paths, &format!("stored.{index}.paths"), paper, faults);
+        }
+        for (index, workspace) in self.file.workspaces.iter().enumerate() {
+            self.check_paths(&workspace.get_ref().paths, &format!("workspace.{index}.paths"), paper, faults);
+        }
+    }
+
+    fn check_paths(&self, paths: &StoredPaths, place: &str, paper: &Paper, faults: &mut Faults) {
+        let (name, label) = (paths.study.as_str(), paths.problems.as_str());
+        let Some(study) = paper.study(name) else {
+            let known = paper.studies.iter().map(|study| study.name.as_str());
+            let fault = self.document.error_at(&format!("{place}.study"), none_called("study", name, known));
+            return faults.add(fault.about(name));
+        };
+        if !study.groups.iter().any(|group| group.label == label) {
+            let known = study.groups.iter().map(|group| group.label.as_str());
+            let message = format!("study `{name}`: {}", none_called("problem group", label, known));
+            faults.add(self.document.error_at(&format!("{place}.problems"), message).about(label));
+        }
+    }
+}

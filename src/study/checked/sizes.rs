@@ -1,0 +1,91 @@
+//! Sizes that nobody can mean: each number is in its range, but their product would never end or never fit.
+
+use super::super::family::Family;
+use super::super::spec::TrialsSpec;
+use super::{Contender, Group, Study};
+use base::settings::Faults;
+use std::sync::Arc;
+
+/// The most trials of a study, all readings that it explores counted.
+const TRIALS: f64 = 1e7;
+/// The most timed runs of a study.
+const TIMED: f64 = 1e7;
+/// The most cells, samples and the like that the draws of a problem group are made of together.
+const CELLS: f64 = 1e12;
+/// The most combinations of the sweeps' values.
+pub(super) const SWEPT: usize = 10_000;
+
+impl Study {
+    /// Refuses products of sizes that cannot be meant, trials that nobody runs, and seeds for a contender that draws nothing.
+    pub(super) fn check_sizes(&self, families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
+        for (group, family) in families {
+            let cells = f64::from(group.replicates) * family.cells() as f64;
+            if cells > CELLS {
+                let message = format!(
+                    "{} draws of {} cells or samples each are {cells:.1e}; at most {CELLS:.0e} are accepted in all",
+                    group.replicates,
+                    family.cells()
+                );
+                faults.add(self.document.error_at(&format!("problems.{}.replicates", group.place), message));
+            }
+        }
+        self.check_trials(families, faults);
+        for (index, figure) in self.figures.iter().enumerate() {
+            self.check_shown(&figure.shows, &format!("figure.{index}.shows"), faults);
+        }
+        self.check_shown(&self.keeps, "keep", faults);
+    }
+
+    fn check_trials(&self, families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
+        let swept = self.sweep_points().len();
+        let points =
+            if self.explore.is_some() { self.trial_points().map_or(1, |points| points.len()) } else { 1 };
+        let each = families
+            .iter()
+            .map(|(group, family)| f64::from(group.replicates) * family.queries().len().max(1) as f64);
+        let problems = each.sum::<f64>() * points as f64;
+        let of = |contender: &Contender| problems * f64::from(contender.repeats) * swept as f64;
+        let trials: f64 = self.contenders.iter().map(of).sum();
+        let largest = self.contenders.iter().max_by_key(|contender| contender.repeats);
+        if let Some(largest) = largest.filter(|_| trials > TRIALS) {
+            let message = format!(
+                "the study has {trials:.1e} trials: {problems:.0} problems by {} contenders, up to {} seeds each, at {swept} \
+                 points of the sweeps; at most {TRIALS:.0e} are accepted",
+                self.contenders.len(),
+                largest.repeats
+            );
+            let widest = families.iter().max_by_key(|(group, _)| group.replicates).map(|(group, _)| *group);
+            let place = match widest.filter(|group| group.replicates > largest.repeats) {
+                Some(group) => format!("problems.{}.replicates", group.place),
+                None => format!("contender.{}.repeats", largest.place),
+            };
+            faults.add(self.document.error_at(&place, message));
+        }
+        let timed = self.timing.map_or(0.0, |timing| f64::from(timing.problems) * f64::from(timing.repeats));
+        if timed > TIMED {
+            let message = format!("{timed:.1e} runs are timed; at most {TIMED:.0e} are accepted");
+            faults.add(self.document.error_at("timing.repeats", message));
+        }
+    }
+
+    /// Refuses draws and seeds beyond those that there are.
+    fn check_shown(&self, shown: &[TrialsSpec], place: &str, faults: &mut Faults) {
+        for (index, trials) in shown.iter().enumerate() {
+            let group = self.groups.iter().find(|group| group.label == trials.problems);
+            let of = |label: &String| self.contenders.iter().find(|contender| contender.label == *label);
+            let contender = trials.contender.as_ref().and_then(of);
+            let asked = [
+                ("replicates", Some(trials.replicates), group.map(|group| group.replicates)),
+                ("repeats", trials.repeats, contender.map(|contender| contender.repeats)),
+            ];
+            for (key, asked, there_are) in asked {
+                if let Some((asked, there_are)) = asked.zip(there_are).filter(|(asked, there)| asked > there)
+                {
+                    let message =
+                        format!("`{key}` is {asked}; there are {there_are}, and no more is accepted");
+                    faults.add(self.document.error_at(&format!("{place}.{index}.{key}"), message));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! `replan check` finds everything that is wrong with a paper in one round, each thing once.
+
+use crate::paper::Bench;
+
+/// Every fault that `said` tells is one of `expected`, in this order, and none is missing; the lines of the files below them
+/// are left out.
+fn assert_told(said: &str, expected: &[&str]) {
+    let told = said.strip_prefix("replan: ").unwrap_or(said);
+    let told: Vec<&str> = told.lines().filter(|line| !line.starts_with("    ")).collect();
+    assert_eq!(told.len(), expected.len(), "{said}");
+    for (told, expected) in told.iter().zip(expected) {
+        assert!(told.contains(expected), "{expected}\nis said: {told}\n{said}");
+    }
+}
+
+#[test]
+fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
+    let bench = Bench::new();
+    for (file, from, to) in [
+        ("room", "seed = 8", "seed = 'eight'"),
+        ("room", "searched = true", "searched = true\nfitted_to = [\"toll\"]"),
+        ("room", "start = [0, 0]", "start = [3, 0]"),
+        ("room", "goal = [6, 3]", "goal = [3, 1]"),
+        ("room", "replicates = 1 }]", "replicas = 1 }]"),
+        ("draws", "\"delete_inflections\"", "\"delete_reflections\""),
+        ("draws", "weight = 1,", "weight = -1,"),
+        ("draws", "default = \"opened\"", "default = \"open\""),
+        ("paper", "figures = [\"fig1\"]", "figures = [\"fig2\"]"),
+        ("paper", "metric = \"path_cost_cells\"", "metric = \"path_cost\""),
+        ("paper", "contenders = [\"A*\"]", "contenders = [\"B*\"]"),
+        ("paper", "is = \"lower\"", "is = \"below\""),
+        ("paper", "problems = \"drawn\"", "problems = [\"drown\"]"),
+        ("paper", "authors = \"N. N.\"", "author = \"N. N.\""),
+    ] {
+        bench.edit(&format!("mini/{file}.toml"), from, to);
+    }
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    let expected = [
+        "mini/draws.toml:24:23: weight is -1; ",
+        "mini/draws.toml:30:19: contender `Two-sided` asks for stage `delete_reflections`, which does not exist (did you",
+        "mini/draws.toml:35:11: reading `nodes` has no option `open` (did you mean `opened`?); it has closed, opened",
+        "mini/paper.toml:3:1: unknown key `author` (did you mean `authors`?); accepted: ",
+        "mini/paper.toml:13:12: there is no figure or table `fig2` (did you mean `fig1`?); there are fig1, table1",
+        "mini/paper.toml:26:10: there is no metric `path_cost`, nor a reading that gives the name a meaning (did you",
+        "mini/paper.toml:27:15: there is no contender `B*`; there are A*",
+        "mini/paper.toml:35:6: `is` is \"below\"; ",
+        "mini/paper.toml:38:13: study `draws` has no problem group `drown` (did you mean `drawn`?); it has drawn",
+        "mini/room.toml:3:8: `seed` is \"eight\"; a whole number of 0 or more is accepted",
+        "mini/room.toml:5:14: fitted_to: there is no claim `toll`",
+        "mini/room.toml:16:44: the start [3.0, 0.0] is blocked",
+        "mini/room.toml:16:59: the goal [3.0, 1.0] is blocked",
+        "mini/room.toml:27:31: unknown key `replicas` (did you mean `replicates`?); accepted: ",
+    ];
+    assert_told(&said.err, &expected);
+}
+
+#[test]
+fn a_fault_is_told_once_whatever_readings_and_sweeps_lie_over_it() {
+    let bench = Bench::new();
+    bench.edit("mini/draws.toml", "weight = 1,", "weight = -1,");
+    bench.edit("mini/draws.toml", "size_cells = [12, 12]", "size_cells = [0, 12]");
+    let sweep = "[[sweep]]\nkey = \"ties\"\nof = \"astar\"\nvalues = [\"fifo\", \"lifo\"]\n\n[[reading]]";
+    bench.edit("mini/draws.toml", "[[reading]]", sweep);
+    let said = bench.run(&["check", "./mini"]);
+    assert_told(
+        &said.err,
+        &[
+            "draws.toml:19:27: size_cells: a grid of 0 × 12 cells; each side",
+            "draws.toml:24:23: weight is -1; ",
+        ],
+    );
+    bench.edit("mini/draws.toml", "size_cells = [0, 12]", "size_cells = [12, 12]");
+    bench.edit("mini/draws.toml", "weight = -1,", "weight = 1,");
+    bench.edit(
+        "mini/draws.toml",
+        "problem = { corner_rule = \"forbid_any\" }",
+        "problem = { goal = [12, 9] }",
+    );
+    let said = bench.run(&["check", "./mini"]);
+    assert_told(
+        &said.err,
+        &["draws.toml:19:60: with reading corners=forbid_any: goal is [12, 9], outside the map"],
+    );
+}
+
+#[test]
+fn sizes_whose_product_cannot_be_meant_are_refused_with_the_limit() {
+    let bench = Bench::new();
+    for (file, edits, expected) in [
+        (
+            "draws",
+            &[
+                ("replicates = 24", "replicates = 1_000_000"),
+                ("ties = \"fifo\" }\n\n", "ties = \"fifo\" }\nrepeats = 100_000\n\n"),
+            ][..],
+            &[
+                "draws.toml:18:14: the study has 1.0e11 trials: 1000000 problems by 2 contenders, up to 100000 seeds each",
+                "draws.toml:25:11: `repeats` is 100000, and contender `A*` draws nothing at random; 1 is accepted",
+            ][..],
+        ),
+        (
+            "draws",
+            &[("replicates = 24", "replicates = 1_000_000"), ("[12, 12]", "[8192, 8192]")],
+            &[
+                "draws.toml:18:14: 1000000 draws of 67108864 cells or samples each are 6.7e13; at most 1e12 are accepted",
+            ],
+        ),
+        (
+            "draws",
+            &[
+                ("\"random_cells\"", "\"random_rectangles\""),
+                ("[12, 12]", "[8192, 8192]"),
+                ("blocked_share = 0.3", "count = 1_000_000, side_cells = [1, 8192]"),
+            ],
+            &[
+                "draws.toml:18:14: 24 draws of 67108931108864 cells or samples each are 1.6e15; at most 1e12 are",
+            ],
+        ),
+        (
+            "draws",
+            &[("problems = 2\nrepeats = 2", "problems = 1_000_000\nrepeats = 1_000_000")],
+            &["draws.toml:13:11: 1.0e12 runs are timed; at most 1e7 are accepted"],
+        ),
+        (
+            "room",
+            &[("replicates = 1 }]", "replicates = 2, contender = \"A*\", repeats = 3 }]")],
+            &[
+                "room.toml:26:44: `replicates` is 2; there are 1, and no more is accepted",
+                "room.toml:26:75: `repeats` is 3; there are 1, and no more is accepted",
+            ],
+        ),
+    ] {
+        let name = format!("mini/{file}.toml");
+        let whole = std::fs::read(bench.at(&name)).unwrap();
+        for (from, to) in edits {
+            bench.edit(&name, from, to);
+        }
+        let said = bench.run(&["check", "./mini"]);
+        assert_eq!(said.code, Some(2), "{}{}", said.out, said.err);
+        assert_told(&said.err, expected);
+        bench.write(&name, &whole);
+    }
+    let many: Vec<String> = (0..101).map(|value| value.to_string()).collect();
+    let sweep =
+        |key: &str| format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = [{}]\n\n", many.join(", "));
+    let both = format!("{}{}[[reading]]", sweep("weight"), sweep("other"));
+    bench.edit("mini/draws.toml", "[[reading]]", &both);
+    let said = bench.run(&["check", "./mini"]);
+    assert!(
+        said.err.contains("the values of the sweeps have 10201 combinations; at most 10000 are"),
+        "{}",
+        said.err
+    );
+}
+
+#[test]
+fn files_of_something_else_beside_the_studies_are_told_from_studies() {
+    let bench = Bench::new();
+    for (name, text) in [
+        (".hidden.toml", "paper = \"mini\"\nbroken"),
+        ("Cargo.toml", "[package]\nname = \"x\"\n[dependencies]\n"),
+        ("empty.toml", ""),
+        ("notes.toml", "[[idea]]\ntext = \"try a third side\"\n"),
+    ] {
+        bench.write(&format!("mini/{name}"), text.as_bytes());
+    }
+    let said = bench.done(&["check", "./mini"]);
+    let expected = "mini: 2 studies, 2 claims, 2 ledger rows are in order\n  \
+        ./mini/Cargo.toml is taken for a file of something else, not for a study\n  \
+        ./mini/empty.toml is taken for a file of something else, not for a study\n  \
+        ./mini/notes.toml is taken for a file of something else, not for a study\n";
+    assert_eq!(said, expected);
+    for (text, expected) in [
+        (
+            "seed = 3\n",
+            &[
+                "notes.toml:1:1: missing key `paper`",
+                "notes.toml:1:1: missing key `question`",
+                "notes.toml:1:1: missing key `budget`",
+            ][..],
+        ),
+        ("[budget", &["notes.toml:1:8: "]),
+    ] {
+        bench.write("mini/notes.toml", text.as_bytes());
+        let said = bench.run(&["check", "./mini"]);
+        assert_eq!(said.code, Some(2), "{}", said.err);
+        assert_told(&said.err, expected);
+    }
+}
+
+#[test]
+fn a_crosscheck_is_checked_with_its_paper() {
+    let bench = Bench::new();
+    let spec = "seed = 1\n[sizes]\nstills = 1\n[picture]\n";
+    bench.write("mini/crosscheck.toml", spec.as_bytes());
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(said.err.contains("mini/crosscheck.toml:2:1: missing key `"), "{}", said.err);
+    let whole =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/experiments/planar/crosscheck.toml"));
+    let whole = whole.unwrap();
+    let study = whole.lines().find(|line| line.starts_with("study = ")).unwrap();
+    bench.write("mini/crosscheck.toml", whole.replace(study, "study = \"drows\"").as_bytes());
+    bench.edit("mini/room.toml", "start = [0, 0]", "start = [3, 0]");
+    let said = bench.run(&["check", "./mini"]);
+    assert!(
+        said.err.contains("there is no study `drows` (did you mean `draws`?); there are draws, room"),
+        "{}",
+        said.err
+    );
+    assert!(said.err.contains("mini/room.toml:15:44: the start [3.0, 0.0] is blocked"), "{}", said.err);
+}
+
+#[test]
+fn a_misspelled_metric_may_be_one_that_a_reading_introduces() {
+    let bench = Bench::new();
+    bench.edit("mini/paper.toml", "metric = \"nodes\"", "metric = \"nodez\"");
+    let said = bench.run(&["check", "./mini"]);
+    assert!(
+        said.err.contains("gives the name a meaning (did you mean `nodes`?); the metrics are "),
+        "{}",
+        said.err
+    );
+    let said = bench.done(&["list", "metrics", "path_length_mm"]);
+    let column = replan::study::column::find("path_length_mm").unwrap();
+    for part in [column.about, "unit: mm", "better: lower", "read from: path_length_mm"] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+}
+
+#[test]
+fn a_check_of_schemas_says_what_it_checked_and_refuses_what_is_left_over() {
+    let bench = Bench::new();
+    bench.done(&["schema"]);
+    let said = bench.done(&["schema", "--check"]);
+    assert_eq!(
+        said,
+        "9 schemas in docs/schema are current: audit_tables, cell_groups, cell_scene, crosscheck, paper, plane_map, \
+        polyhedra_scene, robot, study\n"
+    );
+    bench.write("docs/schema/spec.schema.json", b"{}");
+    let said = bench.run(&["schema", "--check"]);
+    assert_eq!(said.code, Some(3), "{}", said.err);
+    assert!(
+        said.err.contains("docs/schema/spec.schema.json is the schema of no kind of file; remove it"),
+        "{}",
+        said.err
+    );
+}
