@@ -1,7 +1,7 @@
 //! `replan check`: everything that can be wrong with a paper, without running it.
 
+use super::load::gather;
 use super::places::{Places, papers};
-use super::run::gather;
 use super::{Failure, Which, all};
 use crate::crosscheck::Spec;
 use crate::study::paper::Paper;

@@ -6,6 +6,8 @@
 use super::catalogue::{self, Item};
 use base::settings::generator;
 use serde_json::{Map, Value, json};
+use std::fs;
+use std::path::Path;
 
 /// The schema of the kind of file called `kind`; of a table without any rule if there is no such kind.
 pub fn of(kind: &str) -> Value {

@@ -31,7 +31,7 @@ impl Judge {
     pub fn run(self) -> Result<(), Failure> {
         let how = How { quick: false, seed: None, readings: self.readings, threads: None };
         let places = Places::find(&self.which, &how.variant())?;
-        let paper = super::run::load(&places, &how)?;
+        let paper = super::load::load(&places, &how)?;
         let point = how.point(&paper.readings())?;
         if self.check {
             return check(&paper, point, &places).map_err(Failure::as_check);

@@ -16,12 +16,16 @@ mod audit;
 mod audit_file;
 pub mod catalogue;
 mod check;
+mod compare;
 mod crosscheck;
 mod example;
 mod explain;
+mod export;
 pub mod file_schema;
 mod judge;
 mod list;
+mod load;
+mod merge;
 mod new;
 mod places;
 mod progress;
@@ -29,7 +33,10 @@ mod render;
 mod repro;
 mod run;
 mod schema;
+mod shard;
+mod sharded;
 mod show;
+mod status;
 mod trial;
 mod verdicts;
 
@@ -68,10 +75,20 @@ enum Command {
     Check(check::Check),
     /// Run the studies of a paper; stored trials are reused where nothing they depend on has changed
     Run(run::Run),
+    /// Put the parts of a run that was cut into shards together
+    Merge(merge::Merge),
+    /// Say what of a run that was cut into shards is done, at work, stopped and left
+    Status(status::Status),
+    /// Cut a run into shards and write the script that runs them: HyperQueue, Slurm or GNU parallel
+    Shard(shard::Shard),
     /// Judge a paper's claims again from its stored run
     Judge(judge::Judge),
     /// Draw a paper's figures and tables again from its stored run and verdicts
     Render(render::Render),
+    /// Compare two stored runs, or two contenders of one: changes with intervals, and gates on them
+    Compare(compare::Compare),
+    /// Write stored trials and their statistics for other programs
+    Export(export::Export),
     /// Show one claim with its evidence, or list every claim with its class
     Show(show::Show),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
@@ -190,8 +207,13 @@ pub fn run() -> ExitCode {
         Command::Repro(command) => command.run(),
         Command::Check(command) => command.run(),
         Command::Run(command) => command.run(),
+        Command::Merge(command) => command.run(),
+        Command::Status(command) => command.run(),
+        Command::Shard(command) => command.run(),
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
+        Command::Compare(command) => command.run(),
+        Command::Export(command) => command.run(),
         Command::Show(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
         Command::Audit(command) => command.run(),

@@ -134,7 +134,7 @@ struct Batch {
 }
 
 /// How many batches back a face looks for one of its colour.
-const LOOK_BACK: usize = 300;
+const LOOK_BACK: usize = 2_000;
 /// Faces with less on the page, square points, show nothing: the hairs of their neighbours cover them.
 const LEAST_FACE: f64 = 0.05;
 
