@@ -2,7 +2,6 @@
 
 use super::metric::{self, Metric};
 use super::polylines::Polylines;
-use crate::study::column;
 use crate::study::key::{Owner, ReadingKey, Text, TrialKey};
 use crate::study::manifest::Manifest;
 use crate::study::name::Names;
@@ -12,7 +11,7 @@ use crate::study::store::{Records, read_records};
 use crate::study::{ReadingChoice, Study, StudyError};
 use audit::turns::{Polyline, TurnQuery};
 use base::hash::sha256;
-use engine::planner::{Exhibit, Value};
+use engine::planner::Exhibit;
 use rayon::prelude::*;
 use stats::summary;
 use std::collections::BTreeMap;
@@ -204,17 +203,7 @@ impl<'a> Run<'a> {
 
     /// [`value`](Self::value) for many rows: where the metric stands is looked up once.
     pub fn reader<'r>(&'r self, metric: &'r Metric) -> impl Fn(&Row) -> Option<f64> + 'r {
-        let place = column::place(metric.column);
-        move |row| {
-            let raw = if metric.is_clock() {
-                self.times(row).and_then(|times| summary::median(times))
-            } else if metric.is_status() {
-                Some(f64::from(u8::from(matches!(row.status, Status::Solved | Status::Rejected))))
-            } else {
-                row.values.at(place?).map(Value::as_f64)
-            };
-            raw.map(|value| value * metric.scale)
-        }
+        metric.reader(|row| self.times(row).and_then(|times| summary::median(times)))
     }
 
     /// Every clock reading of `row` in the unit of `metric`; none if it was not timed or `metric` is not of the clock.

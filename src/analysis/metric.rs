@@ -1,6 +1,8 @@
 //! Metrics: what can be compared, its unit, which way is better, and how to get it from a record.
 
+use crate::study::record::{Row, Status};
 use crate::study::{clock, column};
+use engine::planner::Value;
 use std::collections::BTreeSet;
 
 /// Which way is better.
@@ -142,6 +144,24 @@ impl Metric {
     /// Whether it is read from the trial's status: 1 where a path came back, refused or not, otherwise 0.
     pub fn is_status(&self) -> bool {
         self.column == STATUS
+    }
+
+    /// It for each row, none where it was not measured; `wall_ns` is the median of a row's clock readings.
+    pub fn reader<'r>(
+        &'r self,
+        wall_ns: impl Fn(&Row) -> Option<f64> + 'r,
+    ) -> impl Fn(&Row) -> Option<f64> + 'r {
+        let place = column::place(self.column);
+        move |row| {
+            let raw = if self.is_clock() {
+                wall_ns(row)
+            } else if self.is_status() {
+                Some(f64::from(u8::from(matches!(row.status, Status::Solved | Status::Rejected))))
+            } else {
+                row.values.at(place?).map(Value::as_f64)
+            };
+            raw.map(|value| value * self.scale)
+        }
     }
 
     /// Whether it is read from the clock.

@@ -7,6 +7,7 @@
 
 pub mod claims;
 pub mod class;
+pub mod compare;
 pub mod context;
 pub mod criterion;
 pub mod difference;

@@ -1,7 +1,7 @@
 //! `replan check`: everything that can be wrong with a paper, without running it.
 
+use super::load::gather;
 use super::places::{Places, papers};
-use super::run::gather;
 use super::{Failure, Which, all};
 use crate::crosscheck::Spec;
 use crate::study::paper::Paper;
@@ -57,7 +57,7 @@ impl Check {
             say!("  {} is taken for a {kind}, not for a study", path.display());
         }
         if self.rerun > 0 {
-            rerun(&paper, &places, self.rerun, self.threads as usize).map_err(Failure::as_check)?;
+            rerun(&paper, &places, self.rerun, self.threads as usize).map_err(Failure::in_check)?;
         }
         Ok(())
     }

@@ -31,10 +31,10 @@ impl Judge {
     pub fn run(self) -> Result<(), Failure> {
         let how = How { quick: false, seed: None, readings: self.readings, threads: None };
         let places = Places::find(&self.which, &how.variant())?;
-        let paper = super::run::load(&places, &how)?;
+        let paper = super::load::load(&places, &how)?;
         let point = how.point(&paper.readings())?;
         if self.check {
-            return check(&paper, point, &places).map_err(Failure::as_check);
+            return check(&paper, point, &places).map_err(Failure::in_check);
         }
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         verdicts::print(&judge(&paper, point, &places)?);

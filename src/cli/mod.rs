@@ -1,7 +1,7 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 a check said no: something is not as stored, is judged otherwise, is impossible, or an independent judge
+//! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
 //! disagrees; 4 `crosscheck` lacks Python or the network; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
@@ -16,19 +16,27 @@ mod audit;
 mod audit_file;
 pub mod catalogue;
 mod check;
+mod compare;
 mod crosscheck;
 mod example;
 mod explain;
+mod export;
 pub mod file_schema;
 mod judge;
 mod list;
+mod load;
+mod merge;
+mod new;
 mod places;
 mod progress;
 mod render;
 mod repro;
 mod run;
 mod schema;
+mod shard;
+mod sharded;
 mod show;
+mod status;
 mod trial;
 mod verdicts;
 
@@ -49,6 +57,7 @@ struct Cli {
 const EXAMPLES: &str = "Examples:
   replan repro zhang                 run the paper's studies, judge its claims, draw its figures
   replan repro zhang --quick         the same with few replicates, below target/replan/
+  replan new ./my/paper --from grid  a small paper to be changed into your own; docs/YOUR_OWN_PAPER.md
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
   replan show zhang t1.improved.cost one claim with its evidence
@@ -58,16 +67,28 @@ const EXAMPLES: &str = "Examples:
 
 #[derive(Subcommand)]
 enum Command {
+    /// Write a small paper that runs, to be changed into your own
+    New(new::New),
     /// Run every study of a paper, judge its claims, draw its figures and write its report
     Repro(repro::Repro),
     /// Check papers and specs without running anything
     Check(check::Check),
     /// Run the studies of a paper; stored trials are reused where nothing they depend on has changed
     Run(run::Run),
+    /// Put the parts of a run that was cut into shards together
+    Merge(merge::Merge),
+    /// Say what of a run that was cut into shards is done, at work, stopped and left
+    Status(status::Status),
+    /// Cut a run into shards and write the script that runs them: HyperQueue, Slurm or GNU parallel
+    Shard(shard::Shard),
     /// Judge a paper's claims again from its stored run
     Judge(judge::Judge),
     /// Draw a paper's figures and tables again from its stored run and verdicts
     Render(render::Render),
+    /// Compare two stored runs, or two contenders of one: changes with intervals, and gates on them
+    Compare(compare::Compare),
+    /// Write stored trials and their statistics for other programs
+    Export(export::Export),
     /// Show one claim with its evidence, or list every claim with its class
     Show(show::Show),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
@@ -130,7 +151,7 @@ impl Failure {
     }
 
     /// The same as what a check says: that something is not as stored is its answer, and no wrong input.
-    fn as_check(self) -> Self {
+    fn in_check(self) -> Self {
         Self { code: if self.is_touched { 3 } else { self.code }, ..self }
     }
 }
@@ -182,11 +203,17 @@ fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
 /// Runs the command that the process was called with.
 pub fn run() -> ExitCode {
     let done = match Cli::parse().command {
+        Command::New(command) => command.run(),
         Command::Repro(command) => command.run(),
         Command::Check(command) => command.run(),
         Command::Run(command) => command.run(),
+        Command::Merge(command) => command.run(),
+        Command::Status(command) => command.run(),
+        Command::Shard(command) => command.run(),
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
+        Command::Compare(command) => command.run(),
+        Command::Export(command) => command.run(),
         Command::Show(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
         Command::Audit(command) => command.run(),

@@ -4,6 +4,7 @@
 //! goes below `target/replan/` or where `--out` says.
 
 use super::{Failure, How, Which};
+use crate::analysis::compare::stored_studies;
 use crate::study::paper::Paper;
 use crate::study::{Inputs, ReadingChoice, Study};
 use std::collections::BTreeMap;
@@ -15,6 +16,9 @@ use std::path::{Component, Path, PathBuf};
 const EXPERIMENTS: &str = "experiments";
 /// Where everything goes that is not committed.
 const TARGET: &str = "target/replan";
+
+/// Where stored runs lie below a root, a folder a paper.
+const RUNS: &str = "data/runs";
 
 /// Where things are.
 #[derive(Debug, Clone)]
@@ -57,7 +61,7 @@ impl Places {
         };
         let root = if root == Path::new(".") { PathBuf::new() } else { root };
         Ok(Self {
-            runs: root.join("data/runs").join(&id),
+            runs: root.join(RUNS).join(&id),
             plots: root.join("plots").join(&id),
             report: root.join("paper_repro.md"),
             inputs: Inputs { roots: vec![folder.clone(), home.clone()] },
@@ -71,6 +75,36 @@ impl Places {
     /// The file by which runs agree on who changes the report.
     pub fn report_lock(&self) -> PathBuf {
         self.runs.parent().unwrap_or(Path::new("")).join(".lock")
+    }
+}
+
+/// The folder of records that `given` means: itself, that of the one paper below it, or that of a paper of the project.
+///
+/// # Errors
+/// If there is none, or there are several.
+pub fn stored_run(given: &str) -> Result<PathBuf, Failure> {
+    let (folder, named) = (Path::new(given), home(None)?.join(RUNS).join(given));
+    let is_run = |folder: &Path| !stored_studies(folder).is_empty();
+    let below: Vec<PathBuf> = fs::read_dir(folder.join(RUNS))
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| is_run(path))
+        .collect();
+    match &below[..] {
+        _ if is_run(folder) => Ok(folder.to_owned()),
+        [one] => Ok(one.clone()),
+        [] if is_run(&named) => Ok(named),
+        [] => Err(Failure::input(format!(
+            "`{given}` holds no stored run; a folder with *.manifest.toml, what `--out` was given, or the name of a paper \
+             that has run is accepted"
+        ))),
+        several => Err(Failure::input(format!(
+            "`{given}` holds the runs of {} papers; name one of their folders, as {}",
+            several.len(),
+            several[0].display()
+        ))),
     }
 }
 

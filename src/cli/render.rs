@@ -32,11 +32,11 @@ impl Render {
     pub fn run(self) -> Result<(), Failure> {
         let places = Places::find(&self.which, "")?;
         let how = How { quick: false, seed: None, readings: None, threads: None };
-        let paper = super::run::load(&places, &how)?;
+        let paper = super::load::load(&places, &how)?;
         let stop = stop_flag();
         if self.check {
             let drawn = draw(&paper, &places, self.only.as_deref(), stop);
-            return drawn.and_then(|drawn| check(&paper, &places, &drawn)).map_err(Failure::as_check);
+            return drawn.and_then(|drawn| check(&paper, &places, &drawn)).map_err(Failure::in_check);
         }
         check_report(&paper, &places)?;
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
@@ -75,7 +75,7 @@ pub fn macros(paper: &str) -> Result<Option<String>, Failure> {
     }
     let places = Places::find(&Which { paper: paper.to_owned(), out: None }, "")?;
     let how = How { quick: false, seed: None, readings: None, threads: None };
-    let paper = super::run::load(&places, &how)?;
+    let paper = super::load::load(&places, &how)?;
     let drawn = draw(&paper, &places, Some("numbers"), stop_flag())?;
     let made = drawn.outputs.files.first().map(|file| String::from_utf8_lossy(&file.bytes).into_owned());
     Ok(made)

@@ -1,8 +1,9 @@
 //! `replan repro`: from the spec to the verdicts.
 
+use super::load::load;
 use super::places::Places;
 use super::progress::{safe_point, stop_flag};
-use super::run::{load, run_studies, summary};
+use super::run::{run_studies, summary};
 use super::{Failure, How, Which, trial, verdicts};
 use super::{judge, render};
 use crate::study::lock::Lock;

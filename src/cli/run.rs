@@ -1,16 +1,20 @@
 //! `replan run`: the trials, and nothing after them.
 
-use super::file_schema::of_any_names;
+use super::load::load;
 use super::places::Places;
 use super::progress::{Bar, stop_flag};
+use super::sharded::Sharded;
 use super::{Failure, How, Which, command_line};
 use crate::analysis::claims;
+use crate::study::Study;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
+use crate::study::plan::Plan;
 use crate::study::session::{self, Options, Report, UnexpectedStatus};
-use base::settings::Faults;
+use crate::study::shard::{self, Portion};
 use clap::Args;
+use std::path::Path;
 
 /// Runs the studies of a paper.
 #[derive(Args)]
@@ -25,12 +29,18 @@ pub struct Run {
     /// Say why stored trials were or were not reused
     #[arg(long)]
     why: bool,
+    /// Run this shard of N alone and keep it below --out, as a part for `replan merge`
+    #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
+    shard: Option<(usize, usize)>,
 }
 
 impl Run {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
+        if let (Some((number, of)), Some(folder)) = (self.shard, &self.which.out) {
+            return self.run_shard(number, of, folder);
+        }
         let places = Places::find(&self.which, &self.how.variant())?;
         let paper = load(&places, &self.how)?;
         self.how.check_points(&paper)?;
@@ -41,28 +51,25 @@ impl Run {
         say!("records are in {}", places.runs.display());
         Ok(())
     }
-}
 
-/// The paper as far as it can be read, with every claim's checks, figure and table understood; everything that is wrong goes
-/// to `faults`.
-pub fn gather(places: &Places, faults: &mut Faults) -> Result<Option<Paper>, Failure> {
-    let paper = Paper::gather(&places.folder, &places.inputs, &of_any_names, faults)?;
-    if let Some(paper) = &paper {
-        faults.keep(claims::validate(paper));
-        faults.keep(crate::render::figure::validate(paper));
-        faults.keep(crate::render::results::validate(paper));
+    /// Runs the shard `number` of `of` into its own part of `folder`.
+    fn run_shard(&self, number: usize, of: usize, folder: &Path) -> Result<(), Failure> {
+        let sharded = Sharded::load(&self.which.paper, &self.how)?;
+        let (plan, portions) = {
+            let studies = sharded.studies()?;
+            let plan = Plan::agreed(folder, &sharded.wanted(of), &studies)?;
+            let portions = plan.portions(&studies, number);
+            (plan, portions)
+        };
+        let lock = Lock::take(&plan.part(folder, number))?;
+        let Sharded { paper, places, how, .. } = &sharded;
+        for (study, portion) in paper.studies.iter().zip(&portions) {
+            let report = run_study(paper, study, places, how, &lock, self.fresh, Some(portion))?;
+            say!("{}", summary(&report, self.why));
+        }
+        say!("shard {number}/{of} is in {}", lock.folder().display());
+        Ok(())
     }
-    Ok(paper)
-}
-
-/// The paper as the flags ask for it.
-pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
-    let mut faults = Faults::default();
-    let paper = gather(places, &mut faults)?;
-    let Some(paper) = paper.filter(|_| faults.is_empty()) else { return Err(faults.error().into()) };
-    let paper = how.apply(paper);
-    how.check_readings(&paper)?;
-    Ok(paper)
 }
 
 /// Runs what is stale of every study of `paper`; everything with `fresh`.
@@ -73,25 +80,33 @@ pub fn run_studies(
     lock: &Lock,
     fresh: bool,
 ) -> Result<Vec<Report>, Failure> {
-    let (stop, bar) = (stop_flag(), Bar::default());
-    let mut reports = Vec::new();
-    for study in &paper.studies {
-        let points = how.points(study)?;
-        let options = Options {
-            lock,
-            points: &points,
-            inputs: &places.inputs,
-            command: command_line(),
-            claims: claims::claims_hash(paper),
-            quick: how.quick,
-            fresh,
-            threads: how.threads.map(|threads| threads as usize),
-            stop,
-            progress: &bar,
-        };
-        reports.push(session::run(study, &options)?);
-    }
-    Ok(reports)
+    paper.studies.iter().map(|study| run_study(paper, study, places, how, lock, fresh, None)).collect()
+}
+
+/// Runs what is stale of one study, or of a portion of it.
+fn run_study(
+    paper: &Paper,
+    study: &Study,
+    places: &Places,
+    how: &How,
+    lock: &Lock,
+    fresh: bool,
+    portion: Option<&Portion>,
+) -> Result<Report, Failure> {
+    let options = Options {
+        lock,
+        points: &how.points(study)?,
+        inputs: &places.inputs,
+        command: command_line(),
+        claims: claims::claims_hash(paper),
+        portion,
+        quick: how.quick,
+        fresh,
+        threads: how.threads.map(|threads| threads as usize),
+        stop: stop_flag(),
+        progress: &Bar::default(),
+    };
+    Ok(session::run(study, &options)?)
 }
 
 /// What a run did, in a few words.

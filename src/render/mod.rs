@@ -6,6 +6,7 @@
 
 pub mod canvas;
 pub mod chart;
+pub mod comparison;
 mod disclaimers;
 pub mod figure;
 pub mod font;

@@ -6,6 +6,7 @@
 
 pub mod bands;
 pub mod bootstrap;
+pub mod gate;
 pub mod interval;
 pub mod paired;
 pub mod pooled;

@@ -27,6 +27,12 @@ impl Lock {
         }
     }
 
+    /// Whether a process holds the lock of `folder`.
+    pub fn is_held(folder: &Path) -> bool {
+        let file = File::open(folder.join(".lock"));
+        file.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
+    }
+
     /// The folder.
     pub fn folder(&self) -> &Path {
         &self.folder

@@ -8,11 +8,12 @@ use super::key::{ReadingKey, Text};
 use super::name;
 use super::reading::ReadingChoice;
 use super::runner::{BuiltStudy, SESSION};
+use super::shard::{Portion, Shard};
 use super::store::Staged;
 use base::hash::sha256;
 use base::settings::Document;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -45,6 +46,9 @@ pub struct Manifest {
     pub defaults: Vec<String>,
     /// The program and the machine.
     pub made_by: MadeBy,
+    /// Which part of a run the records are, if it was cut into shards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<Shard>,
     /// SHA-256 of every input file.
     pub inputs: BTreeMap<String, String>,
     /// Where and by what clocks were read.
@@ -127,11 +131,19 @@ impl Manifest {
             defaults: defaults(study),
             sessions: study.timing.iter().map(|_| Session::of(&made_by)).collect(),
             made_by,
+            shard: None,
             inputs,
             problems,
             contenders,
             files: BTreeMap::new(),
         })
+    }
+
+    /// Makes it that of a portion of the run, which reads no clock; the units of the portion.
+    pub fn cut_to<'p>(&mut self, portion: &'p Portion) -> &'p BTreeSet<usize> {
+        self.shard = Some(portion.shard.clone());
+        self.sessions.clear();
+        &portion.units
     }
 
     /// Where the manifest of `study` lies in `folder`.
@@ -161,10 +173,18 @@ impl Manifest {
         staged.add(&Self::path(folder, &self.study), text.as_bytes())
     }
 
-    /// Whether the run that `before` describes gave all that this one would give.
+    /// Whether the run that `before` describes gave all that this one would give, readings of the clock among it: a run that
+    /// was put together of parts has none yet.
     pub fn is_as(&self, before: &Self) -> bool {
-        (&self.spec, &self.depends, &self.axes, &self.readings)
-            == (&before.spec, &before.depends, &before.axes, &before.readings)
+        (&self.spec, &self.depends, &self.axes, &self.readings, &self.shard, self.sessions.is_empty())
+            == (
+                &before.spec,
+                &before.depends,
+                &before.axes,
+                &before.readings,
+                &before.shard,
+                before.sessions.is_empty(),
+            )
     }
 
     /// Whether trials ran under the reading.

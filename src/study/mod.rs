@@ -37,12 +37,16 @@ pub mod paper;
 pub mod store;
 
 pub mod runner;
+pub mod shard;
 
 pub mod manifest;
 
+pub mod plan;
 pub mod reuse;
 
 pub mod session;
+
+pub mod merge;
 
 pub mod rerun;
 

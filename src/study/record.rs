@@ -225,3 +225,14 @@ pub struct Batch {
     /// What figures need.
     pub kept: Vec<Kept>,
 }
+
+impl Batch {
+    /// It, and after it all of `other`.
+    #[must_use]
+    pub fn with(mut self, other: Self) -> Self {
+        self.prepared.extend(other.prepared);
+        self.rows.extend(other.rows);
+        self.kept.extend(other.kept);
+        self
+    }
+}

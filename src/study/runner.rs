@@ -8,7 +8,7 @@ use super::checked::Study;
 use super::clock;
 use super::error::StudyError;
 use super::family::Family;
-use super::group::Families;
+use super::group::{Families, Group};
 use super::inputs::Inputs;
 use super::key::{DrawKey, Owner, ReadingKey, Text, TrialKey};
 use super::name::Names;
@@ -124,6 +124,13 @@ impl<'a> BuiltStudy<'a> {
         units
     }
 
+    /// The label of each unit's problem group, in the order of records.
+    pub fn groups_of_units(&self) -> impl Iterator<Item = &str> {
+        let groups = || self.study.groups.iter();
+        let of_group = |group: &'a Group| (0..group.replicates).map(move |_| group.label.as_str());
+        self.points.iter().flat_map(move |_| groups().flat_map(of_group))
+    }
+
     /// The unit called `key`: of the reading and the problem group at these places.
     fn unit(&self, key: DrawKey, reading: usize, group: usize) -> Unit<'_> {
         let (family, group) = (self.families[reading][group].as_ref(), &self.study.groups[group]);
@@ -219,13 +226,14 @@ impl<'a> BuiltStudy<'a> {
         all
     }
 
-    /// Runs every unit that `done` does not hold yet, in the current thread pool; of a unit of which `parts` holds some
-    /// contenders' trials, those of the others.
+    /// Runs every unit, or those among `only`, that `done` does not hold yet, in the current thread pool; of a unit of which
+    /// `parts` holds some contenders' trials, those of the others.
     ///
     /// # Errors
     /// [`StudyError::Interrupted`] if `stop` was set; an error of the journal.
     pub fn run(
         &self,
+        only: Option<&BTreeSet<usize>>,
         mut done: BTreeMap<usize, Batch>,
         parts: &BTreeMap<usize, Part>,
         journal: &Mutex<Journal>,
@@ -233,7 +241,11 @@ impl<'a> BuiltStudy<'a> {
         progress: &dyn Progress,
     ) -> Result<Batch, StudyError> {
         let units = self.units();
-        let todo: Vec<usize> = (0..units.len()).filter(|index| !done.contains_key(index)).collect();
+        let is_own = |index: &usize| only.is_none_or(|only| only.contains(index));
+        let total = only.map_or(units.len(), BTreeSet::len);
+        done.retain(|index, _| is_own(index));
+        let todo: Vec<usize> =
+            (0..units.len()).filter(|index| is_own(index) && !done.contains_key(index)).collect();
         progress.begin(&format!("{}: trials", self.study.name), todo.len());
         let work = |index: &usize| -> Result<Option<(usize, Batch)>, StudyError> {
             if stop.load(Ordering::Relaxed) {
@@ -250,16 +262,11 @@ impl<'a> BuiltStudy<'a> {
         let fresh: Vec<_> = todo.par_iter().map(work).collect::<Result<_, _>>()?;
         progress.end();
         done.extend(fresh.into_iter().flatten());
-        if done.len() < units.len() {
+        if done.len() < total {
             let study = self.study.name.clone();
-            return Err(StudyError::Interrupted { study, kept: done.len(), total: units.len() });
+            return Err(StudyError::Interrupted { study, kept: done.len(), total });
         }
-        Ok(done.into_values().fold(Batch::default(), |mut all, batch| {
-            all.prepared.extend(batch.prepared);
-            all.rows.extend(batch.rows);
-            all.kept.extend(batch.kept);
-            all
-        }))
+        Ok(done.into_values().fold(Batch::default(), Batch::with))
     }
 
     /// The timed passes: one thread, warmed up, with only the pipeline's call between two readings of the clock.

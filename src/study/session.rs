@@ -8,7 +8,10 @@ use super::reading::ReadingChoice;
 use super::record::{Batch, Row, Status, Timing};
 use super::reuse::{self, Before, Reusable, moved};
 use super::runner::{BuiltStudy, Progress};
-use super::store::{Columns, Journal, Records, Staged, remove_temporaries, stage_records};
+use super::shard::Portion;
+use super::store::{
+    Columns, Exhibits, GROUP_VALUES, Journal, Records, Staged, remove_temporaries, stage_records,
+};
 use super::unit::Unit;
 use super::{Inputs, StudyError};
 use std::collections::BTreeSet;
@@ -28,6 +31,9 @@ pub struct Options<'a> {
     pub command: String,
     /// SHA-256 of the paper's claims.
     pub claims: String,
+    /// The units to run, of a run that is cut into shards; all if absent. A shard reads no clock: readings on several machines,
+    /// or beside other shards, are of no session.
+    pub portion: Option<&'a Portion>,
     /// Cut down by `--quick`.
     pub quick: bool,
     /// Run everything again, even what is stored and unchanged.
@@ -38,6 +44,14 @@ pub struct Options<'a> {
     pub stop: &'a AtomicBool,
     /// Who watches.
     pub progress: &'a dyn Progress,
+}
+
+impl Options<'_> {
+    /// The manifest of the run, without record files yet.
+    fn manifest(&self, study: &Study, built: &BuiltStudy<'_>) -> Result<Manifest, StudyError> {
+        let (claims, command) = (self.claims.clone(), self.command.clone());
+        Manifest::new(study, self.points, built, claims, command, self.quick)
+    }
 }
 
 /// What a run did.
@@ -113,11 +127,11 @@ impl UnexpectedStatus {
 /// are unless the run succeeds.
 pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let (built, folder) = (BuiltStudy::new(study, options.points, options.inputs)?, options.lock.folder());
-    let (claims, command) = (options.claims.clone(), options.command.clone());
-    let mut manifest = Manifest::new(study, options.points, &built, claims, command, options.quick)?;
+    let mut manifest = options.manifest(study, &built)?;
+    let only = options.portion.map(|portion| manifest.cut_to(portion));
     remove_temporaries(folder, &study.name);
-    let (journal, mut done) = Journal::open(&journal_path(folder, &study.name), &manifest.depends)?;
-    let (resumed, units) = (done.len(), built.units().len());
+    let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
+    let (resumed, units) = (done.len(), only.map_or_else(|| built.units().len(), BTreeSet::len));
     let Before { stored, why } = Before::read(folder, &manifest);
     let is_current = |(before, _): &&(Manifest, Records)| !options.fresh && manifest.is_as(before);
     if let Some((before, records)) = stored.as_ref().filter(is_current) {
@@ -125,10 +139,9 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         let counts = Counts { resumed, units, reused: units, kept: 0 };
         return Ok(Report::new(before.clone(), &counts, &records.batch, built.names(), why));
     }
-    let found = match &stored {
-        Some((before, records)) if !options.fresh => Reusable::new(&built, &manifest, before, records),
-        _ => Reusable::default(),
-    };
+    let usable = stored.as_ref().filter(|_| !options.fresh);
+    let found =
+        usable.map_or_else(Reusable::default, |(before, old)| Reusable::new(&built, &manifest, before, old));
     let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
     if let Some((before, _)) = stored.as_ref().filter(|_| counts.reused + counts.kept > 0) {
         // These trials were seen under the former claims, so that a margin which has moved since stays marked.
@@ -136,13 +149,15 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     }
     done = found.units.into_iter().chain(done).collect();
     let (journal, pool) = (Mutex::new(journal), pool(options.threads));
-    let batch = pool.install(|| built.run(done, &found.parts, &journal, options.stop, options.progress))?;
+    let batch =
+        pool.install(|| built.run(only, done, &found.parts, &journal, options.stop, options.progress))?;
     let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
         Some(times) => times,
+        None if only.is_some() => Vec::new(),
         None => built.time(options.stop, options.progress)?,
     };
     let records = Records { batch, times };
-    write(study, folder, &mut manifest, &records)?;
+    write(study, folder, &mut manifest, &records, Exhibits::held(&records.batch.kept))?;
     journal.into_inner().expect("no thread panicked while it wrote").remove()?;
     let mut report = Report::new(manifest, &counts, &records.batch, built.names(), why);
     report.moved = stored.as_ref().map_or_else(Default::default, |(before, old)| {
@@ -177,12 +192,25 @@ fn is_timed_as(study: &Study, times: &[Timing]) -> bool {
         && most(|time| time.trial.repeat) == timing.seeds.unwrap_or(1).min(seeds)
 }
 
+/// The least that a group of a part's exhibits holds, so that many parts do not make many files of crumbs.
+const LEAST_GROUP_VALUES: usize = 1 << 12;
+
 /// Puts records and manifest in their places, the manifest last: it says which records are whole.
-fn write(study: &Study, folder: &Path, manifest: &mut Manifest, records: &Records) -> Result<(), StudyError> {
+pub(super) fn write(
+    study: &Study,
+    folder: &Path,
+    manifest: &mut Manifest,
+    records: &Records,
+    mut exhibits: Exhibits<'_>,
+) -> Result<(), StudyError> {
+    if let Some(shard) = &manifest.shard {
+        // Who puts parts together holds a group of each.
+        exhibits.group_values = (GROUP_VALUES / shard.of).max(LEAST_GROUP_VALUES);
+    }
     let values: Vec<&'static str> = study.columns().into_iter().collect();
     let columns = Columns { keys: study.key_columns(), values: &values };
     let mut staged = Staged::default();
-    manifest.files = stage_records(&mut staged, folder, &study.name, &columns, records)?;
+    manifest.files = stage_records(&mut staged, folder, &study.name, &columns, records, exhibits)?;
     manifest.stage(&mut staged, folder)?;
     staged.put()
 }
@@ -230,10 +258,6 @@ pub fn run_one(
         return Err(unknown());
     }
     Ok((batch, before))
-}
-
-fn journal_path(folder: &Path, study: &str) -> std::path::PathBuf {
-    folder.join(format!("{study}.journal"))
 }
 
 /// A pool of `threads` threads; of the machine's number if absent.

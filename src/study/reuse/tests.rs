@@ -3,7 +3,7 @@ use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
 use crate::study::record::Row;
 use crate::study::session::{Options, Report, run};
-use crate::study::store::{Columns, Records, Staged, read_records, stage_records};
+use crate::study::store::{Columns, Exhibits, Records, Staged, read_records, stage_records};
 use crate::study::{Inputs, Study, runner::Unwatched};
 use std::collections::BTreeMap;
 use std::fs;
@@ -84,6 +84,7 @@ impl House {
             claims: String::new(),
             quick: false,
             fresh: false,
+            portion: None,
             threads: Some(1),
             stop: &AtomicBool::new(false),
             progress: &Unwatched,
@@ -101,7 +102,9 @@ impl House {
         let values: Vec<&'static str> = study.columns().into_iter().collect();
         let columns = Columns { keys: study.key_columns(), values: &values };
         let (mut staged, mut manifest) = (Staged::default(), Manifest::read(folder, "s").unwrap());
-        manifest.files = stage_records(&mut staged, folder, "s", &columns, records).unwrap();
+        manifest.files =
+            stage_records(&mut staged, folder, "s", &columns, records, Exhibits::held(&records.batch.kept))
+                .unwrap();
         manifest.stage(&mut staged, folder).unwrap();
         staged.put().unwrap();
     }

@@ -26,6 +26,11 @@ struct Line {
 }
 
 impl Journal {
+    /// Where the journal of a run of `study` lies in `folder`.
+    pub fn path(folder: &Path, study: &str) -> PathBuf {
+        folder.join(format!("{study}.journal"))
+    }
+
     /// Opens the journal at `path` for a run that depends on `key`, and returns the units it holds.
     ///
     /// A journal of another run is emptied: its units answer another question.
@@ -69,6 +74,12 @@ impl Journal {
     fn write(&mut self, line: &str) -> Result<(), StudyError> {
         self.file.write_all(line.as_bytes()).map_err(StudyError::io(&self.path, "writing the journal"))
     }
+}
+
+/// About how many units the journal of `study` in `folder` holds, without understanding it: a run may be at work on it.
+pub fn journal_units(folder: &Path, study: &str) -> usize {
+    let bytes = fs::read(Journal::path(folder, study)).unwrap_or_default();
+    bytes.iter().filter(|byte| **byte == b'\n').count().saturating_sub(1)
 }
 
 /// The units in `text` if it is a journal for `key`, and how many of its bytes are sound.

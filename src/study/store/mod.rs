@@ -4,20 +4,24 @@
 //! the old file or the new one. The journal is the one file that grows; a torn last line is dropped on reading.
 
 mod describe;
+mod exhibits;
 mod journal;
 mod read;
 mod table;
 
-pub use journal::Journal;
+pub use exhibits::{ExhibitReader, GROUP_VALUES};
+pub use journal::{Journal, journal_units};
+pub use read::quoted;
 
+use self::exhibits::ExhibitWriter;
 use self::read::{Draws, Stored};
 use super::StudyError;
-use super::key::KeyColumns;
-use super::record::{Batch, Timing};
-use base::hash::sha256;
+use super::key::{KeyColumns, SweepKey};
+use super::record::{Batch, Kept, Timing};
+use base::hash::{Hasher, sha256};
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{ErrorKind, Write as _};
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The records of one study.
@@ -38,9 +42,6 @@ pub struct Columns<'a> {
     pub values: &'a [&'static str],
 }
 
-/// The kinds of file that hold a study's records.
-const PARTS: [&str; 4] = ["trials", "prepared", "exhibits", "times"];
-
 /// How names of half-written files end.
 const TEMPORARY: &str = ".tmp";
 
@@ -49,30 +50,61 @@ pub fn part_path(folder: &Path, study: &str, part: &str) -> PathBuf {
     folder.join(format!("{study}.{part}.parquet"))
 }
 
-/// Stages every part of `records` for `folder` and gives the hash of each file by its part.
+/// Exhibits on their way to a file, in the order of records.
+pub struct Exhibits<'a> {
+    /// The exhibits.
+    pub each: Box<dyn Iterator<Item = Result<Kept, StudyError>> + 'a>,
+    /// The sweep of one that belongs to a trial, if any does.
+    pub sweep: Option<SweepKey>,
+    /// How many numbers at most are read back at a time.
+    pub group_values: usize,
+}
+
+impl<'a> Exhibits<'a> {
+    /// Those that are held in memory.
+    pub fn held(kept: &'a [Kept]) -> Self {
+        Self {
+            each: Box::new(kept.iter().cloned().map(Ok)),
+            sweep: exhibits::sweep_of(kept),
+            group_values: GROUP_VALUES,
+        }
+    }
+}
+
+/// Stages every part of `records` for `folder`, with `exhibits` in place of those that they hold, and gives the hash of each
+/// file by its part.
 ///
 /// # Errors
-/// [`StudyError::Io`]; no file has changed then.
+/// [`StudyError::Io`]; no file has changed then. Those of `exhibits`.
 pub fn stage_records(
     staged: &mut Staged,
     folder: &Path,
     study: &str,
     columns: &Columns<'_>,
     records: &Records,
+    exhibits: Exhibits<'_>,
 ) -> Result<BTreeMap<String, String>, StudyError> {
-    let keys = &columns.keys;
-    let parts = [
-        table::trials(&records.batch.rows, keys, columns.values),
-        table::prepared(&records.batch.prepared, keys),
-        table::exhibits(&records.batch.kept, keys),
-        table::times(&records.times, keys),
-    ];
-    let mut hashes = BTreeMap::new();
-    for (part, frame) in PARTS.into_iter().zip(parts) {
+    let (keys, mut hashes) = (&columns.keys, BTreeMap::new());
+    let mut frame = |staged: &mut Staged, part: &str, frame| -> Result<(), StudyError> {
         let bytes = table::to_parquet(frame, keys);
         staged.add(&part_path(folder, study, part), &bytes)?;
         hashes.insert(part.to_owned(), sha256(&bytes));
-    }
+        Ok(())
+    };
+    frame(staged, "trials", table::trials(&records.batch.rows, keys, columns.values))?;
+    frame(staged, "prepared", table::prepared(&records.batch.prepared, keys))?;
+    let path = part_path(folder, study, "exhibits");
+    let hash = staged.add_with(&path, |out| {
+        let io = || StudyError::io(&path, "writing the file");
+        let Exhibits { each, sweep, group_values } = exhibits;
+        let mut file = ExhibitWriter::new(out, keys, sweep, group_values).map_err(io())?;
+        for kept in each {
+            file.add(kept?).map_err(io())?;
+        }
+        file.finish().map_err(io())
+    })?;
+    frame(staged, "times", table::times(&records.times, keys))?;
+    hashes.insert("exhibits".to_owned(), hash);
     Ok(hashes)
 }
 
@@ -85,32 +117,100 @@ pub fn read_records(
     study: &str,
     hashes: &BTreeMap<String, String>,
 ) -> Result<Records, StudyError> {
-    let open = |part: &str| -> Result<Stored, StudyError> {
-        let path = part_path(folder, study, part);
-        let bytes = fs::read(&path)
-            .map_err(|e| StudyError::stored(&path, format!("cannot be read ({e}); run the study again")))?;
-        let (found, wanted) = (sha256(&bytes), hashes.get(part).map_or("none", String::as_str));
-        if found != wanted {
-            let message = format!(
-                "{}: is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from \
-                 another spec; run the study again",
-                path.display(),
-                &found[..12],
-                wanted.get(..12).unwrap_or(wanted)
-            );
-            return Err(StudyError::Touched(message));
-        }
-        Stored::open(path, bytes)
-    };
+    read_parts(folder, study, hashes, true)
+}
+
+/// As [`read_records`], without exhibits: whoever looks at numbers alone holds none of them in memory.
+///
+/// # Errors
+/// As [`read_records`].
+pub fn read_numbers(
+    folder: &Path,
+    study: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<Records, StudyError> {
+    read_parts(folder, study, hashes, false)
+}
+
+fn read_parts(
+    folder: &Path,
+    study: &str,
+    hashes: &BTreeMap<String, String>,
+    with_exhibits: bool,
+) -> Result<Records, StudyError> {
     let draws = &mut Draws::default();
+    let open = |part: &str| open(folder, study, part, hashes);
     Ok(Records {
         batch: Batch {
             rows: open("trials")?.trials(draws)?,
             prepared: open("prepared")?.prepared(draws)?,
-            kept: open("exhibits")?.exhibits(draws)?,
+            kept: if with_exhibits { open("exhibits")?.exhibits(draws)? } else { Vec::new() },
         },
         times: open("times")?.times(draws)?,
     })
+}
+
+/// The exhibits of `study` in `folder`, to be read one group at a time; they must have their hash among `hashes`.
+///
+/// # Errors
+/// As [`read_records`].
+pub fn open_exhibits(
+    folder: &Path,
+    study: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<ExhibitReader, StudyError> {
+    let path = part_path(folder, study, "exhibits");
+    let mut hasher = Hasher::default();
+    let copied = fs::File::open(&path).and_then(|mut file| io::copy(&mut file, &mut hasher));
+    copied.map_err(|e| unreadable(&path, &e))?;
+    check(&path, &hasher.finish(), hashes.get("exhibits"))?;
+    ExhibitReader::open(&path)
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> StudyError {
+    StudyError::stored(path, format!("cannot be read ({error}); run the study again"))
+}
+
+/// Refuses a file that is not the one that a manifest names.
+fn check(path: &Path, found: &str, wanted: Option<&String>) -> Result<(), StudyError> {
+    let wanted = wanted.map_or("none", String::as_str);
+    if found == wanted {
+        return Ok(());
+    }
+    let message = format!(
+        "{}: is not the file that the manifest names (sha256 {}… instead of {}…): truncated, edited, or from another spec; run \
+         the study again",
+        path.display(),
+        &found[..12],
+        wanted.get(..12).unwrap_or(wanted)
+    );
+    Err(StudyError::Touched(message))
+}
+
+/// The part `part` of `study`'s records in `folder`, which must have its hash among `hashes`.
+fn open(
+    folder: &Path,
+    study: &str,
+    part: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<Stored, StudyError> {
+    let path = part_path(folder, study, part);
+    let bytes = fs::read(&path).map_err(|e| unreadable(&path, &e))?;
+    check(&path, &sha256(&bytes), hashes.get(part))?;
+    Stored::open(path, bytes)
+}
+
+/// The part `part` of `study`'s records in `folder` as comma-separated values, checked as in [`read_records`].
+///
+/// # Errors
+/// As [`read_records`].
+pub fn csv(
+    folder: &Path,
+    study: &str,
+    part: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<String, StudyError> {
+    Ok(open(folder, study, part, hashes)?.csv())
 }
 
 /// Files that are written, but not in their places yet: all of them are put there, or none.
@@ -127,6 +227,20 @@ impl Staged {
     /// # Errors
     /// [`StudyError::Io`] with the path and what was being done, also if a folder stands in its place.
     pub fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+        let write =
+            |out: &mut dyn Write| out.write_all(bytes).map_err(StudyError::io(path, "writing the file"));
+        self.add_with(path, write).map(drop)
+    }
+
+    /// Has `write` write beside `path`, and gives the SHA-256 of what it wrote.
+    ///
+    /// # Errors
+    /// As [`add`](Self::add); those of `write`.
+    pub fn add_with(
+        &mut self,
+        path: &Path,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), StudyError>,
+    ) -> Result<String, StudyError> {
         let folder = path.parent().unwrap_or(Path::new("."));
         fs::create_dir_all(folder).map_err(StudyError::io(folder, "creating the folder"))?;
         let io = || StudyError::io(path, "writing the file");
@@ -137,11 +251,10 @@ impl Staged {
         name.push(format!(".{}{TEMPORARY}", std::process::id()));
         let temporary = folder.join(name);
         self.files.push((temporary.clone(), path.to_owned()));
-        let written = fs::File::create(&temporary).and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
-        });
-        written.map_err(io())
+        let mut out = Hashed { file: fs::File::create(&temporary).map_err(io())?, hasher: Hasher::default() };
+        write(&mut out)?;
+        out.file.sync_all().map_err(io())?;
+        Ok(out.hasher.finish())
     }
 
     /// Puts every file in its place, in the order in which they were added.
@@ -152,6 +265,24 @@ impl Staged {
         self.files.drain(..).try_for_each(|(temporary, path)| {
             fs::rename(&temporary, &path).map_err(StudyError::io(&path, "writing the file"))
         })
+    }
+}
+
+/// A file whose bytes are hashed on their way.
+struct Hashed {
+    file: fs::File,
+    hasher: Hasher,
+}
+
+impl Write for Hashed {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.file.write(bytes)?;
+        self.hasher.write_all(&bytes[..count])?;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
     }
 }
 
@@ -172,6 +303,20 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
     let mut staged = Staged::default();
     staged.add(path, bytes)?;
     staged.put()
+}
+
+/// Writes `bytes` to `path` unless there is a file already, which stays as it is: of several who write, one is first.
+///
+/// # Errors
+/// [`StudyError::Io`] with the path and what was being done.
+pub fn write_first(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+    let mut staged = Staged::default();
+    staged.add(path, bytes)?;
+    let linked = staged.files.iter().try_for_each(|(temporary, path)| fs::hard_link(temporary, path));
+    match linked {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
+        other => other.map_err(StudyError::io(path, "writing the file")),
+    }
 }
 
 /// Removes what a killed run of `study` left half-written in `folder`; only for who holds the folder's lock.

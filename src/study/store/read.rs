@@ -9,11 +9,11 @@ use crate::study::column::{self, Kind};
 use crate::study::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
 use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
 use engine::planner::{Exhibit, Value};
-use polars::prelude::{Column, DataFrame, DataType};
+use polars::prelude::{AnyValue, Column, DataFrame, DataType, PolarsResult};
 use polars_io::prelude::{ParquetReader, SerReader as _};
 use std::collections::BTreeMap;
 use std::io::Cursor;
-use std::panic::catch_unwind;
+use std::panic::{UnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -77,7 +77,8 @@ impl<T: Clone> Numbered<T> {
     }
 }
 
-fn touched(path: &Path, what: &str) -> StudyError {
+/// A file that is not what was written.
+pub fn touched(path: &Path, what: &str) -> StudyError {
     StudyError::Touched(format!("{}: {what}; run the study again", path.display()))
 }
 
@@ -90,8 +91,16 @@ pub struct Stored {
 impl Stored {
     /// The frame in `bytes`, read from `path`.
     pub fn open(path: PathBuf, bytes: Vec<u8>) -> Result<Self, StudyError> {
+        Self::of(path, || ParquetReader::new(Cursor::new(bytes)).finish())
+    }
+
+    /// The frame that `read` reads from `path`.
+    pub fn of(
+        path: PathBuf,
+        read: impl FnOnce() -> PolarsResult<DataFrame> + UnwindSafe,
+    ) -> Result<Self, StudyError> {
         // polars takes the lengths in a file at its word and panics at some that are wrong.
-        let frame = catch_unwind(|| ParquetReader::new(Cursor::new(bytes)).finish().ok());
+        let frame = catch_unwind(|| read().ok());
         match frame.ok().flatten() {
             Some(frame) => Ok(Self { path, frame }),
             None => Err(touched(&path, "is no Parquet file that can be read")),
@@ -100,6 +109,11 @@ impl Stored {
 
     fn column(&self, name: &str) -> Result<&Column, StudyError> {
         self.frame.column(name).map_err(|_| touched(&self.path, &format!("has no column `{name}`")))
+    }
+
+    /// Whether some cell of the column called `name` is known.
+    pub fn has_some(&self, name: &str) -> Result<bool, StudyError> {
+        Ok(self.column(name)?.null_count() < self.frame.height())
     }
 
     fn wrong(&self, name: &str) -> StudyError {
@@ -224,6 +238,20 @@ impl Stored {
         owners.map(trial).collect()
     }
 
+    /// The frame as comma-separated values under a head; what is unknown is empty. Lists of numbers are left out.
+    pub fn csv(&self) -> String {
+        let columns =
+            self.frame.columns().iter().filter(|column| !matches!(column.dtype(), DataType::List(_)));
+        let columns: Vec<&Column> = columns.collect();
+        let line = |cells: Vec<String>| cells.join(",") + "\n";
+        let mut text = line(columns.iter().map(|column| quoted(column.name())).collect());
+        for row in 0..self.frame.height() {
+            let cell = |column: &&Column| column.get(row).map_or_else(|_| String::new(), |cell| shown(&cell));
+            text += &line(columns.iter().map(cell).collect());
+        }
+        text
+    }
+
     /// The frame as trials.
     pub fn trials(&self, draws: &mut Draws) -> Result<Vec<Row>, StudyError> {
         let (keys, reason, seed) = (self.trial_keys(draws)?, self.texts("reason")?, self.wholes("seed")?);
@@ -282,6 +310,26 @@ impl Stored {
             plan_wall_ns: plan_wall_ns[row],
         };
         Ok(keys.into_iter().enumerate().map(row).collect())
+    }
+}
+
+/// A cell of a file of comma-separated values: numbers with all of their digits.
+fn shown(cell: &AnyValue<'_>) -> String {
+    match cell {
+        AnyValue::Null => String::new(),
+        AnyValue::String(text) => quoted(text),
+        AnyValue::StringOwned(text) => quoted(text),
+        AnyValue::Float64(real) => real.to_string(),
+        other => other.to_string(),
+    }
+}
+
+/// `text` as a cell of a file of comma-separated values, in quotes where it needs them.
+pub fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
     }
 }
 

@@ -2,12 +2,13 @@
 
 use super::describe::{READING, SWEEP, described};
 use crate::study::column::{self, Kind};
-use crate::study::key::{DrawKey, KeyColumns, Owner, SweepValue, TrialKey};
+use crate::study::key::{DrawKey, KeyColumns, Owner, SweepKey, SweepValue, TrialKey};
 use crate::study::record::{Kept, PreparedRow, Row, Timing, Values};
 use engine::planner::Value;
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
 use polars_io::prelude::{KeyValueMetadata, ParquetCompression, ParquetWriter};
 use std::collections::BTreeSet;
+use std::io::Write;
 
 /// The key of a file's metadata under which its columns are described: JSON, a list of name, unit and meaning.
 pub const DESCRIPTION: &str = "columns";
@@ -40,8 +41,8 @@ pub fn prepared(rows: &[PreparedRow], keys: &KeyColumns) -> DataFrame {
 }
 
 /// The exhibits as a frame: one row an exhibit, its numbers as a list, row by row of `width` numbers, and the names of the
-/// columns that they stand in where these are known.
-pub fn exhibits(kept: &[Kept], keys: &KeyColumns) -> DataFrame {
+/// columns that they stand in where these are known. Sweeps are of the kinds that `sweep` has, if any trial has an exhibit.
+pub fn exhibits(kept: &[Kept], keys: &KeyColumns, sweep: Option<&SweepKey>) -> DataFrame {
     let lists: Vec<Series> =
         kept.iter().map(|kept| Series::new("values".into(), kept.exhibit.values.as_slice())).collect();
     let values = if lists.is_empty() {
@@ -52,7 +53,7 @@ pub fn exhibits(kept: &[Kept], keys: &KeyColumns) -> DataFrame {
     };
     let columns: Vec<Option<String>> =
         kept.iter().map(|kept| column::of_exhibit(&kept.exhibit.name)).collect();
-    let mut frame = keys_of(kept, keys, |kept| match &kept.of {
+    let mut frame = keys_of(kept, keys, sweep, |kept| match &kept.of {
         Owner::Draw(key) => (&**key, None),
         Owner::Trial(key) => (&*key.on, Some(key)),
     });
@@ -78,17 +79,21 @@ pub fn times(times: &[Timing], keys: &KeyColumns) -> DataFrame {
 
 /// The bytes of `frame` as a Parquet file: the same for the same frame.
 pub fn to_parquet(mut frame: DataFrame, keys: &KeyColumns) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let writer = writer(&mut bytes, &frame, keys);
+    writer.finish(&mut frame).expect("a frame of equally long columns is written to memory");
+    bytes
+}
+
+/// What writes frames with the columns of `frame` into `out`.
+pub fn writer<W: Write>(out: W, frame: &DataFrame, keys: &KeyColumns) -> ParquetWriter<W> {
     let names = frame.columns().iter().map(|column| column.name().as_str());
     let meant = names.map(|name| described(name, keys).expect("every column of records is described"));
     let json = serde_json::to_string(&meant.collect::<Vec<_>>()).expect("descriptions are strings");
-    let mut bytes = Vec::new();
-    ParquetWriter::new(&mut bytes)
+    ParquetWriter::new(out)
         .with_compression(ParquetCompression::Zstd(None))
         .with_key_value_metadata(Some(KeyValueMetadata::from_static(vec![(DESCRIPTION.to_owned(), json)])))
         .set_parallel(false)
-        .finish(&mut frame)
-        .expect("a frame of equally long columns is written to memory");
-    bytes
 }
 
 fn assemble(height: usize, columns: Vec<Column>) -> DataFrame {
@@ -96,13 +101,15 @@ fn assemble(height: usize, columns: Vec<Column>) -> DataFrame {
 }
 
 fn trial_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> &'a TrialKey) -> Vec<Column> {
-    keys_of(rows, keys, |row| (&*key(row).on, Some(key(row))))
+    keys_of(rows, keys, None, |row| (&*key(row).on, Some(key(row))))
 }
 
-/// The columns that name records which belong to a draw and, if there is one, to a trial on it.
+/// The columns that name records which belong to a draw and, if there is one, to a trial on it; sweeps are of the kinds that
+/// `sweep` has, or of those found.
 fn keys_of<'a, R>(
     rows: &'a [R],
     keys: &KeyColumns,
+    sweep: Option<&SweepKey>,
     get: impl Fn(&'a R) -> (&'a DrawKey, Option<&'a TrialKey>),
 ) -> Vec<Column> {
     let trial = |row: &'a R| get(row).1;
@@ -111,7 +118,8 @@ fn keys_of<'a, R>(
     frame.push(text("contender", rows, |row| Some(&*trial(row)?.contender)));
     for (place, (setting, _)) in keys.sweeps.iter().enumerate() {
         let cells = rows.iter().map(|row| Some(&trial(row)?.sweep.values().get(place)?.1));
-        frame.push(sweep_column(&format!("{SWEEP}{setting}"), &cells.collect::<Vec<_>>()));
+        let kind = sweep.and_then(|sweep| sweep.values().get(place)).map(|(_, value)| value);
+        frame.push(sweep_column(&format!("{SWEEP}{setting}"), &cells.collect::<Vec<_>>(), kind));
     }
     frame.extend(reading_keys(rows, keys, |row| get(row).0));
     frame.push(whole("repeat", rows, |row| trial(row).map(|key| u64::from(key.repeat))));
@@ -132,9 +140,8 @@ fn reading_keys<'a, R>(rows: &'a [R], keys: &KeyColumns, key: impl Fn(&'a R) -> 
 }
 
 /// The values of a sweep, as numbers if they are.
-fn sweep_column(name: &str, cells: &[Option<&SweepValue>]) -> Column {
-    let some = cells.iter().flatten().next();
-    match some {
+fn sweep_column(name: &str, cells: &[Option<&SweepValue>], kind: Option<&SweepValue>) -> Column {
+    match kind.or_else(|| cells.iter().flatten().next().copied()) {
         Some(SweepValue::Flag(_)) => Series::new(
             name.into(),
             picked(cells, |value| match value {

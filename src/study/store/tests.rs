@@ -1,4 +1,5 @@
 use super::describe::{Described, described};
+use super::exhibits::{self, ExhibitReader, ExhibitWriter, GROUP_VALUES};
 use super::read::{Draws, Stored};
 use super::table::{self, DESCRIPTION};
 use super::{Staged, remove_temporaries, write_whole};
@@ -52,6 +53,17 @@ fn rows() -> Vec<Row> {
     ]
 }
 
+/// So many exhibits: the first ones of draws, the others of trials.
+fn kept(count: u32) -> Vec<Kept> {
+    let of = |number: u32| match number {
+        0..5 => Owner::Draw(on(number)),
+        _ => Owner::Trial(trial(number, None)),
+    };
+    let values = |number: u32| (0..number % 9).map(|value| f64::from(value) / 3.0).collect();
+    let exhibit = |number| Exhibit { name: "path".to_owned(), width: 1, values: values(number) };
+    (0..count).map(|number| Kept { of: of(number), exhibit: exhibit(number) }).collect()
+}
+
 fn stored(frame: polars::prelude::DataFrame) -> Stored {
     Stored::open(PathBuf::from("a.parquet"), table::to_parquet(frame, &keys())).unwrap()
 }
@@ -76,7 +88,7 @@ fn typed_keys_and_values_come_back_from_parquet_as_they_were() {
         Kept { of: Owner::Draw(on(1)), exhibit: exhibit(vec![]) },
         Kept { of: Owner::Trial(trial(1, None)), exhibit: exhibit(vec![0.5, -0.0]) },
     ];
-    assert_eq!(stored(table::exhibits(&kept, &keys())).exhibits(draws).unwrap(), kept);
+    assert_eq!(stored(table::exhibits(&kept, &keys(), None)).exhibits(draws).unwrap(), kept);
     let time = |session| Timing { trial: trial(0, None), session, clock_repeat: 4, plan_wall_ns: 99 };
     let times = vec![time(1), time(2)];
     assert_eq!(stored(table::times(&times, &keys())).times(draws).unwrap(), times);
@@ -104,7 +116,9 @@ fn every_column_of_a_file_is_described_in_its_metadata() {
         "value of the setting `weight` of `a_planner`, which the study sweeps"
     );
     assert_eq!(of("reading_ties").about, "option taken of the reading `ties`");
-    for frame in [table::prepared(&[], &keys()), table::exhibits(&[], &keys()), table::times(&[], &keys())] {
+    for frame in
+        [table::prepared(&[], &keys()), table::exhibits(&[], &keys(), None), table::times(&[], &keys())]
+    {
         for column in frame.columns() {
             assert!(described(column.name(), &keys()).is_some(), "{} is not described", column.name());
         }
@@ -119,6 +133,34 @@ fn measured_columns_are_told_from_those_of_keys_by_their_names() {
         let described = described(column.name, &KeyColumns::default()).unwrap();
         assert!(!is_key && described.about == column.about, "{}", column.name);
     }
+}
+
+#[test]
+fn exhibits_are_written_and_read_group_by_group_and_one_group_is_the_file_of_a_frame() {
+    let (kept, keys) = (kept(40), keys());
+    let written = |most: usize| {
+        let mut bytes = Vec::new();
+        let mut file = ExhibitWriter::new(&mut bytes, &keys, exhibits::sweep_of(&kept), most).unwrap();
+        kept.iter().for_each(|kept| file.add(kept.clone()).unwrap());
+        file.finish().unwrap();
+        bytes
+    };
+    assert!(written(GROUP_VALUES) == table::to_parquet(table::exhibits(&kept, &keys, None), &keys));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.exhibits.parquet");
+    let mut sizes = Vec::new();
+    for most in [1, 7, 50, GROUP_VALUES] {
+        fs::write(&path, written(most)).unwrap();
+        let mut reader = ExhibitReader::open(&path).unwrap();
+        assert!(reader.has_trials().unwrap());
+        for (place, own) in kept.iter().enumerate() {
+            assert_eq!(reader.peek().unwrap(), Some(own), "{place} of groups of {most}");
+            assert_eq!(reader.take().as_ref(), Some(own));
+        }
+        assert_eq!(reader.peek().unwrap(), None);
+        sizes.push(written(most).len());
+    }
+    assert!(sizes.is_sorted_by(|one, other| one > other), "groups are not what was asked for: {sizes:?}");
 }
 
 #[test]

@@ -115,6 +115,7 @@ fn manifest() -> Manifest {
         claims: String::new(),
         depends: String::new(),
         made_by: MadeBy::default(),
+        shard: None,
         inputs: BTreeMap::new(),
         sessions: Vec::new(),
         problems: BTreeMap::new(),

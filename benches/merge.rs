@@ -1,0 +1,129 @@
+//! A merge of a million rows: in how many seconds, with how much memory at most, and what rows take on disk.
+//!
+//! The parts are made up, row by row as a study names them, so that nothing is planned. It ends with a failure if the merge
+//! takes more than a minute or 2 GB.
+
+use engine::planner::{Exhibit, Value};
+use replan::study::Inputs;
+use replan::study::clock;
+use replan::study::key::Owner;
+use replan::study::lock::Lock;
+use replan::study::manifest::Manifest;
+use replan::study::merge::Parts;
+use replan::study::paper::Paper;
+use replan::study::plan::{Plan, Wanted};
+use replan::study::record::{Batch, Kept, PreparedRow, Row, Status, Values};
+use replan::study::runner::BuiltStudy;
+use replan::study::shard::Portion;
+use replan::study::store::{Columns, Exhibits, Records, Staged, stage_records};
+use replan::study::unit::Unit;
+use std::fs;
+use std::path::Path;
+
+const DRAWS: u32 = 500_000;
+const SHARDS: usize = 64;
+const MOST_SECONDS: f64 = 60.0;
+const MOST_BYTES: u64 = 2_000_000_000;
+
+const PAPER: &str = "[source]\ntitle = \"A large run\"\n";
+
+fn study() -> String {
+    format!(
+        "paper = \"large\"\nquestion = \"None.\"\nseed = 1\n[budget]\nexpansions = 1_000\n[[problems]]\nlabel = \"map\"\nfamily = \
+         \"random_cells\"\nreplicates = {DRAWS}\nsettings = {{ size_cells = [9, 9], start = [0, 0], goal = [8, 8], blocked_share = \
+         0.2, corner_rule = \"allow\" }}\n[[contender]]\nlabel = \"A\"\nplanner = \"astar\"\nsettings = {{ weight = 1, ties = \
+         \"fifo\" }}\n[[contender]]\nlabel = \"B\"\nplanner = \"astar\"\nsettings = {{ weight = 1, ties = \"lifo\" }}\n"
+    )
+}
+
+/// Made-up records of the units of a portion: numbers as searches have them, and a path of every tenth draw.
+fn made_up(built: &BuiltStudy<'_>, units: &[Unit<'_>], portion: &Portion) -> Batch {
+    let mut batch = Batch::default();
+    for (index, unit) in portion.units.iter().map(|index| (*index, &units[*index])) {
+        let real = |scale: f64| Value::Real(scale * (1.0 + (index % 977) as f64 / 3.0));
+        let values: Values = [("optimal_cost_cells", real(1.0))].into_iter().collect();
+        let (key, kind, seed) = (unit.key.clone(), "grid".to_owned(), unit.seed);
+        batch.prepared.push(PreparedRow { key, kind, seed, reason: None, values });
+        for key in built.trials(unit) {
+            if index % 10 == 0 {
+                let exhibit = Exhibit { name: "path".to_owned(), width: 2, values: vec![index as f64; 24] };
+                batch.kept.push(Kept { of: Owner::from(&key), exhibit });
+            }
+            let count = |times: usize| Value::Count((index * times % 4093) as u64);
+            let counts = ["opened", "closed", "expansions", "generated", "bends"];
+            let reals = ["path_cost_cells", "turn_exterior_deg", "turn_interior_deg"];
+            let counts = counts.into_iter().zip(1..).map(|(name, times)| (name, count(times)));
+            let values = counts.chain(reals.into_iter().map(|name| (name, real(1.4)))).collect();
+            batch.rows.push(Row { key, seed: unit.seed, status: Status::Solved, reason: None, values });
+        }
+    }
+    batch
+}
+
+/// What `/proc/self/status` says of `field`, in bytes; none elsewhere than on Linux.
+fn memory(field: &str) -> Option<u64> {
+    let text = fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix(field)?.strip_prefix(':'))?;
+    line.split_whitespace().next()?.parse().ok().map(|kilobytes: u64| kilobytes * 1024)
+}
+
+fn bytes(folder: &Path) -> u64 {
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().metadata().unwrap().len());
+    files.sum()
+}
+
+fn main() {
+    let folder = tempfile::tempdir().unwrap();
+    let (home, parts, into) =
+        (folder.path().join("large"), folder.path().join("parts"), folder.path().join("merged"));
+    fs::create_dir(&home).unwrap();
+    fs::write(home.join("paper.toml"), PAPER).unwrap();
+    fs::write(home.join("s.toml"), study()).unwrap();
+    let inputs = Inputs { roots: vec![home.clone()] };
+    let paper = Paper::load(&home, &inputs).unwrap();
+    let (study, points) = (&paper.studies[0], paper.studies[0].trial_points().unwrap());
+    let built = BuiltStudy::new(study, &points, &inputs).unwrap();
+    let manifest = Manifest::new(study, &points, &built, String::new(), String::new(), false).unwrap();
+    let studies = [(built, manifest)];
+    let wanted =
+        Wanted { paper: "large".to_owned(), shards: SHARDS, quick: false, seed: None, readings: None };
+    let (planning, plan) = clock::timed(|| Plan::agreed(&parts, &wanted, &studies).unwrap());
+    let values: Vec<&'static str> = study.columns().into_iter().collect();
+    let columns = Columns { keys: study.key_columns(), values: &values };
+    let (units, cut) = (studies[0].0.units(), plan.cut(&studies).remove(0));
+    let mut part_bytes = 0;
+    for number in 1..=SHARDS {
+        let (mut manifest, part) = (studies[0].1.clone(), plan.part(&parts, number));
+        let own = cut.iter().enumerate().filter(|(_, shard)| **shard == number);
+        let portion = Portion { shard: plan.shard(number), units: own.map(|(unit, _)| unit).collect() };
+        manifest.cut_to(&portion);
+        let records = Records { batch: made_up(&studies[0].0, &units, &portion), times: Vec::new() };
+        let mut staged = Staged::default();
+        let exhibits = Exhibits::held(&records.batch.kept);
+        manifest.files = stage_records(&mut staged, &part, "s", &columns, &records, exhibits).unwrap();
+        manifest.stage(&mut staged, &part).unwrap();
+        staged.put().unwrap();
+        part_bytes += bytes(&part);
+    }
+    drop(units);
+    // From here on the most memory is that of the merge.
+    let _ = fs::write("/proc/self/clear_refs", "5");
+    let lock = Lock::take(&into).unwrap();
+    let merge = || {
+        let merged = Parts::checked(&plan, &parts, &studies).unwrap();
+        merged.merge((0, study), &studies[0].0, studies[0].1.clone(), lock.folder()).unwrap()
+    };
+    let (nanoseconds, rows) = clock::timed(merge);
+    let (seconds, most) = (nanoseconds as f64 / 1e9, memory("VmHWM").unwrap_or(0));
+    println!("plan of {DRAWS} units: {:.1} s", planning as f64 / 1e9);
+    println!(
+        "merge of {rows} rows in {SHARDS} parts: {seconds:.1} s, {:.2} GB at most; {:.1} bytes a row in parts, {:.1} merged",
+        most as f64 / 1e9,
+        part_bytes as f64 / rows as f64,
+        bytes(&into) as f64 / rows as f64
+    );
+    assert!(
+        rows == 1_000_000 && seconds < MOST_SECONDS && most < MOST_BYTES,
+        "the merge is too slow or too large"
+    );
+}

@@ -1,0 +1,320 @@
+//! Two stored runs, or two contenders of one, beside each other.
+//!
+//! What both sides ran is paired by its typed key; what only one has is told apart. A [`Change`] goes from the first side to
+//! the second. Its intervals resample what was drawn independently ([`pair`]); trials that one side alone solved have no
+//! change of a mean, and count as an infinite loss of that side in medians, wins and the probability of improvement.
+
+mod cells;
+mod change;
+mod gate;
+mod pair;
+mod run;
+
+pub use cells::{Cell, cells};
+pub use change::{Change, Measured, SOLVED, Word};
+pub use gate::{Gate, Outcome, Passed};
+pub use run::{StoredRun, stored_studies};
+
+use self::change::Sample;
+use self::gate::unknown_metric;
+use self::pair::{Pair, paired};
+use self::run::{Seen, Times};
+use super::metric::{self, Better, Metric};
+use crate::study::key::{ReadingKey, Text};
+use crate::study::manifest::Manifest;
+use crate::study::name::Names;
+use crate::study::record::{Row, Status};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What is set beside each other.
+pub enum Sides<'a> {
+    /// Two runs.
+    Runs([&'a StoredRun; 2]),
+    /// Two contenders of one run.
+    Contenders(&'a StoredRun, [&'a str; 2]),
+}
+
+/// What is asked of a comparison.
+#[derive(Debug, Default)]
+pub struct Asked {
+    /// The studies; all if empty.
+    pub studies: Vec<String>,
+    /// The metrics; all of which one way is better if empty.
+    pub metrics: Vec<String>,
+    /// What must not become worse.
+    pub gates: Vec<Gate>,
+}
+
+/// Two sides beside each other.
+#[derive(Debug, Serialize)]
+pub struct Comparison {
+    /// What the sides are called.
+    pub sides: [String; 2],
+    /// What a reader must know of both.
+    pub notes: Vec<String>,
+    /// Who solved what.
+    pub solved: Vec<Solved>,
+    /// What has changed.
+    pub changes: Vec<Change>,
+    /// What only one side has.
+    pub only: Vec<Only>,
+    /// What the gates say.
+    pub gates: Vec<Passed>,
+}
+
+/// How many problems the sides solved.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Solved {
+    /// The study.
+    pub study: String,
+    /// The contender, or the two.
+    pub contender: String,
+    /// Both solved them.
+    pub both: usize,
+    /// The first side alone.
+    pub first_only: usize,
+    /// The second side alone.
+    pub second_only: usize,
+    /// Neither.
+    pub neither: usize,
+    /// One that the second side alone did not solve, if there is one.
+    pub lost: Option<String>,
+}
+
+/// What only one side has.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Only {
+    /// The side that has it: 0 or 1.
+    pub side: usize,
+    /// The study.
+    pub study: String,
+    /// What it is.
+    pub what: String,
+    /// How many trials it has.
+    pub trials: usize,
+}
+
+/// One contender, or two, with all that is paired.
+struct Line<'r> {
+    study: &'r str,
+    label: String,
+    pairs: Vec<Pair<'r>>,
+    times: [&'r Times<'r>; 2],
+    names: &'r Names,
+}
+
+/// Sets the two sides beside each other.
+///
+/// # Errors
+/// A study, contender or metric that is asked for and not there, with those that are.
+pub fn compare(sides: &Sides<'_>, asked: &Asked) -> Result<Comparison, String> {
+    let runs = sides.runs();
+    for study in &asked.studies {
+        if !runs.iter().any(|run| run.studies.contains_key(study)) {
+            let known = runs.map(StoredRun::names).join("; ");
+            return Err(format!("--study: there is no stored run of a study `{study}`; there are {known}"));
+        }
+    }
+    let metrics = metrics(&asked.metrics)?;
+    let is_asked = |study: &str| asked.studies.is_empty() || asked.studies.iter().any(|own| own == study);
+    let seen = runs.map(|run| {
+        let studies = run.studies.iter().filter(|(study, _)| is_asked(study));
+        studies.map(|(study, stored)| (study.as_str(), Seen::of(stored))).collect::<BTreeMap<_, _>>()
+    });
+    let (mut lines, mut only) = (Vec::new(), Vec::new());
+    match sides {
+        Sides::Runs(_) => only.extend(of_runs(&seen, &mut lines)),
+        Sides::Contenders(_, labels) => only.extend(of_contenders(&seen[0], *labels, &mut lines)?),
+    }
+    let samples: Vec<Sample<'_>> = lines.iter().flat_map(|line| line.samples(&metrics)).collect();
+    let of_two_runs = matches!(sides, Sides::Runs(_));
+    Ok(Comparison {
+        sides: sides.names(),
+        notes: if of_two_runs { notes(&seen, &lines) } else { Vec::new() },
+        solved: lines.iter().map(Line::solved).collect(),
+        changes: samples.iter().map(Sample::change).collect(),
+        gates: gate::pass(&asked.gates, &samples, of_two_runs)?,
+        only,
+    })
+}
+
+impl<'a> Sides<'a> {
+    fn runs(&self) -> [&'a StoredRun; 2] {
+        match self {
+            Self::Runs(runs) => *runs,
+            Self::Contenders(run, _) => [run, run],
+        }
+    }
+
+    fn names(&self) -> [String; 2] {
+        match self {
+            Self::Runs(runs) => runs.map(|run| run.name.clone()),
+            Self::Contenders(_, labels) => labels.map(str::to_owned),
+        }
+    }
+}
+
+/// The metrics called so; all of which one way is better without a name.
+fn metrics(names: &[String]) -> Result<Vec<&'static Metric>, String> {
+    let is_better = |metric: &&Metric| metric.better != Better::Neither;
+    if names.is_empty() {
+        // Who solved what stands above them all.
+        return Ok(metric::METRICS.iter().filter(is_better).filter(|metric| !metric.is_status()).collect());
+    }
+    let named = names.iter().filter(|name| *name != SOLVED);
+    named
+        .map(|name| metric::find(name).filter(is_better).ok_or_else(|| unknown_metric("--metric", name)))
+        .collect()
+}
+
+/// Every contender of every study that both runs have; also what only one has.
+fn of_runs<'r>(seen: &'r [BTreeMap<&'r str, Seen<'r>>; 2], lines: &mut Vec<Line<'r>>) -> Vec<Only> {
+    let mut only = Vec::new();
+    for side in [0, 1] {
+        for (study, own) in seen[side].iter().filter(|(study, _)| !seen[1 - side].contains_key(*study)) {
+            let (study, what) = ((*study).to_owned(), "the study".to_owned());
+            only.push(Only { side, study, what, trials: own.count() });
+        }
+    }
+    for (study, first) in &seen[0] {
+        if let Some(second) = seen[1].get(study) {
+            only.extend(of_study(study, [first, second], lines));
+        }
+    }
+    only
+}
+
+/// Every contender of one study that both runs have; also what only one has.
+fn of_study<'r>(study: &'r str, sides: [&'r Seen<'r>; 2], lines: &mut Vec<Line<'r>>) -> Vec<Only> {
+    let labels: BTreeSet<&str> = sides.iter().flat_map(|side| side.rows.keys().copied()).collect();
+    let mut lone = [Vec::new(), Vec::new()];
+    for label in labels {
+        let rows = sides.map(|side| side.rows.get(label).map_or(&[][..], Vec::as_slice));
+        let found = paired(rows, sides.map(|side| &side.draws));
+        lone[0].extend(found.lone[0].iter().copied());
+        lone[1].extend(found.lone[1].iter().copied());
+        if !found.pairs.is_empty() {
+            let (times, names) = (sides.map(|side| &side.times), &sides[0].names);
+            lines.push(Line { study, label: label.to_owned(), pairs: found.pairs, times, names });
+        }
+    }
+    let told = |side: usize| told_apart(side, study, &lone[side], sides[1 - side]);
+    [told(0), told(1)].concat()
+}
+
+/// The second contender against the first in every study that has both; also what only one was run on.
+fn of_contenders<'r>(
+    seen: &'r BTreeMap<&'r str, Seen<'r>>,
+    labels: [&str; 2],
+    lines: &mut Vec<Line<'r>>,
+) -> Result<Vec<Only>, String> {
+    let known: BTreeSet<&str> = seen.values().flat_map(|study| study.rows.keys().copied()).collect();
+    if let Some(other) = labels.iter().find(|label| !known.contains(*label)) {
+        let known = known.into_iter().collect::<Vec<_>>().join(", ");
+        return Err(format!("--contenders: no stored trial is `{other}`'s; there are {known}"));
+    }
+    let mut only = Vec::new();
+    for (study, own) in seen {
+        let [Some(first), Some(second)] = labels.map(|label| own.rows.get(label)) else { continue };
+        let found = paired([first, second], [&own.draws; 2]);
+        for (side, lone) in found.lone.iter().enumerate().filter(|(_, lone)| !lone.is_empty()) {
+            let what = format!("trials of contender `{}`", labels[side]);
+            only.push(Only { side, study: (*study).to_owned(), what, trials: lone.len() });
+        }
+        let label = format!("{} against {}", labels[1], labels[0]);
+        lines.push(Line { study, label, pairs: found.pairs, times: [&own.times; 2], names: &own.names });
+    }
+    if lines.is_empty() {
+        return Err(format!("--contenders: no study has both `{}` and `{}`", labels[0], labels[1]));
+    }
+    Ok(only)
+}
+
+/// What the other side lacks of which these trials are, most general first.
+fn told_apart(side: usize, study: &str, lone: &[&Row], other: &Seen<'_>) -> Vec<Only> {
+    let rows = || other.rows.values().flatten();
+    let groups: BTreeSet<&Text> = rows().map(|row| &row.key.on.group).collect();
+    let readings: BTreeSet<&ReadingKey> = rows().map(|row| &row.key.on.reading).collect();
+    let mut found: BTreeMap<String, usize> = BTreeMap::new();
+    for row in lone {
+        let on = &row.key.on;
+        let what = if !other.rows.contains_key(&*row.key.contender) {
+            format!("contender `{}`", row.key.contender)
+        } else if !groups.contains(&on.group) {
+            format!("problem group `{}`", on.group)
+        } else if !readings.contains(&on.reading) {
+            format!("reading {}", other.names.reading(&on.reading))
+        } else {
+            format!("draws, queries, sweep points or seeds of `{}`", row.key.contender)
+        };
+        *found.entry(what).or_default() += 1;
+    }
+    let only = |(what, trials)| Only { side, study: study.to_owned(), what, trials };
+    found.into_iter().map(only).collect()
+}
+
+/// What a reader must know of two runs.
+fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String> {
+    let mut notes = Vec::new();
+    for (study, first) in &seen[0] {
+        let Some(second) = seen[1].get(study) else { continue };
+        let (one, other) = (first.manifest, second.manifest);
+        if one.quick != other.quick {
+            notes.push(format!("{study}: one of the runs is quick and the other full"));
+        }
+        if one.axes != other.axes {
+            notes.push(format!("{study}: other readings touch trials in each run, so that no keys agree"));
+        }
+        let pairs = || lines.iter().filter(|line| line.study == *study).flat_map(|line| &line.pairs);
+        let others = pairs().filter(|pair| !pair.is_same_draw).count();
+        if others > 0 {
+            notes.push(format!(
+                "{study}: {others} of {} pairs are of draws with other seeds (the runs' are {} and {}): pairing takes nothing \
+                 out of their changes, and wins are luck as much as merit",
+                pairs().count(),
+                one.seed,
+                other.seed
+            ));
+        }
+        if !first.times.is_empty() && !second.times.is_empty() {
+            let cpu = |of: &Manifest| of.made_by.cpu.clone().unwrap_or_else(|| "unknown".to_owned());
+            notes.push(format!(
+                "{study}: clocks were read in two sessions (on {} and on {}): what a session does to all of its readings \
+                 is in no interval",
+                cpu(one),
+                cpu(other)
+            ));
+        }
+    }
+    notes
+}
+
+impl<'r> Line<'r> {
+    fn solved(&self) -> Solved {
+        let is_solved = |row: &Row| row.status == Status::Solved;
+        let count =
+            |wanted: [bool; 2]| self.pairs.iter().filter(|pair| pair.rows.map(is_solved) == wanted).count();
+        let lost = self.pairs.iter().find(|pair| pair.rows.map(is_solved) == [true, false]);
+        Solved {
+            study: self.study.to_owned(),
+            contender: self.label.clone(),
+            both: count([true, true]),
+            first_only: count([true, false]),
+            second_only: count([false, true]),
+            neither: count([false, false]),
+            lost: lost.map(|pair| format!("{}/{}", self.study, self.names.trial(&pair.rows[1].key))),
+        }
+    }
+
+    /// What is measured of it: whether a problem is solved, and each metric that some pair has.
+    fn samples(&self, metrics: &[&'static Metric]) -> Vec<Sample<'_>> {
+        let solved = Sample::solved(self.study, &self.label, &self.pairs);
+        let of =
+            |metric: &&'static Metric| Sample::of(self.study, &self.label, metric, &self.pairs, self.times);
+        std::iter::once(solved).chain(metrics.iter().map(of)).filter(|sample| sample.pairs() > 0).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,295 @@
+//! What changes from one side to the other, metric by metric, with its intervals.
+
+use super::pair::{Pair, Unit};
+use super::run::Times;
+use crate::analysis::metric::{Better, Metric};
+use crate::analysis::statistic::{FEWEST_DRAWS, LEVEL, plan};
+use crate::study::record::{Row, Status};
+use serde::Serialize;
+use stats::bootstrap::{Estimate, Resampling};
+use stats::interval::Interval;
+use stats::paired::{Signs, signs};
+use stats::{pooled, summary};
+use std::collections::BTreeMap;
+
+/// The name under which the share of solved problems is compared, in per cent; its changes are in points.
+pub const SOLVED: &str = "solved";
+
+/// Stands for the number of a side that did not solve the problem: larger than any, and the middle between it and its
+/// opposite is a number.
+const FAILED: f64 = 1e300;
+
+/// What has changed of one metric of one contender.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Change {
+    /// The study.
+    pub study: String,
+    /// The contender, or the two.
+    pub contender: String,
+    /// The metric.
+    pub metric: String,
+    /// Its unit; empty for counts.
+    pub unit: String,
+    /// Which way is better: `lower` or `higher`.
+    pub better: String,
+    /// Pairs that both sides have a number of.
+    pub pairs: usize,
+    /// Pairs of which the first side alone has one, as the other did not solve the problem; and the second alone.
+    pub one_sided: [usize; 2],
+    /// What was drawn independently, of all pairs.
+    pub draws: usize,
+    /// The mean of each side, over pairs that both have a number of.
+    pub means: Option<[f64; 2]>,
+    /// What the mean changes by, in the unit.
+    pub mean_change: Option<Measured>,
+    /// What it changes by, in per cent of the first side's; none if that is not above 0.
+    pub mean_change_percent: Option<Measured>,
+    /// The median of all pairs' changes, in the unit; that of a side that did not solve a problem is infinite.
+    pub median_change: Option<Measured>,
+    /// The share of pairs, in per cent, in which the second side is better, with half of those in which neither is.
+    pub improvement_percent: Option<Measured>,
+    /// Pairs in which the second side is better.
+    pub wins: usize,
+    /// Pairs in which neither is.
+    pub ties: usize,
+    /// Pairs in which the first side is better.
+    pub losses: usize,
+    /// What the interval of the mean's change says.
+    pub word: Word,
+}
+
+/// A number with its interval; an end that is not finite is none in JSON.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Measured {
+    /// The number.
+    pub value: f64,
+    /// Its interval; none of fewer than two draws.
+    pub interval: Option<[f64; 2]>,
+}
+
+/// What an interval says of a change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Word {
+    /// No pair differs.
+    Equal,
+    /// The second side is better.
+    Better,
+    /// The second side is worse.
+    Worse,
+    /// The interval holds no change, or too few draws give none.
+    Open,
+}
+
+impl Word {
+    /// It as people read it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Equal => "equal",
+            Self::Better => "better",
+            Self::Worse => "worse",
+            Self::Open => "open",
+        }
+    }
+}
+
+/// The numbers of all pairs of one metric of one contender.
+pub struct Sample<'r> {
+    pub study: &'r str,
+    pub contender: &'r str,
+    pub metric: &'static str,
+    pub unit: &'static str,
+    pub better: Better,
+    pub is_clock: bool,
+    pub one_sided: [usize; 2],
+    /// Both numbers of each pair by unit; a side that did not solve the problem has a number worse than any.
+    by_unit: BTreeMap<Unit<'r>, Vec<(f64, f64)>>,
+}
+
+impl<'r> Sample<'r> {
+    /// Whether problems are solved: 100 or 0 each.
+    pub fn solved(study: &'r str, contender: &'r str, pairs: &[Pair<'r>]) -> Self {
+        let share = |row: &Row| if row.status == Status::Solved { 100.0 } else { 0.0 };
+        let mut sample = Self::empty(study, contender, SOLVED, "%", Better::Higher);
+        for pair in pairs {
+            let [first, second] = pair.rows.map(share);
+            sample.by_unit.entry(pair.unit).or_default().push((first, second));
+        }
+        sample
+    }
+
+    /// A metric.
+    pub fn of(
+        study: &'r str,
+        contender: &'r str,
+        metric: &'static Metric,
+        pairs: &[Pair<'r>],
+        times: [&Times<'r>; 2],
+    ) -> Self {
+        let readers = times.map(|times| metric.reader(|row| times.get(&row.key).copied()));
+        let mut sample = Self::empty(study, contender, metric.name, metric.unit, metric.better);
+        sample.is_clock = metric.is_clock();
+        let failed = sample.worse() * FAILED;
+        for pair in pairs {
+            let is_solved = pair.rows.map(|row| row.status == Status::Solved);
+            let number = |side: usize| readers[side](pair.rows[side]).filter(|_| is_solved[side]);
+            let numbers = match (number(0), number(1)) {
+                (Some(first), Some(second)) => (first, second),
+                (Some(first), None) if !is_solved[1] => {
+                    sample.one_sided[0] += 1;
+                    (first, failed)
+                }
+                (None, Some(second)) if !is_solved[0] => {
+                    sample.one_sided[1] += 1;
+                    (failed, second)
+                }
+                _ => continue,
+            };
+            sample.by_unit.entry(pair.unit).or_default().push(numbers);
+        }
+        sample
+    }
+
+    fn empty(
+        study: &'r str,
+        contender: &'r str,
+        metric: &'static str,
+        unit: &'static str,
+        better: Better,
+    ) -> Self {
+        let (one_sided, by_unit, is_clock) = ([0, 0], BTreeMap::new(), false);
+        Self { study, contender, metric, unit, better, is_clock, one_sided, by_unit }
+    }
+
+    /// 1 if a larger number is worse, −1 if a smaller one is.
+    pub fn worse(&self) -> f64 {
+        if self.better == Better::Higher { -1.0 } else { 1.0 }
+    }
+
+    /// How many pairs it has.
+    pub fn pairs(&self) -> usize {
+        self.by_unit.values().map(Vec::len).sum()
+    }
+
+    /// How many draws it has.
+    pub fn draws(&self) -> usize {
+        self.by_unit.len()
+    }
+
+    /// Pairs that both sides have a number of, by unit.
+    fn finite(&self) -> Vec<Vec<(f64, f64)>> {
+        let is_finite = |(first, second): &&(f64, f64)| first.abs() < FAILED && second.abs() < FAILED;
+        let of_unit = |pairs: &Vec<(f64, f64)>| pairs.iter().filter(is_finite).copied().collect::<Vec<_>>();
+        self.by_unit.values().map(of_unit).filter(|pairs| !pairs.is_empty()).collect()
+    }
+
+    /// What the mean changes by, in the unit, and in per cent of the first side's.
+    pub fn mean_changes(&self, plan: Resampling) -> [Option<Estimate>; 2] {
+        let units = self.finite();
+        let sums = |of: fn(&(f64, f64)) -> [f64; 2]| -> Vec<[f64; 2]> {
+            let add = |sum: [f64; 2], pair: &(f64, f64)| [sum[0] + of(pair)[0], sum[1] + of(pair)[1]];
+            units.iter().map(|pairs| pairs.iter().fold([0.0, 0.0], add)).collect()
+        };
+        let percent = |ratio: f64| 100.0 * (ratio - 1.0);
+        let of_ratio = |ratio: Estimate| {
+            let interval = Interval::new(percent(ratio.interval.low), percent(ratio.interval.high));
+            Estimate { value: percent(ratio.value), interval, ..ratio }
+        };
+        let change = pooled::ratio_of_sums(&sums(|(first, second)| [second - first, 1.0]), plan);
+        let ratio = pooled::ratio_of_sums(&sums(|(first, second)| [*second, *first]), plan);
+        [change, ratio.map(of_ratio)]
+    }
+
+    /// All that is said of it.
+    pub fn change(&self) -> Change {
+        let plan = plan(&["compare", self.study, self.contender, self.metric]);
+        let (finite, all) =
+            (self.finite().concat(), self.by_unit.values().flatten().copied().collect::<Vec<_>>());
+        let mean = |of: fn(&(f64, f64)) -> f64| summary::mean(&finite.iter().map(of).collect::<Vec<_>>());
+        let means = mean(|pair| pair.0).zip(mean(|pair| pair.1));
+        let [change, percent] = self.mean_changes(plan);
+        let Signs { lower, equal, higher } = signs(&all);
+        let (wins, losses) = if self.worse() > 0.0 { (lower, higher) } else { (higher, lower) };
+        Change {
+            study: self.study.to_owned(),
+            contender: self.contender.to_owned(),
+            metric: self.metric.to_owned(),
+            unit: self.unit.to_owned(),
+            better: self.better.name().to_owned(),
+            pairs: finite.len(),
+            one_sided: self.one_sided,
+            draws: self.draws(),
+            means: means.map(|(first, second)| [first, second]),
+            mean_change: Measured::of(means.map(|(first, second)| second - first), change),
+            mean_change_percent: means
+                .filter(|(first, _)| *first > 0.0)
+                .and_then(|(first, second)| Measured::of(Some(100.0 * (second / first - 1.0)), percent)),
+            median_change: self.median(&all, plan),
+            improvement_percent: self.improvement(&all, wins, equal, plan),
+            wins,
+            ties: equal,
+            losses,
+            word: self.word(change.as_ref(), equal == all.len()),
+        }
+    }
+
+    fn median(&self, all: &[(f64, f64)], plan: Resampling) -> Option<Measured> {
+        let change = |(first, second): &(f64, f64)| second - first;
+        let of_unit = |pairs: &Vec<(f64, f64)>| pairs.iter().map(change).collect::<Vec<_>>();
+        let found = pooled::median(&self.by_unit.values().map(of_unit).collect::<Vec<_>>(), plan);
+        let median = summary::median(&all.iter().map(change).collect::<Vec<_>>());
+        Measured::of(median, found).map(Measured::unbounded)
+    }
+
+    fn improvement(
+        &self,
+        all: &[(f64, f64)],
+        wins: usize,
+        ties: usize,
+        plan: Resampling,
+    ) -> Option<Measured> {
+        let hits = |pairs: &Vec<(f64, f64)>| {
+            let Signs { lower, equal, higher } = signs(pairs);
+            let won = if self.worse() > 0.0 { lower } else { higher };
+            [100.0 * (won as f64 + 0.5 * equal as f64), pairs.len() as f64]
+        };
+        let found = pooled::ratio_of_sums(&self.by_unit.values().map(hits).collect::<Vec<_>>(), plan);
+        let share = 100.0 * (wins as f64 + 0.5 * ties as f64) / all.len() as f64;
+        Measured::of((!all.is_empty()).then_some(share), found)
+    }
+
+    fn word(&self, change: Option<&Estimate>, is_equal: bool) -> Word {
+        let worse = self.worse();
+        match change.filter(|found| found.units >= FEWEST_DRAWS).map(|found| found.interval) {
+            _ if is_equal => Word::Equal,
+            Some(interval) if interval.low * worse > 0.0 && interval.high * worse > 0.0 => Word::Worse,
+            Some(interval) if interval.low * worse < 0.0 && interval.high * worse < 0.0 => Word::Better,
+            _ => Word::Open,
+        }
+    }
+}
+
+/// A bootstrap for a gate: `lines` of them are looked at together, and all of them are to hold with [`LEVEL`].
+pub fn joint_plan(lines: usize, names: &[&str]) -> Resampling {
+    let lines = lines.max(1);
+    let plan = plan(names);
+    Resampling {
+        level: 1.0 - (1.0 - LEVEL) / lines as f64,
+        resamples: plan.resamples * lines.min(10),
+        ..plan
+    }
+}
+
+impl Measured {
+    /// A number with its interval, if it has one.
+    pub fn of(value: Option<f64>, found: Option<Estimate>) -> Option<Self> {
+        let interval = found.map(|found| [found.interval.low, found.interval.high]);
+        value.map(|value| Self { value, interval })
+    }
+
+    /// The same with what stands for a failure infinite.
+    fn unbounded(self) -> Self {
+        let open = |end: f64| if end.abs() > FAILED / 4.0 { end.signum() * f64::INFINITY } else { end };
+        Self { value: open(self.value), interval: self.interval.map(|ends| ends.map(open)) }
+    }
+}

@@ -1,0 +1,107 @@
+//! Stored runs as comparisons read them: numbers without exhibits, by contender.
+
+use super::pair::Draws;
+use crate::study::StudyError;
+use crate::study::key::TrialKey;
+use crate::study::manifest::Manifest;
+use crate::study::name::Names;
+use crate::study::record::Row;
+use crate::study::store::{Records, read_numbers};
+use stats::summary;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// A stored run: the records of every study in a folder, without exhibits.
+pub struct StoredRun {
+    /// What it is called.
+    pub name: String,
+    /// What its records depend on, and the records, by study.
+    pub studies: BTreeMap<String, (Manifest, Records)>,
+}
+
+/// The median clock reading of each timed trial.
+pub type Times<'r> = BTreeMap<&'r TrialKey, f64>;
+
+/// The records of one study on one side, ready to be asked.
+pub struct Seen<'r> {
+    /// What they depend on.
+    pub manifest: &'r Manifest,
+    /// The trials by contender, in the order of records.
+    pub rows: BTreeMap<&'r str, Vec<&'r Row>>,
+    /// The draws.
+    pub draws: Draws<'r>,
+    /// The clock readings of the first session.
+    pub times: Times<'r>,
+    /// How records are named, as far as they alone tell.
+    pub names: Names,
+}
+
+impl StoredRun {
+    /// Reads every study in `folder`.
+    ///
+    /// # Errors
+    /// [`StudyError::Missing`] if no run is stored there, [`StudyError::Stored`] for what is damaged.
+    pub fn read(folder: &Path, name: &str) -> Result<Self, StudyError> {
+        let mut studies = BTreeMap::new();
+        for study in stored_studies(folder) {
+            let manifest = Manifest::read(folder, &study)?;
+            let records = read_numbers(folder, &study, &manifest.files)?;
+            studies.insert(study, (manifest, records));
+        }
+        if studies.is_empty() {
+            let what = "no stored run; a folder with a *.manifest.toml is expected".to_owned();
+            return Err(StudyError::Missing { path: folder.to_owned(), what });
+        }
+        Ok(Self { name: name.to_owned(), studies })
+    }
+
+    /// The names of its studies.
+    pub fn names(&self) -> String {
+        self.studies.keys().map(String::as_str).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The studies of which a run is stored in `folder`, in the order of their names.
+pub fn stored_studies(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let name =
+        |entry: fs::DirEntry| Some(entry.file_name().to_str()?.strip_suffix(".manifest.toml")?.to_owned());
+    let mut studies: Vec<String> = entries.filter_map(name).collect();
+    studies.sort();
+    studies
+}
+
+impl<'r> Seen<'r> {
+    /// Those of a stored study.
+    pub fn of((manifest, records): &'r (Manifest, Records)) -> Self {
+        let mut rows: BTreeMap<&str, Vec<&Row>> = BTreeMap::new();
+        for row in &records.batch.rows {
+            rows.entry(&row.key.contender).or_default().push(row);
+        }
+        let mut readings: BTreeMap<&TrialKey, Vec<f64>> = BTreeMap::new();
+        for time in records.times.iter().filter(|time| time.session == 1) {
+            readings.entry(&time.trial).or_default().push(time.plan_wall_ns as f64);
+        }
+        let times = readings.into_iter().filter_map(|(key, times)| Some((key, summary::median(&times)?)));
+        let (times, draws) = (times.collect(), Draws::of(&records.batch));
+        Self { manifest, rows, draws, times, names: names(manifest, &records.batch.rows) }
+    }
+
+    /// How many trials there are.
+    pub fn count(&self) -> usize {
+        self.rows.values().map(Vec::len).sum()
+    }
+}
+
+/// How trials are named, as far as records alone tell.
+fn names(manifest: &Manifest, rows: &[Row]) -> Names {
+    let (mut groups, mut contenders) = (BTreeMap::new(), BTreeMap::new());
+    for row in rows {
+        *groups.entry(&*row.key.on.group).or_insert(false) |= row.draw() > 0;
+        *contenders.entry(&*row.key.contender).or_insert(false) |= row.key.repeat > 0;
+    }
+    let defaults = manifest.axes.iter().zip(manifest.readings.iter().flatten());
+    let defaults = defaults.map(|(axis, option)| (axis.as_str(), option.as_str()));
+    Names::new(groups.into_iter(), contenders.into_iter(), defaults)
+}

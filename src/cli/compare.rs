@@ -1,0 +1,121 @@
+//! `replan compare`: two stored runs, or two contenders of one, beside each other.
+
+use super::places::stored_run;
+use super::{Failure, command_line};
+use crate::analysis::compare::{Asked, Comparison, Gate, Outcome, Sides, StoredRun, compare};
+use crate::render::comparison;
+use crate::render::vector::Provenance;
+use crate::study::store::write_whole;
+use base::hash::sha256;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Compares two stored runs.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Compare {
+    /// A stored run: a paper's name, what `--out` was given, or a folder of records
+    first: String,
+    /// The run to set beside it
+    #[arg(required_unless_present = "contenders", conflicts_with = "contenders")]
+    second: Option<String>,
+    /// Two contenders of the first run instead of two runs
+    #[arg(long, num_args = 2, value_names = ["X", "Y"])]
+    contenders: Vec<String>,
+    /// Only this study; may be given several times
+    #[arg(long = "study", value_name = "STUDY")]
+    studies: Vec<String>,
+    /// Only this metric; may be given several times
+    #[arg(long = "metric", value_name = "METRIC")]
+    metrics: Vec<String>,
+    /// End with exit code 3 if the mean of a metric is worse by more than this
+    #[arg(long = "gate", value_name = "METRIC ±N%")]
+    gates: Vec<String>,
+    /// End with exit code 3 also if a gate cannot tell
+    #[arg(long, requires = "gates")]
+    strict: bool,
+    /// Print the changes as comma-separated values, with all of their digits
+    #[arg(long, group = "format")]
+    csv: bool,
+    /// Print everything as JSON
+    #[arg(long, group = "format")]
+    json: bool,
+    /// Print tables of Markdown
+    #[arg(long, group = "format")]
+    markdown: bool,
+    /// Draw the changes with their intervals into this SVG
+    #[arg(long, value_name = "FILE")]
+    figure: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "Examples:
+  replan compare zhang target/replan/zhang-seed-9
+  replan compare zhang --contenders 'A*' 'Improved A*' --study ensemble
+  replan compare before after --gate 'expansions +2%' --gate 'solved -1%'";
+
+impl Compare {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        let gates = self
+            .gates
+            .iter()
+            .map(|text| Gate::parse(text))
+            .collect::<Result<_, _>>()
+            .map_err(Failure::input)?;
+        let asked = Asked { studies: self.studies.clone(), metrics: self.metrics.clone(), gates };
+        let first = StoredRun::read(&stored_run(&self.first)?, &self.first)?;
+        let second =
+            self.second.as_ref().map(|name| StoredRun::read(&stored_run(name)?, name).map_err(Failure::from));
+        let second = second.transpose()?;
+        let sides = match (&second, &self.contenders[..]) {
+            (Some(second), _) => Sides::Runs([&first, second]),
+            (None, [one, other]) => Sides::Contenders(&first, [one, other]),
+            (None, _) => {
+                return Err(Failure::input(
+                    "two runs are compared, or with --contenders two contenders of one",
+                ));
+            }
+        };
+        let found = compare(&sides, &asked).map_err(Failure::input)?;
+        self.print(&found);
+        if let Some(path) = &self.figure {
+            let drawn = comparison::figure(&found, &self.provenance(&found))?;
+            write_whole(path, drawn.svg.as_bytes())?;
+        }
+        self.judge(&found)
+    }
+
+    fn print(&self, found: &Comparison) {
+        let text = match () {
+            () if self.csv => comparison::csv(found),
+            () if self.json => {
+                serde_json::to_string_pretty(found).expect("a comparison is texts and numbers") + "\n"
+            }
+            () if self.markdown => comparison::markdown(found),
+            () => comparison::text(found),
+        };
+        say!("{}", text.trim_end());
+    }
+
+    fn provenance(&self, found: &Comparison) -> Provenance {
+        let title = format!("What changes from {} to {}.", found.sides[0], found.sides[1]);
+        let spec_hash = sha256(comparison::csv(found).as_bytes());
+        Provenance { command: command_line(), spec_hash, title }
+    }
+
+    /// The exit code that the gates ask for.
+    fn judge(&self, found: &Comparison) -> Result<(), Failure> {
+        let count = |outcome: Outcome| found.gates.iter().filter(|gate| gate.outcome == outcome).count();
+        let (worse, open) = (count(Outcome::Worse), count(Outcome::CannotTell));
+        if worse == 0 && (open == 0 || !self.strict) {
+            return Ok(());
+        }
+        let said =
+            found.gates.iter().filter(|gate| gate.outcome != Outcome::NotWorse).map(comparison::gate_line);
+        Err(Failure::stale(format!(
+            "{worse} of {} lines are worse than their gates allow, of {open} that cannot be told:\n  {}",
+            found.gates.len(),
+            said.collect::<Vec<_>>().join("\n  ")
+        )))
+    }
+}

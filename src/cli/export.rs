@@ -1,0 +1,48 @@
+//! `replan export`: stored trials and what they come to, for other programs.
+
+use super::Failure;
+use super::places::stored_run;
+use crate::analysis::compare::{StoredRun, cells, stored_studies};
+use crate::render::comparison::cells_csv;
+use crate::study::manifest::Manifest;
+use crate::study::store::{Staged, csv};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Exports a stored run.
+#[derive(Args)]
+pub struct Export {
+    /// A stored run: a paper's name, what `--out` was given, or a folder of records
+    paper: String,
+    /// As comma-separated values: trials, prepared objects and clock readings of each study, and statistics.csv
+    #[arg(long, required = true)]
+    csv: bool,
+    /// Write into this folder; below target/replan/export/ if absent
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// The kinds of record that are exported; exhibits are lists of numbers without a table's shape.
+const PARTS: [&str; 3] = ["trials", "prepared", "times"];
+
+impl Export {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        let folder = stored_run(&self.paper)?;
+        let name = folder.file_name().unwrap_or_default();
+        let out = self.out.unwrap_or_else(|| PathBuf::from("target/replan/export").join(name));
+        let mut staged = Staged::default();
+        let cells = cells(&StoredRun::read(&folder, &self.paper)?);
+        for study in stored_studies(&folder) {
+            let manifest = Manifest::read(&folder, &study)?;
+            for part in PARTS {
+                let text = csv(&folder, &study, part, &manifest.files)?;
+                staged.add(&out.join(format!("{study}.{part}.csv")), text.as_bytes())?;
+            }
+        }
+        staged.add(&out.join("statistics.csv"), cells_csv(&cells).as_bytes())?;
+        staged.put()?;
+        say!("trials and {} statistics are in {}", cells.len(), out.display());
+        Ok(())
+    }
+}

@@ -1,0 +1,30 @@
+//! Loading a paper as the flags ask for it.
+
+use super::file_schema::of_any_names;
+use super::places::Places;
+use super::{Failure, How};
+use crate::analysis::claims;
+use crate::study::paper::Paper;
+use base::settings::Faults;
+
+/// The paper as far as it can be read, with every claim's checks, figure and table understood; everything that is wrong goes
+/// to `faults`.
+pub fn gather(places: &Places, faults: &mut Faults) -> Result<Option<Paper>, Failure> {
+    let paper = Paper::gather(&places.folder, &places.inputs, &of_any_names, faults)?;
+    if let Some(paper) = &paper {
+        faults.keep(claims::validate(paper));
+        faults.keep(crate::render::figure::validate(paper));
+        faults.keep(crate::render::results::validate(paper));
+    }
+    Ok(paper)
+}
+
+/// The paper as the flags ask for it.
+pub fn load(places: &Places, how: &How) -> Result<Paper, Failure> {
+    let mut faults = Faults::default();
+    let paper = gather(places, &mut faults)?;
+    let Some(paper) = paper.filter(|_| faults.is_empty()) else { return Err(faults.error().into()) };
+    let paper = how.apply(paper);
+    how.check_readings(&paper)?;
+    Ok(paper)
+}

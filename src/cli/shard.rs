@@ -1,0 +1,130 @@
+//! `replan shard`: a run cut into shards, and the script that runs them on one machine or many.
+
+use super::sharded::Sharded;
+use super::{Failure, How};
+use crate::study::manifest::MadeBy;
+use crate::study::plan::Plan;
+use crate::study::store::write_whole;
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+/// Cuts a run into shards.
+#[derive(Args)]
+pub struct Shard {
+    /// A paper's name, or a folder that holds a paper.toml
+    paper: String,
+    #[command(flatten)]
+    how: How,
+    /// What runs the shards
+    #[arg(long)]
+    engine: Engine,
+    /// How many shards
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    shards: u32,
+    /// The folder that the shards are run into, where the plan and the script are left
+    #[arg(long, value_name = "PARTS")]
+    out: PathBuf,
+    /// Where the script puts the parts together
+    #[arg(long, value_name = "DIR")]
+    merge: PathBuf,
+    /// The most tasks of a Slurm array; each then runs several shards
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    tasks: u32,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Engine {
+    /// A Python program on the package hyperqueue, for this machine or a server's workers
+    Hyperqueue,
+    /// An array job for sbatch
+    Slurm,
+    /// A line for GNU parallel
+    Parallel,
+}
+
+impl Shard {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        MadeBy::here();
+        let sharded = Sharded::load(&self.paper, &self.how)?;
+        let shards = self.shards as usize;
+        let plan = Plan::agreed(&self.out, &sharded.wanted(shards), &sharded.studies()?)?;
+        let (name, template, start) = match self.engine {
+            Engine::Hyperqueue => ("run_hyperqueue.py", include_str!("shard/hyperqueue.py"), "python3"),
+            Engine::Slurm => ("run_slurm.sh", include_str!("shard/slurm.sh"), "bash"),
+            Engine::Parallel => ("run_parallel.sh", include_str!("shard/parallel.sh"), "bash"),
+        };
+        let path = self.out.join(name);
+        write_whole(&path, self.filled(template, &plan)?.as_bytes())?;
+        let (all, most) = (plan.cost_ns.iter().sum::<u64>(), plan.cost_ns.iter().max().copied().unwrap_or(0));
+        say!(
+            "{} units in {shards} shards: about {:.0} s of one core in all, {:.1} s in the longest shard",
+            plan.units.iter().sum::<usize>(),
+            all as f64 / 1e9,
+            most as f64 / 1e9
+        );
+        say!("to run them: {start} {}", path.display());
+        Ok(())
+    }
+
+    /// The script: `template` with what stands in capitals between `@` filled in.
+    fn filled(&self, template: &str, plan: &Plan) -> Result<String, Failure> {
+        let shards = plan.shards;
+        let here = std::env::current_dir()?;
+        let program = std::env::current_exe()?;
+        let threads = self.how.threads.unwrap_or(1);
+        let number = match self.engine {
+            Engine::Hyperqueue => "@K@",
+            Engine::Slurm => "$shard",
+            Engine::Parallel => "{}",
+        };
+        let mut run = plan.arguments(&self.out, &format!("{number}/{shards}"));
+        run.extend(["--threads".to_owned(), threads.to_string()]);
+        let merge = ["merge", &shown(&self.out), "--out", &shown(&self.merge)].map(str::to_owned);
+        let in_shell = |word: &String| match word.starts_with(number) {
+            // What the script itself fills in.
+            true => format!("\"{word}\""),
+            false => quoted(word),
+        };
+        let words = |words: &[String]| match self.engine {
+            Engine::Hyperqueue => serde_json::to_string(words).expect("words are texts"),
+            Engine::Slurm | Engine::Parallel => words.iter().map(in_shell).collect::<Vec<_>>().join(" "),
+        };
+        let word = |word: String| match self.engine {
+            Engine::Hyperqueue => serde_json::to_string(&word).expect("a word is a text"),
+            Engine::Slurm | Engine::Parallel => quoted(&word),
+        };
+        let name = sharded_name(&self.paper);
+        let pairs = [
+            ("@NAME@", name),
+            ("@FOLDER@", word(shown(&here))),
+            ("@PROGRAM@", word(shown(&program))),
+            ("@PARTS@", word(shown(&self.out))),
+            ("@RUN@", words(&run)),
+            ("@MERGE@", words(&merge)),
+            ("@SHARDS@", plan.shards.to_string()),
+            ("@TASKS@", plan.shards.min(self.tasks as usize).to_string()),
+            ("@THREADS@", threads.to_string()),
+        ];
+        Ok(pairs.iter().fold(template.to_owned(), |text, (mark, value)| text.replace(mark, value)))
+    }
+}
+
+fn shown(path: &Path) -> String {
+    path.display().to_string()
+}
+
+/// The paper's name as a job bears it.
+fn sharded_name(paper: &str) -> String {
+    let name = Path::new(paper)
+        .file_name()
+        .map_or_else(|| paper.to_owned(), |name| name.to_string_lossy().into_owned());
+    crate::study::slug(&name)
+}
+
+/// A word as a shell reads it.
+fn quoted(word: &str) -> String {
+    let is_plain =
+        !word.is_empty() && word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,:".contains(c));
+    if is_plain { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}

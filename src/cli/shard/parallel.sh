@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Runs the shards of a run of replan through GNU parallel, as many at once as this machine has cores, and puts their parts
+# together when all are done. Options of parallel may follow, as: bash run_parallel.sh --jobs 8 --sshloginfile nodes
+# A shard that failed runs again, three times in all. Run again, only what is not done runs.
+set -euo pipefail
+program=${REPLAN:-@PROGRAM@}
+cd @FOLDER@
+mkdir -p @PARTS@
+seq @SHARDS@ | parallel --retries 3 --joblog @PARTS@/parallel.log "$@" "$program" @RUN@
+exec "$program" @MERGE@

@@ -1,0 +1,105 @@
+//! `replan status`: how far a run is that was cut into shards.
+
+use super::Failure;
+use crate::study::plan::{Plan, Progressed, State};
+use clap::Args;
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Says how far the shards are.
+#[derive(Args)]
+pub struct Status {
+    /// The folder that the shards are run into
+    parts: PathBuf,
+    /// Print it as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// How far the shards are.
+#[derive(Serialize)]
+struct Found {
+    shards: usize,
+    done: Vec<usize>,
+    running: Vec<usize>,
+    stopped: Vec<usize>,
+    waiting: usize,
+    units: usize,
+    units_done: usize,
+    /// What is left, in seconds of one core, as far as the plan's costs tell.
+    core_seconds_left: f64,
+}
+
+impl Status {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        let plan = Plan::read(&self.parts)?;
+        let found: Vec<Progressed> =
+            (1..=plan.shards).map(|number| plan.progressed(&self.parts, number)).collect();
+        let with = |state: State| -> Vec<usize> {
+            (1..=plan.shards).filter(|number| found[number - 1].state == state).collect()
+        };
+        let left = |number: usize| {
+            let (units, done) = (plan.units[number - 1], found[number - 1].units);
+            let share = if units == 0 { 0.0 } else { 1.0 - done as f64 / units as f64 };
+            share * plan.cost_ns[number - 1] as f64 / 1e9
+        };
+        let found = Found {
+            shards: plan.shards,
+            done: with(State::Done),
+            running: with(State::Running),
+            stopped: with(State::Stopped),
+            waiting: with(State::Waiting).len(),
+            units: plan.units.iter().sum(),
+            units_done: found.iter().map(|found| found.units).sum(),
+            core_seconds_left: (1..=plan.shards).map(left).sum(),
+        };
+        if self.json {
+            say!("{}", serde_json::to_string(&found).expect("a state is numbers"));
+        } else {
+            say!("{}", said(&found, &plan, &self.parts));
+        }
+        Ok(())
+    }
+}
+
+fn said(found: &Found, plan: &Plan, parts: &std::path::Path) -> String {
+    let listed = |numbers: &[usize]| match numbers.len() {
+        0 => String::new(),
+        1..=20 => format!(" ({})", numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
+        _ => String::new(),
+    };
+    let mut text = format!(
+        "{} of {} shards are done, {} running{}, {} stopped{}, {} waiting; {} of {} units",
+        found.done.len(),
+        found.shards,
+        found.running.len(),
+        listed(&found.running),
+        found.stopped.len(),
+        listed(&found.stopped),
+        found.waiting,
+        found.units_done,
+        found.units
+    );
+    if found.done.len() == found.shards {
+        return text + &format!("\nput together by: replan merge {} --out DIR", parts.display());
+    }
+    text += &format!("\nabout {} of one core left", duration(found.core_seconds_left));
+    if !found.running.is_empty() {
+        let each = found.core_seconds_left / found.running.len() as f64;
+        text += &format!(", {} with {} cores", duration(each), found.running.len());
+    }
+    if let Some(first) = found.stopped.first() {
+        let shard = format!("{first}/{}", plan.shards);
+        text += &format!("\nto go on: replan {}", plan.arguments(parts, &shard).join(" "));
+    }
+    text
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}

@@ -1,0 +1,263 @@
+//! Puts the parts of a run together: the same records, to the byte, as one machine would have written.
+//!
+//! Nothing is put together unless every part is there, whole, of one plan and of one program. A part is refused by the name of
+//! its folder, with what it should be.
+
+use super::key::{DrawKey, Owner, SweepKey};
+use super::manifest::Manifest;
+use super::plan::{Plan, brief, unlike};
+use super::record::{Batch, Kept, Row};
+use super::runner::BuiltStudy;
+use super::session::write;
+use super::store::{
+    ExhibitReader, Exhibits, GROUP_VALUES, Records, journal_units, open_exhibits, read_numbers,
+};
+use super::{Study, StudyError};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The parts of a run, all of which may be put together.
+pub struct Parts<'a> {
+    plan: &'a Plan,
+    folder: &'a Path,
+    /// The shard of every unit of each study.
+    cut: Vec<Vec<usize>>,
+}
+
+/// What may keep parts from being put together.
+#[derive(Default)]
+struct Refused {
+    reasons: Vec<String>,
+    /// The numbers of shards that are not done.
+    missing: BTreeSet<usize>,
+}
+
+impl<'a> Parts<'a> {
+    /// The parts of `plan` in `folder`, of a run of `studies` as they are now.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`] with everything that is missing, double or of another run.
+    pub fn checked(
+        plan: &'a Plan,
+        folder: &'a Path,
+        studies: &[(BuiltStudy<'_>, Manifest)],
+    ) -> Result<Self, StudyError> {
+        let mut refused = Refused { reasons: strangers(plan, folder), ..Refused::default() };
+        for number in 1..=plan.shards {
+            studies.iter().for_each(|(_, expected)| refused.look_at(plan, folder, number, expected));
+        }
+        let Refused { mut reasons, missing } = refused;
+        if !missing.is_empty() {
+            reasons.push(how_to_run(plan, folder, &missing));
+        }
+        if reasons.is_empty() {
+            return Ok(Self { plan, folder, cut: plan.cut(studies) });
+        }
+        let reasons = reasons.join("\n  ");
+        Err(StudyError::stored(folder, format!("the parts cannot be put together:\n  {reasons}")))
+    }
+
+    /// Writes the records of `study`, the plan's of this place, into `into`, which is locked; how many trials they are.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`] for a part that is damaged or does not hold the units that are its own; those of the file system,
+    /// and nothing is written then.
+    pub fn merge(
+        &self,
+        (place, study): (usize, &Study),
+        built: &BuiltStudy<'_>,
+        mut manifest: Manifest,
+        into: &Path,
+    ) -> Result<usize, StudyError> {
+        let keys: Vec<Arc<DrawKey>> = built.units().into_iter().map(|unit| unit.key).collect();
+        let units = Units { numbers: keys.iter().cloned().zip(0..).collect(), shards: &self.cut[place] };
+        let (mut rows, mut prepared, mut exhibits) = (Vec::new(), Vec::new(), Vec::new());
+        for number in 1..=self.plan.shards {
+            let part = self.plan.part(self.folder, number);
+            let Manifest { files, claims, .. } = Manifest::read(&part, &study.name)?;
+            let batch = read_numbers(&part, &study.name, &files)?.batch;
+            rows.push(batch.rows);
+            prepared.push(batch.prepared);
+            exhibits.push(open_exhibits(&part, &study.name, &files)?);
+            // Trials that were seen under former claims stay marked.
+            manifest.claims = if claims == manifest.claims { manifest.claims } else { claims };
+        }
+        let wrong =
+            |reason: String| StudyError::stored(self.folder, format!("study `{}`: {reason}", study.name));
+        let prepared = units.in_order(prepared, |row| &row.key).map_err(wrong)?;
+        let found: BTreeSet<&Arc<DrawKey>> = prepared.iter().map(|row| &row.key).collect();
+        if let Some(gap) = keys.iter().find(|key| !found.contains(key)) {
+            return Err(wrong(format!("no part holds {}", built.names().prepared(gap))));
+        }
+        let rows = units.in_order(rows, |row| &row.key.on).map_err(wrong)?;
+        // No clock has timed anything yet; `replan run` reads it, on one machine.
+        manifest.sessions.clear();
+        let (sweep, trials) = (sweep(&exhibits, &rows)?, rows.len());
+        let records = Records { batch: Batch { prepared, rows, ..Batch::default() }, times: Vec::new() };
+        let each = Box::new(streamed(exhibits, keys, &self.cut[place]));
+        let exhibits = Exhibits { each, sweep, group_values: GROUP_VALUES };
+        write(study, into, &mut manifest, &records, exhibits)?;
+        Ok(trials)
+    }
+}
+
+impl Refused {
+    /// Notes what is wrong with one study of the part `number`, which should be as `expected` says.
+    fn look_at(&mut self, plan: &Plan, folder: &Path, number: usize, expected: &Manifest) {
+        let (part, study) = (plan.part(folder, number), &expected.study);
+        let name = part.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if !Manifest::path(&part, study).exists() {
+            let kept = journal_units(&part, study);
+            self.reasons.push(format!("{name}: study `{study}` is not done; {kept} units are kept"));
+            self.missing.insert(number);
+            return;
+        }
+        match Manifest::read(&part, study) {
+            Err(error) => self.reasons.push(error.to_string()),
+            Ok(found) => {
+                let reasons = reasons(plan, number, expected, &found);
+                self.reasons
+                    .extend(reasons.iter().map(|reason| format!("{name}: study `{study}`: {reason}")));
+            }
+        }
+    }
+}
+
+/// The sweep of a trial, if any part has an exhibit of one.
+fn sweep(exhibits: &[ExhibitReader], rows: &[Row]) -> Result<Option<SweepKey>, StudyError> {
+    for reader in exhibits {
+        if reader.has_trials()? {
+            return Ok(rows.first().map(|row| row.key.sweep.clone()));
+        }
+    }
+    Ok(None)
+}
+
+/// The exhibits of all parts in the order of units; one group of each part is held at a time.
+fn streamed<'s>(
+    mut parts: Vec<ExhibitReader>,
+    keys: Vec<Arc<DrawKey>>,
+    shards: &'s [usize],
+) -> impl Iterator<Item = Result<Kept, StudyError>> + 's {
+    let mut unit = 0;
+    std::iter::from_fn(move || {
+        while unit < keys.len() {
+            let part = &mut parts[shards[unit] - 1];
+            match part.peek() {
+                Err(error) => return Some(Err(error)),
+                Ok(Some(kept)) if *drawn(&kept.of) == keys[unit] => return part.take().map(Ok),
+                Ok(_) => unit += 1,
+            }
+        }
+        let left = parts
+            .iter_mut()
+            .find_map(|part| part.peek().map(|left| left.is_some()).unwrap_or(true).then_some(part));
+        left.map(|part| {
+            part.take();
+            Err(part.wrong("holds exhibits of draws that are not its own, or in another order"))
+        })
+    })
+}
+
+/// The units of a study.
+struct Units<'s> {
+    numbers: BTreeMap<Arc<DrawKey>, usize>,
+    /// The shard of each.
+    shards: &'s [usize],
+}
+
+impl Units<'_> {
+    /// Everything of all parts in the order of units; each part has its own in that order.
+    fn in_order<T>(&self, parts: Vec<Vec<T>>, on: impl Fn(&T) -> &Arc<DrawKey>) -> Result<Vec<T>, String> {
+        let mut runs = Vec::new();
+        for (part, all) in parts.iter().enumerate() {
+            for run in all.chunk_by(|one, other| Arc::ptr_eq(on(one), on(other))) {
+                let key = on(&run[0]);
+                let unit = self.numbers.get(key).filter(|unit| self.shards[**unit] == part + 1);
+                let unit = unit.ok_or_else(|| {
+                    format!(
+                        "part {} holds draw {} of `{}`, which is not its own",
+                        part + 1,
+                        key.draw,
+                        key.group
+                    )
+                })?;
+                runs.push((*unit, part, run.len()));
+            }
+        }
+        runs.sort_unstable();
+        let mut left: Vec<_> = parts.into_iter().map(Vec::into_iter).collect();
+        let mut all = Vec::with_capacity(left.iter().map(ExactSizeIterator::len).sum());
+        for (_, part, count) in runs {
+            all.extend(left[part].by_ref().take(count));
+        }
+        Ok(all)
+    }
+}
+
+/// The draw that something belongs to.
+fn drawn(of: &Owner) -> &Arc<DrawKey> {
+    match of {
+        Owner::Draw(key) => key,
+        Owner::Trial(key) => &key.on,
+    }
+}
+
+/// Folders that look like parts and are none of the plan's.
+fn strangers(plan: &Plan, folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    names.sort();
+    let is_stranger = |name: &&String| {
+        let numbers =
+            name.split_once("-of-").and_then(|(one, all)| one.parse::<usize>().ok().zip(all.parse().ok()));
+        numbers.is_some_and(|(number, of)| of != plan.shards || !(1..=of).contains(&number))
+    };
+    let said = |name: &String| format!("{name}: no part of this run, which has {} shards", plan.shards);
+    names.iter().filter(is_stranger).map(said).collect()
+}
+
+/// Why the part that `found` describes is not the shard `number` of the run that `expected` describes.
+fn reasons(plan: &Plan, number: usize, expected: &Manifest, found: &Manifest) -> Vec<String> {
+    let mut reasons = Vec::new();
+    match &found.shard {
+        None => reasons.push("is a whole run and no part".to_owned()),
+        Some(shard) if (shard.number, shard.of) != (number, plan.shards) => {
+            reasons.push(format!("holds shard {shard}, not {number}/{}", plan.shards));
+        }
+        Some(shard) if shard.plan != plan.hash() => reasons.push("was cut by another plan".to_owned()),
+        Some(_) => {}
+    }
+    if found.seed != expected.seed {
+        reasons.push(format!("seed {}, not {}", found.seed, expected.seed));
+    }
+    if found.quick != expected.quick {
+        reasons.push(format!("quick {}, not {}", found.quick, expected.quick));
+    }
+    if (&found.axes, &found.readings) != (&expected.axes, &expected.readings) {
+        reasons.push("ran under other readings".to_owned());
+    }
+    reasons.extend(
+        unlike(&found.made_by, &plan.made_by).map(|[what, own, plan]| format!("{what} {own}, not {plan}")),
+    );
+    if found.spec != expected.spec {
+        reasons.push(format!("spec {}, not {}", brief(&found.spec), brief(&expected.spec)));
+    }
+    if reasons.is_empty() && found.depends != expected.depends {
+        reasons.extend(expected.differs_from(found));
+    }
+    reasons
+}
+
+/// The command that runs what is missing.
+fn how_to_run(plan: &Plan, folder: &Path, missing: &BTreeSet<usize>) -> String {
+    let shards: Vec<String> = missing.iter().map(|number| format!("{number}/{}", plan.shards)).collect();
+    let shard = if let [one] = &shards[..] { one.clone() } else { format!("K/{}", plan.shards) };
+    let command = format!("replan {}", plan.arguments(folder, &shard).join(" "));
+    match &shards[..] {
+        [_] => format!("to run it: {command}"),
+        several => format!("to run them: {command}, for each of {}", several.join(", ")),
+    }
+}

@@ -1,0 +1,334 @@
+//! Plans: how the units of a paper's studies are cut into shards, by costs that were measured once.
+//!
+//! A plan lies beside the parts of its run as `plan.toml`. Whoever comes first measures and writes it; all others read it, so
+//! that every shard is cut alike, and merging refuses what was cut otherwise.
+
+use super::StudyError;
+use super::clock;
+use super::lock::Lock;
+use super::manifest::{MadeBy, Manifest};
+use super::runner::BuiltStudy;
+use super::shard::{self, Portion, Shard};
+use super::store::{journal_units, write_first};
+use base::hash::sha256;
+use base::settings::Document;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// A plan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// The paper, as the command line named it.
+    pub paper: String,
+    /// How many shards there are.
+    pub shards: usize,
+    /// Cut down by `--quick`.
+    pub quick: bool,
+    /// The root of every seed, if it is not the studies' own.
+    pub seed: Option<u64>,
+    /// The readings that were asked for, if any were.
+    pub readings: Option<String>,
+    /// How many units each shard runs.
+    pub units: Vec<usize>,
+    /// What each shard's units cost, in nanoseconds of one core, as far as the first draw of each problem group tells.
+    pub cost_ns: Vec<u64>,
+    /// The program that the plan was made by, and with which its parts must run.
+    pub made_by: MadeBy,
+    /// The studies, in the order of their names.
+    #[serde(rename = "study")]
+    pub studies: Vec<PlannedStudy>,
+}
+
+/// One study of a plan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlannedStudy {
+    /// Its name.
+    pub name: String,
+    /// The root of its seeds.
+    pub seed: u64,
+    /// SHA-256 of its spec.
+    pub spec: String,
+    /// One hash of everything that its trials depend on.
+    pub depends: String,
+    /// How many units it has.
+    pub units: usize,
+    /// What the first draw of each problem group cost under the first reading, in nanoseconds of one core.
+    pub cost_ns: BTreeMap<String, u64>,
+}
+
+/// What is asked of a plan.
+#[derive(Debug, Clone)]
+pub struct Wanted {
+    /// The paper, as the command line named it.
+    pub paper: String,
+    /// How many shards.
+    pub shards: usize,
+    /// Cut down by `--quick`.
+    pub quick: bool,
+    /// The root of every seed, if it is not the studies' own.
+    pub seed: Option<u64>,
+    /// The readings asked for.
+    pub readings: Option<String>,
+}
+
+/// What is known of one shard from its folder alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum State {
+    /// All of its records are in place.
+    Done,
+    /// Somebody is at work on it.
+    Running,
+    /// It was begun, and nobody is at work on it.
+    Stopped,
+    /// It was not begun.
+    Waiting,
+}
+
+/// One shard's state and about how many of its units are done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progressed {
+    /// The state.
+    pub state: State,
+    /// Units that are done.
+    pub units: usize,
+}
+
+impl Plan {
+    /// The plan in `folder`; measured, made and left there if there is none.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`] if there is one of another run.
+    pub fn agreed(
+        folder: &Path,
+        wanted: &Wanted,
+        studies: &[(BuiltStudy<'_>, Manifest)],
+    ) -> Result<Self, StudyError> {
+        let path = Self::path(folder);
+        if !path.exists() {
+            let text =
+                toml::to_string(&Self::measured(wanted, studies)).expect("a plan is texts and numbers");
+            // Two may measure at once; the first to be done is the one that all follow.
+            write_first(&path, text.as_bytes())?;
+        }
+        let plan = Self::read(folder)?;
+        plan.check(&path, wanted, studies)?;
+        Ok(plan)
+    }
+
+    fn measured(wanted: &Wanted, studies: &[(BuiltStudy<'_>, Manifest)]) -> Self {
+        let planned = |(built, manifest): &(BuiltStudy<'_>, Manifest)| PlannedStudy {
+            name: manifest.study.clone(),
+            seed: manifest.seed,
+            spec: manifest.spec.clone(),
+            depends: manifest.depends.clone(),
+            units: built.units().len(),
+            cost_ns: costs(built),
+        };
+        let Wanted { paper, shards, quick, seed, readings } = wanted.clone();
+        let (units, cost_ns, made_by) = (Vec::new(), Vec::new(), MadeBy::here().clone());
+        let studies_planned = studies.iter().map(planned).collect();
+        let mut plan =
+            Self { paper, shards, quick, seed, readings, units, cost_ns, made_by, studies: studies_planned };
+        (plan.units, plan.cost_ns) = (vec![0; plan.shards], vec![0; plan.shards]);
+        let costs = plan.unit_costs(studies);
+        for (shard, cost) in shard::cut(&costs, plan.shards).into_iter().zip(costs) {
+            plan.units[shard - 1] += 1;
+            plan.cost_ns[shard - 1] += cost;
+        }
+        plan
+    }
+
+    /// The plan in `folder`.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`] if there is none or it cannot be understood.
+    pub fn read(folder: &Path) -> Result<Self, StudyError> {
+        let path = Self::path(folder);
+        if !path.exists() {
+            return Err(StudyError::stored(
+                &path,
+                "no plan; `replan run PAPER --shard K/N --out` this folder makes one",
+            ));
+        }
+        let plan: Self = Document::open(&path)?.read_stored()?;
+        let counts = [plan.units.len(), plan.cost_ns.len()];
+        if plan.shards == 0 || counts.iter().any(|count| *count != plan.shards) {
+            return Err(StudyError::stored(
+                &path,
+                format!("{} shards with {counts:?} of their numbers", plan.shards),
+            ));
+        }
+        Ok(plan)
+    }
+
+    /// Where the plan lies in `folder`.
+    pub fn path(folder: &Path) -> PathBuf {
+        folder.join("plan.toml")
+    }
+
+    /// SHA-256 of the plan.
+    pub fn hash(&self) -> String {
+        sha256(toml::to_string(self).expect("a plan is texts and numbers").as_bytes())
+    }
+
+    /// The shard of this number.
+    pub fn shard(&self, number: usize) -> Shard {
+        Shard { number, of: self.shards, plan: self.hash() }
+    }
+
+    /// Where the shard of this number keeps its part of the records in `folder`.
+    pub fn part(&self, folder: &Path, number: usize) -> PathBuf {
+        folder.join(format!("{number}-of-{}", self.shards))
+    }
+
+    /// The command that runs a shard: what follows the program's name.
+    pub fn arguments(&self, folder: &Path, shard: &str) -> Vec<String> {
+        let shard = ["--shard", shard].map(str::to_owned);
+        [self.unsharded(folder), shard.to_vec()].concat()
+    }
+
+    /// The command that runs the same, whole: what follows the program's name.
+    pub fn unsharded(&self, out: &Path) -> Vec<String> {
+        let mut words = ["run", &self.paper, "--out", &out.display().to_string()].map(str::to_owned).to_vec();
+        if self.quick {
+            words.push("--quick".to_owned());
+        }
+        words.extend(self.seed.iter().flat_map(|seed| ["--seed".to_owned(), seed.to_string()]));
+        words.extend(self.readings.iter().flat_map(|readings| ["--readings".to_owned(), readings.clone()]));
+        words
+    }
+
+    /// The shard of every unit of each study.
+    pub fn cut(&self, studies: &[(BuiltStudy<'_>, Manifest)]) -> Vec<Vec<usize>> {
+        let mut shards = shard::cut(&self.unit_costs(studies), self.shards).into_iter();
+        self.studies.iter().map(|planned| shards.by_ref().take(planned.units).collect()).collect()
+    }
+
+    /// What of each study the shard of this number runs.
+    pub fn portions(&self, studies: &[(BuiltStudy<'_>, Manifest)], number: usize) -> Vec<Portion> {
+        let own = |shards: Vec<usize>| -> BTreeSet<usize> {
+            shards
+                .into_iter()
+                .enumerate()
+                .filter(|(_, shard)| *shard == number)
+                .map(|(unit, _)| unit)
+                .collect()
+        };
+        let portion = |shards| Portion { shard: self.shard(number), units: own(shards) };
+        self.cut(studies).into_iter().map(portion).collect()
+    }
+
+    /// What every unit costs, study after study.
+    fn unit_costs(&self, studies: &[(BuiltStudy<'_>, Manifest)]) -> Vec<u64> {
+        let mut costs = Vec::new();
+        for (planned, (built, _)) in self.studies.iter().zip(studies) {
+            let cost = |group: &str| planned.cost_ns.get(group).copied().unwrap_or(1);
+            costs.extend(built.groups_of_units().map(cost));
+        }
+        costs
+    }
+
+    /// Refuses a plan of another run than is asked for.
+    fn check(
+        &self,
+        path: &Path,
+        wanted: &Wanted,
+        studies: &[(BuiltStudy<'_>, Manifest)],
+    ) -> Result<(), StudyError> {
+        let mut other = Other(Vec::new());
+        let mut differs = |what: &str, planned: String, asked: String| other.note(what, &planned, &asked);
+        let shown = |readings: &Option<String>| readings.clone().unwrap_or_else(|| "the default".to_owned());
+        let names = |names: &mut dyn Iterator<Item = &str>| names.collect::<Vec<_>>().join(", ");
+        differs("shards", self.shards.to_string(), wanted.shards.to_string());
+        differs("quick", self.quick.to_string(), wanted.quick.to_string());
+        differs("readings", shown(&self.readings), shown(&wanted.readings));
+        differs(
+            "studies",
+            names(&mut self.studies.iter().map(|study| study.name.as_str())),
+            names(&mut studies.iter().map(|(_, manifest)| manifest.study.as_str())),
+        );
+        for (planned, (_, manifest)) in self.studies.iter().zip(studies) {
+            let of = |what: &str| format!("study {}: {what}", planned.name);
+            differs(&of("seed"), planned.seed.to_string(), manifest.seed.to_string());
+            differs(&of("spec"), brief(&planned.spec), brief(&manifest.spec));
+            differs(&of("what trials depend on"), brief(&planned.depends), brief(&manifest.depends));
+        }
+        unlike(&self.made_by, MadeBy::here()).for_each(|[what, own, here]| other.note(&what, &own, &here));
+        if other.0.is_empty() {
+            return Ok(());
+        }
+        let other = other.0.join("; ");
+        let reason = format!("the parts here are of another run: {other}; another folder is accepted");
+        Err(StudyError::stored(path, reason))
+    }
+
+    /// What the folder of a part tells of its shard.
+    pub fn progressed(&self, folder: &Path, number: usize) -> Progressed {
+        let part = self.part(folder, number);
+        let whole = |study: &&PlannedStudy| Manifest::path(&part, &study.name).exists();
+        let units = self.units[number - 1];
+        if self.studies.iter().all(|study| whole(&study)) {
+            return Progressed { state: State::Done, units };
+        }
+        // What a study has done stands in its journal until its records do.
+        let done = |study: &PlannedStudy| match whole(&study) {
+            true => study.units / self.shards,
+            false => journal_units(&part, &study.name),
+        };
+        let state = match part.is_dir() {
+            false => State::Waiting,
+            true if Lock::is_held(&part) => State::Running,
+            true => State::Stopped,
+        };
+        Progressed { state, units: self.studies.iter().map(done).sum::<usize>().min(units) }
+    }
+}
+
+/// What differs from what is wanted.
+struct Other(Vec<String>);
+
+impl Other {
+    fn note(&mut self, what: &str, found: &str, wanted: &str) {
+        if found != wanted {
+            self.0.push(format!("{what} {found}, not {wanted}"));
+        }
+    }
+}
+
+/// What differs between two programs whose records must not be mixed: what it is, and that of each.
+pub fn unlike<'m>(one: &'m MadeBy, other: &'m MadeBy) -> impl Iterator<Item = [String; 3]> + use<'m> {
+    let shown = |text: Option<&String>| text.map_or_else(|| "unknown".to_owned(), |text| brief(text));
+    let pairs = [
+        ("version", Some(&one.replan), Some(&other.replan)),
+        ("revision", one.git.as_ref(), other.git.as_ref()),
+        ("Cargo.lock", one.lock.as_ref(), other.lock.as_ref()),
+    ];
+    let differ = pairs.into_iter().filter(|(_, one, other)| one != other);
+    differ.map(move |(what, one, other)| [what.to_owned(), shown(one), shown(other)])
+}
+
+/// So much of a hash as tells two apart.
+pub fn brief(hash: &str) -> String {
+    hash.chars().take(12).collect()
+}
+
+/// What takes longer is measured once: 50 ms.
+const WARM_NS: u64 = 50_000_000;
+
+/// What the first draw of each problem group costs under the first reading.
+fn costs(built: &BuiltStudy<'_>) -> BTreeMap<String, u64> {
+    let mut costs = BTreeMap::new();
+    for unit in built.units() {
+        if !costs.contains_key(unit.group.label.as_str()) {
+            let cost = || clock::timed(|| built.run_unit(&unit)).0;
+            let first = cost();
+            // What is over soon is as much warming up as work: the second time is measured then.
+            let cost = if first < WARM_NS { first.min(cost()) } else { first };
+            costs.insert(unit.group.label.clone(), cost);
+        }
+    }
+    costs
+}

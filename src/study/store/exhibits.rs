@@ -1,0 +1,148 @@
+//! Exhibits on disk, written and read group by group: whoever puts parts together holds one group of each at a time.
+
+use super::read::{Draws, Stored, touched};
+use super::table;
+use crate::study::StudyError;
+use crate::study::key::{KeyColumns, Owner, SweepKey};
+use crate::study::record::Kept;
+use polars::prelude::PolarsError;
+use polars_io::parquet::write::BatchedWriter;
+use polars_io::prelude::{ParquetReader, SerReader as _};
+use std::collections::VecDeque;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// How many numbers a group holds, but for an exhibit that has more: 16 MB.
+pub const GROUP_VALUES: usize = 1 << 21;
+
+/// A file of exhibits at work.
+pub struct ExhibitWriter<'k, W: Write> {
+    file: BatchedWriter<W>,
+    keys: &'k KeyColumns,
+    sweep: Option<SweepKey>,
+    group: Vec<Kept>,
+    values: usize,
+    most: usize,
+}
+
+impl<'k, W: Write> ExhibitWriter<'k, W> {
+    /// Begins a file in `out` whose groups hold at most so many numbers; `sweep` is that of any trial that has an exhibit.
+    ///
+    /// # Errors
+    /// What the system refused.
+    pub fn new(out: W, keys: &'k KeyColumns, sweep: Option<SweepKey>, most: usize) -> io::Result<Self> {
+        let empty = table::exhibits(&[], keys, sweep.as_ref());
+        let file = table::writer(out, &empty, keys).batched(empty.schema()).map_err(told)?;
+        Ok(Self { file, keys, sweep, group: Vec::new(), values: 0, most })
+    }
+
+    /// Adds an exhibit; they come in the order of records.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn add(&mut self, kept: Kept) -> io::Result<()> {
+        let count = kept.exhibit.values.len();
+        if !self.group.is_empty() && self.values + count > self.most {
+            self.flush()?;
+        }
+        self.values += count;
+        self.group.push(kept);
+        Ok(())
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn finish(mut self) -> io::Result<()> {
+        self.flush()?;
+        self.file.finish().map_err(told)?;
+        Ok(())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let mut frame = table::exhibits(&self.group, self.keys, self.sweep.as_ref());
+        (self.group, self.values) = (Vec::new(), 0);
+        frame.rechunk_mut();
+        self.file.write_batch(&frame).map_err(told)
+    }
+}
+
+fn told(error: PolarsError) -> io::Error {
+    match error {
+        PolarsError::IO { error, .. } => io::Error::new(error.kind(), error.to_string()),
+        other => io::Error::other(other.to_string()),
+    }
+}
+
+/// The sweep of the first exhibit that belongs to a trial.
+pub fn sweep_of(kept: &[Kept]) -> Option<SweepKey> {
+    kept.iter().find_map(|kept| match &kept.of {
+        Owner::Trial(key) => Some(key.sweep.clone()),
+        Owner::Draw(_) => None,
+    })
+}
+
+/// A file of exhibits that is read from its beginning, one group at a time.
+pub struct ExhibitReader {
+    path: PathBuf,
+    /// How many exhibits each group has that was not read yet, the last one first.
+    groups: Vec<usize>,
+    row: usize,
+    read: VecDeque<Kept>,
+    draws: Draws,
+}
+
+impl ExhibitReader {
+    /// The exhibits at `path`, a file that was found to be the one its manifest names.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`].
+    pub fn open(path: &Path) -> Result<Self, StudyError> {
+        let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
+        let mut reader = ParquetReader::new(file);
+        let metadata =
+            reader.get_metadata().map_err(|_| touched(path, "is no Parquet file that can be read"))?;
+        let groups = metadata.row_groups.iter().rev().map(|group| group.num_rows()).collect();
+        let (path, read, draws) = (path.to_owned(), VecDeque::new(), Draws::default());
+        Ok(Self { path, groups, row: 0, read, draws })
+    }
+
+    /// The next exhibit, which stays the next.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`].
+    pub fn peek(&mut self) -> Result<Option<&Kept>, StudyError> {
+        while self.read.is_empty()
+            && let Some(count) = self.groups.pop()
+        {
+            let file = File::open(&self.path).map_err(StudyError::io(&self.path, "opening the file"))?;
+            let slice = Some((self.row, count));
+            let read = || ParquetReader::new(file).with_slice(slice).finish();
+            self.read = Stored::of(self.path.clone(), read)?.exhibits(&mut self.draws)?.into();
+            self.row += count;
+        }
+        Ok(self.read.front())
+    }
+
+    /// Takes what [`peek`](Self::peek) has shown.
+    pub fn take(&mut self) -> Option<Kept> {
+        self.read.pop_front()
+    }
+
+    /// What is said of what it holds.
+    pub fn wrong(&self, reason: &str) -> StudyError {
+        touched(&self.path, reason)
+    }
+
+    /// Whether any of them belongs to a trial.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`].
+    pub fn has_trials(&self) -> Result<bool, StudyError> {
+        let file = File::open(&self.path).map_err(StudyError::io(&self.path, "opening the file"))?;
+        let read = || ParquetReader::new(file).with_columns(Some(vec!["contender".to_owned()])).finish();
+        Stored::of(self.path.clone(), read)?.has_some("contender")
+    }
+}

@@ -1,0 +1,105 @@
+//! Comparisons from the command line: runs of the tiny paper beside each other, gates, formats.
+
+use crate::paper::Bench;
+use std::fs;
+
+/// A bench with a run in `a`, one of another seed in `b`, and one of a planner made worse on purpose in `worse`.
+fn runs() -> Bench {
+    let bench = Bench::new();
+    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 80");
+    bench.edit("mini/draws.toml", "blocked_share = 0.3", "blocked_share = 0.15");
+    bench.done(&["run", "./mini", "--out", "a"]);
+    bench.done(&["run", "./mini", "--out", "b", "--seed", "99"]);
+    bench.edit("mini/draws.toml", "settings = { weight = 1,", "settings = { weight = 0,");
+    bench.done(&["run", "./mini", "--out", "worse"]);
+    bench
+}
+
+#[test]
+fn a_gate_catches_a_planner_made_worse_and_passes_an_equal_one() {
+    let bench = runs();
+    let gate = ["--gate", "expansions +2%", "--study", "draws"];
+    let equal = bench.run(&[&["compare", "a", "a"], &gate[..]].concat());
+    assert_eq!((equal.code, equal.err.as_str()), (Some(0), ""), "{}", equal.out);
+    assert!(equal.out.contains("gate expansions +2%: draws: A*: not worse; 0 [0, 0] %\n"), "{}", equal.out);
+    let worse = bench.run(&[&["compare", "a", "worse"], &gate[..]].concat());
+    assert_eq!(worse.code, Some(3), "{}", worse.out);
+    assert!(worse.err.contains("1 of 2 lines are worse than their gates allow"), "{}", worse.err);
+    assert!(worse.err.contains("gate expansions +2%: draws: A*: worse; "), "{}", worse.err);
+    assert!(!worse.err.contains("Two-sided"), "the other planner is as before: {}", worse.err);
+    // Other maps and wide intervals: a tight gate cannot tell, which is a failure if asked for.
+    let open = bench.run(&[&["compare", "a", "b"], &gate[..]].concat());
+    assert_eq!(open.code, Some(0), "{}", open.err);
+    assert!(open.out.contains("cannot tell: about ") && open.out.contains(" more draws; "), "{}", open.out);
+    let strict = bench.run(&[&["compare", "a", "b", "--strict"], &gate[..]].concat());
+    assert_eq!(strict.code, Some(3), "{}", strict.out);
+}
+
+#[test]
+fn a_comparison_leaves_as_text_markdown_csv_json_and_a_figure() {
+    let bench = runs();
+    let plain = bench.done(&["compare", "a", "worse", "--figure", "out/change.svg"]);
+    assert!(plain.starts_with("From a to worse\n"), "{plain}");
+    let svg = fs::read_to_string(bench.at("out/change.svg")).unwrap();
+    assert!(svg.contains("What changes from a to worse.") && svg.contains("</svg>"));
+    let markdown = bench.done(&["compare", "a", "worse", "--markdown"]);
+    assert!(markdown.contains("### Problems solved\n\n| study | contender |"), "{markdown}");
+    let csv = bench.done(&["compare", "a", "worse", "--csv"]);
+    let columns = csv.lines().next().unwrap().split(',').count();
+    assert!(csv.lines().count() > 10 && csv.lines().all(|line| line.split(',').count() == columns), "{csv}");
+    let json: serde_json::Value =
+        serde_json::from_str(&bench.done(&["compare", "a", "worse", "--json"])).unwrap();
+    let change =
+        json["changes"].as_array().unwrap().iter().find(|change| change["metric"] == "expansions").unwrap();
+    assert_eq!((&change["contender"], &change["word"]), (&"A*".into(), &"worse".into()));
+    let contenders =
+        bench.done(&["compare", "a", "--contenders", "A*", "Two-sided", "--metric", "expansions"]);
+    assert!(contenders.contains("Two-sided against A*"), "{contenders}");
+}
+
+#[test]
+fn an_export_holds_every_trial_and_what_they_come_to() {
+    let bench = runs();
+    bench.done(&["export", "a", "--csv", "--out", "csv"]);
+    let trials = fs::read_to_string(bench.at("csv/draws.trials.csv")).unwrap();
+    assert!(
+        trials.starts_with("group,draw,query,contender,reading_corners,repeat,seed,status,reason,"),
+        "{trials}"
+    );
+    assert_eq!(trials.lines().count(), 161);
+    let statistics = fs::read_to_string(bench.at("csv/statistics.csv")).unwrap();
+    assert!(
+        statistics.lines().any(|line| line.starts_with("draws,default,drawn,A*,,expansions,,80,")),
+        "{statistics}"
+    );
+    assert!(bench.at("csv/draws.times.csv").is_file() && bench.at("csv/room.prepared.csv").is_file());
+}
+
+#[test]
+fn what_cannot_be_compared_is_told() {
+    let bench = Bench::new();
+    bench.done(&["run", "./mini", "--out", "a"]);
+    for (arguments, complaint) in [
+        (&["compare", "a", "nowhere"][..], "`nowhere` holds no stored run; a folder with *.manifest.toml"),
+        (&["compare", "a"], "the following required arguments were not provided:\n  <SECOND>"),
+        (&["compare", "a", "a", "--contenders", "A*", "B"], "cannot be used with"),
+        (&["compare", "a", "--contenders", "A*", "B"], "no stored trial is `B`'s; there are A*, Two-sided"),
+        (
+            &["compare", "a", "a", "--study", "hall"],
+            "there is no stored run of a study `hall`; there are draws, room",
+        ),
+        (
+            &["compare", "a", "a", "--metric", "speed"],
+            "`speed` is no metric that can be compared (there is none)",
+        ),
+        (&["compare", "a", "a", "--gate", "expansions"], "is not `METRIC ±NUMBER` or `METRIC ±NUMBER%`"),
+        (&["compare", "a", "a", "--gate", "hops +2%"], "no pair of trials has a `hops`"),
+        (&["compare", "a", "a", "--strict"], "--gate"),
+        (&["export", "a"], "--csv"),
+        (&["export", "nowhere", "--csv"], "`nowhere` holds no stored run"),
+    ] {
+        let said = bench.run(arguments);
+        assert_eq!(said.code, Some(2), "{arguments:?}: {}{}", said.out, said.err);
+        assert!(said.err.contains(complaint), "{arguments:?} is answered: {}", said.err);
+    }
+}
