@@ -1,7 +1,7 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 a check said no: something is not as stored, is judged otherwise, is impossible, or an independent judge
+//! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
 //! disagrees; 4 `crosscheck` lacks Python or the network; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
@@ -26,6 +26,7 @@ mod judge;
 mod list;
 mod load;
 mod merge;
+mod new;
 mod places;
 mod progress;
 mod render;
@@ -56,6 +57,7 @@ struct Cli {
 const EXAMPLES: &str = "Examples:
   replan repro zhang                 run the paper's studies, judge its claims, draw its figures
   replan repro zhang --quick         the same with few replicates, below target/replan/
+  replan new ./my/paper --from grid  a small paper to be changed into your own; docs/YOUR_OWN_PAPER.md
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
   replan show zhang t1.improved.cost one claim with its evidence
@@ -65,6 +67,8 @@ const EXAMPLES: &str = "Examples:
 
 #[derive(Subcommand)]
 enum Command {
+    /// Write a small paper that runs, to be changed into your own
+    New(new::New),
     /// Run every study of a paper, judge its claims, draw its figures and write its report
     Repro(repro::Repro),
     /// Check papers and specs without running anything
@@ -147,7 +151,7 @@ impl Failure {
     }
 
     /// The same as what a check says: that something is not as stored is its answer, and no wrong input.
-    fn as_check(self) -> Self {
+    fn in_check(self) -> Self {
         Self { code: if self.is_touched { 3 } else { self.code }, ..self }
     }
 }
@@ -199,6 +203,7 @@ fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
 /// Runs the command that the process was called with.
 pub fn run() -> ExitCode {
     let done = match Cli::parse().command {
+        Command::New(command) => command.run(),
         Command::Repro(command) => command.run(),
         Command::Check(command) => command.run(),
         Command::Run(command) => command.run(),

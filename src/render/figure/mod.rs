@@ -228,12 +228,12 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
         Some(settings) => Settings::written(&study.document, settings),
         None => Settings::composed(String::new(), Toml::new()),
     };
-    let kind = (entry.build)(&settings, study, paper).map_err(|error| match figure.settings {
-        Some(_) => error,
-        None => {
-            let message = format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message());
-            study.document.error(figure.id.span(), message).about("settings")
+    let kind = (entry.build)(&settings, study, paper).map_err(|error| {
+        if figure.settings.is_some() {
+            return error;
         }
+        let message = format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message());
+        study.document.error(figure.id.span(), message).about("settings")
     })?;
     if !["figure", "keep"].iter().any(|key| study.document.is_part(key)) {
         check_kept(figure, study, kind.as_ref())?;
