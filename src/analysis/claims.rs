@@ -5,6 +5,7 @@ use super::context::Context;
 use super::criterion::{self, Criterion};
 use super::evidence::{Evidence, Run, default_point};
 use super::found::Found;
+use super::metric;
 use super::rule;
 use super::settle::settles;
 use super::together::{Explored, together};
@@ -32,6 +33,7 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
             }
         }
     }
+    check_metrics(paper, &mut faults);
     let point = default_point(paper);
     for claim in &paper.claims {
         for (asked, name, settings) in claim.asked() {
@@ -40,6 +42,21 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
         }
     }
     faults.done()
+}
+
+/// Refuses options of readings that give a name the meaning of a metric that does not exist.
+fn check_metrics(paper: &Paper, faults: &mut Faults) {
+    for study in &paper.studies {
+        for (index, reading) in study.readings.iter().enumerate() {
+            let options = reading.options.iter();
+            let named = options.flat_map(|(option, change)| change.metric.iter().map(move |m| (option, m)));
+            for (option, (name, metric)) in named.filter(|(_, (_, metric))| metric::find(metric).is_none()) {
+                let message = none_called("metric", metric, metric::METRICS.iter().map(|metric| metric.name));
+                let place = format!("reading.{index}.option.{option}.metric.{name}");
+                faults.add(study.document.error_at(&place, message));
+            }
+        }
+    }
 }
 
 /// The hash of what claims say and how they are judged, for manifests: wording and ledger do not count.

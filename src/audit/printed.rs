@@ -86,7 +86,7 @@ impl Printed {
         // Digits before the first one that counts are none: 0.097 has its first at the second decimal.
         let units = self.units.unsigned_abs();
         let length = if units == 0 { self.decimals + 1 } else { units.ilog10() + 1 };
-        if self.decimals > 0 && units % 10 == 0 || length > significant {
+        if self.decimals > 0 && units.is_multiple_of(10) || length > significant {
             return None;
         }
         let more = significant - length;

@@ -147,7 +147,7 @@ impl Failure {
     }
 
     /// The same as what a check says: that something is not as stored is its answer, and no wrong input.
-    fn as_check(self) -> Self {
+    fn in_check(self) -> Self {
         Self { code: if self.is_touched { 3 } else { self.code }, ..self }
     }
 }

@@ -1,5 +1,6 @@
 //! Checked studies: every name is looked up, every settings table is understood, before a trial runs.
 
+mod check;
 mod load;
 mod sizes;
 

@@ -200,8 +200,9 @@ fn a_crosscheck_is_checked_with_its_paper() {
     let whole =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/experiments/planar/crosscheck.toml"));
     let whole = whole.unwrap();
-    let study = whole.lines().find(|line| line.starts_with("study = ")).unwrap();
-    bench.write("mini/crosscheck.toml", whole.replace(study, "study = \"drows\"").as_bytes());
+    let name = whole.split_once("study = \"").unwrap().1.split_once('"').unwrap().0;
+    let wrong = whole.replace(&format!("study = \"{name}\""), "study = \"drows\"");
+    bench.write("mini/crosscheck.toml", wrong.as_bytes());
     bench.edit("mini/room.toml", "start = [0, 0]", "start = [3, 0]");
     let said = bench.run(&["check", "./mini"]);
     assert!(
@@ -223,10 +224,29 @@ fn a_misspelled_metric_may_be_one_that_a_reading_introduces() {
         said.err
     );
     let said = bench.done(&["list", "metrics", "path_length_mm"]);
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
     let column = replan::study::column::find("path_length_mm").unwrap();
     for part in [column.about, "unit: mm", "better: lower", "read from: path_length_mm"] {
         assert!(said.contains(part), "{part}\n{said}");
     }
+}
+
+#[test]
+fn an_option_of_a_reading_changes_what_exists() {
+    let bench = Bench::new();
+    bench.edit(
+        "mini/draws.toml",
+        "metric = { nodes = \"closed\" }",
+        "metric = { nodes = \"colsed\" }\nstage = { asatr = { ties = \"lifo\" } }",
+    );
+    let said = bench.run(&["check", "./mini"]);
+    assert_told(
+        &said.err,
+        &[
+            "draws.toml:39:20: there is no metric `colsed` (did you mean `closed`?); there are ",
+            "draws.toml:40:19: there is no planner or stage `asatr` (did you mean `astar`?); there are ",
+        ],
+    );
 }
 
 #[test]

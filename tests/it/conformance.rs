@@ -110,6 +110,21 @@ fn an_outcome_depends_on_the_request_alone_and_not_on_threads_or_tracing() {
 }
 
 #[test]
+fn a_plan_depends_on_the_seed_only_if_its_planner_says_that_it_draws() {
+    let mut drawn = 0;
+    for Subject { name, entry, planner, .. } in planners() {
+        let with = |seed: u64| -> Vec<Result<Plan, Invalid>> {
+            let request = |case| Request { seed, ..request(case, PLENTY, false) };
+            worlds(entry.needs).iter().map(|case| planner.plan(&request(case))).collect()
+        };
+        let differs = with(5) != with(6);
+        assert!(!differs || planner.draws(), "{name} says that it draws nothing");
+        drawn += u32::from(differs);
+    }
+    assert!(drawn > 0, "no planner of the sample draws");
+}
+
+#[test]
 fn planners_find_a_path_exactly_where_their_graph_has_one() {
     let mut circled = BTreeSet::new();
     for subject in planners() {

@@ -90,10 +90,11 @@ fn every_example_is_shown_whole_as_it_stands_in_a_file_and_within_eighty_columns
             let text = item.shown().unwrap_or_else(|| panic!("{kind} {} has no example", item.name));
             let whole: toml::Table =
                 text.parse().unwrap_or_else(|error| panic!("{}: {error}\n{text}", item.name));
-            let settings = item.place().split('.').fold(toml::Value::Table(whole), |at, key| match at {
-                toml::Value::Array(mut all) => all.remove(0)[key].clone(),
-                at => at[key].clone(),
+            let settings = item.place().split('.').try_fold(toml::Value::Table(whole), |at, key| match at {
+                toml::Value::Array(all) => all.first()?.get(key).cloned(),
+                at => at.get(key).cloned(),
             });
+            let settings = settings.unwrap_or_else(|| toml::Value::Table(toml::Table::new()));
             let written: toml::Table = item.example.parse().unwrap();
             assert_eq!(settings, toml::Value::Table(written), "{kind} {}\n{text}", item.name);
             let too_wide = text.lines().filter(|line| line.chars().count() > 78);

@@ -158,16 +158,14 @@ fn stored_texts_that_cannot_be_read_are_told_in_words_of_ours() {
     for (name, again) in
         [("verdicts", "`replan judge` writes it again"), ("scenarios.manifest", "run the study again")]
     {
-        for (from, to, place) in
-            [("quick = false", "quick = 3", ":3:9: "), ("quick = false", "quick = ", ":3:9: ")]
-        {
+        for to in ["quick = 3", "quick = "] {
             let bench = committed();
             let file = format!("{RUNS}/{name}.toml");
-            bench.edit(&file, from, to);
+            bench.edit(&file, "quick = false", to);
             let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
             let words = "is not what replan wrote: truncated, edited, or of another version; ";
-            assert!(said.starts_with(&format!("replan: {file}:")), "{place}: {said}");
-            assert!(said.contains(&format!("{words}{again}\n    {to}")), "{said}");
+            assert!(said.starts_with(&format!("replan: {file}:3:9: ")), "{said}");
+            assert!(said.contains(&format!("{words}{again}\n    {}", to.trim_end())), "{said}");
         }
     }
 }

@@ -49,15 +49,19 @@ impl Mark for Labels {
             let size = [set.width_pt(name) + 2.0, set.size.pt() + 2.0];
             let places =
                 FAR_PT.iter().flat_map(|far| (0..DIRECTIONS).map(move |to| place(at, size, *far, to)));
-            let is_free = |place: &Rect| {
+            let places: Vec<Rect> = places.collect();
+            let is_free = |place: &&Rect| {
                 let corners = [[place.x, place.y], [place.right(), place.bottom()]];
-                let leader = leader(at, *place);
                 corners.iter().all(|corner| view.frame.contains(*corner))
-                    && !taken.iter().any(|other| meets(*place, *other))
-                    && !leaders.iter().any(|point| place.contains(*point))
-                    && !names.iter().any(|name: &Rect| leader.iter().any(|point| name.contains(*point)))
+                    && !taken.iter().any(|other| meets(**place, *other))
             };
-            let Some(free) = places.into_iter().find(is_free) else { continue };
+            let is_apart = |place: &&Rect| {
+                !leaders.iter().any(|point| place.contains(*point))
+                    && !leader(at, **place).iter().any(|point| names.iter().any(|name| name.contains(*point)))
+            };
+            let found = places.iter().find(|place| is_free(place) && is_apart(place));
+            // Where no place is free the first one is taken: the labels then overlap, and the figure is refused.
+            let free = found.or_else(|| places.iter().find(is_free)).copied().unwrap_or(places[0]);
             let leader = leader(at, free);
             if let (Some(from), Some(to)) = (leader.first(), leader.last()) {
                 canvas.polyline(&[*from, *to], &Stroke::solid(GREY, 0.5));

@@ -134,7 +134,7 @@ struct Batch {
 }
 
 /// How many batches back a face looks for one of its colour.
-const LOOK_BACK: usize = 300;
+const LOOK_BACK: usize = 2_000;
 /// Faces with less on the page, square points, show nothing: the hairs of their neighbours cover them.
 const LEAST_FACE: f64 = 0.05;
 
@@ -196,7 +196,7 @@ fn draw_items(canvas: &mut Canvas, lens: &Lens, items: &[Item]) {
             match look {
                 Look::Face(_, color, opacity) if opacity >= 1.0 => canvas.face(points, color),
                 Look::Face(_, color, opacity) => {
-                    canvas.polygon(points, Some(Fill::sheer(color, opacity)), None)
+                    canvas.polygon(points, Some(Fill::sheer(color, opacity)), None);
                 }
                 Look::Line(stroke) => canvas.polyline(points, &stroke),
             }

@@ -6,11 +6,11 @@ use crate::render::style::{BLACK, Rgb, Stroke, WHITE};
 use std::collections::BTreeMap;
 
 /// Facets around a capsule.
-const SIDES: usize = 10;
+const SIDES: usize = 8;
 /// Rings of facets on each of its caps.
 const RINGS: usize = 2;
 /// Faces that meet at an angle whose cosine is below this are parted by an outline.
-const SHARP_COS: f64 = 0.8;
+const SHARP_COS: f64 = 0.6;
 
 /// A convex solid's surface, or one flat sheet.
 #[derive(Clone, Debug)]

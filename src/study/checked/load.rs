@@ -2,19 +2,15 @@
 
 use super::super::contender::StageUse;
 use super::super::error::StudyError;
-use super::super::family::Family;
-use super::super::group::Families;
 use super::super::inputs::Inputs;
-use super::super::name::{self, slug};
+use super::super::name::slug;
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
-use super::sizes::SWEPT;
-use super::{Contender, Group, Reading, ReadingChoice, Settings, Study, Sweep, SweepPoint, columns_of};
+use super::check::check_selections;
+use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of};
 use base::settings::{Document, Faults, SettingsError, Spanned, did_you_mean, none_called};
 use engine::planner::{self, Build};
-use engine::space::roadmap::Extent;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -56,10 +52,7 @@ impl Study {
 
     /// The study as far as its names exist; what does not goes to `faults`.
     fn resolve(name: String, spec: StudySpec, document: &Arc<Document>, faults: &mut Faults) -> Self {
-        unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
-        unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
-        unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
-        unique(document, "figure", spec.figures.iter().map(|f| &f.id), faults);
+        check_labels(&spec, document, faults);
         check_selections(&spec, document, faults);
         let named = spec
             .task
@@ -97,162 +90,6 @@ impl Study {
             document: document.clone(),
         }
     }
-
-    /// Builds everything once under every single option, so that nothing can fail for its settings later. What cannot be
-    /// built is left out.
-    fn check(&mut self, inputs: &Inputs, faults: &mut Faults) -> Result<(), StudyError> {
-        let path = self.document.path();
-        let absolute = fs::canonicalize(path).map_err(StudyError::io(path, "opening the study"))?;
-        let folder = absolute.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
-        if folder != self.paper && !self.paper.is_empty() {
-            let message =
-                format!("`paper` is `{}`, but the study lies in the folder of `{folder}`", self.paper);
-            faults.add(self.document.error_at("paper", message));
-        }
-        faults.keep((self.task.build)(&self.task_settings));
-        faults.keep((self.task.build)(&self.quick_task_settings()));
-        self.check_sweeps(faults);
-        self.check_defaults(faults);
-        let mut known = Families::default();
-        if let Some(points) = keep(faults, self.single_options())? {
-            for point in &points {
-                self.check_point(point, inputs, &mut known, faults)?;
-            }
-            let families = self.check_ends(&points[0], inputs, &mut known, faults)?;
-            self.check_sizes(&families, faults);
-        }
-        Ok(())
-    }
-
-    /// Refuses readings whose default is not one of their options; the first option stands in for it.
-    fn check_defaults(&mut self, faults: &mut Faults) {
-        for (index, reading) in self.readings.iter_mut().enumerate() {
-            let (id, default) = (&reading.id, &reading.default);
-            if reading.options.contains_key(default) {
-                continue;
-            }
-            let known: Vec<&str> = reading.options.keys().map(String::as_str).collect();
-            let hint = did_you_mean(default, known.iter().copied());
-            let message =
-                format!("reading `{id}` has no option `{default}`{hint}; it has {}", known.join(", "));
-            faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
-            reading.default = reading.options.keys().next().cloned().unwrap_or_default();
-        }
-        self.readings.retain(|reading| !reading.options.is_empty());
-    }
-
-    /// Refuses problems whose start or goal is in collision under the default reading.
-    ///
-    /// Under other readings, and in groups that vary another group of their family, an end may be in collision: the
-    /// trials are then rows that say so. The families of the groups are given back.
-    fn check_ends(
-        &self,
-        default: &ReadingChoice,
-        inputs: &Inputs,
-        known: &mut Families,
-        faults: &mut Faults,
-    ) -> Result<Vec<(&Group, Arc<dyn Family>)>, StudyError> {
-        let (mut families, mut posed) = (Vec::new(), BTreeMap::new());
-        for group in &self.groups {
-            let Some(family) = keep(faults, known.of(group, default, inputs))? else { continue };
-            let ends = family.check_ends();
-            let of_family = posed.entry(group.family.name).or_insert(ends.clone());
-            if ends.is_ok() {
-                *of_family = ends;
-            }
-            families.push((group, family));
-        }
-        for ends in posed.into_values() {
-            faults.keep(ends);
-        }
-        Ok(families)
-    }
-
-    fn check_point(
-        &self,
-        point: &ReadingChoice,
-        inputs: &Inputs,
-        known: &mut Families,
-        faults: &mut Faults,
-    ) -> Result<(), StudyError> {
-        let mut families: Vec<(&Group, Arc<dyn Family>)> = Vec::new();
-        for group in &self.groups {
-            families.extend(keep(faults, known.of(group, point, inputs))?.map(|family| (group, family)));
-        }
-        let kinds: BTreeSet<_> = families.iter().map(|(_, family)| family.world()).collect();
-        for contender in &self.contenders {
-            for sweep in self.sweep_points() {
-                let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) else { continue };
-                faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), &families));
-                if contender.repeats > 1 && !pipeline.planner.draws() {
-                    let message = format!(
-                        "`repeats` is {}, and contender `{}` draws nothing at random; 1 is accepted",
-                        contender.repeats, contender.label
-                    );
-                    let place = format!("contender.{}.repeats", contender.place);
-                    faults.add(self.document.error_at(&place, message));
-                }
-            }
-            for stage in &contender.stages {
-                if let Some(kind) = kinds.iter().find(|kind| !kind.serves(stage.entry.needs)) {
-                    let message = format!(
-                        "contender `{}` uses `{}`, which needs a {} world; the study's problems are of kind {}",
-                        contender.label,
-                        stage.entry.name,
-                        stage.entry.needs.name(),
-                        kind.name()
-                    );
-                    faults.add(self.document.error(stage.named.clone(), message));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Refuses sweeps that no record could name or that change nothing, and leaves out the former.
-    fn check_sweeps(&mut self, faults: &mut Faults) {
-        let used = self.stage_names();
-        let (mut keys, mut kept, mut points) = (BTreeSet::new(), Vec::new(), 1_usize);
-        for (index, sweep) in std::mem::take(&mut self.sweeps).into_iter().enumerate() {
-            let wrong = match sweep.key_values() {
-                None => Some("has a value that is neither a number nor a word nor a truth value"),
-                Some(values) if values.is_empty() => Some("has no value; one or more is accepted"),
-                _ => (!keys.insert(sweep.key.clone()))
-                    .then_some("is the second over this setting; one is accepted"),
-            };
-            if let Some(wrong) = wrong {
-                let message = format!("sweep `{}` {wrong}", sweep.key);
-                faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
-                faults.unread(format!("sweeps of {}", self.name));
-                continue;
-            }
-            points = points.saturating_mul(sweep.values.len());
-            if points > SWEPT {
-                let message = format!(
-                    "the values of the sweeps have {points} combinations; at most {SWEPT} are accepted"
-                );
-                faults.add(self.document.error_at(&format!("sweep.{index}.values"), message));
-                faults.unread(format!("sweeps of {}", self.name));
-                break;
-            }
-            if !used.contains(sweep.of.as_str()) {
-                let hint = did_you_mean(&sweep.of, used.iter().copied());
-                let message = format!(
-                    "sweep `{}` is over `{}`, which no contender uses{hint}; they use {}",
-                    sweep.key,
-                    sweep.of,
-                    Vec::from_iter(used.clone()).join(", ")
-                );
-                faults.add(self.document.error_at(&format!("sweep.{index}.of"), message).about(&sweep.of));
-            }
-            kept.push(sweep);
-        }
-        self.sweeps = kept;
-    }
-
-    fn stage_names(&self) -> BTreeSet<&'static str> {
-        self.contenders.iter().flat_map(|c| &c.stages).map(|stage| stage.entry.name).collect()
-    }
 }
 
 /// Every entry that can be read; the others go to `faults` under their labels, and with them columns of the study.
@@ -276,60 +113,12 @@ fn read_all<S, T>(
     all
 }
 
-/// The value, if there is one; what is wrong with the study's text goes to `faults`, any other error is passed on.
-fn keep<T>(faults: &mut Faults, result: Result<T, StudyError>) -> Result<Option<T>, StudyError> {
-    match result {
-        Ok(value) => Ok(Some(value)),
-        Err(StudyError::Settings(fault)) => {
-            faults.add(fault);
-            Ok(None)
-        }
-        Err(other) => Err(other),
-    }
-}
-
-/// A planner that asks for more of a roadmap than there is would make nothing but invalid rows.
-fn check_extent(
-    contender: &Contender,
-    sweep: &SweepPoint,
-    asked: Option<Extent>,
-    families: &[(&Group, Arc<dyn Family>)],
-) -> Result<(), SettingsError> {
-    for (group, family) in families {
-        let lack = asked.zip(family.extent()).and_then(|(asked, built)| built.lacks(&asked));
-        let Some(lack) = lack else { continue };
-        let at = name::sweep(&sweep.key);
-        let swept = if at.is_empty() { at } else { format!(" at {at}") };
-        let message = format!("contender `{}`{swept} on problems `{}`: {lack}", contender.label, group.label);
-        return Err(contender.stages[0].settings.error(message));
-    }
-    Ok(())
-}
-
-/// Trials that figures show or that are kept are of problem groups and contenders that there are.
-fn check_selections(spec: &StudySpec, document: &Document, faults: &mut Faults) {
-    let groups: Vec<&str> = spec.problems.iter().map(|group| group.label.get_ref().as_str()).collect();
-    let contenders: Vec<&str> = spec.contenders.iter().map(|c| c.label.get_ref().as_str()).collect();
-    let mut check = |what: &str, known: &[&str], name: &str, place: String| {
-        if !known.contains(&name) {
-            let hint = did_you_mean(name, known.iter().copied());
-            let message = format!("no {what} is called `{name}`{hint}; they are {}", known.join(", "));
-            faults.add(document.error_at(&place, message).about(name));
-        }
-    };
-    let shown = spec.figures.iter().enumerate().flat_map(|(figure, spec)| {
-        spec.shows
-            .iter()
-            .enumerate()
-            .map(move |(index, trials)| (format!("figure.{figure}.shows.{index}"), trials))
-    });
-    let kept = spec.keeps.iter().enumerate().map(|(index, trials)| (format!("keep.{index}"), trials));
-    for (place, trials) in shown.chain(kept) {
-        check("problem group", &groups, &trials.problems, format!("{place}.problems"));
-        if let Some(contender) = &trials.contender {
-            check("contender", &contenders, contender, format!("{place}.contender"));
-        }
-    }
+/// Labels are told apart in the names of trials.
+fn check_labels(spec: &StudySpec, document: &Document, faults: &mut Faults) {
+    unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
+    unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
+    unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
+    unique(document, "figure", spec.figures.iter().map(|f| &f.id), faults);
 }
 
 fn unique<'a>(

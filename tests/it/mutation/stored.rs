@@ -1,5 +1,6 @@
 //! Damaged files of a stored run, read as `judge` and `render` read them. A Parquet file is opened only if its hash is the
-//! manifest's; for every other case the manifest's is changed too, so that the damage reaches the reader.
+//! manifest's; for every other case its end or its footer is damaged and the manifest's hash changed too, so that the damage
+//! reaches the reader. (Damage within a page may make polars ask for more memory than there is, which ends the process.)
 
 use super::damage::{damaged, flipped};
 use super::{cases, fault};
@@ -39,6 +40,16 @@ fn broken(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
     flipped(stream, bytes.to_vec())
 }
 
+/// `bytes` of a Parquet file: some of its footer flipped, or the end gone.
+fn beheaded(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
+    if stream.random_range(0..3) == 0 {
+        return bytes[..stream.random_range(0..bytes.len())].to_vec();
+    }
+    let length = bytes[bytes.len() - 8..bytes.len() - 4].try_into().unwrap();
+    let (pages, footer) = bytes.split_at(bytes.len() - 8 - u32::from_le_bytes(length) as usize);
+    [pages.to_vec(), flipped(stream, footer.to_vec())].concat()
+}
+
 #[test]
 fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
     let (home, copy) = (Path::new(env!("CARGO_MANIFEST_DIR")), tempfile::tempdir().unwrap());
@@ -59,9 +70,14 @@ fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
         let mut stream = seed::stream(seed::derive(2025, &["stored", &case.to_string()]));
         let (path, bytes) = &files[stream.random_range(0..files.len())];
         let is_text = path.extension().is_some_and(|ending| ending == "toml");
-        let new = if is_text { damaged(&mut stream, bytes) } else { broken(&mut stream, bytes) };
+        let is_hidden = !is_text && case % 2 == 0;
+        let new = match () {
+            () if is_text => damaged(&mut stream, bytes),
+            () if is_hidden => beheaded(&mut stream, bytes),
+            () => broken(&mut stream, bytes),
+        };
         fs::write(path, &new).unwrap();
-        if !is_text && case % 2 == 0 {
+        if is_hidden {
             let (manifest, text) = files.iter().find(|(path, _)| path.ends_with(MANIFEST)).unwrap();
             let text = String::from_utf8(text.clone()).unwrap();
             fs::write(manifest, text.replace(&sha256(bytes), &sha256(&new))).unwrap();

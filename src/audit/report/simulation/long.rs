@@ -41,7 +41,9 @@ pub(super) fn table(rng: &mut SmallRng) -> String {
 fn drawn(rng: &mut SmallRng, n: i128, are_positive: bool) -> Vec<i128> {
     let mut all = values(rng, n);
     if are_positive {
-        all.iter_mut().for_each(|value| *value = value.abs() + 1);
+        for value in &mut all {
+            *value = value.abs() + 1;
+        }
     }
     for at in (1..all.len()).rev() {
         all.swap(at, rng.random_range(0..=at));
