@@ -1,4 +1,5 @@
-//! What every part of replan may read: seeds, hashes, settings as they were written, and grids.
+//! What every part of replan may read: seeds, hashes, settings as they were written, grids, robots and
+//! planning problems from files of others.
 //!
 //! The modules below are floors, lowest first; blank lines part the floors. A module names only modules on lower
 //! floors. Nothing here plans and nothing here judges, so that the verifier can stand on it alone.
@@ -8,4 +9,10 @@ pub mod seed;
 pub mod settings;
 pub mod slug;
 
+pub mod solid;
+
+pub mod yaml;
+
 pub mod grid;
+pub mod problem;
+pub mod robot;

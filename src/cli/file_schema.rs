@@ -6,6 +6,8 @@
 use super::catalogue::{self, Item};
 use base::settings::generator;
 use serde_json::{Map, Value, json};
+use std::fs;
+use std::path::Path;
 
 /// The schema of the kind of file called `kind`; of a table without any rule if there is no such kind.
 pub fn of(kind: &str) -> Value {
@@ -31,6 +33,27 @@ fn made(kind: &str, names: bool) -> Value {
         root.insert("title".to_owned(), json!(format!("replan: {}", kind.replace('_', " "))));
     }
     schema
+}
+
+/// The schema of the kind of file called `kind`, as it is written to disk.
+pub fn text(kind: &str) -> String {
+    serde_json::to_string_pretty(&of(kind)).expect("a schema is plain JSON") + "\n"
+}
+
+/// The name of the file of the schema of `kind`.
+pub fn file_name(kind: &str) -> String {
+    format!("{kind}.schema.json")
+}
+
+/// Writes the schema of every kind of file into `folder`.
+///
+/// # Errors
+/// A folder or file that cannot be written.
+pub fn write_all(folder: &Path) -> std::io::Result<()> {
+    fs::create_dir_all(folder)?;
+    catalogue::files()
+        .iter()
+        .try_for_each(|kind| fs::write(folder.join(file_name(kind.name)), text(kind.name)))
 }
 
 fn study(names: bool) -> Value {

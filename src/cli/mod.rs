@@ -26,6 +26,7 @@ mod judge;
 mod list;
 mod load;
 mod merge;
+mod new;
 mod places;
 mod progress;
 mod render;
@@ -56,6 +57,7 @@ struct Cli {
 const EXAMPLES: &str = "Examples:
   replan repro zhang                 run the paper's studies, judge its claims, draw its figures
   replan repro zhang --quick         the same with few replicates, below target/replan/
+  replan new ./my/paper --from grid  a small paper to be changed into your own; docs/YOUR_OWN_PAPER.md
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
   replan show zhang t1.improved.cost one claim with its evidence
@@ -65,6 +67,8 @@ const EXAMPLES: &str = "Examples:
 
 #[derive(Subcommand)]
 enum Command {
+    /// Write a small paper that runs, to be changed into your own
+    New(new::New),
     /// Run every study of a paper, judge its claims, draw its figures and write its report
     Repro(repro::Repro),
     /// Check papers and specs without running anything
@@ -199,6 +203,7 @@ fn all(results: Vec<Result<(), Failure>>, what: &str) -> Result<(), Failure> {
 /// Runs the command that the process was called with.
 pub fn run() -> ExitCode {
     let done = match Cli::parse().command {
+        Command::New(command) => command.run(),
         Command::Repro(command) => command.run(),
         Command::Check(command) => command.run(),
         Command::Run(command) => command.run(),

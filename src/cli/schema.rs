@@ -1,7 +1,7 @@
 //! `replan schema`: writes a JSON Schema of every kind of TOML file, for editors.
 
 use super::catalogue::{self, Item};
-use super::file_schema::of;
+use super::file_schema::{file_name, text};
 use super::{Failure, all};
 use clap::Args;
 use std::fs;
@@ -28,7 +28,7 @@ impl Schema {
         let mut results: Vec<Result<(), Failure>> = kinds.iter().map(|kind| self.each(kind)).collect();
         if self.check {
             let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
-            let of_kind = |name: &str| kinds.iter().any(|kind| name == file_name(kind));
+            let of_kind = |name: &str| kinds.iter().any(|kind| name == file_name(kind.name));
             let mut names: Vec<String> =
                 entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
             names.sort();
@@ -46,9 +46,7 @@ impl Schema {
     }
 
     fn each(&self, kind: &Item) -> Result<(), Failure> {
-        let path = self.folder.join(file_name(kind));
-        let mut text = serde_json::to_string_pretty(&of(kind.name)).expect("a schema is plain JSON");
-        text.push('\n');
+        let (path, text) = (self.folder.join(file_name(kind.name)), text(kind.name));
         if self.check {
             let stored = fs::read_to_string(&path).unwrap_or_default();
             let stale = || Failure::stale(format!("{} is not current; run `replan schema`", path.display()));
@@ -58,8 +56,4 @@ impl Schema {
         say!("{}", path.display());
         Ok(())
     }
-}
-
-fn file_name(kind: &Item) -> String {
-    format!("{}.schema.json", kind.name)
 }

@@ -1,6 +1,7 @@
 //! Checked studies: every name is looked up, every settings table is understood, before a trial runs.
 
 mod check;
+mod each;
 mod load;
 mod sizes;
 

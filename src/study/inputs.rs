@@ -1,5 +1,6 @@
 //! Where input files named by specs are found.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Where input files named by specs are looked for, in order.
@@ -27,6 +28,36 @@ impl Inputs {
         }
         let places: Vec<String> = tried.iter().map(|path| path.display().to_string()).collect();
         Err(format!("input file `{name}` does not exist; looked for {}", places.join(", ")))
+    }
+
+    /// The files that match `pattern` below the first root where any does, by their names from that root, in order. A `*` in the
+    /// last part stands for anything.
+    ///
+    /// # Errors
+    /// A message that lists every place looked at.
+    pub fn list(&self, pattern: &str) -> Result<Vec<String>, String> {
+        let (folder, name) = pattern.rsplit_once('/').map_or(("", pattern), |(folder, name)| (folder, name));
+        let Some((before, after)) = name.split_once('*') else {
+            return Err(format!("`{pattern}` has no `*` in its last part; `maps/*.map` is accepted"));
+        };
+        let fits = |name: &str| {
+            name.len() >= before.len() + after.len() && name.starts_with(before) && name.ends_with(after)
+        };
+        for root in &self.roots {
+            let entries = fs::read_dir(root.join(folder)).into_iter().flatten().flatten();
+            let files = entries.filter(|entry| entry.path().is_file());
+            let names = files.map(|entry| entry.file_name().to_string_lossy().into_owned());
+            let prefix = if folder.is_empty() { String::new() } else { format!("{folder}/") };
+            let mut found: Vec<String> =
+                names.filter(|name| fits(name)).map(|name| format!("{prefix}{name}")).collect();
+            if !found.is_empty() {
+                found.sort();
+                return Ok(found);
+            }
+        }
+        let places: Vec<String> =
+            self.roots.iter().map(|root| root.join(pattern).display().to_string()).collect();
+        Err(format!("no file is `{pattern}`; looked for {}", places.join(", ")))
     }
 
     /// The name of `path` below the first root that it lies in: the same however the root's own path is spelled.

@@ -66,6 +66,15 @@ pub struct ProblemsSpec {
     pub label: Spanned<String>,
     /// The problem family.
     pub family: Spanned<String>,
+    /// Files, such as `maps/*.map`: a group for each, whose label ends in the file's name and in whose settings the file's path
+    /// stands for `{file}`.
+    pub each: Option<Spanned<String>>,
+    /// The file that this group was made for.
+    #[serde(skip)]
+    pub file: Option<String>,
+    /// The number, from 0, of the entry that it was made from.
+    #[serde(skip)]
+    pub place: usize,
     /// How many independent draws.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub replicates: Option<u32>,

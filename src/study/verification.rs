@@ -16,7 +16,7 @@ use super::record::Status;
 use engine::planner::{Counts, Ending, Exhibit, Plan, Request, Value};
 use engine::shorten::{TurnAngle, bends, path_length, turn_sum_deg};
 use engine::space::{LatticeWorld, World};
-use verify::lattice::{Answer, Case};
+use verify::lattice::{Answer, Case, Landmarks};
 
 /// The columns of every trial on a lattice.
 pub const LATTICE_COLUMNS: &[&str] =
@@ -57,12 +57,31 @@ pub struct Verified {
     pub exhibits: Vec<Exhibit>,
 }
 
+/// How many queries a map must be asked for landmarks to be worth their distances.
+const MANY: usize = 32;
+
+/// What helps to find the truth about each of many queries in one world.
+#[derive(Debug, Default)]
+pub struct Guide(Option<Landmarks>);
+
+impl Guide {
+    /// For these queries in `world`.
+    pub fn new(world: &World, queries: &[Query]) -> Self {
+        let lattice = world.as_lattice().filter(|_| queries.len() >= MANY);
+        // A query may begin in a part of the map that no other query is in.
+        let middle = queries.get(queries.len() / 2);
+        Self(lattice.zip(middle).and_then(|(lattice, q)| Landmarks::new(&case(lattice, &q.start, &q.goal))))
+    }
+}
+
 /// The truth about `query` in `world`.
-pub fn truth(world: &World, query: &Query) -> Truth {
+pub fn truth(world: &World, query: &Query, guide: &Guide) -> Truth {
     match world {
         // Its optimum depends on the planner's neighbourhood and is found when a plan is verified.
         World::Arm(_) => Truth::Arm,
-        World::Lattice(lattice) => Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost()),
+        World::Lattice(lattice) => {
+            Truth::Lattice(case(lattice, &query.start, &query.goal).optimal_cost_by(guide.0.as_ref()))
+        }
         World::Roadmap(roadmap) => Truth::Roadmap(roadmap::Case::new(roadmap)),
         World::Polyhedra(world) => Truth::Polyhedra(Box::new(polyhedra::truth(world))),
     }

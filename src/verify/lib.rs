@@ -4,6 +4,7 @@
 
 pub mod arm;
 pub mod cell;
+pub mod joints;
 pub mod lattice;
 pub mod plane;
 pub mod polyhedra;

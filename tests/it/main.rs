@@ -2,6 +2,7 @@
 
 mod arm;
 mod audit;
+mod broken_papers;
 mod cell_threads;
 mod characteristics;
 mod circles;
@@ -23,6 +24,7 @@ mod jump_points;
 mod latex;
 mod laws;
 mod mutation;
+mod own_paper;
 mod paper;
 mod polyhedra;
 mod registries;
@@ -30,5 +32,6 @@ mod report;
 mod shapes;
 mod snapshots;
 mod source;
+mod urdf;
 mod worlds;
 mod wrong_words;

@@ -74,6 +74,12 @@ pub enum GridError {
         /// The system's reason.
         reason: String,
     },
+    /// What stands beside a map, such as the YAML file of an image, is wrong, which is told with its place.
+    #[error("{said}")]
+    Told {
+        /// The place and what is wrong.
+        said: String,
+    },
     /// Any of the above, in a file.
     #[error("{}: {source}", path.display())]
     InFile {

@@ -22,6 +22,11 @@ impl<T> Spanned<T> {
         self.0.get_ref()
     }
 
+    /// Another value that is told at the same place.
+    pub fn with<U>(&self, value: U) -> Spanned<U> {
+        Spanned(toml::Spanned::new(self.span(), value))
+    }
+
     /// The value alone.
     pub fn into_inner(self) -> T {
         self.0.into_inner()

@@ -17,6 +17,7 @@ mod oriented_box;
 pub mod planar;
 mod points;
 mod round;
+mod rounded;
 mod segment;
 mod solid;
 #[cfg(test)]
@@ -38,6 +39,7 @@ pub use round::{
     Capsule, HalfSpace, Sphere, distance_capsule_capsule, distance_capsule_sphere,
     distance_segment_half_space, intersects_capsule_capsule, nearest_segment_half_space,
 };
+pub use rounded::{Placed, Rounded, intersects_placed_placed};
 pub use segment::{
     Nearest, Segment, distance_point_segment, distance_segment_segment, nearest_point_segment,
     nearest_segment_segment, squared_distance_segment_segment,

@@ -50,6 +50,16 @@ pub enum KinematicsError {
         /// All names.
         known: String,
     },
+    /// A URDF file has another number of joints than six.
+    #[error(
+        "robot `{robot}` has {found} joints that turn; 6 are accepted here, and any number in problems in joint space"
+    )]
+    Axes {
+        /// Its name.
+        robot: String,
+        /// How many it has.
+        found: usize,
+    },
     /// A robot file holds what is not accepted.
     #[error(transparent)]
     File(#[from] base::settings::SettingsError),

@@ -1,4 +1,4 @@
-//! Joint angles and poses: the planar two-link arm, serial six-axis arms, and robot files.
+//! Joint angles and poses: the planar two-link arm, serial six-axis arms, chains of any number of joints, and robot files.
 //!
 //! Everything here is pure: an arm holds its geometry and no pose, so one arm serves all trials at once.
 //! Angles are radians, lengths metres unless a module says otherwise. What is in the way of a robot, and
@@ -8,6 +8,7 @@ pub mod angle;
 mod arm;
 mod error;
 pub mod ik;
+pub mod open_chain;
 pub mod planar_2r;
 pub mod robot;
 mod rough;

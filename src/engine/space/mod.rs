@@ -4,6 +4,7 @@
 
 mod arm;
 pub mod cell;
+mod joints;
 mod lattice;
 pub mod polyhedra;
 pub mod roadmap;
@@ -11,6 +12,7 @@ pub mod roadmap;
 #[cfg(test)]
 pub use arm::reproduced_rules;
 pub use arm::{ArmRules, ArmWorld, HopRule, Obstacle, TipLattice, Zone};
+pub use joints::JointSpace;
 pub use lattice::{JumpLines, JumpTable, Jumps, LatticeWorld, Pruning};
 pub use polyhedra::PolyhedraWorld;
 use roadmap::Roadmap;

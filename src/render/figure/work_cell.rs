@@ -68,8 +68,11 @@ const VIEWS: [(&str, Camera); 2] = [
     ("from above left", Camera::parallel(35.0, 48.0)),
 ];
 
-/// How many parts at the head of a body hardly move from pose to pose.
-const FIXED_PARTS: usize = 2;
+/// How far a part may be from where it was at another pose to stand still, millimetres.
+const STILL_MM: f64 = 1e-6;
+
+/// How far the floor reaches beyond what stands on it, millimetres.
+const MARGIN_MM: f64 = 100.0;
 
 /// The paint of obstacles.
 fn obstacle() -> Rgb {
@@ -79,10 +82,11 @@ fn obstacle() -> Rgb {
 /// The cell of a draw: floor and obstacles.
 fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderError> {
     let mut solids = Solids::default();
-    let boxes = ask::exhibit(scene, draw, "boxes")?;
-    let floor =
-        [[-450.0, -1000.0, 0.0], [1450.0, -1000.0, 0.0], [1450.0, 1000.0, 0.0], [-450.0, 1000.0, 0.0]];
-    solids.sheet(floor.to_vec(), Paint { outlined: true, ..Paint::solid(GREY.mixed(WHITE, 0.82)) });
+    let (boxes, rounds) = (ask::exhibit(scene, draw, "boxes")?, ask::exhibit(scene, draw, "rounds")?);
+    if let Some(height) = floor_height(scene, draw) {
+        let sheet = floor(scene, draw, [boxes, rounds], height);
+        solids.sheet(sheet, Paint { outlined: true, ..Paint::solid(GREY.mixed(WHITE, 0.82)) });
+    }
     for corners in boxes.values.chunks(boxes.width) {
         let vertices = corners.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
         let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -92,9 +96,42 @@ fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderErr
             Paint::solid(obstacle()),
         );
     }
-    let rounds = ask::exhibit(scene, draw, "rounds")?;
     add_capsules(&mut solids, rounds, Paint::solid(obstacle()));
     Ok(solids)
+}
+
+/// How high the floor is: at 0 unless the draw says otherwise; `None` if it says that there is none.
+fn floor_height(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Option<f64> {
+    ask::exhibit(scene, draw, "floor").map_or(Some(0.0), |exhibit| exhibit.values.first().copied())
+}
+
+/// The floor below everything that stands in the cell, the robot at its queries' ends among it.
+fn floor(scene: &Scene<'_>, draw: &Arc<DrawKey>, stills: [&Exhibit; 2], height: f64) -> Vec<[f64; 3]> {
+    let bodies = scene.run.exhibits(draw).filter(|exhibit| exhibit.name.starts_with("body "));
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for exhibit in stills.into_iter().chain(bodies) {
+        for row in exhibit.values.chunks(exhibit.width) {
+            // A capsule's seventh number is its radius; a box has corners alone.
+            let reach = if row.len() == 7 { row[6] } else { 0.0 };
+            for point in row.chunks_exact(3) {
+                for axis in 0..2 {
+                    low[axis] = low[axis].min(point[axis] - reach);
+                    high[axis] = high[axis].max(point[axis] + reach);
+                }
+            }
+        }
+    }
+    let ([x0, y0], [x1, y1]) = (low.map(|x| x - MARGIN_MM), high.map(|x| x + MARGIN_MM));
+    vec![[x0, y0, height], [x1, y0, height], [x1, y1, height], [x0, y1, height]]
+}
+
+/// The parts of `body` that do not stand where they stand in `first`.
+fn moved(body: &Exhibit, first: &Exhibit) -> Exhibit {
+    let parts = body.values.chunks(body.width).zip(first.values.chunks(first.width));
+    let stands =
+        |(part, other): &(&[f64], &[f64])| part.iter().zip(*other).all(|(a, b)| (a - b).abs() <= STILL_MM);
+    let values = parts.filter(|pair| !stands(pair)).flat_map(|(part, _)| part.to_vec()).collect();
+    Exhibit { values, ..body.clone() }
 }
 
 /// Adds capsules given by their ends and radius.
@@ -126,9 +163,9 @@ impl WorkCell {
                 for (place, (index, [pose, name])) in shown.iter().enumerate() {
                     let color = series_color(*index).mixed(WHITE, 0.35);
                     let body = ask::exhibit(scene, draw, &format!("body {pose}"))?;
-                    // Base and turret stand where they stand at every pose: one of each is drawn.
-                    let fixed = if place == 0 { 0 } else { FIXED_PARTS * body.width };
-                    let parts = Exhibit { values: body.values[fixed..].to_vec(), ..body.clone() };
+                    // What stands still from pose to pose is drawn once.
+                    let first = ask::exhibit(scene, draw, &format!("body {}", shown[0].1[0]))?;
+                    let parts = if place == 0 { body.clone() } else { moved(body, first) };
                     add_capsules(&mut solids, &parts, Paint { outlined: false, ..Paint::solid(color) });
                     if let Some(tip) = body.values.chunks(body.width).next_back() {
                         solids.tag([tip[3], tip[4], tip[5]], name);
@@ -143,7 +180,9 @@ impl WorkCell {
 
     /// The ways of the tool, one column a contender.
     fn ways(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let replicate = ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, "trajectory")?;
+        let shared =
+            |exhibit| ask::shared_draw(scene, &self.problems, &self.query, &self.contenders, exhibit);
+        let replicate = shared("trajectory").or_else(|_| shared("way_mm"))?;
         let mut sheet = Sheet::new(Width::Double, self.contenders.len(), 200.0);
         if let Some(rank) = self.rank(scene, replicate) {
             sheet = sheet.titled(rank);
@@ -170,9 +209,14 @@ impl WorkCell {
         let pale = Paint { outlined: false, ..Paint::solid(GREY.mixed(WHITE, 0.45)) };
         add_capsules(&mut solids, body, pale);
         let row = ask::trial(scene, &self.problems, replicate, Some(&self.query), contender)?;
-        let stops = ask::exhibit(scene, &row.key, "trajectory")?;
-        let points: Vec<[f64; 3]> =
-            stops.values.chunks(stops.width).map(|stop| [stop[7], stop[8], stop[9]]).collect();
+        let stops = ask::exhibit(scene, &row.key, "trajectory")
+            .or_else(|_| ask::exhibit(scene, &row.key, "way_mm"))?;
+        // The tip is the last of what is said of each stop.
+        let points: Vec<[f64; 3]> = stops
+            .values
+            .chunks(stops.width)
+            .map(|stop| [stop[stop.len() - 3], stop[stop.len() - 2], stop[stop.len() - 1]])
+            .collect();
         let color = series_color(ask::series(scene, contender, index));
         for (name, at) in [("start", points.first()), ("goal", points.last())] {
             if let Some(at) = at {
@@ -240,7 +284,9 @@ impl Kind for WorkCell {
                 exhibit.values[from..to].iter().map(of).collect::<Vec<_>>().join(", ")
             };
             let group = if end == "start" { group } else { "" };
-            let cells = [numbers(0, 6, 0), numbers(6, 9, 1), numbers(9, 12, 1), numbers(12, 15, 3)];
+            let axes = exhibit.width - 9;
+            let cells = [(0, axes, 0), (axes, axes + 3, 1), (axes + 3, axes + 6, 1), (axes + 6, axes + 9, 3)];
+            let cells = cells.map(|(from, to, decimals)| numbers(from, to, decimals));
             let row = [group.to_owned(), end.to_owned()].into_iter().chain(cells);
             table.row(row.map(Cell::from).collect());
         }

@@ -7,7 +7,7 @@ use super::super::name::slug;
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
 use super::check::check_selections;
-use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of};
+use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of, each};
 use base::settings::{Document, Faults, SettingsError, Spanned, did_you_mean, none_called};
 use engine::planner::{self, Build};
 use std::collections::BTreeSet;
@@ -41,10 +41,11 @@ impl Study {
         faults: &mut Faults,
     ) -> Result<Option<Self>, StudyError> {
         let name = document.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let Some(spec) = faults.keep(document.read::<StudySpec>()) else {
+        let Some(mut spec) = faults.keep(document.read::<StudySpec>()) else {
             faults.unread(name);
             return Ok(None);
         };
+        spec.problems = each::expanded(spec.problems, document, inputs, faults);
         let mut study = Self::resolve(name, spec, document, faults);
         study.check(inputs, faults)?;
         Ok(Some(study))
@@ -71,7 +72,7 @@ impl Study {
             ),
             searched: spec.searched,
             fitted_to: spec.fitted_to.into_iter().map(Spanned::into_inner).collect(),
-            groups: read_all(&spec.problems, |at, p| (&p.label, group(document, at, p)), &name, faults),
+            groups: read_all(&spec.problems, |_, p| (&p.label, group(document, p)), &name, faults),
             contenders: read_all(
                 &spec.contenders,
                 |at, c| (&c.label, contender(document, at, c)),
@@ -179,18 +180,23 @@ fn reading(spec: ReadingSpec) -> Reading {
     }
 }
 
-fn group(document: &Arc<Document>, place: usize, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
+fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, SettingsError> {
     let known = family::REGISTRY.iter().map(|entry| entry.name);
     let replicates = spec.replicates.unwrap_or(1);
     let family = look_up(document, "problem family", &spec.family, family::find, known)?;
+    let written = Settings::written(document, &spec.settings);
+    let settings = match &spec.file {
+        Some(file) => written.overlaid(&each::filled(written.table(), file), &format!("file {file}")),
+        None => written,
+    };
     Ok(Group {
         label: spec.label.get_ref().clone(),
-        place,
+        place: spec.place,
         family,
         replicates,
         draw: spec.draw.clone(),
         is_numbered: replicates > 1,
-        settings: Settings::written(document, &spec.settings).completed(family.settings),
+        settings: settings.completed(family.settings),
     })
 }
 

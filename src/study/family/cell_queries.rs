@@ -254,7 +254,7 @@ struct Posed {
     branch: Option<Branch>,
     queries: Vec<Query>,
     ends: Result<(), SettingsError>,
-    inputs: [PathBuf; 3],
+    inputs: Vec<PathBuf>,
 }
 
 impl Posed {
@@ -281,7 +281,8 @@ impl Posed {
         let bounds_rad = bounds_rad(&cell, read.region, &queries);
         let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
         let branch = (read.region == Region::OneBranch).then(|| cell.robot().arm().branch_of(&home));
-        Ok(Self { read, cell, bounds_rad, branch, queries, ends, inputs: files })
+        let inputs = files.into_iter().chain(cell.robot().files().iter().cloned()).collect();
+        Ok(Self { read, cell, bounds_rad, branch, queries, ends, inputs })
     }
 
     /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.

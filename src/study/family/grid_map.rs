@@ -1,10 +1,10 @@
-//! One map from a file, with one start and one goal.
+//! One map from a file of any kind, with one start and one goal.
 
 use super::{Entry, Family, Query};
 use crate::study::StudyError;
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::LATTICE_COLUMNS;
-use base::grid::{Grid2, read_text_map};
+use base::grid::{Grid2, read_map};
 use base::settings::{Accepted, Faults};
 use engine::planner::Invalid;
 use engine::space::{LatticeWorld, WorldKind};
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "grid_map",
-    about: "one map from a text file (`.` free, `#` blocked), one start and one goal",
+    about: "one map from a file (text, PNG, ROS, Moving AI), one start and one goal",
     revision: 1,
     prepared: lattice::ENTRY.name,
     columns: LATTICE_COLUMNS,
@@ -29,7 +29,7 @@ corner_rule = "allow"
     build: |settings, inputs| {
         let read: GridMap = settings.read()?;
         let file = inputs.locate(&read.map).map_err(|message| settings.error_at("map", message))?;
-        let grid = read_text_map(&file).map_err(|e| settings.error_at("map", e.to_string()))?;
+        let (grid, inputs) = read_map(&file).map_err(|e| settings.error_at("map", e.to_string()))?;
         let world = LatticeWorld::new(grid.clone(), read.corner_rule.into());
         let mut faults = Faults::default();
         for (what, cell) in [("start", read.start), ("goal", read.goal)] {
@@ -39,14 +39,15 @@ corner_rule = "allow"
         faults.done()?;
         let [start, goal] = [read.start, read.goal].map(|cell| cell.map(f64::from).to_vec());
         let queries = [Query { name: String::new(), start, goal }];
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { read, grid, queries, inputs: [file] }))
+        Ok::<Box<dyn Family>, StudyError>(Box::new(Posed { read, grid, queries, inputs }))
     },
 };
 
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GridMap {
-    /// The map file.
+    /// The map file: text (`.` free, `#` blocked), an image (`.png`, `.pgm`: free where it is bright), a ROS map (`.yaml`) or a Moving AI
+    /// map (`.map`).
     map: String,
     /// The column and row of the start cell.
     start: [u32; 2],
@@ -60,7 +61,7 @@ struct Posed {
     read: GridMap,
     grid: Grid2,
     queries: [Query; 1],
-    inputs: [PathBuf; 1],
+    inputs: Vec<PathBuf>,
 }
 
 impl Family for Posed {

@@ -8,6 +8,7 @@ pub(super) mod cell_queries;
 mod conditioned;
 mod entry;
 mod grid_map;
+mod joint_queries;
 mod movingai;
 pub(super) mod plane_queries;
 mod polyhedra_scene;
@@ -24,6 +25,7 @@ pub static REGISTRY: &[&Entry] = &[
     &cell_queries::ENTRY,
     &conditioned::ENTRY,
     &grid_map::ENTRY,
+    &joint_queries::ENTRY,
     &movingai::ENTRY,
     &plane_queries::ENTRY,
     &polyhedra_scene::ENTRY,

@@ -61,7 +61,7 @@ pub fn prepare(local: Local, samples: Vec<Sample>, draws: u32, radius_mm: f64, c
     }
     let exhibits = match roadmap.local() {
         Local::Plane(_) => plane_exhibits(&roadmap),
-        Local::Arm(_) => Vec::new(),
+        Local::Arm(_) | Local::Joints(_) => Vec::new(),
     };
     Prepared { world: World::Roadmap(Box::new(roadmap)), values, exhibits }
 }

@@ -6,9 +6,10 @@ use crate::study::key::Owner;
 use crate::study::prepared::Prepared;
 use crate::study::record::{Batch, Kept, Row, Status};
 use crate::study::unit::{Entrant, Unit};
-use crate::study::verification::{self, Truth};
+use crate::study::verification::{self, Guide, Truth};
 use base::settings::{Accepted, NoSettings};
 use engine::planner::{Counts, Exhibit, Invalid, Plan, Request};
+use rayon::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The registry's entry.
@@ -37,21 +38,47 @@ impl Task for PlanTask {
         {
             batch.keep(&(&unit.key).into(), prepared.exhibits.clone());
         }
-        for (index, query) in unit.queries().iter().enumerate() {
-            let known = unit.family.known(index);
-            let truth = prepared.as_ref().ok().map(|p| verification::truth(&p.world, query));
-            for &entrant in &unit.entrants {
-                for repeat in 0..entrant.contender.repeats {
-                    let trial = Trial { unit, query, entrant, repeat, known: &known };
-                    match (&prepared, &truth) {
-                        (Ok(prepared), Some(truth)) => trial.run(prepared, truth, &mut batch),
-                        (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
-                        (Ok(_), None) => unreachable!("the truth is known wherever the world is"),
-                    }
-                }
-            }
+        let queries = unit.queries();
+        let guide = prepared.as_ref().map_or_else(|_| Guide::default(), |p| Guide::new(&p.world, &queries));
+        let run = |index: usize| {
+            let mut batch = Batch::default();
+            run_query(unit, prepared.as_ref(), &guide, (index, &queries[index]), &mut batch);
+            batch
+        };
+        // A roadmap numbers the ends of its queries as they come, so that their order matters; a lattice learns nothing.
+        let is_lattice = prepared.as_ref().is_ok_and(|p| p.world.as_lattice().is_some());
+        let done: Vec<Batch> = if is_lattice {
+            (0..queries.len()).into_par_iter().map(run).collect()
+        } else {
+            (0..queries.len()).map(run).collect()
+        };
+        for part in done {
+            batch.rows.extend(part.rows);
+            batch.kept.extend(part.kept);
         }
         batch
+    }
+}
+
+/// Every contender on one query.
+fn run_query(
+    unit: &Unit<'_>,
+    prepared: Result<&Prepared, &Invalid>,
+    guide: &Guide,
+    (index, query): (usize, &Query),
+    batch: &mut Batch,
+) {
+    let known = unit.family.known(index);
+    let truth = prepared.ok().map(|p| verification::truth(&p.world, query, guide));
+    for &entrant in &unit.entrants {
+        for repeat in 0..entrant.contender.repeats {
+            let trial = Trial { unit, query, entrant, repeat, known: &known };
+            match (prepared, &truth) {
+                (Ok(prepared), Some(truth)) => trial.run(prepared, truth, batch),
+                (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
+                (Ok(_), None) => unreachable!("the truth is known wherever the world is"),
+            }
+        }
     }
 }
 

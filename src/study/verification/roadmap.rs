@@ -8,10 +8,13 @@ use engine::planner::{Counts, Ending, Exhibit, Plan, Request, Value};
 use engine::space::cell::{EdgeEnd, LineRules, Lines, Path};
 use engine::space::roadmap::{Local, Roadmap, joints};
 use nalgebra::Matrix4;
-use verify::{cell, plane};
+use verify::{cell, joints as joint_space, plane};
 
 /// The columns of every trial on a roadmap of an arm.
 pub const ARM_COLUMNS: &[&str] = &["path_length_mm", "local_paths", "joint_travel_deg", "joint_peak_deg_s2"];
+
+/// The columns of every trial on a roadmap in joint space.
+pub const JOINT_COLUMNS: &[&str] = &["path_length_mm", "local_paths", "joint_travel_deg"];
 
 /// The columns of every trial on a roadmap in the plane.
 pub const PLANE_COLUMNS: &[&str] = &["path_length_mm", "local_paths"];
@@ -24,6 +27,8 @@ const LENGTH_TOLERANCE: f64 = 1e-6;
 pub enum Case {
     /// An arm in its cell.
     Arm(Box<cell::Case>),
+    /// A robot of any number of axes.
+    Joints(Box<joint_space::Case>),
     /// A particle in the plane.
     Plane(plane::Case),
 }
@@ -33,6 +38,11 @@ impl Case {
     pub fn new(roadmap: &Roadmap) -> Self {
         match roadmap.local() {
             Local::Arm(lines) => Self::Arm(Box::new(arm_case(lines))),
+            Local::Joints(space) => {
+                let (robot, pairs) = (space.robot(), space.self_pairs());
+                let case = joint_space::Case::new(robot, space.obstacles(), pairs, space.step_rad());
+                Self::Joints(Box::new(case.expect("a family's solids enclose something")))
+            }
             Local::Plane(map) => {
                 let corners = |p: &engine::geometry::planar::ConvexPolygon| {
                     p.vertices().iter().map(|v| [v.x, v.y]).collect::<Vec<_>>()
@@ -54,6 +64,7 @@ impl Case {
             Ending::Solved => {
                 let measured = match self {
                     Self::Arm(case) => measure_arm(case, request, plan, &mut exhibits),
+                    Self::Joints(case) => measure_joints(case, request, plan, &mut exhibits),
                     Self::Plane(case) => measure_plane(case, request, plan),
                 };
                 let is_straight = request.world.as_roadmap().is_none_or(|map| map.local().is_straight());
@@ -81,6 +92,21 @@ fn measure_plane(case: &plane::Case, request: &Request<'_>, plan: &Plan) -> Meas
     let length_mm = case.length_mm(&plan.path, [request.start, request.goal])?;
     let straight_mm = libm::hypot(request.goal[0] - request.start[0], request.goal[1] - request.start[1]);
     Ok((counts(length_mm, plan), straight_mm))
+}
+
+fn measure_joints(
+    case: &joint_space::Case,
+    request: &Request<'_>,
+    plan: &Plan,
+    exhibits: &mut Vec<Exhibit>,
+) -> Measured {
+    let motion = case.motion(&plan.path, [request.start, request.goal])?;
+    let mut values = counts(motion.length_m * 1e3, plan);
+    values.insert("joint_travel_deg", Value::Real(motion.travel_rad.to_degrees()));
+    if request.trace {
+        exhibits.push(Exhibit { name: "way_mm".to_owned(), width: 3, values: case.way_mm(&plan.path) });
+    }
+    Ok((values, case.straight_m(request.start, request.goal) * 1e3))
 }
 
 fn measure_arm(

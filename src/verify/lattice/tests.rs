@@ -169,3 +169,29 @@ fn corner_rules_judge_the_same_diagonal_differently() {
         }
     }
 }
+
+#[test]
+fn landmarks_change_no_optimum_and_know_where_there_is_no_path() {
+    let (mut solved, mut unsolved) = (0, 0);
+    for seed in 100..112 {
+        let grid = grid(seed, 40, 0.35);
+        let mut stream = stream(derive(seed, &["queries"]));
+        for rule in RULES {
+            let mut point = || [stream.random_range(0..40), stream.random_range(0..40)].map(f64::from);
+            let first = point();
+            let landmarks =
+                Landmarks::new(&Case { grid: &grid, corner_rule: rule, start: &first, goal: &first });
+            for _ in 0..60 {
+                let (start, goal) = (point(), point());
+                let case = Case { grid: &grid, corner_rule: rule, start: &start, goal: &goal };
+                let (with, without) = (case.optimal_cost_by(landmarks.as_ref()), case.optimal_cost());
+                assert_eq!(with, without, "seed {seed}: {start:?} to {goal:?}\n{grid:?}");
+                if landmarks.is_some() {
+                    (solved, unsolved) =
+                        (solved + u32::from(with.is_some()), unsolved + u32::from(with.is_none()));
+                }
+            }
+        }
+    }
+    assert!(solved > 200 && unsolved > 200, "one-sided sample: {solved} with a path, {unsolved} without");
+}

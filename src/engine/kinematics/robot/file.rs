@@ -158,7 +158,7 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
     })?;
     let links = Links { chain: arm.chain(), far, tool_length_m };
     let bodies = bodies(&source, &file.body, &links)?;
-    Ok(Robot { name: file.name, arm, tool_length_m, bodies })
+    Ok(Robot { name: file.name, arm, flange: Frame::IDENTITY, tool_length_m, bodies, files: Vec::new() })
 }
 
 /// What capsules are fixed to.

@@ -8,20 +8,26 @@ mod attached;
 mod file;
 #[cfg(test)]
 mod tests;
+mod urdf;
 
 pub use file::ROBOT_FILE;
+pub use urdf::capsule_around;
 
 use super::{Arm, KinematicsError, serial::AXES};
 use crate::geometry::{Capsule, Frame, Segment, Vec3};
-use std::{fs, path::Path};
+use std::fs;
+use std::path::{Path, PathBuf};
 
 /// A robot, checked.
 #[derive(Debug, Clone)]
 pub struct Robot {
     name: String,
     arm: Arm,
+    /// Where the tool is fixed, in the last frame of the rows.
+    flange: Frame,
     tool_length_m: f64,
     bodies: Vec<Body>,
+    files: Vec<PathBuf>,
 }
 
 /// Capsules that stand for an arm and its tool.
@@ -44,11 +50,15 @@ pub struct Part {
 }
 
 impl Robot {
-    /// The robot in the file at `path`.
+    /// The robot in the file at `path`: TOML of our own, or URDF if the name ends so.
     ///
     /// # Errors
-    /// [`KinematicsError::Read`] if there is no such file, else those of [`parse`](Self::parse).
+    /// [`KinematicsError::Read`] if there is no such file, else those of [`parse`](Self::parse); for URDF
+    /// [`KinematicsError::File`], and [`KinematicsError::Axes`] unless six joints turn.
     pub fn load(path: &Path) -> Result<Self, KinematicsError> {
+        if path.extension().is_some_and(|end| end == "urdf") {
+            return urdf::robot(&base::robot::read_urdf(path)?);
+        }
         let text = fs::read_to_string(path)
             .map_err(|source| KinematicsError::Read { path: path.to_owned(), source })?;
         Self::parse(&text, path)
@@ -67,6 +77,11 @@ impl Robot {
     /// The robot's name.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The files that were read besides the robot's own.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// The arm, with the tool.
@@ -98,9 +113,11 @@ impl Robot {
         let bodies = self.bodies.iter().map(|body| body.with_tool_length(tool_length_m));
         Ok(Self {
             bodies: bodies.collect::<Result<_, _>>()?,
-            arm: self.arm.with_tool(tool_frame(tool_length_m)),
+            arm: self.arm.with_tool(self.flange * tool_frame(tool_length_m)),
+            flange: self.flange,
             tool_length_m,
             name: self.name.clone(),
+            files: self.files.clone(),
         })
     }
 }

@@ -10,6 +10,8 @@ use crate::{
 };
 use base::seed;
 
+mod urdf;
+
 const FILE: &str = include_str!("../../../../data/robots/motoman_up6.toml");
 
 fn refusal(find: &str, put: &str) -> String {

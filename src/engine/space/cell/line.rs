@@ -41,6 +41,11 @@ impl Scratch {
     pub fn checked(&self) -> u64 {
         self.checked
     }
+
+    /// The same, for those who check by themselves.
+    pub fn count(&mut self) -> &mut u64 {
+        &mut self.checked
+    }
 }
 
 impl Lines {

@@ -2,6 +2,7 @@
 
 use super::plane::PlaneMap;
 use crate::kinematics::{AXES, Joints};
+use crate::space::JointSpace;
 use crate::space::cell::{Lines, Path, Pose, Rejection, Scratch};
 
 /// The robot of a roadmap and the local paths it can take.
@@ -9,14 +10,17 @@ use crate::space::cell::{Lines, Path, Pose, Rejection, Scratch};
 pub enum Local {
     /// A six-axis arm; configurations are joint angles in radians.
     Arm(Box<Lines>),
+    /// A robot of any number of joints; configurations are joint angles in radians.
+    Joints(Box<JointSpace>),
     /// A particle in the plane; configurations are [x, y] in millimetres.
     Plane(PlaneMap),
 }
 
 /// A configuration, ready for local paths.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) enum Node {
     Arm(Pose),
+    Joints(Vec<f64>),
     Plane([f64; 2]),
 }
 
@@ -39,6 +43,7 @@ impl Local {
         }
         match self {
             Self::Arm(lines) => lines.cell().refusal(&joints(config).expect("the length was checked")),
+            Self::Joints(space) => space.refusal(config),
             Self::Plane(map) => map.refusal([config[0], config[1]]),
         }
     }
@@ -47,6 +52,7 @@ impl Local {
     pub fn width(&self) -> usize {
         match self {
             Self::Arm(_) => AXES,
+            Self::Joints(space) => space.chain().joints().len(),
             Self::Plane(_) => 2,
         }
     }
@@ -58,6 +64,7 @@ impl Local {
                 let q = joints(config).expect("a configuration of an arm has six angles");
                 (lines.cell().robot().arm().chain().forward(&q).origin * 1e3).into()
             }
+            Self::Joints(space) => (space.chain().forward(config).origin * 1e3).into(),
             Self::Plane(_) => [config[0], config[1], 0.0],
         }
     }
@@ -66,6 +73,7 @@ impl Local {
     pub fn is_straight(&self) -> bool {
         match self {
             Self::Arm(lines) => lines.rules().path == Path::Tool,
+            Self::Joints(_) => false,
             Self::Plane(_) => true,
         }
     }
@@ -73,6 +81,7 @@ impl Local {
     pub(super) fn node(&self, config: &[f64]) -> Node {
         match self {
             Self::Arm(lines) => Node::Arm(lines.pose(&joints(config).expect("six angles"))),
+            Self::Joints(_) => Node::Joints(config.to_vec()),
             Self::Plane(_) => Node::Plane([config[0], config[1]]),
         }
     }
@@ -80,6 +89,10 @@ impl Local {
     pub(super) fn join(&self, from: &Node, to: &Node, scratch: &mut Scratch) -> Result<(), Rejection> {
         match (self, from, to) {
             (Self::Arm(lines), Node::Arm(from), Node::Arm(to)) => lines.join(from, to, scratch),
+            (Self::Joints(space), Node::Joints(from), Node::Joints(to)) => {
+                let is_free = space.joins(from, to, scratch.count());
+                if is_free { Ok(()) } else { Err(Rejection::Contact) }
+            }
             (Self::Plane(map), Node::Plane(from), Node::Plane(to)) => {
                 if map.sees(*from, *to) {
                     Ok(())

@@ -21,7 +21,7 @@ pub(super) fn exhibits(cell: &Cell, queries: &[Query]) -> Vec<Exhibit> {
             Solid::Capsule(capsule) => {
                 rounds.extend(round(&capsule.segment.a, &capsule.segment.b, capsule.radius));
             }
-            // A floor is drawn by whoever draws a cell; polyhedra are drawn as the boxes about them.
+            // Polyhedra are drawn as the boxes about them.
             Solid::HalfSpace(_) => {}
             Solid::Convex(solid) => {
                 let bounds = solid.aabb();
@@ -38,6 +38,7 @@ pub(super) fn exhibits(cell: &Cell, queries: &[Query]) -> Vec<Exhibit> {
         Exhibit { name: "boxes".to_owned(), width: 24, values: boxes },
         Exhibit { name: "rounds".to_owned(), width: 7, values: rounds },
     ];
+    exhibits.extend(floor(cell));
     for query in queries {
         for (end, config) in [("start", &query.start), ("goal", &query.goal)] {
             exhibits.push(body(cell, format!("body {}/{end}", query.name), config));
@@ -45,6 +46,16 @@ pub(super) fn exhibits(cell: &Cell, queries: &[Query]) -> Vec<Exhibit> {
         }
     }
     exhibits
+}
+
+/// Where the floor is, if it is not at 0: its height, or no number if there is none.
+fn floor(cell: &Cell) -> Option<Exhibit> {
+    let floors = cell.scene().obstacles().iter().filter_map(|obstacle| match &obstacle.solid {
+        Solid::HalfSpace(half) => Some(-half.height(&Vec3::zeros()) * 1e3),
+        _ => None,
+    });
+    let values: Vec<f64> = floors.collect();
+    (values != [0.0]).then(|| Exhibit { name: "floor".to_owned(), width: 1, values })
 }
 
 fn body(cell: &Cell, name: String, config: &[f64]) -> Exhibit {

@@ -167,7 +167,9 @@ fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
         (planner("samples = 900"), planner("samples = 900\ngoal_shot = 'before_expansion'"));
     let (mut solved, mut refused) = ([0, 0], 0);
     for query in posed.queries() {
-        let verification::Truth::Roadmap(case) = verification::truth(&prepared.world, query) else {
+        let verification::Truth::Roadmap(case) =
+            verification::truth(&prepared.world, query, &crate::study::verification::Guide::default())
+        else {
             panic!("a roadmap")
         };
         let request = Request {

@@ -34,7 +34,13 @@ fn accepted_maps_lie_in_the_band_and_rejection_leaves_the_distribution_alone() {
     let (any, band) = (family("bends = [0, 1e9]").unwrap(), family("path_cost_cells = [11, 12]").unwrap());
     let optimum = |prepared: &Prepared| {
         let query = &any.queries()[0];
-        crate::study::verification::truth(&prepared.world, query).optimal().unwrap()
+        crate::study::verification::truth(
+            &prepared.world,
+            query,
+            &crate::study::verification::Guide::default(),
+        )
+        .optimal()
+        .unwrap()
     };
     let (mut inside, mut looked_at, mut tried) = (0, 0, 0.0);
     for seed in 0..400 {

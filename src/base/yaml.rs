@@ -1,0 +1,179 @@
+//! YAML and JSON files in memory, each value with its place: of JSON, which is YAML too, nothing more is known here.
+
+use crate::settings::{Document, SettingsError};
+use crate::solid::Source;
+use saphyr_parser::{Event, Parser, ScanError};
+use std::ops::Range;
+
+/// A value and where it stands.
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    /// The bytes where it begins.
+    pub at: Range<usize>,
+    data: Data,
+}
+
+#[derive(Debug, Clone)]
+enum Data {
+    Word(String),
+    List(Vec<Node>),
+    Table(Vec<(String, Node)>),
+}
+
+/// A YAML file being read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Yaml<'a>(pub Source<'a>);
+
+impl Yaml<'_> {
+    /// What the document holds.
+    ///
+    /// # Errors
+    /// A syntax error at its place; anchors and several documents in one file.
+    pub fn parse(document: &Document) -> Result<Node, SettingsError> {
+        let text = document.text();
+        let places = Places::new(text);
+        let fault = |index: usize, message: &str| Source(document).fault(&places.byte(index), message);
+        let scan = |error: ScanError| {
+            fault(error.marker().index(), &format!("this is neither YAML nor JSON: {}", error.info()))
+        };
+        let mut open: Vec<(Node, Option<String>)> = Vec::new();
+        for event in Parser::new_from_str(text) {
+            let (event, span) = event.map_err(scan)?;
+            let index = span.start.index();
+            let node = |data| Node { at: places.byte(index), data };
+            let done = match event {
+                Event::Scalar(word, ..) => node(Data::Word(word.into_owned())),
+                Event::SequenceStart(..) => {
+                    open.push((node(Data::List(Vec::new())), None));
+                    continue;
+                }
+                Event::MappingStart(..) => {
+                    open.push((node(Data::Table(Vec::new())), None));
+                    continue;
+                }
+                Event::SequenceEnd | Event::MappingEnd => open.pop().expect("what ends has begun").0,
+                Event::Alias(_) => {
+                    return Err(fault(index, "this is a YAML alias; values written out are accepted"));
+                }
+                _ => continue,
+            };
+            match open.last_mut() {
+                None => return Ok(done),
+                Some(holder) => put(holder, done),
+            }
+        }
+        Err(fault(0, "the file is empty; a table is accepted"))
+    }
+
+    /// The value under `key`, which must be there.
+    pub fn get<'n>(self, of: &'n Node, key: &str) -> Result<&'n Node, SettingsError> {
+        self.find(of, key)?.ok_or_else(|| {
+            let known = of.keys().collect::<Vec<_>>().join("`, `");
+            self.0.fault(&of.at, format!("there is no `{key}`; found are `{known}`"))
+        })
+    }
+
+    /// The value under `key`, if there is one.
+    pub fn find<'n>(self, of: &'n Node, key: &str) -> Result<Option<&'n Node>, SettingsError> {
+        Ok(self.table(of)?.iter().find(|(name, _)| name == key).map(|(_, value)| value))
+    }
+
+    /// The entries of a table.
+    pub fn table(self, of: &Node) -> Result<&[(String, Node)], SettingsError> {
+        match &of.data {
+            Data::Table(entries) => Ok(entries),
+            _ => Err(self.0.fault(&of.at, format!("found {}; a table is accepted", of.what()))),
+        }
+    }
+
+    /// The elements of a list.
+    pub fn list(self, of: &Node) -> Result<&[Node], SettingsError> {
+        match &of.data {
+            Data::List(elements) => Ok(elements),
+            _ => Err(self.0.fault(&of.at, format!("found {}; a list is accepted", of.what()))),
+        }
+    }
+
+    /// A word.
+    pub fn word(self, of: &Node) -> Result<&str, SettingsError> {
+        match &of.data {
+            Data::Word(word) => Ok(word),
+            _ => Err(self.0.fault(&of.at, format!("found {}; a word is accepted", of.what()))),
+        }
+    }
+
+    /// A finite number.
+    pub fn number(self, of: &Node, key: &str) -> Result<f64, SettingsError> {
+        let number = match &of.data {
+            Data::Word(word) => word.parse().ok(),
+            _ => None,
+        };
+        let wrong = || self.0.fault(&of.at, format!("{key} is {}; a number is accepted", of.what()));
+        Ok(self.0.finite(&of.at, key, [number.ok_or_else(wrong)?])?[0])
+    }
+
+    /// Any number of finite numbers.
+    pub fn numbers(self, of: &Node, key: &str) -> Result<Vec<f64>, SettingsError> {
+        self.list(of)?.iter().map(|element| self.number(element, key)).collect()
+    }
+
+    /// `N` finite numbers.
+    pub fn exactly<const N: usize>(self, of: &Node, key: &str) -> Result<[f64; N], SettingsError> {
+        let numbers = self.numbers(of, key)?;
+        let found = numbers.len();
+        numbers
+            .try_into()
+            .map_err(|_| self.0.fault(&of.at, format!("{key} has {found} numbers; {N} are accepted")))
+    }
+}
+
+impl Node {
+    /// The keys of a table; of other values none.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        let entries: &[(String, Self)] = if let Data::Table(entries) = &self.data { entries } else { &[] };
+        entries.iter().map(|(key, _)| key.as_str())
+    }
+
+    /// Whether it is a list.
+    pub fn is_list(&self) -> bool {
+        matches!(self.data, Data::List(_))
+    }
+
+    fn what(&self) -> String {
+        match &self.data {
+            Data::Word(word) => format!("`{word}`"),
+            Data::List(elements) => format!("a list of {}", elements.len()),
+            Data::Table(_) => "a table".to_owned(),
+        }
+    }
+}
+
+/// Puts a value where it belongs: into a list, or as a key or what stands under the key before it into a table.
+fn put((holder, key): &mut (Node, Option<String>), value: Node) {
+    match &mut holder.data {
+        Data::List(elements) => elements.push(value),
+        Data::Table(entries) => match (key.take(), value.data) {
+            (Some(name), data) => entries.push((name, Node { at: value.at, data })),
+            (None, Data::Word(name)) => *key = Some(name),
+            (None, _) => *key = Some(String::new()),
+        },
+        Data::Word(_) => unreachable!("a word holds nothing"),
+    }
+}
+
+/// From the characters that the parser counts to bytes.
+struct Places {
+    /// The byte of every character, if they are not the same.
+    bytes: Option<Vec<usize>>,
+}
+
+impl Places {
+    fn new(text: &str) -> Self {
+        Self { bytes: (!text.is_ascii()).then(|| text.char_indices().map(|(at, _)| at).collect()) }
+    }
+
+    fn byte(&self, index: usize) -> Range<usize> {
+        let at = self.bytes.as_ref().map_or(index, |bytes| bytes.get(index).copied().unwrap_or(usize::MAX));
+        at..at
+    }
+}

@@ -1,0 +1,156 @@
+//! URDF files of six axes: the same kinematics as the rows they were written from, and closed forms where there are any.
+
+use super::super::urdf;
+use super::*;
+use crate::geometry::{Solid, Sphere, Vec3, intersects_capsule_solid};
+use crate::kinematics::open_chain::OpenChain;
+use crate::kinematics::{AXES, Chain};
+use base::robot::parse_urdf;
+use base::settings::Document;
+use rand::RngExt as _;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::fmt::Write as _;
+
+/// The chain's rows as URDF: each joint turns about the z of its frame, and a row's length, offset and twist lead to the next.
+fn urdf(chain: &Chain, solids: &str) -> String {
+    let mut text = "<robot name=\"rows\"><link name=\"l0\"/>".to_owned();
+    let (mut xyz, mut roll) = ([0.0; 3], 0.0);
+    for (i, joint) in chain.joints().iter().enumerate() {
+        assert_eq!(joint.offset_rad, 0.0, "the angle of a row would need a frame of its own");
+        let [x, y, z] = xyz;
+        let (lower, upper, speed) = (joint.lower_rad, joint.upper_rad, joint.speed_rad_s);
+        let next = i + 1;
+        let _ = write!(
+            text,
+            "<joint name=\"j{next}\" type=\"revolute\"><parent link=\"l{i}\"/><child link=\"l{next}\"/>\
+             <origin xyz=\"{x:?} {y:?} {z:?}\" rpy=\"{roll:?} 0 0\"/><axis xyz=\"0 0 1\"/>\
+             <limit lower=\"{lower:?}\" upper=\"{upper:?}\" velocity=\"{speed:?}\"/></joint><link name=\"l{next}\">{solids}</link>"
+        );
+        (xyz, roll) = ([joint.a_m, 0.0, joint.d_m], joint.alpha_rad);
+    }
+    let [x, y, z] = xyz;
+    let _ = write!(
+        text,
+        "<joint name=\"tip\" type=\"fixed\"><parent link=\"l6\"/><child link=\"tip\"/><origin xyz=\"{x:?} {y:?} {z:?}\" \
+         rpy=\"{roll:?} 0 0\"/></joint><link name=\"tip\"/></robot>"
+    );
+    text
+}
+
+fn parsed(text: String) -> base::robot::Robot {
+    parse_urdf(&Document::new(Path::new("rows.urdf"), text)).unwrap()
+}
+
+fn shipped(name: &str) -> Robot {
+    let file = format!("{}/../../data/robots/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    Robot::load(Path::new(&file)).unwrap()
+}
+
+const SOLIDS: &str = r#"<collision><origin xyz="0.01 0.02 0.03" rpy="0.3 -0.2 0.1"/><geometry><box size="0.05 0.2 0.03"/></geometry></collision>"#;
+
+#[test]
+fn shipped_arms_written_as_urdf_keep_their_kinematics_and_their_closed_form() {
+    for (seed, name, solver) in [(1, "ur5", "offset_wrist"), (2, "puma560", "spherical_wrist")] {
+        let shipped = shipped(name);
+        let chain = shipped.arm().chain();
+        let robot = urdf::robot(&parsed(urdf(chain, SOLIDS))).unwrap();
+        assert_eq!((robot.arm().solver().name, robot.arm().solver().is_complete), (solver, true), "{name}");
+        let mut stream = seed::stream(seed);
+        for case in 0..2_000 {
+            let [q, reference] = [draw(&mut stream, chain), draw(&mut stream, chain)];
+            let (ours, theirs) = (robot.arm().chain().forward(&q), chain.forward(&q));
+            let off = (ours.origin - theirs.origin).norm() + (ours.rotation - theirs.rotation).norm();
+            assert!(off < 1e-12, "{name}, seed {seed} case {case}: off by {off}");
+            let all = robot.arm().inverse(&theirs, &reference);
+            assert!(all.iter().count() > 0, "{name}, seed {seed} case {case}: no configuration");
+            for (_, found) in all.iter() {
+                let again = robot.arm().chain().forward(found);
+                let off = (again.origin - theirs.origin).norm() + (again.rotation - theirs.rotation).norm();
+                assert!(off < 1e-9, "{name}, seed {seed} case {case}: off by {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn skew_axes_in_frames_of_any_kind_keep_their_kinematics_and_take_the_search() {
+    let mut stream = seed::stream(3);
+    for case in 0..20 {
+        let mut text = "<robot name=\"skew\"><link name=\"l0\"/>".to_owned();
+        for i in 0..AXES {
+            let mut three = |size: f64| {
+                let numbers = [0; 3].map(|_| format!("{:?}", stream.random_range(-size..size)));
+                numbers.join(" ")
+            };
+            let _ = write!(
+                text,
+                "<joint name=\"j{i}\" type=\"revolute\"><parent link=\"l{i}\"/><child link=\"l{}\"/><origin xyz=\"{}\" rpy=\"{}\"/>\
+                 <axis xyz=\"{}\"/><limit lower=\"-2\" upper=\"2\" velocity=\"1\"/></joint><link name=\"l{}\"/>",
+                i + 1,
+                three(0.5),
+                three(3.0),
+                three(1.0),
+                i + 1
+            );
+        }
+        let read = parsed(text + "</robot>");
+        let (robot, open) = (urdf::robot(&read).unwrap(), OpenChain::new(&read));
+        assert_eq!(robot.arm().solver().name, "numerical");
+        assert!(robot.arm().solver().to_string().contains("may miss configurations"));
+        for _ in 0..50 {
+            let q = draw(&mut stream, robot.arm().chain());
+            let (rows, frames) = (robot.arm().chain().forward(&q), open.forward(&q));
+            let off = (rows.origin - frames.origin).norm() + (rows.rotation - frames.rotation).norm();
+            assert!(off < 1e-11, "case {case}: off by {off}");
+        }
+    }
+}
+
+#[test]
+fn capsules_hold_the_solids_that_they_stand_for() {
+    let forms = [
+        r#"<box size="0.05 0.2 0.03"/>"#,
+        r#"<cylinder radius="0.04" length="0.3"/>"#,
+        r#"<sphere radius="0.07"/>"#,
+    ];
+    for form in forms {
+        let solids = format!(
+            "<collision><origin xyz=\"0.01 0.02 0.03\" rpy=\"0.3 -0.2 0.1\"/><geometry>{form}</geometry></collision>"
+        );
+        let read = parsed(urdf(shipped("ur5").arm().chain(), &solids));
+        let (robot, open) = (urdf::robot(&read).unwrap(), OpenChain::new(&read));
+        let mut stream = seed::stream(4);
+        let q = draw(&mut stream, robot.arm().chain());
+        let (frames, links) = (open.frames(&q), robot.arm().chain().frames(&q));
+        let (mut held, body) = (0, &robot.bodies()[0]);
+        for (part, (link, solid)) in body.parts().iter().zip(&read.solids) {
+            let capsule = part.placed(&links);
+            let (points, radius) = solid.rounded();
+            for point in points {
+                let center = frames[*link].point(&Vec3::from(point));
+                // A prism around a cylinder stands out by less than a hundredth of its radius.
+                let ball =
+                    Solid::Sphere(Sphere::new(center, radius.max(0.01 * capsule.radius + 1e-9)).unwrap());
+                held += u32::from(intersects_capsule_solid(&capsule, &ball));
+            }
+        }
+        let all: usize = read.solids.iter().map(|(_, solid)| solid.rounded().0.len()).sum();
+        assert_eq!(held as usize, all, "{form}");
+    }
+}
+
+#[test]
+fn the_shipped_panda_stands_and_has_too_many_axes_for_rows() {
+    let file = format!("{}/../../data/robots/panda.urdf", env!("CARGO_MANIFEST_DIR"));
+    let refusal = Robot::load(Path::new(&file)).unwrap_err().to_string();
+    assert_eq!(
+        refusal,
+        "robot `panda` has 7 joints that turn; 6 are accepted here, and any number in problems in joint space"
+    );
+    let read = base::robot::read_urdf(Path::new(&file)).unwrap();
+    let open = OpenChain::new(&read);
+    // A common start pose: by the published frames the tip is 0.307 m ahead and 0.487 m up.
+    let tip = open.forward(&[0.0, -FRAC_PI_4, 0.0, -3.0 * FRAC_PI_4, 0.0, FRAC_PI_2, FRAC_PI_4]);
+    assert!((tip.origin - Vec3::new(0.306_890_6, 0.0, 0.486_882_1)).norm() < 1e-6, "{:?}", tip.origin);
+    assert!((tip.axis(2) + Vec3::z()).norm() < 1e-12, "the hand points down");
+}

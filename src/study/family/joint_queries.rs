@@ -1,0 +1,173 @@
+//! A robot of any number of axes among solids, from a start to the goals of a problem file, on roadmaps in joint space.
+
+mod picture;
+
+use super::{Entry, Family, Query};
+use crate::study::prepared::{Prepared, nested_roadmap};
+use crate::study::verification::roadmap::JOINT_COLUMNS;
+use crate::study::{Inputs, StudyError};
+use base::problem::{Ended, Problem, parse_problem};
+use base::robot::read_urdf;
+use base::seed;
+use base::settings::{Accepted, Document, Settings, SettingsError};
+use engine::planner::Invalid;
+use engine::space::roadmap::{Counted, Extent, Local, Sample};
+use engine::space::{JointSpace, WorldKind};
+use rand::RngExt as _;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::path::PathBuf;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "joint_queries",
+    about: "a robot of any number of axes (URDF) among solids (robometrics or MotionBenchMaker), on roadmaps in joint space",
+    revision: 1,
+    prepared: nested_roadmap::ENTRY.name,
+    columns: JOINT_COLUMNS,
+    settings: Accepted::of::<JointQueries>(),
+    example: r#"
+robot = "data/robots/panda.urdf"
+problem = "data/scenes/shelf_panda.json"
+index = 0
+self_collision = true
+samples = 300
+radius_mm = 600
+step_deg = 3
+"#,
+    build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(Box::new(Posed::new(settings, inputs)?)),
+};
+
+/// Draws per wanted sample after which the space counts as full.
+const DRAWS_PER_SAMPLE: u32 = 1000;
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct JointQueries {
+    /// The robot, a URDF file.
+    robot: String,
+    /// The problem file, JSON or YAML in the form of robometrics or of `MotionBenchMaker` as VAMP ships it.
+    problem: String,
+    /// The problem set in it; the only one if absent.
+    set: Option<String>,
+    /// The problem's number in the set, from 0.
+    #[serde(default)]
+    index: usize,
+    /// Whether the robot must not touch itself; links that a joint joins may.
+    self_collision: bool,
+    /// How many samples the roadmap is built from, drawn evenly within the joints' limits.
+    #[schemars(range(min = 1, max = 100_000))]
+    samples: u32,
+    /// How far the tips of two samples may be apart to be tried as neighbours.
+    radius_mm: f64,
+    /// How far a joint may move between two configurations that are checked.
+    step_deg: f64,
+}
+
+struct Posed {
+    read: JointQueries,
+    space: JointSpace,
+    queries: Vec<Query>,
+    unposed: Option<SettingsError>,
+    inputs: Vec<PathBuf>,
+}
+
+impl Posed {
+    fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
+        let read: JointQueries = settings.read()?;
+        for (key, value) in [("radius_mm", read.radius_mm), ("step_deg", read.step_deg)] {
+            if !(value.is_finite() && value > 0.0) {
+                let message = format!("{key} is {value}; a finite number above 0 is accepted");
+                return Err(settings.error_at(key, message));
+            }
+        }
+        let locate =
+            |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
+        let files = [locate("robot", &read.robot)?, locate("problem", &read.problem)?];
+        let robot = read_urdf(&files[0])?;
+        let document = Document::open(&files[1])?;
+        let problem = parse_problem(&document, read.set.as_deref(), read.index)?;
+        let (axes, found) = (robot.joints.len(), problem.start.angles_rad.len());
+        if axes != found {
+            let message =
+                format!("the start has {found} angles; {axes}, as `{}` has joints, are accepted", robot.name);
+            return Err(document.error(problem.start.at, message));
+        }
+        let inputs = files.into_iter().chain(robot.files.iter().cloned()).collect();
+        let queries = queries(&problem);
+        let space =
+            JointSpace::new(robot, problem.obstacles, read.self_collision, read.step_deg.to_radians());
+        let mut ends =
+            std::iter::once(("start", &problem.start)).chain(problem.goals.iter().map(|goal| ("goal", goal)));
+        let unposed = ends.find_map(|(what, end)| unposed(&space, &document, what, end));
+        Ok(Self { read, space, queries, unposed, inputs })
+    }
+}
+
+/// From the start to each goal; a single one needs no name.
+fn queries(problem: &Problem) -> Vec<Query> {
+    let name =
+        |index: usize| if problem.goals.len() == 1 { String::new() } else { format!("goal-{}", index + 1) };
+    let query = |(index, goal): (usize, &Ended)| Query {
+        name: name(index),
+        start: problem.start.angles_rad.clone(),
+        goal: goal.angles_rad.clone(),
+    };
+    problem.goals.iter().enumerate().map(query).collect()
+}
+
+fn unposed(space: &JointSpace, document: &Document, what: &str, end: &Ended) -> Option<SettingsError> {
+    let refusal = space.refusal(&end.angles_rad)?;
+    Some(document.error(end.at.clone(), format!("the {what} cannot be posed: {refusal}")))
+}
+
+impl Family for Posed {
+    fn world(&self) -> WorldKind {
+        WorldKind::Roadmap
+    }
+
+    fn prepare(&self, seed: u64) -> Result<Prepared, Invalid> {
+        let (mut stream, wanted) = (seed::stream(seed), self.read.samples);
+        let (mut samples, mut draws) = (Vec::new(), 0);
+        while samples.len() < wanted as usize {
+            if draws / DRAWS_PER_SAMPLE >= wanted {
+                let found = samples.len();
+                return Err(Invalid(format!(
+                    "{found} of {wanted} free configurations were found in {draws} draws"
+                )));
+            }
+            let joints = self.space.chain().joints().iter();
+            let config: Vec<f64> = joints
+                .map(|joint| {
+                    let [low, high] = joint.limits_rad;
+                    low + (high - low) * stream.random::<f64>()
+                })
+                .collect();
+            if self.space.is_free(&config) {
+                samples.push(Sample { config, drawn_after: draws });
+            }
+            draws += 1;
+        }
+        let local = Local::Joints(Box::new(self.space.clone()));
+        let mut prepared =
+            nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, Counted::Accepted);
+        prepared.exhibits = picture::exhibits(&self.space, &self.queries);
+        Ok(prepared)
+    }
+
+    fn queries(&self) -> &[Query] {
+        &self.queries
+    }
+
+    fn check_ends(&self) -> Result<(), SettingsError> {
+        self.unposed.clone().map_or(Ok(()), Err)
+    }
+
+    fn extent(&self) -> Option<Extent> {
+        Some(Extent { samples: self.read.samples, radius_mm: self.read.radius_mm })
+    }
+
+    fn inputs(&self) -> &[PathBuf] {
+        &self.inputs
+    }
+}

@@ -1,0 +1,60 @@
+//! What pictures of a robot among solids need, millimetres, in the form of cells: boxes by their corners, all else by capsules.
+
+use super::Query;
+use base::solid::{Form, Solid};
+use engine::geometry::{Capsule, Frame};
+use engine::kinematics::robot::capsule_around;
+use engine::planner::Exhibit;
+use engine::space::JointSpace;
+
+/// Obstacles, that there is no floor, and the robot and its tip at each query's ends.
+pub(super) fn exhibits(space: &JointSpace, queries: &[Query]) -> Vec<Exhibit> {
+    let (mut boxes, mut rounds) = (Vec::new(), Vec::new());
+    for solid in space.obstacles() {
+        match solid.form {
+            Form::Box(_) => boxes.extend(corners(solid)),
+            _ => rounds.extend(capsule_around(solid, &Frame::IDENTITY).ok().as_ref().map(round)),
+        }
+    }
+    let mut exhibits = vec![
+        Exhibit { name: "boxes".to_owned(), width: 24, values: boxes },
+        Exhibit { name: "rounds".to_owned(), width: 7, values: rounds.concat() },
+        Exhibit { name: "floor".to_owned(), width: 1, values: Vec::new() },
+    ];
+    for query in queries {
+        for (end, q) in [("start", &query.start), ("goal", &query.goal)] {
+            exhibits.push(body(space, format!("body {}/{end}", query.name), q));
+            exhibits.push(pose(space, format!("pose {}/{end}", query.name), q));
+        }
+    }
+    exhibits
+}
+
+/// The corners of a box, x before y before z.
+fn corners(solid: &Solid) -> Vec<f64> {
+    let Form::Box(half) = solid.form else { return Vec::new() };
+    let corner =
+        |i: usize| std::array::from_fn(|axis| if i >> axis & 1 == 1 { half[axis] } else { -half[axis] });
+    (0..8).flat_map(|i| solid.pose.point(corner(i)).map(|x| x * 1e3)).collect()
+}
+
+fn round(capsule: &Capsule) -> Vec<f64> {
+    let (a, b) = (capsule.segment.a * 1e3, capsule.segment.b * 1e3);
+    vec![a.x, a.y, a.z, b.x, b.y, b.z, capsule.radius * 1e3]
+}
+
+fn body(space: &JointSpace, name: String, q: &[f64]) -> Exhibit {
+    let frames = space.chain().frames(q);
+    let capsules =
+        space.robot().solids.iter().filter_map(|(link, solid)| capsule_around(solid, &frames[*link]).ok());
+    Exhibit { name, width: 7, values: capsules.flat_map(|capsule| round(&capsule)).collect() }
+}
+
+/// Joint angles in degrees, last joint and tip in millimetres, and the tip's direction.
+fn pose(space: &JointSpace, name: String, q: &[f64]) -> Exhibit {
+    let (frames, tip) = (space.chain().frames(q), space.chain().forward(q));
+    let (last, at, direction) = (frames[frames.len() - 1].origin * 1e3, tip.origin * 1e3, tip.axis(2));
+    let mut values: Vec<f64> = q.iter().map(|angle| angle.to_degrees()).collect();
+    values.extend([last, at, direction].iter().flat_map(|v| [v.x, v.y, v.z]));
+    Exhibit { name, width: values.len(), values }
+}

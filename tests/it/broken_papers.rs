@@ -1,0 +1,197 @@
+//! Ten broken papers: each is one of `replan new` with several mistakes, all of which one round of `check` must tell.
+
+use crate::paper::Bench;
+use std::collections::BTreeMap;
+
+/// A mistake: the file, what stands there, what is written instead, and what must be said of it.
+type Mistake = (&'static str, &'static str, &'static str, &'static str);
+
+/// What was done wrong, the template, and the mistakes.
+const BROKEN: [(&str, &str, &[Mistake]); 10] = [
+    (
+        "keys misspelt in three tables of two files",
+        "grid",
+        &[
+            ("compare.toml", "question = ", "qestion = ", "compare.toml:7:1: unknown key `qestion`"),
+            ("compare.toml", "expansions = ", "expantions = ", "compare.toml:12:1: unknown key `expantions`"),
+            ("paper.toml", "margin = 5", "margn = 5", "paper.toml:60:1: unknown key `margn`"),
+        ],
+    ),
+    (
+        "names of a planner, a family and a criterion that do not exist",
+        "grid",
+        &[
+            (
+                "compare.toml",
+                "planner = \"astar\"",
+                "planner = \"a_star\"",
+                "compare.toml:30:11: contender `A*` asks for planner `a_star`",
+            ),
+            (
+                "compare.toml",
+                "family = \"random_rectangles\"",
+                "family = \"rectangles\"",
+                "compare.toml:17:10: there is no problem family `rectangles`",
+            ),
+            ("paper.toml", "[claim.check.lower]", "[claim.check.less]", "paper.toml:67:14: "),
+        ],
+    ),
+    (
+        "claims that ask for a study, a contender and a metric that are not there",
+        "grid",
+        &[
+            (
+                "paper.toml",
+                "study = \"compare\"",
+                "study = \"comparison\"",
+                "paper.toml:36:16: there is no study `comparison`",
+            ),
+            (
+                "paper.toml",
+                "contender = \"Weighted A*\"",
+                "contender = \"WA*\"",
+                "paper.toml:46:58: study `compare` has no contender `WA*`",
+            ),
+            (
+                "paper.toml",
+                "metric = \"opened\"",
+                "metric = \"nodes\"",
+                "paper.toml:58:98: there is no metric `nodes`",
+            ),
+        ],
+    ),
+    (
+        "a ledger that leaves out a table and names claims that are not there",
+        "grid",
+        &[
+            ("paper.toml", "tables = 1", "tables = 2", "paper.toml:12:10: the ledger has no row for Table 2"),
+            ("paper.toml", "\"fewer_nodes\", ", "\"fewer\", ", "paper.toml:24:11: there is no claim `fewer`"),
+            (
+                "paper.toml",
+                "figures = [\"table1\", \"maps\"]",
+                "figures = [\"table1\", \"map\"]",
+                "paper.toml:19:22: there is no figure or table `map`",
+            ),
+        ],
+    ),
+    (
+        "numbers as text, out of range and missing",
+        "grid",
+        &[
+            ("compare.toml", "seed = 1\n", "", "compare.toml:1:1: missing key `seed`"),
+            (
+                "compare.toml",
+                "replicates = 60",
+                "replicates = \"60\"",
+                "compare.toml:17:14: `replicates` is \"60\"",
+            ),
+            ("compare.toml", "goal = [36, 30]", "goal = [36, -30]", "compare.toml:21:13: `goal[1]` is -30"),
+            (
+                "paper.toml",
+                "printed = \"60\"",
+                "printed = \"60 %\"",
+                "paper.toml:54:11: claim `nodes`: printed is `60 %`",
+            ),
+        ],
+    ),
+    (
+        "an arm whose goal is out of reach and a figure of a problem that is not there",
+        "arm",
+        &[
+            (
+                "lengths.toml",
+                "goal_cm = [0, 45]",
+                "goal_cm = [0, 55]",
+                "lengths.toml:31:11: the goal [0.0, 55.0] is not a point of the workspace",
+            ),
+            (
+                "lengths.toml",
+                "problems = \"case 1\", replicates",
+                "problems = \"case 2\", replicates",
+                "lengths.toml:60:23: no problem group is called `case 2`",
+            ),
+        ],
+    ),
+    (
+        "a setting that a planner does not know and one without its unit",
+        "arm",
+        &[
+            (
+                "lengths.toml",
+                "open_node = \"lowered\"",
+                "open_nodes = \"lowered\"",
+                "lengths.toml:37:70: unknown key `open_nodes`",
+            ),
+            ("lengths.toml", "step_cm = 1", "step = 1", "lengths.toml:21:1: unknown key `step`"),
+        ],
+    ),
+    (
+        "a reading whose default is no option, and a planner's word that is none",
+        "grid",
+        &[
+            (
+                "compare.toml",
+                "default = \"fifo\"",
+                "default = \"first\"",
+                "compare.toml:43:11: reading `ties` has no option `first`",
+            ),
+            (
+                "paper.toml",
+                "statistic = \"mean\"",
+                "statistic = \"average\"",
+                "paper.toml:37:13: `statistic` is \"average\"",
+            ),
+        ],
+    ),
+    (
+        "a scene with a box turned inside out, a pose with five angles, a claim without a place",
+        "cell",
+        &[
+            (
+                "scene.toml",
+                "max_mm = [800, -300, 60]",
+                "max_mm = [300, -300, 60]",
+                "scene.toml:13:1: obstacle `shelf`",
+            ),
+            ("poses.toml", "-120, -90, 0]", "-120, -90]", "poses.toml:5:5: "),
+            ("paper.toml", "at = \"section 3\"\n", "", "missing key `at`"),
+        ],
+    ),
+    (
+        "a robot with a limit missing and a capsule of a link that it has not",
+        "cell",
+        &[
+            ("robot.toml", "upper_deg = 360\n", "", "missing key `upper_deg`"),
+            ("robot.toml", "radius_mm = 75", "radius = 75", "unknown key `radius`"),
+            ("cell.toml", "samples = 300", "samples = -300", "cell.toml:25:11: "),
+        ],
+    ),
+];
+
+/// The paper called `toy`, of a template, with every mistake made.
+fn broken(template: &str, mistakes: &[Mistake]) -> Bench {
+    let bench = Bench::empty();
+    bench.done(&["new", "toy", "--from", template]);
+    bench.done(&["check", "./toy"]);
+    for (file, from, to, _) in mistakes {
+        bench.edit(&format!("toy/{file}"), from, to);
+    }
+    bench
+}
+
+#[test]
+fn one_round_of_check_tells_every_mistake_of_ten_broken_papers() {
+    let (mut said, mut missed) = (BTreeMap::new(), Vec::new());
+    for (what, template, mistakes) in BROKEN {
+        let answer = broken(template, mistakes).run(&["check", "./toy"]);
+        assert_eq!((answer.code, answer.out.as_str()), (Some(2), ""), "{what}: {}", answer.err);
+        let untold = mistakes.iter().filter(|(.., place)| !answer.err.contains(place));
+        missed.extend(
+            untold.map(|(file, _, to, place)| format!("{what}: {file}: {to}: {place}\n{}", answer.err)),
+        );
+        said.insert(what, answer.err);
+    }
+    assert!(missed.is_empty(), "{}", missed.join("\n"));
+    let told: Vec<String> = BROKEN.iter().map(|(what, ..)| format!("# {what}\n{}", said[what])).collect();
+    insta::assert_snapshot!(told.join("\n"));
+}

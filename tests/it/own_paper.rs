@@ -1,0 +1,160 @@
+//! Papers of one's own: what `replan new` writes, and every command and file of docs/YOUR_OWN_PAPER.md.
+
+use crate::paper::{Bench, Said};
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn a_new_paper_of_every_template_runs_at_once_and_its_schema_lines_name_files_that_are_there() {
+    let bench = Bench::empty();
+    for template in ["grid", "arm", "cell"] {
+        bench.done(&["new", template, "--from", template]);
+        let folder = format!("./{template}");
+        bench.done(&["check", &folder]);
+        let said = bench.done(&["repro", &folder, "--quick"]);
+        assert!(said.contains("sentences and rows: "), "{said}");
+        for entry in fs::read_dir(bench.at(template)).unwrap().map(Result::unwrap) {
+            if entry.path().is_dir() {
+                continue;
+            }
+            let text = fs::read_to_string(entry.path()).unwrap();
+            let schema = text.lines().next().unwrap().strip_prefix("#:schema ").unwrap();
+            assert!(bench.at(template).join(schema).is_file(), "{schema} of {:?}", entry.path());
+            assert!(!text.contains("SCHEMA") && !text.contains("PAPER\""), "{:?}", entry.path());
+        }
+    }
+}
+
+#[test]
+fn a_new_paper_of_a_project_names_the_schemas_of_the_project() {
+    let bench = Bench::empty();
+    bench.done(&["schema", "docs/schema"]);
+    bench.done(&["new", "experiments/fresh", "--from", "grid"]);
+    assert!(!bench.at("experiments/fresh/.schema").exists());
+    let text = fs::read_to_string(bench.at("experiments/fresh/paper.toml")).unwrap();
+    let schema = text.lines().next().unwrap().strip_prefix("#:schema ").unwrap();
+    assert!(bench.at("experiments/fresh").join(schema).is_file(), "{schema}");
+    assert!(bench.done(&["check", "fresh"]).starts_with("fresh: 1 studies"));
+}
+
+#[test]
+fn a_folder_that_is_not_empty_or_whose_name_names_no_paper_is_refused_and_left_as_it_was() {
+    let bench = Bench::empty();
+    bench.write("full/notes.txt", b"mine");
+    for (folder, said) in [
+        ("full", "replan: full is not empty; a new folder is accepted\n"),
+        (
+            "a b",
+            "replan: the folder's name `a b` is the paper's; letters from a to z, digits, `_` and `-` are accepted\n",
+        ),
+        (
+            "..",
+            "replan: the folder's name `` is the paper's; letters from a to z, digits, `_` and `-` are accepted\n",
+        ),
+    ] {
+        let answer = bench.run(&["new", folder, "--from", "grid"]);
+        assert_eq!((answer.code, answer.err.as_str()), (Some(2), said), "{folder}");
+    }
+    assert_eq!(bench.tree(".").len(), 1);
+}
+
+/// A fenced block of a page: what stands behind its fence, and its text.
+struct Block<'a> {
+    info: &'a str,
+    text: &'a str,
+}
+
+fn blocks(page: &str) -> Vec<Block<'_>> {
+    let inside = page.split("\n```").skip(1).step_by(2);
+    inside.map(|part| part.split_once('\n').unwrap()).map(|(info, text)| Block { info, text }).collect()
+}
+
+/// The text without its spaces, which only align.
+fn letters(text: &str) -> String {
+    text.split_whitespace().collect()
+}
+
+#[test]
+fn every_command_and_file_of_the_page_on_papers_of_ones_own_does_what_the_page_says() {
+    let page =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/YOUR_OWN_PAPER.md")).unwrap();
+    let (bench, mut commands, mut shown) = (Bench::empty(), 0, 0);
+    let mut last = Said { code: None, out: String::new(), err: String::new() };
+    for Block { info, text } in blocks(&page) {
+        match info.split_once(' ').unwrap_or((info, "")) {
+            ("sh", "") => {
+                for line in text.lines() {
+                    let arguments: Vec<&str> = line.split_whitespace().collect();
+                    assert_eq!(arguments[0], "replan", "{line}");
+                    last = bench.run(&arguments[1..]);
+                    assert_eq!(last.code, Some(0), "{line}\n{}{}", last.out, last.err);
+                    commands += 1;
+                }
+            }
+            ("toml", file) if !file.is_empty() => bench.write(file, text.as_bytes()),
+            ("text", "") => {
+                let said: Vec<String> = last.out.lines().map(letters).collect();
+                for line in text.lines().map(letters) {
+                    assert!(
+                        said.iter().any(|said| said.contains(&line)),
+                        "{line}\nis not said:\n{}",
+                        last.out
+                    );
+                    shown += 1;
+                }
+            }
+            _ => panic!("a block of `{info}`: sh, text or a toml file is accepted"),
+        }
+    }
+    assert!(commands >= 8 && shown >= 6, "{commands} commands, {shown} lines of output");
+}
+
+#[test]
+fn a_folder_of_maps_is_one_group_each_and_a_pattern_without_a_file_is_told() {
+    let bench = Bench::empty();
+    bench.done(&["new", "maps", "--from", "grid"]);
+    for (name, row) in [("b", "....\n"), ("a", ".#..\n")] {
+        bench.write(&format!("maps/rooms/{name}.txt"), format!("{row}....\n").as_bytes());
+    }
+    bench.edit(
+        "maps/compare.toml",
+        "family = \"random_rectangles\"\nreplicates = 60",
+        "family = \"grid_map\"\neach = \"rooms/*.txt\"",
+    );
+    let text = fs::read_to_string(bench.at("maps/compare.toml")).unwrap();
+    let (from, to) = (text.find("[problems.settings]").unwrap(), text.find("# What is compared").unwrap());
+    let settings =
+        "settings = { map = \"{file}\", start = [0, 1], goal = [3, 1], corner_rule = \"allow\" }\n\n";
+    let figure = text.find("# A figure, drawn").unwrap();
+    bench.write("maps/compare.toml", [&text[..from], settings, &text[to..figure]].concat().as_bytes());
+    let paper = fs::read_to_string(bench.at("maps/paper.toml")).unwrap();
+    let paper = paper.replace("problems = \"maps\"", "problems = \"maps *\"").replace(", \"maps\"]", "]");
+    bench.write("maps/paper.toml", paper.as_bytes());
+    assert!(bench.done(&["run", "./maps"]).starts_with("compare: 4 trials"));
+    bench.done(&["repro", "./maps", "--trial", "compare/maps-a/a-star"]);
+    for (pattern, said) in [
+        (
+            "rooms/*.map",
+            "maps/compare.toml:18:8: no file is `rooms/*.map`; looked for ./maps/rooms/*.map, rooms/*.map",
+        ),
+        (
+            "rooms/a.txt",
+            "maps/compare.toml:18:8: `rooms/a.txt` has no `*` in its last part; `maps/*.map` is accepted",
+        ),
+    ] {
+        bench.write("maps/compare.toml", text_with(&bench, pattern).as_bytes());
+        let answer = bench.run(&["check", "./maps"]);
+        assert!(
+            answer.code == Some(2) && answer.err.contains(said),
+            "should say {said}\nsays {}",
+            answer.err
+        );
+    }
+}
+
+/// The study of the folder of maps with another pattern.
+fn text_with(bench: &Bench, pattern: &str) -> String {
+    let text = fs::read_to_string(bench.at("maps/compare.toml")).unwrap();
+    let line = text.lines().find(|line| line.starts_with("each = ")).unwrap();
+    text.replace(line, &format!("each = \"{pattern}\""))
+}
