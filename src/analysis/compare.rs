@@ -290,7 +290,7 @@ fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String
     notes
 }
 
-impl<'r> Line<'r> {
+impl Line<'_> {
     fn solved(&self) -> Solved {
         let is_solved = |row: &Row| row.status == Status::Solved;
         let count =

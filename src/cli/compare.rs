@@ -11,6 +11,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// Compares two stored runs.
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own on the command line")]
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Compare {
@@ -79,7 +80,7 @@ impl Compare {
         let found = compare(&sides, &asked).map_err(Failure::input)?;
         self.print(&found);
         if let Some(path) = &self.figure {
-            let drawn = comparison::figure(&found, &self.provenance(&found))?;
+            let drawn = comparison::figure(&found, &Self::provenance(&found))?;
             write_whole(path, drawn.svg.as_bytes())?;
         }
         self.judge(&found)
@@ -97,7 +98,7 @@ impl Compare {
         say!("{}", text.trim_end());
     }
 
-    fn provenance(&self, found: &Comparison) -> Provenance {
+    fn provenance(found: &Comparison) -> Provenance {
         let title = format!("What changes from {} to {}.", found.sides[0], found.sides[1]);
         let spec_hash = sha256(comparison::csv(found).as_bytes());
         Provenance { command: command_line(), spec_hash, title }

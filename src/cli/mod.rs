@@ -79,7 +79,7 @@ enum Command {
     Merge(merge::Merge),
     /// Say what of a run that was cut into shards is done, at work, stopped and left
     Status(status::Status),
-    /// Cut a run into shards and write the script that runs them: HyperQueue, Slurm or GNU parallel
+    /// Cut a run into shards and write the script that runs them: for Slurm, GNU parallel or Python
     Shard(shard::Shard),
     /// Judge a paper's claims again from its stored run
     Judge(judge::Judge),

@@ -81,10 +81,9 @@ impl Shard {
         let mut run = plan.arguments(&self.out, &format!("{number}/{shards}"));
         run.extend(["--threads".to_owned(), threads.to_string()]);
         let merge = ["merge", &shown(&self.out), "--out", &shown(&self.merge)].map(str::to_owned);
-        let in_shell = |word: &String| match word.starts_with(number) {
-            // What the script itself fills in.
-            true => format!("\"{word}\""),
-            false => quoted(word),
+        let in_shell = |word: &String| {
+            // The script itself fills the number in.
+            if word.starts_with(number) { format!("\"{word}\"") } else { quoted(word) }
         };
         let words = |words: &[String]| match self.engine {
             Engine::Hyperqueue => serde_json::to_string(words).expect("words are texts"),

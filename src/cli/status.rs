@@ -65,9 +65,8 @@ impl Status {
 
 fn said(found: &Found, plan: &Plan, parts: &std::path::Path) -> String {
     let listed = |numbers: &[usize]| match numbers.len() {
-        0 => String::new(),
         1..=20 => format!(" ({})", numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
-        _ => String::new(),
+        0 | 21.. => String::new(),
     };
     let mut text = format!(
         "{} of {} shards are done, {} running{}, {} stopped{}, {} waiting; {} of {} units",

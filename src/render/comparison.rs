@@ -184,7 +184,7 @@ fn panel(
 fn written(of: &Comparison, table: impl Fn(&Table) -> String, bullet: &str) -> String {
     let mut parts = vec![format!("From {} to {}\n", of.sides[0], of.sides[1])];
     let lines = |lines: &mut dyn Iterator<Item = String>| {
-        lines.map(|line| format!("{bullet}{line}\n")).collect::<String>()
+        lines.fold(String::new(), |text, line| text + bullet + &line + "\n")
     };
     parts.push(lines(&mut of.notes.iter().cloned()));
     parts.extend([solved(of), changes(of)].iter().filter(|table| !table.rows.is_empty()).map(&table));

@@ -46,7 +46,9 @@ impl<'a> Parts<'a> {
     ) -> Result<Self, StudyError> {
         let mut refused = Refused { reasons: strangers(plan, folder), ..Refused::default() };
         for number in 1..=plan.shards {
-            studies.iter().for_each(|(_, expected)| refused.look_at(plan, folder, number, expected));
+            for (_, expected) in studies {
+                refused.look_at(plan, folder, number, expected);
+            }
         }
         let Refused { mut reasons, missing } = refused;
         if !missing.is_empty() {
@@ -136,11 +138,11 @@ fn sweep(exhibits: &[ExhibitReader], rows: &[Row]) -> Result<Option<SweepKey>, S
 }
 
 /// The exhibits of all parts in the order of units; one group of each part is held at a time.
-fn streamed<'s>(
+fn streamed(
     mut parts: Vec<ExhibitReader>,
     keys: Vec<Arc<DrawKey>>,
-    shards: &'s [usize],
-) -> impl Iterator<Item = Result<Kept, StudyError>> + 's {
+    shards: &[usize],
+) -> impl Iterator<Item = Result<Kept, StudyError>> {
     let mut unit = 0;
     std::iter::from_fn(move || {
         while unit < keys.len() {
@@ -151,9 +153,7 @@ fn streamed<'s>(
                 Ok(_) => unit += 1,
             }
         }
-        let left = parts
-            .iter_mut()
-            .find_map(|part| part.peek().map(|left| left.is_some()).unwrap_or(true).then_some(part));
+        let left = parts.iter_mut().find_map(|part| (!matches!(part.peek(), Ok(None))).then_some(part));
         left.map(|part| {
             part.take();
             Err(part.wrong("holds exhibits of draws that are not its own, or in another order"))

@@ -274,9 +274,8 @@ impl Plan {
             return Progressed { state: State::Done, units };
         }
         // What a study has done stands in its journal until its records do.
-        let done = |study: &PlannedStudy| match whole(&study) {
-            true => study.units / self.shards,
-            false => journal_units(&part, &study.name),
+        let done = |study: &PlannedStudy| {
+            if whole(&study) { study.units / self.shards } else { journal_units(&part, &study.name) }
         };
         let state = match part.is_dir() {
             false => State::Waiting,

@@ -80,8 +80,8 @@ fn kill_at_work(bench: &Bench, shard: &str, parts: &str, part: &str) -> bool {
     let mut child = bench.command(&arguments).spawn().unwrap();
     let mut is_at_work = false;
     while child.try_wait().unwrap().is_none() && !is_at_work {
-        let lines = fs::read(&journal).unwrap_or_default().iter().filter(|byte| **byte == b'\n').count();
-        is_at_work = lines > 2;
+        let lines = fs::read(&journal).unwrap_or_default().split(|byte| *byte == b'\n').count();
+        is_at_work = lines > 3;
         sleep(Duration::from_micros(200));
     }
     if is_at_work {
@@ -228,7 +228,7 @@ fn stub(bench: &Bench, name: &str, text: &str) {
     fs::set_permissions(bench.at(&path), fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-const SBATCH: &str = r##"#!/usr/bin/env bash
+const SBATCH: &str = r#"#!/usr/bin/env bash
 # Runs a job at once, task after task, as Slurm would.
 set -euo pipefail
 echo "sbatch $*" >> sbatch.log
@@ -244,9 +244,9 @@ for ((task = 1; task <= last; task++)); do
   SLURM_ARRAY_TASK_ID=$task bash "$script" >&2
 done
 echo '17;cluster'
-"##;
+"#;
 
-const PARALLEL: &str = r##"#!/usr/bin/env bash
+const PARALLEL: &str = r#"#!/usr/bin/env bash
 # Runs a command for each line of its input, one after another.
 set -euo pipefail
 while [[ $1 == --* ]]; do shift 2; done
@@ -255,7 +255,7 @@ while read -r item; do
   for word in "$@"; do words+=("${word//\{\}/$item}"); done
   "${words[@]}" < /dev/null
 done
-"##;
+"#;
 
 #[test]
 fn scripts_of_slurm_and_parallel_run_every_shard_and_merge() {
@@ -291,7 +291,7 @@ fn checked(script: &Path) {
     }
 }
 
-const DYING: &str = r##"#!/usr/bin/env bash
+const DYING: &str = r#"#!/usr/bin/env bash
 # replan, but for the first try of shard 2, which is killed at work.
 if [[ " $* " == *" 2/4 "* && ! -e killed ]]; then
   touch killed
@@ -305,7 +305,7 @@ if [[ " $* " == *" 2/4 "* && ! -e killed ]]; then
   exit 137
 fi
 exec "$REAL" "$@"
-"##;
+"#;
 
 #[test]
 fn hyperqueue_runs_every_shard_again_where_its_process_was_killed() {

@@ -104,7 +104,10 @@ impl ExhibitReader {
         let mut reader = ParquetReader::new(file);
         let metadata =
             reader.get_metadata().map_err(|_| touched(path, "is no Parquet file that can be read"))?;
-        let groups = metadata.row_groups.iter().rev().map(|group| group.num_rows()).collect();
+        let mut groups = Vec::new();
+        for group in metadata.row_groups.iter().rev() {
+            groups.push(group.num_rows());
+        }
         let (path, read, draws) = (path.to_owned(), VecDeque::new(), Draws::default());
         Ok(Self { path, groups, row: 0, read, draws })
     }

@@ -141,7 +141,9 @@ fn exhibits_are_written_and_read_group_by_group_and_one_group_is_the_file_of_a_f
     let written = |most: usize| {
         let mut bytes = Vec::new();
         let mut file = ExhibitWriter::new(&mut bytes, &keys, exhibits::sweep_of(&kept), most).unwrap();
-        kept.iter().for_each(|kept| file.add(kept.clone()).unwrap());
+        for kept in &kept {
+            file.add(kept.clone()).unwrap();
+        }
         file.finish().unwrap();
         bytes
     };
