@@ -16,6 +16,7 @@ use replan::study::record::{Batch, Kept, PreparedRow, Row, Status, Values};
 use replan::study::runner::BuiltStudy;
 use replan::study::shard::Portion;
 use replan::study::store::{Columns, Exhibits, Records, Staged, stage_records};
+use replan::study::unit::Unit;
 use std::fs;
 use std::path::Path;
 
@@ -36,16 +37,14 @@ fn study() -> String {
 }
 
 /// Made-up records of the units of a portion: numbers as searches have them, and a path of every tenth draw.
-fn made_up(built: &BuiltStudy<'_>, portion: &Portion) -> Batch {
+fn made_up(built: &BuiltStudy<'_>, units: &[Unit<'_>], portion: &Portion) -> Batch {
     let mut batch = Batch::default();
-    for (index, unit) in
-        built.units().into_iter().enumerate().filter(|(index, _)| portion.units.contains(index))
-    {
+    for (index, unit) in portion.units.iter().map(|index| (*index, &units[*index])) {
         let real = |scale: f64| Value::Real(scale * (1.0 + (index % 977) as f64 / 3.0));
         let values: Values = [("optimal_cost_cells", real(1.0))].into_iter().collect();
         let (key, kind, seed) = (unit.key.clone(), "grid".to_owned(), unit.seed);
         batch.prepared.push(PreparedRow { key, kind, seed, reason: None, values });
-        for key in built.trials(&unit) {
+        for key in built.trials(unit) {
             if index % 10 == 0 {
                 let exhibit = Exhibit { name: "path".to_owned(), width: 2, values: vec![index as f64; 24] };
                 batch.kept.push(Kept { of: Owner::from(&key), exhibit });
@@ -88,15 +87,17 @@ fn main() {
     let studies = [(built, manifest)];
     let wanted =
         Wanted { paper: "large".to_owned(), shards: SHARDS, quick: false, seed: None, readings: None };
-    let plan = Plan::agreed(&parts, &wanted, &studies).unwrap();
+    let (planning, plan) = clock::timed(|| Plan::agreed(&parts, &wanted, &studies).unwrap());
     let values: Vec<&'static str> = study.columns().into_iter().collect();
     let columns = Columns { keys: study.key_columns(), values: &values };
+    let (units, cut) = (studies[0].0.units(), plan.cut(&studies).remove(0));
     let mut part_bytes = 0;
     for number in 1..=SHARDS {
         let (mut manifest, part) = (studies[0].1.clone(), plan.part(&parts, number));
-        let portion = plan.portions(&studies, number).remove(0);
+        let own = cut.iter().enumerate().filter(|(_, shard)| **shard == number);
+        let portion = Portion { shard: plan.shard(number), units: own.map(|(unit, _)| unit).collect() };
         manifest.cut_to(&portion);
-        let records = Records { batch: made_up(&studies[0].0, &portion), times: Vec::new() };
+        let records = Records { batch: made_up(&studies[0].0, &units, &portion), times: Vec::new() };
         let mut staged = Staged::default();
         let exhibits = Exhibits::held(&records.batch.kept);
         manifest.files = stage_records(&mut staged, &part, "s", &columns, &records, exhibits).unwrap();
@@ -104,6 +105,7 @@ fn main() {
         staged.put().unwrap();
         part_bytes += bytes(&part);
     }
+    drop(units);
     // From here on the most memory is that of the merge.
     let _ = fs::write("/proc/self/clear_refs", "5");
     let lock = Lock::take(&into).unwrap();
@@ -113,6 +115,7 @@ fn main() {
     };
     let (nanoseconds, rows) = clock::timed(merge);
     let (seconds, most) = (nanoseconds as f64 / 1e9, memory("VmHWM").unwrap_or(0));
+    println!("plan of {DRAWS} units: {:.1} s", planning as f64 / 1e9);
     println!(
         "merge of {rows} rows in {SHARDS} parts: {seconds:.1} s, {:.2} GB at most; {:.1} bytes a row in parts, {:.1} merged",
         most as f64 / 1e9,

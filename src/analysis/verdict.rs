@@ -118,7 +118,6 @@ impl Judged {
     }
 
     /// What the readings make of it, in a few words that stand behind its class; none if no reading was asked.
-    #[expect(clippy::unused_self, reason = "the one place where reports and terminal take these words from")]
     pub fn across_readings(&self) -> Option<String> {
         None
     }

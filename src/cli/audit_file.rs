@@ -30,7 +30,7 @@ fn rounding(about: &str) -> Value {
     json!({ "type": "string", "enum": words, "description": about })
 }
 
-fn table(about: &str, keys: Map<String, Value>, required: &[&str]) -> Value {
+fn table(about: &str, keys: &Map<String, Value>, required: &[&str]) -> Value {
     json!({
         "type": "object",
         "description": about,
@@ -53,7 +53,7 @@ fn relations() -> Vec<Value> {
         );
         keys.insert("name".to_owned(), text("What it is called in the report."));
         keys.insert("rounding".to_owned(), rounding("How its printed digits end."));
-        table(entry.about, keys, &["check"])
+        table(entry.about, &keys, &["check"])
     };
     forms.map(relation).collect()
 }
@@ -91,7 +91,7 @@ impl JsonSchema for AuditFile {
             "table": {
                 "type": "array",
                 "description": "Printed tables.",
-                "items": table("A printed table.", printed, &["name", "text"]),
+                "items": table("A printed table.", &printed, &["name", "text"]),
             },
             "sample": { "type": "array", "description": "Samples with their printed statistics.", "items": sample() },
             "relation": {

@@ -57,7 +57,7 @@ impl Check {
             say!("  {} is taken for a {kind}, not for a study", path.display());
         }
         if self.rerun > 0 {
-            rerun(&paper, &places, self.rerun, self.threads as usize).map_err(Failure::as_check)?;
+            rerun(&paper, &places, self.rerun, self.threads as usize).map_err(Failure::in_check)?;
         }
         Ok(())
     }

@@ -34,7 +34,7 @@ impl Judge {
         let paper = super::load::load(&places, &how)?;
         let point = how.point(&paper.readings())?;
         if self.check {
-            return check(&paper, point, &places).map_err(Failure::as_check);
+            return check(&paper, point, &places).map_err(Failure::in_check);
         }
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         verdicts::print(&judge(&paper, point, &places)?);

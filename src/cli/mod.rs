@@ -1,7 +1,7 @@
 //! The command line: one subcommand a file.
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
-//! wrong input files; 3 a check said no: something is not as stored, is judged otherwise, is impossible, or an independent judge
+//! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
 //! disagrees; 4 `crosscheck` lacks Python or the network; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
@@ -151,7 +151,7 @@ impl Failure {
     }
 
     /// The same as what a check says: that something is not as stored is its answer, and no wrong input.
-    fn as_check(self) -> Self {
+    fn in_check(self) -> Self {
         Self { code: if self.is_touched { 3 } else { self.code }, ..self }
     }
 }

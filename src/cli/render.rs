@@ -36,7 +36,7 @@ impl Render {
         let stop = stop_flag();
         if self.check {
             let drawn = draw(&paper, &places, self.only.as_deref(), stop);
-            return drawn.and_then(|drawn| check(&paper, &places, &drawn)).map_err(Failure::as_check);
+            return drawn.and_then(|drawn| check(&paper, &places, &drawn)).map_err(Failure::in_check);
         }
         check_report(&paper, &places)?;
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };

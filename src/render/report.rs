@@ -123,7 +123,7 @@ fn place(name: &str) -> String {
 fn linked(text: &str, verdicts: &Verdicts, details: &str) -> String {
     let safe = markdown(text);
     let pieces: Vec<&str> = safe.split('`').collect();
-    if pieces.len() % 2 == 0 {
+    if pieces.len().is_multiple_of(2) {
         return safe;
     }
     let piece = |(at, piece): (usize, &&str)| match (at % 2, verdicts.claim(piece)) {

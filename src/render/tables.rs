@@ -29,7 +29,7 @@ fn beside<'a>(
     let classes: Vec<Option<&Judged>> =
         row.claims.iter().map(|claim| verdicts.claim(claim.get_ref())).collect();
     let printed = classes.iter().map(|judged| judged.and_then(|judged| judged.printed.clone()));
-    let estimate = |judged: &Option<&Judged>| {
+    let estimate = |judged: Option<&Judged>| {
         let ours = judged.and_then(Judged::ours)?;
         Some(rounded(ours, table.decimals.unwrap_or(2)))
     };
@@ -41,7 +41,7 @@ fn beside<'a>(
             };
             own.into_iter().map(|value| value.map(shown)).collect()
         }
-        None => classes.iter().map(estimate).collect(),
+        None => classes.iter().copied().map(estimate).collect(),
     };
     let or_dash = |cell: Option<String>| cell.unwrap_or_else(dash);
     let (printed, ours) = (printed.map(or_dash).collect(), ours.into_iter().map(or_dash).collect());
@@ -111,7 +111,7 @@ pub fn markdown(
 ) -> Result<String, RenderError> {
     let mut lines: Vec<Vec<String>> = Vec::new();
     let is_wide = table.columns.len() > 2 || table.rows.iter().any(|row| row.claims.is_empty());
-    let class = |judged: &Option<&Judged>| judged.map_or_else(dash, &link);
+    let class = |judged: Option<&Judged>| judged.map_or_else(dash, &link);
     let escaped = |cells: &[String]| cells.iter().map(|cell| safe(cell)).collect::<Vec<_>>();
     let line = |first: &str, second: &str, cells: Vec<String>| {
         [first, second].map(str::to_owned).into_iter().chain(cells).collect::<Vec<_>>()
@@ -123,12 +123,12 @@ pub fn markdown(
             Some(Beside { printed, ours, classes }) if is_wide => {
                 lines.push(line(&label, "printed", escaped(&printed)));
                 lines.push(line("", "ours", escaped(&ours)));
-                lines.push(line("", "class", classes.iter().map(class).collect()));
+                lines.push(line("", "class", classes.iter().copied().map(class).collect()));
             }
             Some(Beside { printed, ours, classes }) => {
                 let cells = printed.iter().zip(&ours).zip(&classes);
                 let cells =
-                    cells.flat_map(|((printed, ours), judged)| [safe(printed), safe(ours), class(judged)]);
+                    cells.flat_map(|((printed, ours), judged)| [safe(printed), safe(ours), class(*judged)]);
                 lines.push(std::iter::once(label).chain(cells).collect());
             }
         }
@@ -143,7 +143,7 @@ pub fn markdown(
     };
     let rule = vec!["---".to_owned(); head.len()];
     let lines = [head, rule].into_iter().chain(lines);
-    Ok(lines.map(|cells| format!("| {} |\n", cells.join(" | "))).collect())
+    Ok(lines.map(|cells| format!("| {} |\n", cells.join(" | "))).collect::<Vec<_>>().concat())
 }
 
 /// What a proof that a claim is impossible takes for granted.

@@ -3,8 +3,10 @@
 use replan::analysis::class::Verdict;
 use replan::analysis::criterion;
 use replan::analysis::verdict::Verdicts;
+use replan::study::Inputs;
 use replan::study::manifest::Manifest;
-use replan::study::store::read_records;
+use replan::study::paper::Paper;
+use replan::study::store::{Columns, Exhibits, Staged, read_records, stage_records};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -37,6 +39,30 @@ fn the_report_has_a_chapter_for_every_paper_in_the_order_of_their_names() {
         let name = paper.unwrap().file_name().into_string().unwrap();
         assert!(chapters.contains(&name), "no chapter of {name} in {chapters:?}");
     }
+}
+
+#[test]
+fn stored_records_are_the_bytes_that_this_program_would_write_of_them() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut studies = 0;
+    for folder in fs::read_dir(root.join("experiments")).unwrap().map(|entry| entry.unwrap().path()) {
+        let inputs = Inputs { roots: vec![folder.clone(), root.to_owned()] };
+        let paper = Paper::load(&folder, &inputs).unwrap();
+        let runs = root.join("data/runs").join(&paper.id);
+        for study in &paper.studies {
+            let manifest = Manifest::read(&runs, &study.name).unwrap();
+            let records = read_records(&runs, &study.name, &manifest.files).unwrap();
+            let values: Vec<&'static str> = study.columns().into_iter().collect();
+            let columns = Columns { keys: study.key_columns(), values: &values };
+            let place = tempfile::tempdir().unwrap();
+            let exhibits = Exhibits::held(&records.batch.kept);
+            let mut staged = Staged::default();
+            let written = stage_records(&mut staged, place.path(), &study.name, &columns, &records, exhibits);
+            assert_eq!(written.unwrap(), manifest.files, "{}: {}", paper.id, study.name);
+            studies += 1;
+        }
+    }
+    assert!(studies > 15, "only {studies} stored studies");
 }
 
 #[test]

@@ -161,9 +161,7 @@ fn stored_texts_that_cannot_be_read_are_told_in_words_of_ours() {
     for (name, again) in
         [("verdicts", "`replan judge` writes it again"), ("scenarios.manifest", "run the study again")]
     {
-        for (from, to, place) in
-            [("quick = false", "quick = 3", ":3:9: "), ("quick = false", "quick = ", ":3:9: ")]
-        {
+        for to in ["quick = 3", "quick = "] {
             let bench = committed();
             let file = format!("{RUNS}/{name}.toml");
             bench.edit(&file, "quick = false", to);

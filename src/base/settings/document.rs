@@ -151,7 +151,7 @@ impl Document {
             with: Vec::new(),
             about: None,
             message: message.into(),
-            excerpt: printable(text[line_start..].lines().next().unwrap_or_default().trim_end()),
+            excerpt: printable(text[line_start..].lines().next().unwrap_or_default().trim_end()).into(),
         }
     }
 

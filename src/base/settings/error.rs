@@ -26,11 +26,11 @@ pub enum SettingsError {
         /// What was laid over what stands there: readings, sweeps.
         with: Vec<String>,
         /// The name that was looked up, if it was not found.
-        about: Option<String>,
+        about: Option<Box<str>>,
         /// What was found and what is accepted.
         message: String,
         /// The line itself.
-        excerpt: String,
+        excerpt: Box<str>,
     },
     /// A table that was put together by the program (a reading or a sweep laid over a spec) is wrong.
     #[error("{origin}: {message}")]
@@ -103,7 +103,7 @@ impl SettingsError {
     #[must_use]
     pub fn about(mut self, word: &str) -> Self {
         if let Self::At { about, .. } = &mut self {
-            *about = Some(word.to_owned());
+            *about = Some(word.into());
         }
         self
     }
@@ -192,7 +192,7 @@ impl Faults {
     /// All that is wrong, in the order of the places; only for who has added a fault.
     pub fn error(mut self) -> SettingsError {
         let is_told = |fault: &SettingsError| match fault {
-            SettingsError::At { about: Some(name), .. } => !self.unread.contains(name),
+            SettingsError::At { about: Some(name), .. } => !self.unread.contains(&**name),
             _ => true,
         };
         self.found.retain(is_told);

@@ -25,7 +25,9 @@ impl Document {
         }
         let mut names = Vec::new();
         let salvaged = self.in_part(|value| salvage(schema, value, &mut names));
-        names.into_iter().for_each(|name| faults.unread(name));
+        for name in names {
+            faults.unread(name);
+        }
         salvaged
     }
 }
@@ -80,7 +82,9 @@ fn remove(value: &mut DeValue<'_>, span: &Range<usize>, names: &mut Vec<String>)
             if elements.iter().any(|inner| is_it(None, inner)) {
                 let all = std::mem::replace(elements, DeArray::new()).into_iter();
                 let (gone, kept): (Vec<_>, Vec<_>) = all.partition(|inner| is_it(None, inner));
-                gone.iter().for_each(|inner| gather(inner.get_ref(), names));
+                for inner in &gone {
+                    gather(inner.get_ref(), names);
+                }
                 *elements = kept.into_iter().collect();
                 return true;
             }

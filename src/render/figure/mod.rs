@@ -114,7 +114,7 @@ pub struct Entry {
 /// What stands below a figure: its caption, and what its kind shows of how many draws and trials.
 pub fn caption(spec: &FigureSpec, run: &Run<'_>) -> String {
     let Some(entry) = find(spec.kind.get_ref()) else { return spec.caption.clone() };
-    let settings = spec.settings.as_ref().map(|settings| settings.get_ref());
+    let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { draws, solved, all } = trials(run, settings);
     let n = format!("n = {draws} draws, {solved} of {all} trials solved");
     format!("{} {}", spec.caption, entry.statistic.replace("{n}", &n))
@@ -228,12 +228,12 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
         Some(settings) => Settings::written(&study.document, settings),
         None => Settings::composed(String::new(), Toml::new()),
     };
-    let kind = (entry.build)(&settings, study, paper).map_err(|error| match figure.settings {
-        Some(_) => error,
-        None => {
-            let message = format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message());
-            study.document.error(figure.id.span(), message).about("settings")
+    let kind = (entry.build)(&settings, study, paper).map_err(|error| {
+        if figure.settings.is_some() {
+            return error;
         }
+        let message = format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message());
+        study.document.error(figure.id.span(), message).about("settings")
     })?;
     if !["figure", "keep"].iter().any(|key| study.document.is_part(key)) {
         check_kept(figure, study, kind.as_ref())?;

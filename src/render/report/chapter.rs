@@ -67,7 +67,8 @@ impl Page<'_> {
         let state = state(self.evidence, verdicts);
         let mut text = heading(paper);
         if !state.is_empty() {
-            let state: String = state.iter().map(|said| format!("\n**{}**\n", markdown(said))).collect();
+            let state = state.iter().map(|said| format!("\n**{}**\n", markdown(said)));
+            let state = state.collect::<Vec<_>>().concat();
             text.insert_str(text.find('\n').unwrap_or(0) + 1, &state);
         }
         // Findings were written on the study's own run; of any other they may be false.

@@ -28,27 +28,22 @@ impl Page<'_> {
         text += "\n\n";
         text += &paragraph(&format!("Made by `{}`.", verdicts.command));
         text.extend(paper.source.notes.iter().map(|note| item(0, &markdown(note))));
-        self.section(&mut text, 0);
+        section(&mut text, 0);
         let mut known = BTreeMap::new();
         text.extend(verdicts.claims.iter().map(|judged| evidence(judged, verdicts, &mut known)));
-        self.section(&mut text, 1);
+        section(&mut text, 1);
         self.together(&mut text);
-        self.section(&mut text, 2);
+        section(&mut text, 2);
         self.readings(&mut text);
-        self.section(&mut text, 3);
+        section(&mut text, 3);
         self.changes(&mut text);
-        self.section(&mut text, 4);
+        section(&mut text, 4);
         self.shown_besides(&mut text);
-        self.section(&mut text, 5);
+        section(&mut text, 5);
         text.extend(paper.ledger.iter().map(|row| self.ledger(row)));
-        self.section(&mut text, 6);
+        section(&mut text, 6);
         self.studies(&mut text);
         text.trim_end().to_owned() + "\n"
-    }
-
-    fn section(&self, text: &mut String, at: usize) {
-        let (name, to) = SECTIONS[at];
-        *text += &format!("\n## {name} {}\n\n", place(to));
     }
 
     fn together(&self, text: &mut String) {
@@ -239,6 +234,11 @@ pub(super) const SECTIONS: [(&str, &str); 7] = [
     ("Ledger", "ledger"),
     ("Studies", "studies"),
 ];
+
+fn section(text: &mut String, at: usize) {
+    let (name, to) = SECTIONS[at];
+    *text += &format!("\n## {name} {}\n\n", place(to));
+}
 
 fn links(claims: &[impl AsRef<str>]) -> String {
     let link = |claim: &str| format!("[`{claim}`](#{})", anchor(claim));

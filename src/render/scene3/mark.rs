@@ -196,7 +196,7 @@ fn draw_items(canvas: &mut Canvas, lens: &Lens, items: &[Item]) {
             match look {
                 Look::Face(_, color, opacity) if opacity >= 1.0 => canvas.face(points, color),
                 Look::Face(_, color, opacity) => {
-                    canvas.polygon(points, Some(Fill::sheer(color, opacity)), None)
+                    canvas.polygon(points, Some(Fill::sheer(color, opacity)), None);
                 }
                 Look::Line(stroke) => canvas.polyline(points, &stroke),
             }

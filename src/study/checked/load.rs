@@ -53,10 +53,7 @@ impl Study {
 
     /// The study as far as its names exist; what does not goes to `faults`.
     fn resolve(name: String, spec: StudySpec, document: &Arc<Document>, faults: &mut Faults) -> Self {
-        unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
-        unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
-        unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
-        unique(document, "figure", spec.figures.iter().map(|f| &f.id), faults);
+        check_labels(&spec, document, faults);
         check_selections(&spec, document, faults);
         let named = spec
             .task
@@ -115,6 +112,14 @@ fn read_all<S, T>(
         }
     }
     all
+}
+
+/// Labels are told apart in the names of trials.
+fn check_labels(spec: &StudySpec, document: &Document, faults: &mut Faults) {
+    unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
+    unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
+    unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
+    unique(document, "figure", spec.figures.iter().map(|f| &f.id), faults);
 }
 
 fn unique<'a>(

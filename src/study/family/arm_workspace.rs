@@ -109,14 +109,7 @@ impl ArmWorkspace {
         };
         let obstacles = self.obstacles().map_err(|(key, message)| settings.error_at(&key, message))?;
         let world = ArmWorld::new(rules, obstacles.clone());
-        let mut faults = Faults::default();
-        for query in &queries {
-            for (what, key, point) in [("start", "start_cm", &query.start), ("goal", "goal_cm", &query.goal)]
-            {
-                faults.keep(world.free_cell(what, point).map_err(refuse(key)));
-            }
-        }
-        faults.done()?;
+        check_ends(&world, &queries, settings)?;
         Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
     }
 
@@ -137,6 +130,17 @@ impl ArmWorkspace {
         });
         shaped.collect()
     }
+}
+
+fn check_ends(world: &ArmWorld, queries: &[Query], settings: &Settings) -> Result<(), SettingsError> {
+    let mut faults = Faults::default();
+    for query in queries {
+        for (what, key, point) in [("start", "start_cm", &query.start), ("goal", "goal_cm", &query.goal)] {
+            let free = world.free_cell(what, point);
+            faults.keep(free.map_err(|message| settings.error_at(key, message)));
+        }
+    }
+    faults.done()
 }
 
 struct Posed {

@@ -253,7 +253,7 @@ struct Posed {
     bounds_rad: [[f64; 2]; AXES],
     branch: Option<Branch>,
     queries: Vec<Query>,
-    posed: Result<(), SettingsError>,
+    ends: Result<(), SettingsError>,
     inputs: Vec<PathBuf>,
 }
 
@@ -276,13 +276,13 @@ impl Posed {
         let placed = read_queries(&document)?;
         let scene = if read.obstacles { scene } else { Scene::empty() };
         let cell = Cell::new(robot, scene, read.self_collision);
-        let posed = posed(&cell, &document, &placed);
+        let ends = posed(&cell, &document, &placed);
         let (queries, _) = placed;
         let bounds_rad = bounds_rad(&cell, read.region, &queries);
         let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
         let branch = (read.region == Region::OneBranch).then(|| cell.robot().arm().branch_of(&home));
         let inputs = files.into_iter().chain(cell.robot().files().iter().cloned()).collect();
-        Ok(Self { read, cell, bounds_rad, branch, queries, posed, inputs })
+        Ok(Self { read, cell, bounds_rad, branch, queries, ends, inputs })
     }
 
     /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.
@@ -361,7 +361,7 @@ impl Family for Posed {
     }
 
     fn check_ends(&self) -> Result<(), SettingsError> {
-        self.posed.clone()
+        self.ends.clone()
     }
 
     fn cells(&self) -> u64 {
