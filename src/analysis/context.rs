@@ -3,9 +3,9 @@
 use super::metric::{self, Metric};
 use super::selection_spec::Labels;
 use crate::study::paper::{self, Claim, Paper};
-
 use crate::study::{ReadingChoice, Study, columns_of};
-use audit::printed::{Digits, Printed};
+use audit::exact::Print;
+use audit::printed::Digits;
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 use std::collections::BTreeSet;
 
@@ -42,25 +42,26 @@ impl From<paper::Digits> for Digits {
 }
 
 impl<'a> Context<'a> {
-    /// The claim's printed number.
+    /// The claim's printed number and how its digits end.
     ///
     /// # Errors
     /// The claim prints no number.
-    pub fn printed(&self) -> Result<Printed, SettingsError> {
+    pub fn print(&self) -> Result<Print, SettingsError> {
         let missing = || format!("claim `{}` prints no number, which is needed here", self.claim.id);
         let text = self.claim.printed.as_ref().ok_or_else(|| self.settings.error(missing()))?;
         let about = || paper::printed_by(&self.claim.id);
-        text.parse().map_err(|e: audit::AuditError| self.settings.error(e.to_string()).about(&about()))
+        let refused = |e: audit::AuditError| self.settings.error(e.to_string()).about(&about());
+        let printed = text.parse().map_err(refused)?;
+        let digits = self.claim.digits.or_else(|| self.point.digits()).unwrap_or(paper::Digits::Unknown);
+        Ok(Print { printed, digits: digits.into() })
     }
 
-    /// The printed number of another claim.
+    /// That of another claim.
     ///
     /// # Errors
     /// There is no such claim, or it prints no number.
-    pub fn printed_of(&self, id: &str) -> Result<(Printed, Digits), SettingsError> {
-        let other = self.claim_called(id)?;
-        let context = Context { claim: other, ..*self };
-        Ok((context.printed()?, context.digits()))
+    pub fn print_of(&self, id: &str) -> Result<Print, SettingsError> {
+        Context { claim: self.claim_called(id)?, ..*self }.print()
     }
 
     /// The claim called `id`.
@@ -72,12 +73,6 @@ impl<'a> Context<'a> {
             let known = self.paper.claims.iter().map(|claim| claim.id.as_str());
             self.settings.error_about("", &[""], id, none_called("claim", id, known))
         })
-    }
-
-    /// How the claim's digits end.
-    pub fn digits(&self) -> Digits {
-        let digits = self.claim.digits.or_else(|| self.point.digits());
-        digits.unwrap_or(paper::Digits::Unknown).into()
     }
 
     /// The study called `name`, which must have the contenders named; `within` is the part of the settings that names them.

@@ -2,7 +2,7 @@
 
 use super::metric::{self, Metric};
 use super::polylines::Polylines;
-use crate::study::key::{DrawKey, Owner, ReadingKey, SweepKey, Text, TrialKey};
+use crate::study::key::{Owner, ReadingKey, Text, TrialKey};
 use crate::study::manifest::Manifest;
 use crate::study::name::Names;
 use crate::study::paper::Paper;
@@ -49,8 +49,6 @@ struct Index {
     names: Names,
     /// Rows by reading, group and contender, in the order of records.
     rows: BTreeMap<ReadingKey, Groups>,
-    /// Prepared objects by what names them.
-    prepared: BTreeMap<Arc<DrawKey>, usize>,
     /// Exhibits by their owners.
     kept: BTreeMap<Owner, Vec<usize>>,
     /// The clock readings of each timed trial by session, from 1; those of several are never pooled.
@@ -68,35 +66,7 @@ pub struct Pair<'a> {
     pub other: &'a Row,
 }
 
-/// One problem measured with two contenders.
-pub struct Measured {
-    /// The metric of the one that the other is compared with, and of the other.
-    pub values: (f64, f64),
-    /// The other's trial, as `--trial` takes it.
-    pub trial: String,
-}
-
 impl<'a> Evidence<'a> {
-    /// `metric` of two contenders on every problem of the groups of `study` that both solved and where it was measured
-    /// for both.
-    pub fn measured(
-        &self,
-        study: &str,
-        groups: &[String],
-        metric: &Metric,
-        base: &str,
-        other: &str,
-    ) -> Vec<Measured> {
-        let Some(run) = self.run(study) else { return Vec::new() };
-        let pairs = groups.iter().flat_map(|group| run.pairs(group, base, other));
-        pairs
-            .filter_map(|pair| {
-                let values = (run.value(pair.base, metric)?, run.value(pair.other, metric)?);
-                Some(Measured { values, trial: run.trial(pair.other) })
-            })
-            .collect()
-    }
-
     /// Reads the runs of every study of `paper` from `folder`, to be judged under the reading `point`.
     ///
     /// # Errors
@@ -249,13 +219,6 @@ impl<'a> Run<'a> {
         found.into_iter().flatten().map(|row| &self.records.batch.rows[*row]).collect()
     }
 
-    /// As [`rows`](Self::rows), at one point of the sweeps.
-    pub fn rows_at(&self, group: &str, contender: &str, sweep: &SweepKey) -> Vec<&Row> {
-        let mut rows = self.rows(group, contender);
-        rows.retain(|row| row.key.sweep == *sweep);
-        rows
-    }
-
     /// The name of a trial, with its study, as `--trial` takes it.
     pub fn trial(&self, row: &Row) -> String {
         format!("{}/{}", self.study.name, self.index.names.trial(&row.key))
@@ -281,26 +244,6 @@ impl<'a> Run<'a> {
         let bases = Cases::of(self.rows(group, base).into_iter().filter(solved));
         let others = self.rows(group, other).into_iter().filter(solved);
         others.filter_map(|other| Some(Pair { base: bases.same(other)?, other })).collect()
-    }
-
-    /// `metric` of `contender` on every problem of `group` that it solved or, with `against`, the reduction in per
-    /// cent from that contender's, where both solved it and the base is not 0.
-    pub fn changes(&self, group: &str, contender: &str, against: Option<&str>, metric: &Metric) -> Vec<f64> {
-        let pairs = self.pairs(group, against.unwrap_or(contender), contender);
-        let change = |pair: &Pair<'_>| {
-            let other = self.value(pair.other, metric)?;
-            if against.is_none() {
-                return Some(other);
-            }
-            let base = self.value(pair.base, metric)?;
-            (base > 0.0).then(|| 100.0 * (base - other) / base)
-        };
-        pairs.iter().filter_map(change).collect()
-    }
-
-    /// The prepared object that the trial `row` was run on.
-    pub fn prepared_of(&self, row: &Row) -> Option<&PreparedRow> {
-        self.index.prepared.get(&row.key.on).map(|place| &self.records.batch.prepared[*place])
     }
 
     /// The prepared objects of the problem group `group` under the reading, in the order of draws.
@@ -361,7 +304,6 @@ impl Index {
                 }
             }
         }
-        index.prepared = records.batch.prepared.iter().map(|row| row.key.clone()).zip(0..).collect();
         for (place, kept) in records.batch.kept.iter().enumerate() {
             index.kept.entry(kept.of.clone()).or_default().push(place);
         }

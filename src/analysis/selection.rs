@@ -63,14 +63,13 @@ impl Case<'_> {
         self.pair().filter(|(base, _)| *base > 0.0).map(|(base, own)| 100.0 * (1.0 - own / base))
     }
 
-    /// Whether some side has no number although it might have one: not because there is no path for either.
+    /// Whether some side has no number although it might have one: not because there is no path for either, nor because the
+    /// clock, which is read for some trials only, was not read where both are solved.
     pub fn is_censored(&self) -> bool {
         let no_path = |row: &Row| row.status == Status::NoPath;
         match self.base {
-            Some(base) => {
-                self.pair().is_none() && !(no_path(self.row) && no_path(base)) && !self.is_unmeasured()
-            }
-            None => self.value.is_none() && !no_path(self.row) && !self.is_unmeasured(),
+            Some(base) => self.pair().is_none() && !(no_path(self.row) && no_path(base)) && !self.is_solved(),
+            None => self.value.is_none() && !no_path(self.row) && !self.is_solved(),
         }
     }
 
@@ -80,10 +79,9 @@ impl Case<'_> {
         is_cut(self.row) || self.base.is_some_and(is_cut)
     }
 
-    /// Whether both sides are solved, and one was not measured: the clock is read for some trials only.
-    fn is_unmeasured(&self) -> bool {
-        let solved = |row: &Row| row.status == Status::Solved;
-        solved(self.row) && self.base.is_none_or(solved)
+    /// Whether everyone who is compared solved it.
+    pub fn is_solved(&self) -> bool {
+        self.row.is_solved() && self.base.is_none_or(Row::is_solved)
     }
 }
 
@@ -154,13 +152,18 @@ impl<'a> Selection<'a> {
         evidence.run(&self.study.name)
     }
 
+    /// The name of a case's trial, as `--trial` takes it.
+    pub fn trial(&self, evidence: &Evidence<'_>, case: Option<&Case<'_>>) -> Option<String> {
+        Some(self.run(evidence)?.trial(case?.row))
+    }
+
     /// The trials of its contenders, by draw; problems that could not be posed are left out, and so, if only whole draws
     /// count, are draws of which something is not solved.
     pub fn draws<'e>(&self, evidence: &'e Evidence<'_>) -> Vec<Draw<'e>> {
         let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
         let mut draws: Vec<Draw<'e>> = Vec::new();
         let reader = self.metric.map(|metric| run.reader(metric));
-        let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| row.status == Status::Solved)?);
+        let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| row.is_solved())?);
         for group in &self.groups {
             let bases = self.against.as_ref().map(|against| Cases::of(self.rows(run, group, against)));
             let mut places: BTreeMap<(u32, u32), usize> = BTreeMap::new();
@@ -210,9 +213,7 @@ impl<'a> Selection<'a> {
 }
 
 fn sweep_point(context: &Context<'_>, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
-    study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
-        let known: Vec<String> = study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
-        let message = format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
+    study.sweep_called(text).map_err(|message| {
         context.settings.error_at("of.sweep", message).about(&format!("sweeps of {}", study.name))
     })
 }
@@ -225,6 +226,19 @@ impl Draw<'_> {
         Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
     }
 
+    /// What it holds at one point of the sweeps.
+    #[must_use]
+    pub fn at(&self, sweep: &SweepKey) -> Self {
+        let is_own = |case: &&Case<'_>| case.row.key.sweep == *sweep;
+        Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
+    }
+
+    /// The share of its cases, in per cent, of which `is_hit` holds; none without cases.
+    pub fn percent(&self, is_hit: impl Fn(&Case<'_>) -> bool) -> Option<f64> {
+        let hits = self.cases.iter().filter(|case| is_hit(case)).count();
+        (!self.cases.is_empty()).then(|| 100.0 * hits as f64 / self.cases.len() as f64)
+    }
+
     /// The numbers of its cases.
     pub fn values(&self) -> Vec<f64> {
         self.cases.iter().filter_map(|case| case.value).collect()
@@ -232,8 +246,7 @@ impl Draw<'_> {
 
     /// Whether all that is compared is solved on it.
     pub fn is_whole(&self) -> bool {
-        let solved = |row: &Row| row.status == Status::Solved;
-        self.cases.iter().all(|case| solved(case.row) && case.base.is_none_or(solved))
+        self.cases.iter().all(Case::is_solved)
     }
 }
 
@@ -248,35 +261,42 @@ pub fn posed(run: &Run<'_>, group: &str) -> [usize; 2] {
     [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
 }
 
+/// Every case of every draw.
+pub fn cases<'d, 'e>(draws: &'d [Draw<'e>]) -> impl Iterator<Item = &'d Case<'e>> {
+    draws.iter().flat_map(|draw| &draw.cases)
+}
+
 /// Of all cases those that are solved by everyone who is compared, and all.
 pub fn solved(draws: &[Draw<'_>]) -> [usize; 2] {
-    let is_solved = |row: &Row| row.status == Status::Solved;
-    let cases = || draws.iter().flat_map(|draw| &draw.cases);
-    let both = cases().filter(|case| is_solved(case.row) && case.base.is_none_or(is_solved));
-    [both.count(), cases().count()]
+    [cases(draws).filter(|case| case.is_solved()).count(), cases(draws).count()]
 }
 
 /// Cases that have no number on some side although they might.
 pub fn censored(draws: &[Draw<'_>]) -> usize {
-    draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_censored()).count()
+    cases(draws).filter(|case| case.is_censored()).count()
 }
 
 /// Cases that did not come to an end on some side.
 pub fn unended(draws: &[Draw<'_>]) -> usize {
-    draws.iter().flat_map(|draw| &draw.cases).filter(|case| case.is_unended()).count()
+    cases(draws).filter(|case| case.is_unended()).count()
 }
 
 /// Both numbers of every case that has them, the other contender's first, by draw; draws without any are left out.
 pub fn pairs(draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
-    let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(Case::pair).collect::<Vec<_>>();
-    draws.iter().map(of_draw).filter(|pairs| !pairs.is_empty()).collect()
+    by_draw(draws, Case::pair)
+}
+
+/// What `of` takes of the cases of each draw; draws that give nothing are left out.
+pub fn by_draw<'e, T>(draws: &[Draw<'e>], of: impl Fn(&Case<'e>) -> Option<T>) -> Vec<Vec<T>> {
+    let of_draw = |draw: &Draw<'e>| draw.cases.iter().filter_map(&of).collect::<Vec<T>>();
+    draws.iter().map(of_draw).filter(|all| !all.is_empty()).collect()
 }
 
 /// The pairs of every draw with its censored cases filled in by a difference that outweighs all that were seen: against the
 /// contender where it alone failed, for it where the other did (no number is below 0), and where that is not known once one
 /// way and once the other. What is found every time does not hang on them. Nothing where nothing is censored.
 pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64, f64)>>> {
-    let seen = || draws.iter().flat_map(|draw| &draw.cases).filter_map(Case::pair);
+    let seen = || cases(draws).filter_map(Case::pair);
     let count = seen().count();
     let greatest = seen().map(|(base, own)| (own - base).abs()).fold(0.0, f64::max);
     let most = greatest * count as f64;
@@ -299,11 +319,7 @@ pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64
         let filled = || (middle, (middle + way * most).max(0.0));
         case.pair().or_else(|| case.is_censored().then(filled))
     };
-    let all = |unknown: f64| {
-        let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|case| number(case, unknown)).collect();
-        draws.iter().map(of_draw).filter(|pairs: &Vec<_>| !pairs.is_empty()).collect()
-    };
-    vec![all(1.0), all(-1.0)]
+    [1.0, -1.0].map(|unknown| by_draw(draws, |case| number(case, unknown))).to_vec()
 }
 
 /// The trial whose number, as `of` takes it, is nearest to `value`.
@@ -314,8 +330,7 @@ pub fn nearest(
     of: impl Fn(&Case<'_>) -> Option<f64>,
     value: f64,
 ) -> Option<String> {
-    let cases = draws.iter().flat_map(|draw| &draw.cases);
-    let apart = cases.filter_map(|case| Some((case.row, (of(case)? - value).abs())));
-    let (row, _) = apart.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some(selection.run(evidence)?.trial(row))
+    let apart = cases(draws).filter_map(|case| Some((case, (of(case)? - value).abs())));
+    let nearest = apart.min_by(|a, b| a.1.total_cmp(&b.1));
+    selection.trial(evidence, nearest.map(|(case, _)| case))
 }

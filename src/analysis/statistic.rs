@@ -2,14 +2,13 @@
 //!
 //! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
 
-use super::selection::{Case, Draw};
+use super::selection::{Case, Draw, by_draw, cases};
 use super::verdict::Estimate as VerdictEstimate;
-use crate::study::record::{Row, Status};
+use crate::study::record::Row;
 use base::seed;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bands::{Band, sup_t};
-use stats::bootstrap::{Estimate, Resampling, percentile};
+use stats::bootstrap::{Estimate, Resampling};
 use stats::interval::Interval;
 use stats::pooled;
 use stats::proportion::clopper_pearson;
@@ -63,8 +62,7 @@ impl OfDraw {
     /// The number that `draw` gives, of the metric or, with another contender, of what is saved against it in per cent.
     pub fn of(self, draw: &Draw<'_>) -> Option<f64> {
         if self == Self::SolvedPercent {
-            let solved = draw.cases.iter().filter(|case| case.row.status == Status::Solved).count();
-            return (!draw.cases.is_empty()).then(|| 100.0 * solved as f64 / draw.cases.len() as f64);
+            return draw.percent(|case| case.row.is_solved());
         }
         let number = |case: &Case<'_>| if case.base.is_some() { case.saving_percent() } else { case.value };
         let numbers: Vec<f64> = draw.cases.iter().filter_map(number).collect();
@@ -132,8 +130,10 @@ impl OfAll {
         if self == Self::RatioOfGroups {
             return of_groups(draws, plan);
         }
-        let values: Vec<Vec<f64>> = draws.iter().map(|draw| self.values(draw)).collect();
-        let values: Vec<Vec<f64>> = values.into_iter().filter(|values| !values.is_empty()).collect();
+        let values = by_draw(draws, |case| match (self, case.value) {
+            (Self::Median, None) if !case.row.is_solved() => Some(f64::INFINITY),
+            (_, value) => value,
+        });
         let sums = || values.iter().map(|draw| [draw.iter().sum(), draw.len() as f64]).collect::<Vec<_>>();
         match self {
             Self::Median => pooled::median(&values, plan),
@@ -155,14 +155,6 @@ impl OfAll {
         let interval = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
         Some(Estimate { value: percent(ratio.value), interval, ..ratio })
     }
-
-    fn values(self, draw: &Draw<'_>) -> Vec<f64> {
-        let value = |case: &Case<'_>| match (self, case.value) {
-            (Self::Median, None) if case.row.status != Status::Solved => Some(f64::INFINITY),
-            (_, value) => value,
-        };
-        draw.cases.iter().filter_map(value).collect()
-    }
 }
 
 /// The median on the first group over that on the second, the interval from the ends of both; of a single draw the number
@@ -171,8 +163,7 @@ fn of_groups(draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
     let first = draws.first()?.group;
     let side = |is_first: bool| {
         let own = draws.iter().filter(|draw| (draw.group == first) == is_first);
-        let values: Vec<Vec<f64>> =
-            own.map(|draw| draw.cases.iter().filter_map(|case| case.value).collect()).collect();
+        let values: Vec<Vec<f64>> = own.map(Draw::values).collect();
         let median = summary::median(&values.concat())?;
         let found = pooled::median(&values, plan);
         Some((median, found.map_or(Interval::new(median, median), |found| found.interval)))
@@ -182,68 +173,20 @@ fn of_groups(draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
     Some(Estimate { value: above / below, interval, units: draws.len(), undefined: 0 })
 }
 
-/// The mean of one number a draw, with its interval; none below two.
-pub fn mean_of_draws(values: &[f64], plan: Resampling) -> Option<Estimate> {
-    stats::bootstrap::mean(values, plan)
-}
-
-/// The mean of the draws' curves with a band that holds all of it at once; none below two.
-pub fn band_of_draws(curves: &[Vec<f64>], plan: Resampling) -> Option<Band> {
-    sup_t(curves, plan)
-}
-
-/// How far the mean of the draws' curves is from `printed`, as the root of the mean square; none below two.
-pub fn distance_of_draws(curves: &[Vec<f64>], printed: &[f64], plan: Resampling) -> Option<Estimate> {
-    let distance = |draws: &[&Vec<f64>]| {
-        let mean = |cell: usize| draws.iter().map(|draw| draw[cell]).sum::<f64>() / draws.len() as f64;
-        let squares = printed.iter().enumerate().map(|(cell, value)| (mean(cell) - value).powi(2));
-        (!draws.is_empty()).then(|| (squares.sum::<f64>() / printed.len() as f64).sqrt())
-    };
-    percentile(curves, distance, plan)
-}
-
-/// The numbers of `cells` at each place, draw by draw, for as many draws as every place has.
-pub fn curves_of_draws(cells: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let draws = cells.iter().map(Vec::len).min().unwrap_or(0);
-    (0..draws).map(|draw| cells.iter().map(|cell| cell[draw]).collect()).collect()
-}
-
 /// By how many points the share solved of a draw's queries differs between two selections; queries that cannot be posed in
 /// either are left out of both.
 pub fn differences_percent([base, other]: [&[Draw<'_>]; 2]) -> Vec<f64> {
-    let solved = |row: &Row| f64::from(u8::from(row.status == Status::Solved));
+    let solved = |row: &Row| f64::from(u8::from(row.is_solved()));
     let case = |row: &Row| (row.draw(), row.key.repeat, row.query().to_owned());
-    let cases = |of: usize| [base, other][of].iter().flat_map(|draw| &draw.cases);
-    let bases: BTreeMap<_, f64> = cases(0).map(|own| (case(own.row), solved(own.row))).collect();
+    let bases: BTreeMap<_, f64> = cases(base).map(|own| (case(own.row), solved(own.row))).collect();
     let mut draws: BTreeMap<(u32, u32), Vec<f64>> = BTreeMap::new();
-    for own in cases(1) {
+    for own in cases(other) {
         if let Some(base) = bases.get(&case(own.row)) {
             let unit = (own.row.draw(), own.row.key.repeat);
             draws.entry(unit).or_default().push(100.0 * (solved(own.row) - base));
         }
     }
     draws.values().filter_map(|draw| summary::mean(draw)).collect()
-}
-
-/// The mean of the second numbers that go with each first.
-pub fn means_along(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut along: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
-    for [x, y] in points {
-        along.entry(x.to_bits()).or_default().push(*y);
-    }
-    along.iter().filter_map(|(x, ys)| Some([f64::from_bits(*x), summary::mean(ys)?])).collect()
-}
-
-/// Where a box of `values` stands: the ends of its whiskers (5 and 95 %), quartiles and median.
-pub fn box_of(values: &[f64]) -> [f64; 5] {
-    [0.05, 0.25, 0.5, 0.75, 0.95].map(|share| summary::quantile_type7(values, share).unwrap_or(f64::NAN))
-}
-
-/// Below which number each share of `values` lies: quantiles at every half per cent, as good as every step to the eye and a
-/// tenth of the bytes.
-pub fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
-    let shares = (0..=200).map(|step| f64::from(step) / 200.0);
-    shares.filter_map(|share| Some([summary::quantile_type7(values, share)?, share])).collect()
 }
 
 /// A share of chances that are hit.

@@ -5,7 +5,7 @@ use super::metric::{self, Metric};
 use super::statistic;
 use crate::study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
 use crate::study::paper::{OursSpec, TableRow};
-use crate::study::record::{Row, Status};
+use crate::study::record::Row;
 use std::collections::BTreeSet;
 
 /// A table of results: its head and, block by block, its rows; a dash where there is nothing.
@@ -50,9 +50,8 @@ fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> St
     let number = |value: f64| {
         if value.is_finite() { format!("{value:.*}", cell.decimals) } else { "∞".to_owned() }
     };
-    let solved = |row: &Row| row.status == Status::Solved;
     // What the clock did not read has not failed.
-    let value = |row: &&Row| match (solved(row), run.value(row, metric)) {
+    let value = |row: &&Row| match (row.is_solved(), run.value(row, metric)) {
         (true, value) => value,
         (false, None) if metric.is_clock() => None,
         (false, _) => Some(f64::INFINITY),
@@ -70,12 +69,12 @@ fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> St
             .map(|q| format!("{} [{}, {}]", number(q[0]), number(q[1]), number(q[2]))),
         Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
         Show::Solved => (!rows.is_empty()).then(|| {
-            let count = rows.iter().filter(|row| solved(row)).count();
+            let count = rows.iter().filter(|row| row.is_solved()).count();
             number(100.0 * count as f64 / rows.len() as f64)
         }),
         Show::Failed => {
             let failed: Vec<f64> =
-                rows.iter().filter(|row| !solved(row)).filter_map(|row| run.value(row, metric)).collect();
+                rows.iter().filter(|row| !row.is_solved()).filter_map(|row| run.value(row, metric)).collect();
             statistic::median(&failed).map(number)
         }
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
@@ -104,7 +103,7 @@ pub fn trials(run: &Run<'_>, settings: Option<&toml::Table>) -> Trials {
     let rows = groups.iter().flat_map(|group| contenders.iter().flat_map(|one| run.rows(group, one)));
     let rows: Vec<&Row> = rows.collect();
     let draws: BTreeSet<_> = rows.iter().map(|row| (&row.key.on.group, row.draw())).collect();
-    let solved = rows.iter().filter(|row| row.status == Status::Solved).count();
+    let solved = rows.iter().filter(|row| row.is_solved()).count();
     Trials { draws: draws.len(), solved, all: rows.len() }
 }
 

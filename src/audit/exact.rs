@@ -7,6 +7,7 @@ use super::printed::{Digits, Printed};
 use num_rational::Ratio;
 use num_traits::{CheckedAdd as _, CheckedDiv as _, CheckedMul as _, CheckedSub as _};
 use serde_json::{Value, json};
+use stats::interval::Interval;
 
 /// An exact rational number.
 pub type Exact = Ratio<i128>;
@@ -99,6 +100,16 @@ pub fn parse(text: &str) -> Option<Exact> {
 }
 
 impl Print {
+    /// The closed hull of the true values that print so.
+    pub fn interval(self) -> Interval {
+        self.printed.interval(self.digits)
+    }
+
+    /// Whether the true value `x` would print so.
+    pub fn agrees(self, x: f64) -> bool {
+        self.printed.agrees(x, self.digits)
+    }
+
     /// The number that the digits say.
     pub fn value(self) -> Exact {
         Exact::new(i128::from(self.printed.units()), i128::from(self.printed.scale()))

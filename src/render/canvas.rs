@@ -224,33 +224,22 @@ impl Canvas {
 
     /// Draws a data point about `radius_pt` in radius, with a thin white rim that parts neighbours.
     pub fn marker(&mut self, at: [f64; 2], marker: Marker, radius_pt: f64, color: Rgb) {
-        let fill = Some(Fill::solid(color));
-        let rim = Stroke::solid(WHITE, 0.35);
-        let put = |shape: &[[f64; 2]]| -> Vec<[f64; 2]> {
-            shape.iter().map(|[x, y]| [at[0] + radius_pt * x, at[1] + radius_pt * y]).collect()
+        let (fill, rim) = (Some(Fill::solid(color)), Stroke::solid(WHITE, 0.35));
+        let outline: &[[f64; 2]] = match marker {
+            Marker::Circle => return self.circle(at, radius_pt, fill, Some(&rim)),
+            Marker::Square => &[[-0.88, -0.88], [0.88, -0.88], [0.88, 0.88], [-0.88, 0.88]],
+            Marker::Triangle => &[[0.0, -1.2], [1.1, 0.8], [-1.1, 0.8]],
+            Marker::Wedge => &[[0.0, 1.2], [1.1, -0.8], [-1.1, -0.8]],
+            Marker::Diamond => &[[0.0, -1.3], [1.1, 0.0], [0.0, 1.3], [-1.1, 0.0]],
+            Marker::Plus => &[[-1.1, 0.0], [1.1, 0.0], [0.0, -1.1], [0.0, 1.1]],
+            Marker::Cross => &[[-0.9, -0.9], [0.9, 0.9], [-0.9, 0.9], [0.9, -0.9]],
         };
-        match marker {
-            Marker::Circle => self.circle(at, radius_pt, fill, Some(&rim)),
-            Marker::Square => {
-                let side = 0.88;
-                let corners = put(&[[-side, -side], [side, -side], [side, side], [-side, side]]);
-                self.polygon(&corners, fill, Some(&rim));
-            }
-            Marker::Triangle => {
-                self.polygon(&put(&[[0.0, -1.2], [1.1, 0.8], [-1.1, 0.8]]), fill, Some(&rim));
-            }
-            Marker::Wedge => self.polygon(&put(&[[0.0, 1.2], [1.1, -0.8], [-1.1, -0.8]]), fill, Some(&rim)),
-            Marker::Diamond => {
-                self.polygon(&put(&[[0.0, -1.3], [1.1, 0.0], [0.0, 1.3], [-1.1, 0.0]]), fill, Some(&rim));
-            }
-            Marker::Plus => self.strokes(&put(&[[-1.1, 0.0], [1.1, 0.0], [0.0, -1.1], [0.0, 1.1]]), color),
-            Marker::Cross => self.strokes(&put(&[[-0.9, -0.9], [0.9, 0.9], [-0.9, 0.9], [0.9, -0.9]]), color),
-        }
-    }
-
-    fn strokes(&mut self, ends: &[[f64; 2]], color: Rgb) {
-        for pair in ends.chunks_exact(2) {
-            self.polyline(pair, &Stroke::solid(color, 1.0));
+        let place = |[x, y]: &[f64; 2]| [at[0] + radius_pt * x, at[1] + radius_pt * y];
+        let placed: Vec<[f64; 2]> = outline.iter().map(place).collect();
+        if matches!(marker, Marker::Plus | Marker::Cross) {
+            placed.chunks_exact(2).for_each(|ends| self.polyline(ends, &Stroke::solid(color, 1.0)));
+        } else {
+            self.polygon(&placed, fill, Some(&rim));
         }
     }
 

@@ -140,4 +140,4 @@ pub enum RenderError {
 }
 
 #[cfg(test)]
-mod demo;
+mod tests;

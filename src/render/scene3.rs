@@ -39,6 +39,13 @@ pub(super) fn unit(a: Vec3) -> Vec3 {
     if length > 0.0 { a.map(|value| value / length) } else { a }
 }
 
+/// The corners of the box between two opposite ones: x changes first, z last.
+pub fn box_corners(low: Vec3, high: Vec3) -> Vec<Vec3> {
+    let corner =
+        |index: usize| [0, 1, 2].map(|axis| if index >> axis & 1 == 0 { low[axis] } else { high[axis] });
+    (0..8).map(corner).collect()
+}
+
 /// From where, and how, a scene is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
@@ -46,14 +53,12 @@ pub struct Camera {
     pub azimuth_deg: f64,
     /// Direction from the scene to the camera: angle above the horizon, in (-90, 90).
     pub elevation_deg: f64,
-    /// Distance of the eye from the scene's middle in scene radii; parallel projection if none.
-    pub distance_radii: Option<f64>,
 }
 
 impl Camera {
-    /// A parallel view; only this one has a true scale bar.
+    /// A parallel view, in which a scale bar is true everywhere.
     pub const fn parallel(azimuth_deg: f64, elevation_deg: f64) -> Self {
-        Self { azimuth_deg, elevation_deg, distance_radii: None }
+        Self { azimuth_deg, elevation_deg }
     }
 
     /// Unit vectors right, up and towards the eye.
@@ -113,18 +118,10 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Adds the box between two opposite corners.
-    pub fn cuboid(&mut self, low: Vec3, high: Vec3, paint: Paint) {
-        let corner = |index: usize| {
-            let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
-            [pick(0), pick(1), pick(2)]
-        };
+    /// Adds a box by its corners, in the order of [`box_corners`]; it may be turned.
+    pub fn cuboid(&mut self, corners: Vec<Vec3>, paint: Paint) {
         let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        self.polyhedron(
-            (0..8).map(corner).collect(),
-            faces.iter().map(|face| face.to_vec()).collect(),
-            paint,
-        );
+        self.polyhedron(corners, faces.map(|face| face.to_vec()).to_vec(), paint);
     }
 
     /// Adds a convex polyhedron: corners of each face in order around it, in either sense.

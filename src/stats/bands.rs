@@ -56,6 +56,26 @@ fn greatest_deviation(drawn: &[f64], mean: &[f64], errors: &[f64]) -> f64 {
     in_errors.map(|((d, m), error)| (d - m).abs() / error).fold(0.0, f64::max)
 }
 
+/// The numbers of `cells` at each place, unit by unit, for as many units as every place has.
+pub fn curves_of(cells: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let units = cells.iter().map(Vec::len).min().unwrap_or(0);
+    (0..units).map(|unit| cells.iter().map(|cell| cell[unit]).collect()).collect()
+}
+
+/// How far the mean of the units' curves is from `target`, as the root of the mean square; none below two units.
+pub fn distance_of_mean(
+    curves: &[Vec<f64>],
+    target: &[f64],
+    plan: Resampling,
+) -> Option<bootstrap::Estimate> {
+    let distance = |units: &[&Vec<f64>]| {
+        let mean = |cell: usize| units.iter().map(|unit| unit[cell]).sum::<f64>() / units.len() as f64;
+        let squares = target.iter().enumerate().map(|(cell, value)| (mean(cell) - value).powi(2));
+        (!units.is_empty()).then(|| (squares.sum::<f64>() / target.len() as f64).sqrt())
+    };
+    bootstrap::percentile(curves, distance, plan)
+}
+
 #[cfg(test)]
 mod tests {
     use rand::RngExt as _;

@@ -1,6 +1,8 @@
 //! What a printed row of several cells says as a whole.
 
+use super::proportion::Rank;
 use super::summary;
+use super::summary::{mean, standard_deviation};
 
 /// The probability that a row with one independent draw per cell never falls from a cell to the next.
 ///
@@ -40,6 +42,77 @@ pub fn distance_to_mean(row: &[f64], mean: &[f64], deviation: &[f64]) -> f64 {
     let cells = row.iter().zip(mean).zip(deviation);
     let squares = cells.map(|((y, m), s)| if y == m { 0.0 } else { (y - m) * (y - m) / (s * s) });
     (squares.sum::<f64>() / row.len().max(1) as f64).sqrt()
+}
+
+/// A row's distance to the mean row of draws, and how many of the draws, each against the mean of the others, are at least as
+/// far.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// The row's distance to the mean row, in standard deviations a cell.
+    pub distance: f64,
+    /// Draws that are as far from the mean of the others.
+    pub as_far: usize,
+    /// All draws.
+    pub draws: usize,
+}
+
+impl Place {
+    /// Where `row` stands among the draws whose values by cell are `cells`; none below three draws.
+    pub fn of(row: &[f64], cells: &[Vec<f64>]) -> Option<Self> {
+        let draws = cells.iter().map(Vec::len).min().filter(|draws| *draws > 2)?;
+        let curve = |left_out: Option<usize>| -> Option<(Vec<f64>, Vec<f64>)> {
+            let kept = |cell: &Vec<f64>| -> Vec<f64> {
+                cell.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, y)| *y).collect()
+            };
+            let kept: Vec<Vec<f64>> = cells.iter().map(kept).collect();
+            let means = kept.iter().map(|cell| mean(cell)).collect::<Option<_>>()?;
+            // A cell at which all draws agree is given the spread of one query in ten of one draw in all.
+            let least = 10.0 / (draws as f64).sqrt();
+            let spreads =
+                kept.iter().map(|cell| Some(standard_deviation(cell)?.max(least))).collect::<Option<_>>()?;
+            Some((means, spreads))
+        };
+        let (means, spreads) = curve(None)?;
+        let distance = distance_to_mean(row, &means, &spreads);
+        let mut as_far = 0;
+        for draw in 0..draws {
+            let (means, spreads) = curve(Some(draw))?;
+            let own: Vec<f64> = cells.iter().map(|cell| cell[draw]).collect();
+            as_far += usize::from(distance_to_mean(&own, &means, &spreads) >= distance);
+        }
+        Some(Self { distance, as_far, draws })
+    }
+}
+
+/// On which side of the mean row of draws a row lies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Cells in which the mean is below the row, and all.
+    pub short: [usize; 2],
+    /// The mean over cells of the mean row less the row.
+    pub difference: f64,
+    /// The row's mean among the means of the draws.
+    pub rank: Rank,
+    /// Draws that are at or above the row in every cell.
+    pub dominating: usize,
+}
+
+impl Level {
+    /// The level of `row` beside the draws whose values by cell are `cells`; none without draws.
+    pub fn of(row: &[f64], cells: &[Vec<f64>]) -> Option<Self> {
+        let means: Vec<f64> = cells.iter().map(|cell| mean(cell)).collect::<Option<_>>()?;
+        let draws = cells.iter().map(Vec::len).min()?;
+        let of_draw = |draw: usize| cells.iter().map(move |cell| cell[draw]);
+        let levels: Vec<f64> =
+            (0..draws).filter_map(|draw| mean(&of_draw(draw).collect::<Vec<_>>())).collect();
+        let dominates = |draw: &usize| of_draw(*draw).zip(row).all(|(own, printed)| own >= *printed);
+        Some(Self {
+            short: [means.iter().zip(row).filter(|(own, printed)| own < printed).count(), row.len()],
+            difference: mean(&means)? - mean(row)?,
+            rank: Rank::of(mean(row)?, &levels),
+            dominating: (0..draws).filter(dominates).count(),
+        })
+    }
 }
 
 #[cfg(test)]
@@ -87,5 +160,26 @@ mod tests {
         assert_eq!(distance_to_mean(&[1.0, 5.0], &[0.0, 3.0], &[1.0, 2.0]), 1.0);
         assert_eq!(distance_to_mean(&[1.0, 3.0], &[1.0, 3.0], &[0.0, 2.0]), 0.0);
         assert_eq!(distance_to_mean(&[2.0, 3.0], &[1.0, 3.0], &[0.0, 2.0]), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_row_like_the_draws_is_near_and_an_opposite_one_is_far() {
+        // Forty draws of three cells that rise from about 10 to about 90 with a spread of ten.
+        let cells: Vec<Vec<f64>> = [10.0, 50.0, 90.0]
+            .iter()
+            .map(|middle| (0..40).map(|i| middle + f64::from(i * 7 % 21) - 10.0).collect())
+            .collect();
+        let near = Place::of(&[12.0, 47.0, 93.0], &cells).unwrap();
+        assert!(near.as_far > 25, "{} of {}", near.as_far, near.draws);
+        let far = Place::of(&[90.0, 50.0, 10.0], &cells).unwrap();
+        assert_eq!((far.as_far, far.draws), (0, 40));
+        assert!(Place::of(&[0.0], &[vec![0.0, 1.0]]).is_none());
+    }
+
+    #[test]
+    fn cells_without_spread_do_not_make_every_other_value_infinitely_far() {
+        let cells = vec![vec![100.0; 50], (0..50).map(|i| f64::from(i % 11) * 10.0).collect()];
+        let place = Place::of(&[90.0, 50.0], &cells).unwrap();
+        assert!(place.distance.is_finite() && place.distance > 1.0, "{}", place.distance);
     }
 }

@@ -1,5 +1,7 @@
 //! Mean, standard deviation and quantiles of a sample.
 
+use std::collections::BTreeMap;
+
 /// Arithmetic mean; none for an empty sample.
 pub fn mean(sample: &[f64]) -> Option<f64> {
     (!sample.is_empty()).then(|| sample.iter().sum::<f64>() / sample.len() as f64)
@@ -69,6 +71,40 @@ fn place(count: usize, share: f64) -> f64 {
 /// What lies at `place` between the order statistics below and above it.
 fn between(low: f64, high: f64, place: f64) -> f64 {
     if low == high { low } else { low + (high - low) * (place - place.floor()) }
+}
+
+/// Medians of the second numbers where the first lies in the lower, middle and upper third of its sample; thirds that hold
+/// nothing are left out.
+pub fn medians_by_thirds(points: &[(f64, f64)]) -> Vec<f64> {
+    let places: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
+    let cuts: Vec<f64> =
+        [1.0, 2.0].into_iter().filter_map(|third| quantile_type7(&places, third / 3.0)).collect();
+    let mut thirds = [Vec::new(), Vec::new(), Vec::new()];
+    for (x, y) in points {
+        thirds[cuts.iter().filter(|cut| x > cut).count()].push(*y);
+    }
+    thirds.iter().filter_map(|numbers| median(numbers)).collect()
+}
+
+/// The mean of the second numbers that go with each first.
+pub fn means_along(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut along: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
+    for [x, y] in points {
+        along.entry(x.to_bits()).or_default().push(*y);
+    }
+    along.iter().filter_map(|(x, ys)| Some([f64::from_bits(*x), mean(ys)?])).collect()
+}
+
+/// Where a box of `values` stands: the ends of its whiskers (5 and 95 %), quartiles and median; NaN without values.
+pub fn box_of(values: &[f64]) -> [f64; 5] {
+    [0.05, 0.25, 0.5, 0.75, 0.95].map(|share| quantile_type7(values, share).unwrap_or(f64::NAN))
+}
+
+/// Below which number each share of `values` lies: quantiles at every half per cent, as good as every step to the eye and a
+/// tenth of the bytes.
+pub fn cumulative(values: &[f64]) -> Vec<[f64; 2]> {
+    let shares = (0..=200).map(|step| f64::from(step) / 200.0);
+    shares.filter_map(|share| Some([quantile_type7(values, share)?, share])).collect()
 }
 
 #[cfg(test)]

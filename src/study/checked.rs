@@ -127,8 +127,16 @@ impl Study {
     }
 
     /// The point of the sweeps that people write as `text`: empty without sweeps.
-    pub fn sweep_point(&self, text: &str) -> Option<SweepPoint> {
-        self.sweep_points().into_iter().find(|point| name::sweep(&point.key) == text)
+    ///
+    /// # Errors
+    /// There is none, in words.
+    pub fn sweep_called(&self, text: &str) -> Result<SweepKey, String> {
+        let points = self.sweep_points();
+        let known: Vec<String> = points.iter().map(|point| name::sweep(&point.key)).collect();
+        let found = known.iter().position(|name| name == text);
+        found.map(|place| points[place].key.clone()).ok_or_else(|| {
+            format!("study `{}` has no sweep `{text}`; it has {}", self.name, known.join(", "))
+        })
     }
 
     /// How its records are named.

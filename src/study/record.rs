@@ -152,6 +152,16 @@ impl Row {
         self.values.get(column).map(Value::as_f64)
     }
 
+    /// Whether it was solved.
+    pub fn is_solved(&self) -> bool {
+        self.status == Status::Solved
+    }
+
+    /// Whether a path came back, refused by the verifier or not.
+    pub fn is_returned(&self) -> bool {
+        matches!(self.status, Status::Solved | Status::Rejected)
+    }
+
     /// Which draw of its problem group it belongs to.
     pub fn draw(&self) -> u32 {
         self.key.on.draw

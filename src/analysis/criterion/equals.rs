@@ -6,10 +6,9 @@ use crate::analysis::context::Context;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Case, Draw, Selection};
+use crate::analysis::selection::{Case, Draw, Selection, cases};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, plan};
-use crate::study::Study;
 use crate::study::record::{Row, Status};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -141,8 +140,7 @@ impl Criterion for Equals<'_> {
         };
         let mut because =
             vec![format!("{}: {metric} is {truth} on {same} of {all} trials{apart}", self.of.said())];
-        let cases = draws.iter().flat_map(|draw| &draw.cases);
-        let refused = cases.filter(|case| case.row.status == Status::Rejected).count();
+        let refused = cases(&draws).filter(|case| case.row.status == Status::Rejected).count();
         because.extend((refused > 0).then(|| format!("{refused} of these paths the verifier refuses")));
         let ours = Share::of(&counts, self.plan).map(|share| {
             let what = format!("trials on which {metric} is {truth}");
@@ -160,11 +158,7 @@ impl Criterion for Equals<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }

@@ -10,7 +10,7 @@ use crate::analysis::selection_spec::Labels;
 use crate::analysis::verdict::Estimate;
 use crate::study::record::Row;
 use crate::study::{Reading, ReadingChoice, Study};
-use audit::printed::{Digits, Printed};
+use audit::exact::Print;
 use base::settings::{Accepted, Faults, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -82,8 +82,7 @@ pub struct Attained<'a> {
     against: Option<String>,
     places: Vec<Place<'a>>,
     metric: &'static Metric,
-    printed: Printed,
-    digits: Digits,
+    print: Print,
     given: Vec<Attained<'a>>,
     claim: &'a str,
     /// The readings of the paper.
@@ -143,9 +142,8 @@ impl<'a> Attained<'a> {
             })?;
             given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
-        let (printed, digits, claim) = (context.printed()?, context.digits(), context.claim.id.as_str());
-        let against = settings.against;
-        Ok(Self { contenders, against, places, metric, printed, digits, given, claim, readings })
+        let (print, claim, against) = (context.print()?, context.claim.id.as_str(), settings.against);
+        Ok(Self { contenders, against, places, metric, print, given, claim, readings })
     }
 
     /// The claim's id.
@@ -155,7 +153,7 @@ impl<'a> Attained<'a> {
 
     /// Whether the claim is met by a number.
     pub fn is_met(&self, value: f64) -> bool {
-        self.printed.agrees(value, self.digits)
+        self.print.agrees(value)
     }
 
     /// Every trial that it is looked for in under the evidence's reading.
@@ -281,7 +279,7 @@ impl Criterion for Attained<'_> {
         let given: Vec<&str> = self.given.iter().map(|given| given.claim).collect();
         let condition =
             if given.is_empty() { String::new() } else { format!(" on which {} hold", given.join(", ")) };
-        let distance = |seen: &Seen<'_>| (seen.value - self.printed.value()).abs();
+        let distance = |seen: &Seen<'_>| (seen.value - self.print.printed.value()).abs();
         let nearest = eligible.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let outcome = if met.is_empty() { Outcome::Open } else { Outcome::Holds };
         let mut found = Found { outcome: Some(outcome), existential: true, ..Found::default() };

@@ -14,7 +14,6 @@ use crate::analysis::selection::Selection;
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::LEVEL;
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
 use crate::study::record::{Row, Status};
 use base::seed;
 use base::settings::{Accepted, Faults, SettingsError};
@@ -303,12 +302,8 @@ impl Criterion for LeastOf<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.metric.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }
 

@@ -5,12 +5,13 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, needs, plan};
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
+use crate::study::contender::SweepPoint;
 use crate::study::name;
+use crate::study::record::Row;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -80,10 +81,6 @@ impl<'a> Lower<'a> {
         Some((0.0 - found.value, Interval::new(0.0 - high, 0.0 - low), found.units))
     }
 
-    fn outcome(&self, change: Interval) -> Outcome {
-        outcome(self.way, self.by_percent, change)
-    }
-
     /// Over draws.
     fn on_average(&self, evidence: &Evidence<'_>, metric: &str) -> Found {
         let draws = self.of.draws(evidence);
@@ -91,7 +88,7 @@ impl<'a> Lower<'a> {
         let Some((value, interval, units)) = self.change(&pairs) else {
             return Found::too_few(pairs.len(), FEWEST_DRAWS);
         };
-        let outcome = self.outcome(interval);
+        let found = outcome(self.way, self.by_percent, interval);
         let all: Vec<&(f64, f64)> = pairs.iter().flatten().collect();
         let count = |is: fn(&&&(f64, f64)) -> bool| all.iter().filter(is).count();
         let because = format!(
@@ -106,13 +103,14 @@ impl<'a> Lower<'a> {
             all.len(),
         );
         let turned = |pairs: Vec<Vec<(f64, f64)>>| {
-            self.change(&pairs).is_some_and(|(_, interval, _)| self.outcome(interval) != outcome)
+            self.change(&pairs)
+                .is_some_and(|(_, interval, _)| outcome(self.way, self.by_percent, interval) != found)
         };
         let is_turned = selection::filled(&self.of, &draws).into_iter().any(turned);
         let what = format!("change of {metric} in %, bootstrap 95 % over draws");
         let change = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
         Found {
-            outcome: Some(outcome),
+            outcome: Some(found),
             ours: Some(Estimate::new(value, interval, what, units).of_cases(solved(&draws))),
             trial: selection::nearest(&self.of, evidence, &draws, change, value),
             because: vec![because],
@@ -127,15 +125,10 @@ impl<'a> Lower<'a> {
     /// The curve of each draw: how many points more of its queries are solved than by the other, along the sweep.
     fn curves(&self, draws: &[Draw<'_>]) -> Vec<Vec<f64>> {
         let points = self.of.study.sweep_points();
-        let is_solved = |row: &crate::study::record::Row| row.status == crate::study::record::Status::Solved;
-        let at = |draw: &Draw<'_>, point: &crate::study::contender::SweepPoint| {
-            let cases: Vec<&Case<'_>> =
-                draw.cases.iter().filter(|case| case.row.key.sweep == point.key).collect();
-            let share = |of: &dyn Fn(&Case<'_>) -> bool| {
-                100.0 * cases.iter().filter(|case| of(case)).count() as f64 / cases.len() as f64
-            };
-            let base = share(&|case| case.base.is_some_and(is_solved));
-            (!cases.is_empty()).then(|| share(&|case| is_solved(case.row)) - base)
+        let at = |draw: &Draw<'_>, point: &SweepPoint| {
+            let draw = draw.at(&point.key);
+            let base = draw.percent(|case| case.base.is_some_and(Row::is_solved))?;
+            Some(draw.percent(|case| case.row.is_solved())? - base)
         };
         draws.iter().filter_map(|draw| points.iter().map(|point| at(draw, point)).collect()).collect()
     }
@@ -165,12 +158,11 @@ impl<'a> Lower<'a> {
             band.len(),
         );
         let what = format!("least mean difference in points, at {}, simultaneous 95 % band", at(least));
-        let case =
-            draws.iter().flat_map(|draw| &draw.cases).find(|case| case.row.key.sweep == points[least].key);
+        let case = cases(&draws).find(|case| case.row.key.sweep == points[least].key);
         Found {
             outcome: Some(outcome),
             ours: Some(Estimate::new(mean[least], band[least], what, curves.len()).of_cases(solved(&draws))),
-            trial: case.and_then(|case| Some(self.of.run(evidence)?.trial(case.row))),
+            trial: self.of.trial(evidence, case),
             because: vec![because],
             limits: vec![0.0],
             units: "draws",
@@ -221,12 +213,8 @@ impl Criterion for Lower<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }
 

@@ -21,6 +21,7 @@ pub use one_draw::{Draws, draws};
 use super::context::Context;
 use super::evidence::Evidence;
 use super::found::Found;
+use super::selection::Selection;
 use super::selection_spec::Explored;
 use crate::study::Study;
 use base::settings::{Accepted, Settings, SettingsError};
@@ -30,12 +31,19 @@ pub trait Criterion {
     /// What it finds in the stored runs as the evidence's reading, and session of the clock, show them.
     fn find(&self, evidence: &Evidence<'_>) -> Found;
 
+    /// What it selects; none if it looks for trials in a way of its own.
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        Vec::new()
+    }
+
     /// The studies whose trials it looks at.
-    fn studies(&self) -> Vec<&Study>;
+    fn studies(&self) -> Vec<&Study> {
+        self.selections().iter().map(|of| of.study).collect()
+    }
 
     /// Whether what it finds rests on our own clock.
     fn is_clock(&self) -> bool {
-        false
+        self.selections().iter().any(|of| of.is_clock())
     }
 }
 

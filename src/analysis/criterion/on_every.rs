@@ -9,9 +9,8 @@ use crate::analysis::selection::{self, Case, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, plan};
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
 use crate::study::key::SweepKey;
-use crate::study::record::{Row, Status};
+use crate::study::record::Row;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -110,14 +109,10 @@ impl<'a> OnEvery<'a> {
             That::AtMostTimes => case.pair().map(|(base, own)| holds(own <= self.bound * base + EQUAL)),
             That::Above => case.value.map(|value| holds(value > self.bound + EQUAL)),
             That::AtMost => {
-                let is_returned = matches!(case.row.status, Status::Solved | Status::Rejected);
-                let value = run.value(case.row, self.of.metric?).filter(|_| is_returned);
+                let value = run.value(case.row, self.of.metric?).filter(|_| case.row.is_returned());
                 value.map(|value| holds(value <= self.bound + EQUAL))
             }
-            That::Solved => {
-                let solved = |row: &Row| row.status == Status::Solved;
-                case.base.filter(|base| solved(base)).map(|_| holds(solved(case.row)))
-            }
+            That::Solved => case.base.filter(|base| base.is_solved()).map(|_| holds(case.row.is_solved())),
             That::HigherShare => None,
         }
     }
@@ -137,7 +132,7 @@ impl<'a> OnEvery<'a> {
 
     /// How every draw speaks at every point of the sweep, with a trial of each.
     fn shares<'e>(draws: &'e [Draw<'e>]) -> Vec<Vec<(Says, &'e Row)>> {
-        let solved = |row: &Row| u32::from(row.status == Status::Solved);
+        let solved = |row: &Row| u32::from(row.is_solved());
         let of_draw = |draw: &'e Draw<'e>| {
             let mut points: BTreeMap<&SweepKey, ([u32; 2], &Row)> = BTreeMap::new();
             for case in &draw.cases {
@@ -218,11 +213,7 @@ impl Criterion for OnEvery<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }

@@ -9,8 +9,8 @@ use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{LEVEL, OfDraw};
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
-use audit::printed::{Digits, Printed};
+use audit::exact::Print;
+use audit::printed::Printed;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -63,8 +63,7 @@ struct OneDraw<'a> {
     statistic: OfDraw,
     label: Option<String>,
     premises: Vec<String>,
-    printed: Printed,
-    digits: Digits,
+    print: Print,
 }
 
 /// The draws that the claim of `context` is held against, one set a criterion of this name that it decides or shows by.
@@ -92,7 +91,7 @@ impl<'a> OneDraw<'a> {
         if statistic != OfDraw::SolvedPercent {
             of.metric(context)?;
         }
-        Ok(Self { of, statistic, label, premises, printed: context.printed()?, digits: context.digits() })
+        Ok(Self { of, statistic, label, premises, print: context.print()? })
     }
 
     /// What is taken of each draw, in words.
@@ -112,7 +111,7 @@ impl<'a> OneDraw<'a> {
 
     /// What the interval of one more draw says, of draws with this mean.
     fn outcome(&self, interval: Interval, mean: f64) -> Outcome {
-        let printed = self.printed.value();
+        let printed = self.print.printed.value();
         match interval.contains(printed) {
             true => Outcome::Holds,
             // Both are savings, or both are losses.
@@ -137,7 +136,7 @@ impl<'a> OneDraw<'a> {
             predictive(&filled, LEVEL)
         };
         let [Some(below), Some(above)] = [f64::NEG_INFINITY, f64::INFINITY].map(interval) else { return 0 };
-        let printed = self.printed.value();
+        let printed = self.print.printed.value();
         // It may be ordinary if it lies between the two, and must be if it lies within both.
         let may_hold = below.low <= printed && printed <= above.high;
         let must_hold = below.contains(printed) && above.contains(printed);
@@ -148,7 +147,7 @@ impl<'a> OneDraw<'a> {
 
     fn values(&self, evidence: &Evidence<'_>, drawn: &[Draw<'_>]) -> Draws {
         let twin = |value: f64| {
-            if self.printed.agrees(value, self.digits) { self.printed.value() } else { value }
+            if self.print.agrees(value) { self.print.printed.value() } else { value }
         };
         let values: Vec<f64> = drawn.iter().filter_map(|draw| self.statistic.of(draw)).map(twin).collect();
         let unsolved = drawn.len() - values.len();
@@ -162,7 +161,7 @@ impl<'a> OneDraw<'a> {
 }
 
 /// The rank of `printed` among `draws` in words.
-fn said(draws: &Draws, printed: &Printed) -> String {
+fn said(draws: &Draws, printed: Printed) -> String {
     let rank = Rank::of(printed.value(), &draws.values);
     let Some((share, interval)) = rank.share_at_most().zip(rank.interval_at_most(LEVEL)) else {
         return format!("{}: no draw has a number", draws.label);
@@ -198,7 +197,7 @@ impl Criterion for OneDraw<'_> {
         let outcome = self.outcome(interval, mean);
         let powerless =
             self.statistic == OfDraw::SolvedPercent && interval.high - interval.low >= NO_POWER_POINTS;
-        let mut because = vec![said(&draws, &self.printed)];
+        let mut because = vec![said(&draws, self.print.printed)];
         because.extend(powerless.then(|| {
             format!(
                 "no power: the interval covers {NO_POWER_POINTS} points or more of the 100 there are, so hardly any printed value \
@@ -207,10 +206,10 @@ impl Criterion for OneDraw<'_> {
         }));
         let what = format!("{}: mean, 95 % predictive interval of one more draw", self.title());
         let apart = |draw: &&Draw<'_>| {
-            self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - self.printed.value()).abs())
+            self.statistic.of(draw).map_or(f64::INFINITY, |own| (own - self.print.printed.value()).abs())
         };
         let nearest = drawn.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        let trial = nearest.and_then(|draw| Some(self.of.run(evidence)?.trial(draw.cases.first()?.row)));
+        let trial = self.of.trial(evidence, nearest.and_then(|draw| draw.cases.first()));
         Found {
             outcome: Some(outcome),
             ours: Some(Estimate::new(mean, interval, what, draws.values.len()).of_cases(solved(&drawn))),
@@ -224,11 +223,7 @@ impl Criterion for OneDraw<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }

@@ -6,14 +6,14 @@ use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{self, Selection, solved};
+use crate::analysis::selection::{self, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
-use audit::printed::{Digits, Printed};
+use audit::exact::Print;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::interval::Interval;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -36,8 +36,7 @@ struct Settings {
 struct PrintsAs<'a> {
     of: Selection<'a>,
     metric: &'static Metric,
-    printed: Printed,
-    digits: Digits,
+    print: Print,
 }
 
 impl<'a> PrintsAs<'a> {
@@ -46,7 +45,7 @@ impl<'a> PrintsAs<'a> {
         let of = Selection::new(context, &settings.of)?;
         of.contender(context)?;
         let metric = of.metric(context)?;
-        Ok(Self { metric, of, printed: context.printed()?, digits: context.digits() })
+        Ok(Self { metric, of, print: context.print()? })
     }
 }
 
@@ -54,44 +53,33 @@ impl Criterion for PrintsAs<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
         let (who, metric) = (self.of.said(), self.metric.label.to_lowercase());
-        let measured: Vec<_> = draws.iter().flat_map(|draw| &draw.cases).collect();
-        let values: Vec<f64> = measured.iter().filter_map(|case| case.value).collect();
+        let values: Vec<f64> = cases(&draws).filter_map(|case| case.value).collect();
         let [Some(low), Some(high)] =
             [f64::min as fn(_, _) -> _, f64::max].map(|of| values.iter().copied().reduce(of))
         else {
             return Found::open(format!("{who}: {metric} was not measured"));
         };
-        let agree = [low, high].map(|value| self.printed.agrees(value, self.digits));
+        let agree = [low, high].map(|value| self.print.agrees(value));
         let outcome = match agree {
             [true, true] => Outcome::Holds,
-            [false, false]
-                if self.printed.interval(self.digits).low > high
-                    || self.printed.interval(self.digits).high < low =>
-            {
-                Outcome::Fails
-            }
+            [false, false] if !self.print.interval().meets(Interval::new(low, high)) => Outcome::Fails,
             _ => Outcome::Open,
         };
         let verb = if agree == [true, true] { "prints as" } else { "does not print as" };
         let number = if low == high { format!("{low:.6}") } else { format!("{low:.6} to {high:.6}") };
-        let first = measured.iter().find(|case| case.value.is_some());
-        let trial = first.and_then(|case| Some(self.of.run(evidence)?.trial(case.row)));
+        let first = cases(&draws).find(|case| case.value.is_some());
         let ours = Estimate::bare(low, format!("{metric} of {}", self.of.contenders[0]), values.len());
         Found {
             outcome: Some(outcome),
             ours: Some(ours.of_cases(solved(&draws))),
-            trial,
+            trial: self.of.trial(evidence, first),
             censored: if outcome == Outcome::Holds { selection::unended(&draws) } else { 0 },
-            because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.printed)],
+            because: vec![format!("{who}: {metric} {number}, which {verb} {}", self.print.printed)],
             ..Found::default()
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }

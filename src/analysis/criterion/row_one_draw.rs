@@ -5,19 +5,15 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Draw, Selection, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::OfDraw;
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
 use crate::study::contender::SweepPoint;
-use audit::printed::Printed;
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::proportion::Rank;
-use stats::rows::{distance_to_mean, monotone_probability};
-use stats::summary::{mean, standard_deviation};
+use stats::rows::{Level, Place, monotone_probability};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -98,7 +94,7 @@ impl<'a> RowOneDraw<'a> {
                 return Err(context.settings.error_at(&format!("rows.{index}.claims"), message));
             }
             for id in &row.claims {
-                printed.push(context.printed_of(id)?.0);
+                printed.push(context.print_of(id)?.printed.value());
             }
             Ok(Row { of, cells })
         };
@@ -108,7 +104,6 @@ impl<'a> RowOneDraw<'a> {
         if rows.is_empty() {
             return Err(context.settings.error_at("rows", "at least one row is needed"));
         }
-        let printed = printed.iter().map(|cell: &Printed| cell.value()).collect();
         Ok(Self { rows, printed, refused_below: settings.refused_below })
     }
 }
@@ -120,7 +115,9 @@ impl Row<'_> {
             match &self.cells {
                 Cells::Statistics(statistics) => statistics.iter().map(|of| of.of(draw)).collect(),
                 Cells::Sweep(points) => {
-                    points.iter().map(|point| share(draw, point, unended_solved)).collect()
+                    let is_hit =
+                        |case: &Case<'_>| case.row.is_solved() || unended_solved && case.is_unended();
+                    points.iter().map(|point| draw.at(&point.key).percent(is_hit)).collect()
                 }
             }
         };
@@ -128,89 +125,17 @@ impl Row<'_> {
     }
 }
 
-/// The share of a draw's queries that are solved at one point of the sweep, in per cent.
-fn share(draw: &Draw<'_>, point: &SweepPoint, unended_solved: bool) -> Option<f64> {
-    let at = draw.cases.iter().filter(|case| case.row.key.sweep == point.key);
-    let (solved, all) = at.fold((0, 0), |(solved, all), case| {
-        let is_solved = case.row.status == crate::study::record::Status::Solved;
-        (solved + u32::from(is_solved || unended_solved && case.is_unended()), all + 1)
-    });
-    (all > 0).then(|| 100.0 * f64::from(solved) / f64::from(all))
-}
-
-/// A row's distance to our mean row, and how many of our own draws, each against the mean of the others, are at least as
-/// far.
-struct Place {
-    distance: f64,
-    as_far: usize,
-    draws: usize,
-}
-
-/// Where `row` stands among the draws whose values by cell are `cells`; none below three draws.
-fn place(row: &[f64], cells: &[Vec<f64>]) -> Option<Place> {
-    let draws = cells.iter().map(Vec::len).min().filter(|draws| *draws > 2)?;
-    let curve = |left_out: Option<usize>| -> Option<(Vec<f64>, Vec<f64>)> {
-        let kept = |cell: &Vec<f64>| -> Vec<f64> {
-            cell.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, y)| *y).collect()
-        };
-        let kept: Vec<Vec<f64>> = cells.iter().map(kept).collect();
-        let means = kept.iter().map(|cell| mean(cell)).collect::<Option<_>>()?;
-        // A cell at which all draws agree is given the spread of one query in ten of one draw in all.
-        let least = 10.0 / (draws as f64).sqrt();
-        let spreads =
-            kept.iter().map(|cell| Some(standard_deviation(cell)?.max(least))).collect::<Option<_>>()?;
-        Some((means, spreads))
-    };
-    let (means, spreads) = curve(None)?;
-    let distance = distance_to_mean(row, &means, &spreads);
-    let mut as_far = 0;
-    for draw in 0..draws {
-        let (means, spreads) = curve(Some(draw))?;
-        let own: Vec<f64> = cells.iter().map(|cell| cell[draw]).collect();
-        as_far += usize::from(distance_to_mean(&own, &means, &spreads) >= distance);
-    }
-    Some(Place { distance, as_far, draws })
-}
-
-/// On which side of our mean row a row lies.
-struct Level {
-    /// Cells in which our mean is below the printed value, and in all.
-    short: [usize; 2],
-    /// The mean over cells of ours less printed.
-    difference: f64,
-    /// The row's mean among the means of our draws.
-    rank: Rank,
-    /// Draws that are at or above the row in every cell.
-    dominating: usize,
-}
-
-impl Level {
-    fn of(row: &[f64], cells: &[Vec<f64>]) -> Option<Self> {
-        let means: Vec<f64> = cells.iter().map(|cell| mean(cell)).collect::<Option<_>>()?;
-        let draws = cells.iter().map(Vec::len).min()?;
-        let of_draw = |draw: usize| cells.iter().map(move |cell| cell[draw]);
-        let levels: Vec<f64> =
-            (0..draws).filter_map(|draw| mean(&of_draw(draw).collect::<Vec<_>>())).collect();
-        let dominates = |draw: &usize| of_draw(*draw).zip(row).all(|(own, printed)| own >= *printed);
-        Some(Self {
-            short: [means.iter().zip(row).filter(|(own, printed)| own < printed).count(), row.len()],
-            difference: mean(&means)? - mean(row)?,
-            rank: Rank::of(mean(row)?, &levels),
-            dominating: (0..draws).filter(dominates).count(),
-        })
-    }
-
-    fn said(&self, refused_below: f64) -> String {
-        let Self { short: [short, cells], difference, rank, dominating } = self;
-        format!(
-            "on which side: our mean is below the printed value in {short} of {cells} cells, by {difference:+.1} points on average; \
+/// On which side the row lies, in words.
+fn level_said(level: &Level, refused_below: f64) -> String {
+    let Level { short: [short, cells], difference, rank, dominating } = level;
+    format!(
+        "on which side: our mean is below the printed value in {short} of {cells} cells, by {difference:+.1} points on average; \
              the row's mean is at or above that of {} of {} draws (two-sided rank {:.3}, refused below {refused_below}); \
              {dominating} draws are at or above the printed row in every cell",
-            rank.below + rank.equal,
-            rank.draws(),
-            rank.p_two_sided()
-        )
-    }
+        rank.below + rank.equal,
+        rank.draws(),
+        rank.p_two_sided()
+    )
 }
 
 impl RowOneDraw<'_> {
@@ -226,7 +151,7 @@ impl RowOneDraw<'_> {
 
     /// Where the printed row stands, in shape and in level, its rank among our draws and itself, and what that says.
     fn placed(&self, cells: &[Vec<f64>]) -> Option<(Place, Level, f64, Outcome)> {
-        let place = place(&self.printed, cells).filter(|_| cells.len() == self.printed.len())?;
+        let place = Place::of(&self.printed, cells).filter(|_| cells.len() == self.printed.len())?;
         let level = Level::of(&self.printed, cells)?;
         let rank = (place.as_far + 1) as f64 / (place.draws + 1) as f64;
         let is_ordinary = rank.min(level.rank.p_two_sided()) >= self.refused_below;
@@ -251,7 +176,7 @@ impl RowOneDraw<'_> {
                 place.draws,
                 2.0 * below
             ),
-            level.said(below),
+            level_said(level, below),
         ];
         let is_sweep = self.rows.iter().all(|row| matches!(row.cells, Cells::Sweep(_)));
         because.extend(monotone_probability(cells).filter(|_| self.rows.len() == 1 && is_sweep).map(|chance| {
@@ -279,13 +204,11 @@ impl Criterion for RowOneDraw<'_> {
         });
         let (share, n) = (place.as_far as f64 / place.draws as f64, place.draws);
         let ours = Estimate::bare(share, "share of our draws at least as far from the mean row", n);
-        let first = drawn.first().and_then(|draws| draws.first()?.cases.first());
-        let trial = first.and_then(|case| Some(self.rows[0].of.run(evidence)?.trial(case.row)));
         Found {
             outcome: Some(outcome),
             censored: if is_turned { unended } else { 0 },
             ours: Some(ours.of_cases(solved(&drawn[0]))),
-            trial,
+            trial: self.rows[0].of.trial(evidence, cases(&drawn[0]).next()),
             because: self.because(&place, &level, rank, &cells),
             units: "draws",
             needs: Some(self.fewest()).filter(|fewest| n < *fewest),
@@ -293,37 +216,7 @@ impl Criterion for RowOneDraw<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        self.rows.iter().map(|row| row.of.study).collect()
-    }
-
-    fn is_clock(&self) -> bool {
-        self.rows.iter().any(|row| row.of.is_clock())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_row_like_the_draws_is_near_and_an_opposite_one_is_far() {
-        // Forty draws of three cells that rise from about 10 to about 90 with a spread of ten.
-        let cells: Vec<Vec<f64>> = [10.0, 50.0, 90.0]
-            .iter()
-            .map(|middle| (0..40).map(|i| middle + f64::from(i * 7 % 21) - 10.0).collect())
-            .collect();
-        let near = place(&[12.0, 47.0, 93.0], &cells).unwrap();
-        assert!(near.as_far > 25, "{} of {}", near.as_far, near.draws);
-        let far = place(&[90.0, 50.0, 10.0], &cells).unwrap();
-        assert_eq!((far.as_far, far.draws), (0, 40));
-        assert!(place(&[0.0], &[vec![0.0, 1.0]]).is_none());
-    }
-
-    #[test]
-    fn cells_without_spread_do_not_make_every_other_value_infinitely_far() {
-        let cells = vec![vec![100.0; 50], (0..50).map(|i| f64::from(i % 11) * 10.0).collect()];
-        let place = place(&[90.0, 50.0], &cells).unwrap();
-        assert!(place.distance.is_finite() && place.distance > 1.0, "{}", place.distance);
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        self.rows.iter().map(|row| &row.of).collect()
     }
 }

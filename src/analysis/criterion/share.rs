@@ -5,10 +5,9 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, needs, plan};
-use crate::study::Study;
 use crate::study::column;
 use crate::study::record::{Row, Status};
 use base::settings::{Accepted, SettingsError};
@@ -138,11 +137,8 @@ impl<'a> Counted<'a> {
         let hit = |is: bool| Some([f64::from(u8::from(is)), 1.0]);
         let gap = || case.pair().map(|(base, own)| own - base);
         match self.settings.hits {
-            Hits::Solved => hit(row.status == Status::Solved),
-            Hits::Rejected => {
-                let is_returned = matches!(row.status, Status::Solved | Status::Rejected);
-                hit(row.status == Status::Rejected).filter(|_| is_returned)
-            }
+            Hits::Solved => hit(row.is_solved()),
+            Hits::Rejected => hit(!row.is_solved()).filter(|_| row.is_returned()),
             Hits::Marked => {
                 let marks: Option<Vec<f64>> =
                     self.settings.columns.iter().map(|name| row.value(name)).collect();
@@ -208,12 +204,11 @@ impl<'a> Counted<'a> {
             Some([_, high]) if share > high => false,
             _ => share > 0.5,
         };
-        let counted = || draws.iter().flat_map(|draw| &draw.cases).filter(|case| self.counts(case).is_some());
+        let counted = || cases(draws).filter(|case| self.counts(case).is_some());
         let is_shown = |case: &&Case<'_>| {
             self.counts(case).is_some_and(|[hits, chances]| (hits < chances) == is_miss_shown)
         };
-        let case = counted().find(is_shown).or_else(|| counted().next())?;
-        Some(self.of.run(evidence)?.trial(case.row))
+        self.of.trial(evidence, counted().find(is_shown).or_else(|| counted().next()))
     }
 }
 
@@ -267,11 +262,7 @@ impl Criterion for Counted<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }

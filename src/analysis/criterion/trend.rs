@@ -6,11 +6,10 @@ use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{self, Case, Draw, Selection, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, by_draw, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_DRAWS, needs, plan};
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
 use crate::study::column;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -18,7 +17,6 @@ use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::{pooled, summary};
-use std::collections::BTreeMap;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -68,8 +66,7 @@ impl<'a> Trend<'a> {
     /// How many cases without an end could turn what was found: each is given the least number seen or the greatest one,
     /// whichever goes against a slope that rises, then against one that falls.
     fn censored(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
-        let seen: Vec<(f64, f64)> =
-            draws.iter().flat_map(|draw| &draw.cases).filter_map(|case| self.point(case)).collect();
+        let seen: Vec<(f64, f64)> = cases(draws).filter_map(|case| self.point(case)).collect();
         let middle = summary::mean(&seen.iter().map(|(x, _)| *x).collect::<Vec<_>>());
         let ends = [f64::min as fn(_, _) -> _, f64::max].map(|of| seen.iter().map(|(_, y)| *y).reduce(of));
         let (Some(middle), [Some(least), Some(most)]) = (middle, ends) else { return 0 };
@@ -78,9 +75,7 @@ impl<'a> Trend<'a> {
             self.point(case).or_else(|| place.map(|x| (x, if (x > middle) == rising { most } else { least })))
         };
         let turned = [true, false].into_iter().any(|rising| {
-            let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|c| number(c, rising)).collect();
-            let points: Vec<Vec<(f64, f64)>> =
-                draws.iter().map(of_draw).filter(|p: &Vec<_>| !p.is_empty()).collect();
+            let points = by_draw(draws, |case| number(case, rising));
             pooled::slope(&points, self.plan).is_some_and(|found| self.outcome(found.interval) != outcome)
         });
         if turned { selection::unended(draws) } else { 0 }
@@ -101,33 +96,12 @@ impl<'a> Trend<'a> {
             Outcome::Open
         }
     }
-
-    /// The points of each draw that has any.
-    fn points(&self, draws: &[Draw<'_>]) -> Vec<Vec<(f64, f64)>> {
-        let of_draw = |draw: &Draw<'_>| draw.cases.iter().filter_map(|case| self.point(case)).collect();
-        draws.iter().map(of_draw).filter(|points: &Vec<_>| !points.is_empty()).collect()
-    }
-
-    /// Medians in the lower, middle and upper third of the column, beside the slope: a slope alone may be one outlier's.
-    fn medians(points: &[(f64, f64)]) -> String {
-        let places: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
-        let cuts: Vec<f64> = [1.0, 2.0]
-            .into_iter()
-            .filter_map(|third| summary::quantile_type7(&places, third / 3.0))
-            .collect();
-        let mut thirds: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
-        for (x, y) in points {
-            thirds.entry(cuts.iter().filter(|cut| x > cut).count()).or_default().push(*y);
-        }
-        let medians = thirds.values().filter_map(|numbers| summary::median(numbers));
-        medians.map(|median| format!("{median:.3}")).collect::<Vec<_>>().join(", ")
-    }
 }
 
 impl Criterion for Trend<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
-        let points = self.points(&draws);
+        let points = by_draw(&draws, |case| self.point(case));
         let Some(found) = pooled::slope(&points, self.plan) else {
             return Found::too_few(points.len(), FEWEST_DRAWS);
         };
@@ -138,6 +112,8 @@ impl Criterion for Trend<'_> {
             None => (metric, self.metric.unit),
         };
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let medians = summary::medians_by_thirds(&points.concat());
+        let medians = medians.iter().map(|median| format!("{median:.3}")).collect::<Vec<_>>().join(", ");
         let because = format!(
             "{}: {subject} along {} changes by {:+.4}{unit} each (95 % interval {:+.4} to {:+.4}, {} draws); medians by thirds of {} {}",
             self.of.said(),
@@ -147,14 +123,14 @@ impl Criterion for Trend<'_> {
             found.interval.high,
             found.units,
             self.over,
-            Self::medians(&points.concat()),
+            medians,
         );
         let what = format!("slope of {subject} along {}:{unit} each, bootstrap 95 % over draws", self.over);
-        let against = draws.iter().flat_map(|draw| &draw.cases).find(|case| self.point(case).is_some());
+        let first = cases(&draws).find(|case| self.point(case).is_some());
         Found {
             outcome: Some(outcome),
             ours: Some(Estimate::of(found, what).of_cases(solved(&draws))),
-            trial: against.and_then(|case| Some(self.of.run(evidence)?.trial(case.row))),
+            trial: self.of.trial(evidence, first),
             because: vec![because],
             limits: vec![0.0],
             units: "draws",
@@ -164,11 +140,7 @@ impl Criterion for Trend<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }

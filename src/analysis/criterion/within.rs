@@ -10,7 +10,6 @@ use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, needs, plan};
 use crate::analysis::verdict::Estimate;
-use crate::study::Study;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -76,9 +75,9 @@ impl<'a> Within<'a> {
             (Some(margin), None) => {
                 let printed = match &settings.printed_ratio {
                     Some([above, below]) => {
-                        context.printed_of(above)?.0.value() / context.printed_of(below)?.0.value()
+                        context.print_of(above)?.printed.value() / context.print_of(below)?.printed.value()
                     }
-                    None => context.printed()?.value(),
+                    None => context.print()?.printed.value(),
                 };
                 (Interval::new(printed - margin, printed + margin), Some(printed))
             }
@@ -169,12 +168,8 @@ impl Criterion for Within<'_> {
         }
     }
 
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.of.study]
-    }
-
-    fn is_clock(&self) -> bool {
-        self.of.is_clock()
+    fn selections(&self) -> Vec<&Selection<'_>> {
+        vec![&self.of]
     }
 }
 

@@ -1,11 +1,9 @@
 //! Whether a printed time is a whole number of ticks of a coarse clock. A time of an unknown program on an unknown
 //! machine stays untestable; this says what can be said of its digits.
 
-use super::{Entry, Rule};
-use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
+use super::{Entry, refused, rule};
 use audit::clock::Tick;
-use audit::printed::{Digits, Printed};
+use audit::proof;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -21,20 +19,19 @@ with = ["case2.time"]
 chosen = "read off these two times (it is also the period of a PC's clock interrupt), so that the probability is that of a tick named in advance and no evidence"
 "#,
     build: |context| {
-        let settings: Settings = context.settings.read()?;
-        let [numerator, denominator] = settings.tick_s;
+        let Settings { tick_s: [numerator, denominator], chosen, with } = context.settings.read()?;
         if numerator == 0 || denominator == 0 {
             let message = format!("tick_s is {numerator}/{denominator}; two numbers above 0 are accepted");
             return Err(context.settings.error_at("tick_s", message));
         }
-        let printed = context.printed()?;
-        if printed.decimals() > 6 {
+        let own = context.print()?;
+        if own.printed.decimals() > 6 {
             return Err(context.settings.error("the time has more than 6 decimals; at most 6 are accepted"));
         }
-        let with = settings.with.iter().map(|id| Ok(context.printed_of(id)?.0));
-        let all = with.chain([Ok(printed)]).collect::<Result<Vec<_>, _>>()?;
+        let times = with.iter().map(|id| context.print_of(id)).chain([Ok(own)]);
+        let times = times.collect::<Result<Vec<_>, _>>()?;
         let tick = Tick { numerator, denominator };
-        Ok(Box::new(ClockTicks { tick, chosen: settings.chosen, printed, all, digits: context.digits() }))
+        Ok(rule(move |_| refused(proof::clock_ticks(tick, &times, &chosen))))
     },
 };
 
@@ -48,37 +45,4 @@ struct Settings {
     /// Other claims whose times should be ticks of the same clock.
     #[serde(default)]
     with: Vec<String>,
-}
-
-struct ClockTicks {
-    tick: Tick,
-    chosen: String,
-    printed: Printed,
-    all: Vec<Printed>,
-    digits: Digits,
-}
-
-impl Rule for ClockTicks {
-    fn find(&self, _evidence: &Evidence<'_>) -> Found {
-        let Tick { numerator, denominator } = self.tick;
-        let mut found = Found::default();
-        let count = self.tick.count(self.printed, self.digits);
-        let spelled = format!("{numerator}/{denominator} s");
-        match count {
-            Some(ticks) => {
-                found.because.push(format!("{} s prints {ticks} ticks of {spelled}", self.printed));
-            }
-            None => {
-                found.because.push(format!("{} s is no whole number of ticks of {spelled}", self.printed));
-            }
-        }
-        let both = self.all.iter().filter(|time| self.tick.count(**time, self.digits).is_some()).count();
-        found.because.push(format!(
-            "{both} of {} printed times are; random digits would all be with probability {:.6}",
-            self.all.len(),
-            self.tick.chance(&self.all, self.digits)
-        ));
-        found.premises.push(format!("the tick of {spelled}: {}", self.chosen));
-        found
-    }
 }

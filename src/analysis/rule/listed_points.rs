@@ -1,12 +1,10 @@
 //! Whether each row of a printed table lists as many points as the text says; the points must be those that a study uses.
 
-use super::{Entry, Rule};
-use crate::analysis::class::Outcome;
+use super::{Entry, decided, rule};
 use crate::analysis::context::Context;
-use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
 use crate::analysis::selection_spec::Labels;
 use crate::study::paper::TableRow;
+use audit::proof;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -25,7 +23,17 @@ study = "methods"
 key = "obstacles_cm"
 rows = { "Case 1" = "case 1", "Case 2" = "case 2" }
 "#,
-    build: |context| Ok(Box::new(ListedPoints::new(context)?)),
+    build: |context| {
+        let settings: Settings = context.settings.read()?;
+        let listed = listed(context, &settings)?;
+        let rows = settings.rows.keys().map(String::as_str).collect::<Vec<_>>().join(" and ");
+        Ok(rule(move |_| {
+            let Settings { points, table, study, .. } = &settings;
+            let mut found = decided(proof::listed_points(table, &listed, *points));
+            found.because.push(format!("study {study} uses the points of {rows}, to the digit"));
+            found
+        }))
+    },
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -43,40 +51,30 @@ struct Settings {
     rows: BTreeMap<String, String>,
 }
 
-struct ListedPoints {
-    settings: Settings,
-    /// Row and the number of points that it lists.
-    found: Vec<(String, usize)>,
-}
-
-impl ListedPoints {
-    fn new(context: &Context<'_>) -> Result<Self, SettingsError> {
-        let settings: Settings = context.settings.read()?;
-        let groups: Vec<String> = settings.rows.values().cloned().collect();
-        let study = context.study("", &settings.study, &[])?;
-        context.groups("rows", study, &Labels::Several(groups))?;
-        let table = context.paper.tables.iter().find(|table| table.id == settings.table);
-        let table = table.ok_or_else(|| {
-            context.settings.error_at("table", format!("the paper has no table `{}`", settings.table))
-        })?;
-        let mut found = Vec::new();
-        for row in &table.rows {
-            let printed = points(row).map_err(|message| context.settings.error_at("table", message))?;
-            if let Some(label) = settings.rows.get(&row.label) {
-                let group = study.groups.iter().find(|group| group.label == *label);
-                let used = group.and_then(|group| used(group.settings.table().get(&settings.key)?));
-                if used.as_ref() != Some(&printed) {
-                    let message = format!(
-                        "row `{}` of table `{}` prints {printed:?}, but `{}` of problem group `{label}` is {used:?}",
-                        row.label, table.id, settings.key
-                    );
-                    return Err(context.settings.error_at(&format!("rows.{}", row.label), message));
-                }
-            }
-            found.push((row.label.clone(), printed.len()));
+/// Every row of the table with how many points it lists; those that `settings` name must be what the study uses.
+fn listed(context: &Context<'_>, settings: &Settings) -> Result<Vec<(String, usize)>, SettingsError> {
+    let groups: Vec<String> = settings.rows.values().cloned().collect();
+    let study = context.study("", &settings.study, &[])?;
+    context.groups("rows", study, &Labels::Several(groups))?;
+    let table = context.paper.tables.iter().find(|table| table.id == settings.table);
+    let missing = || format!("the paper has no table `{}`", settings.table);
+    let table = table.ok_or_else(|| context.settings.error_at("table", missing()))?;
+    let mut listed = Vec::new();
+    for row in &table.rows {
+        let printed = points(row).map_err(|message| context.settings.error_at("table", message))?;
+        listed.push((row.label.clone(), printed.len()));
+        let Some(label) = settings.rows.get(&row.label) else { continue };
+        let group = study.groups.iter().find(|group| group.label == *label);
+        let used = group.and_then(|group| used(group.settings.table().get(&settings.key)?));
+        if used.as_ref() != Some(&printed) {
+            let message = format!(
+                "row `{}` of table `{}` prints {printed:?}, but `{}` of problem group `{label}` is {used:?}",
+                row.label, table.id, settings.key
+            );
+            return Err(context.settings.error_at(&format!("rows.{}", row.label), message));
         }
-        Ok(Self { settings, found })
     }
+    Ok(listed)
 }
 
 /// The points whose coordinates a row prints.
@@ -100,28 +98,6 @@ fn used(value: &Value) -> Option<Vec<[f64; 2]>> {
         Some([number(pair.first()?)?, number(pair.get(1)?)?])
     };
     value.as_array()?.iter().map(point).collect()
-}
-
-impl Rule for ListedPoints {
-    fn find(&self, _evidence: &Evidence<'_>) -> Found {
-        let Settings { points, table, study, rows, .. } = &self.settings;
-        let mut because: Vec<String> = self
-            .found
-            .iter()
-            .map(|(row, count)| format!("{row} of {table} lists {count} points, and the text says {points}"))
-            .collect();
-        because.push(format!(
-            "study {study} uses the points of {}, to the digit",
-            rows.keys().map(String::as_str).collect::<Vec<_>>().join(" and ")
-        ));
-        let agrees = self.found.iter().all(|(_, count)| count == points);
-        Found {
-            outcome: Some(if agrees { Outcome::Holds } else { Outcome::Proved }),
-            because,
-            premises: vec![format!("the text speaks of every row of {table}, and a dash is no point")],
-            ..Found::default()
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Rules: arithmetic and geometry of printed numbers alone; one a file, all in [`REGISTRY`].
 //!
-//! A rule proves that a claim cannot be, or says that it can; it looks at no trial. The arithmetic itself is the package
-//! `audit`'s.
+//! A rule proves that a claim cannot be, or says that it can; it looks at no trial. The proof and its words are the package
+//! [`audit::proof`]'s: a rule looks up what the claim names and asks for it.
 
 mod clock_ticks;
 mod count_bound;
@@ -19,15 +19,53 @@ mod sight_bound;
 mod straight_line;
 mod turn_needs_length;
 
+use super::class::Outcome;
 use super::context::Context;
 use super::evidence::Evidence;
 use super::found::Found;
+use audit::proof::Proof;
 use base::settings::{Accepted, SettingsError};
 
 /// A rule with its settings.
 pub trait Rule {
     /// What it finds; the evidence only remembers what other claims have asked.
     fn find(&self, evidence: &Evidence<'_>) -> Found;
+}
+
+impl<F: Fn(&Evidence<'_>) -> Found> Rule for F {
+    fn find(&self, evidence: &Evidence<'_>) -> Found {
+        self(evidence)
+    }
+}
+
+/// The rule that finds this.
+fn rule<'a>(find: impl Fn(&Evidence<'_>) -> Found + 'a) -> Box<dyn Rule + 'a> {
+    Box::new(find)
+}
+
+/// What a proof finds that can only refuse: that something is possible does not make it so.
+fn refused(proof: Proof) -> Found {
+    let outcome = (!proof.is_possible).then_some(Outcome::Proved);
+    Found { outcome, because: proof.because, premises: proof.premises, ..Found::default() }
+}
+
+/// What a proof finds that decides either way.
+fn decided(proof: Proof) -> Found {
+    let outcome = if proof.is_possible { Outcome::Holds } else { Outcome::Proved };
+    Found { outcome: Some(outcome), ..refused(proof) }
+}
+
+/// Refuses a grid or a length that a search for polylines would not come to the end of.
+fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(), SettingsError> {
+    if !size.iter().all(|side| (1..=200).contains(side)) {
+        let message = format!("size is {size:?}; 1 to 200 columns and rows are accepted");
+        return Err(context.settings.error_at("size", message));
+    }
+    if !(0.0..=200.0).contains(&longest) {
+        let message = format!("longest is {longest}; 0 to 200 cells are accepted");
+        return Err(context.settings.error_at("longest", message));
+    }
+    Ok(())
 }
 
 /// A registered rule.

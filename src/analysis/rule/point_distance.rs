@@ -1,12 +1,9 @@
 //! Whether a printed distance is that between the two printed points.
 
-use super::{Entry, Rule};
-use crate::analysis::class::Outcome;
-use crate::analysis::evidence::Evidence;
+use super::{Entry, decided, rule};
 use crate::analysis::found::Found;
 use crate::analysis::verdict::Estimate;
-use audit::bounds::straight_line;
-use audit::printed::{Digits, Printed};
+use audit::proof;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -21,8 +18,12 @@ from = [22.5, 15.5]
 to = [26.5, 28.5]
 ",
     build: |context| {
-        let settings: Settings = context.settings.read()?;
-        Ok(Box::new(PointDistance { settings, printed: context.printed()?, digits: context.digits() }))
+        let (Settings { from, to }, print) = (context.settings.read()?, context.print()?);
+        Ok(rule(move |_| {
+            let (distance, proof) = proof::point_distance(print, from, to);
+            let ours = Estimate::bare(distance, "computed from the printed points", 1);
+            Found { ours: Some(ours), ..decided(proof) }
+        }))
     },
 };
 
@@ -33,32 +34,4 @@ struct Settings {
     from: [f64; 2],
     /// x and y of the second point as printed.
     to: [f64; 2],
-}
-
-struct PointDistance {
-    settings: Settings,
-    printed: Printed,
-    digits: Digits,
-}
-
-impl Rule for PointDistance {
-    fn find(&self, _evidence: &Evidence<'_>) -> Found {
-        let Settings { from, to } = self.settings;
-        let distance = straight_line(from, to);
-        let agrees = |digits| self.printed.agrees(distance, digits);
-        let how = match (agrees(Digits::Rounded), agrees(Digits::Truncated)) {
-            (true, true) => "which prints so, rounded and truncated",
-            (true, false) => "which prints so if rounded, and not if truncated",
-            (false, true) => "which prints so if truncated, and not if rounded",
-            (false, false) => "which does not print so",
-        };
-        let outcome = if agrees(self.digits) { Outcome::Holds } else { Outcome::Proved };
-        Found {
-            outcome: Some(outcome),
-            ours: Some(Estimate::bare(distance, "computed from the printed points", 1)),
-            because: vec![format!("from {from:?} to {to:?} it is {distance:.4}, {how}")],
-            premises: vec!["the distance is Euclidean, in the unit of the coordinates".to_owned()],
-            ..Found::default()
-        }
-    }
 }

@@ -1,14 +1,10 @@
 //! Whether a printed length, or a saving, is possible for a straightened path, given the cost of A*'s.
 
-use super::{Entry, Rule};
-use crate::analysis::class::Outcome;
+use super::{Entry, refused, rule};
 use crate::analysis::context::Context;
-use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use audit::lattice::{Octile, octile_distance};
-use audit::printed::{Digits, Printed};
-use audit::sight::shortest_seen;
-use audit::{at_most, with_an_end_moved};
+use audit::lattice::Octile;
+use audit::proof::{self, Ends};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -28,7 +24,23 @@ because = "A*'s path costs 12 + 4√2: no path has the printed 17.56, and 17.65,
 of = "length"
 holds_when = { corner_cutting = ["allow"] }
 "#,
-    build: |context| Ok(Box::new(SightBound::new(context)?)),
+    build: |context| {
+        let Settings { size, start, goal, optimum: [straight, diagonal], because, of, holds_when } =
+            context.settings.read()?;
+        check_options(context, &holds_when)?;
+        let choices = context.point.choices();
+        let holds = holds_when.iter().all(|(id, options)| options.contains(&choices[id]));
+        let (print, ends, optimum) =
+            (context.print()?, Ends { size, start, goal }, Octile { straight, diagonal });
+        Ok(rule(move |_| {
+            let is_saving = of == Of::SavingPercent;
+            let mut found = refused(proof::sight_bound(print, is_saving, ends, optimum, &because));
+            found.because.extend((!holds).then(|| "the bound does not hold under this reading".to_owned()));
+            let listed = |(id, options): (&String, &Vec<String>)| format!("{id} is {}", options.join(" or "));
+            found.premises.extend(holds_when.iter().map(listed));
+            Found { without_premises: !holds, ..found }
+        }))
+    },
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -60,108 +72,20 @@ enum Of {
     SavingPercent,
 }
 
-struct SightBound {
-    settings: Settings,
-    printed: Printed,
-    digits: Digits,
-    holds: bool,
-}
-
-impl SightBound {
-    fn new(context: &Context<'_>) -> Result<Self, SettingsError> {
-        let settings: Settings = context.settings.read()?;
-        let readings = context.paper.readings();
-        for (id, options) in &settings.holds_when {
-            let known = readings.iter().find(|reading| reading.id == *id);
-            let known =
-                known.map(|reading| reading.options.keys().cloned().collect::<Vec<_>>()).unwrap_or_default();
-            if let Some(unknown) = options.iter().find(|option| !known.contains(option)) {
-                let message =
-                    format!("`holds_when` asks for {id}={unknown}; the options are {}", known.join(", "));
-                return Err(context.settings.error_at(&format!("holds_when.{id}"), message));
-            }
-        }
-        let choices = context.point.choices();
-        let holds = settings.holds_when.iter().all(|(id, options)| options.contains(&choices[id]));
-        Ok(Self { settings, printed: context.printed()?, digits: context.digits(), holds })
-    }
-}
-
-impl SightBound {
-    fn optimum(&self) -> Octile {
-        let [straight, diagonal] = self.settings.optimum;
-        Octile { straight, diagonal }
-    }
-
-    /// Whether the printed number is beyond what a path of `shortest` cells at least allows, and how that is said.
-    fn against(&self, shortest: f64) -> (bool, String) {
-        let most = 100.0 * (1.0 - shortest / self.optimum().length());
-        let printed = self.printed.interval(self.digits);
-        let (number, up_to) = (self.printed, at_most(most, 2));
-        match self.settings.of {
-            Of::Length if printed.high < shortest => (true, format!("{number} is shorter")),
-            Of::Length => (false, format!("{number} is not shorter")),
-            Of::SavingPercent if printed.low > most => {
-                (true, format!("it saves at most {up_to} %, less than {number} %"))
-            }
-            Of::SavingPercent => (false, format!("it saves up to {up_to} %, no less than {number} %")),
+/// Refuses readings and options that the paper does not have.
+fn check_options(
+    context: &Context<'_>,
+    holds_when: &BTreeMap<String, Vec<String>>,
+) -> Result<(), SettingsError> {
+    let readings = context.paper.readings();
+    for (id, options) in holds_when {
+        let reading = readings.iter().find(|reading| reading.id == *id);
+        let known: Vec<&String> = reading.iter().flat_map(|reading| reading.options.keys()).collect();
+        if let Some(unknown) = options.iter().find(|option| !known.contains(option)) {
+            let known = known.iter().map(|option| option.as_str()).collect::<Vec<_>>().join(", ");
+            let message = format!("`holds_when` asks for {id}={unknown}; the options are {known}");
+            return Err(context.settings.error_at(&format!("holds_when.{id}"), message));
         }
     }
-
-    /// What is left of the proof where one end is moved to a neighbour and A*'s path still has its moves.
-    fn moved(&self) -> String {
-        let Settings { size, start, goal, .. } = self.settings;
-        let joined = |ends: &[[i32; 2]; 2]| {
-            let apart = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
-            octile_distance(apart).compare(self.optimum()).is_le()
-        };
-        let moved = with_an_end_moved([start, goal], size).into_iter().filter(joined);
-        let shortest = moved.map(|ends| shortest_seen(size, ends, self.optimum()).length);
-        let least = shortest.fold(f64::INFINITY, f64::min);
-        let rests = if self.against(least).0 {
-            "so the proof does not rest on the printed ends"
-        } else {
-            "so the proof rests on the printed ends"
-        };
-        format!(
-            "with the start or the goal moved to one of its eight neighbours the bound is down to {least:.4}, {rests}"
-        )
-    }
-}
-
-impl Rule for SightBound {
-    fn find(&self, _evidence: &Evidence<'_>) -> Found {
-        let Settings { size, start, goal, .. } = self.settings;
-        let optimum = self.optimum();
-        let shortest = shortest_seen(size, [start, goal], optimum);
-        let (is_beyond, found) = self.against(shortest.length);
-        let mut because = vec![
-            format!(
-                "with an 8-connected optimum of {} + {}√2 = {:.4}, a path of free segments is at least {:.4} long on any \
-                 map (as {:?})",
-                optimum.straight,
-                optimum.diagonal,
-                optimum.length(),
-                shortest.length,
-                shortest.cells
-            ),
-            found,
-        ];
-        if is_beyond {
-            because.push(self.moved());
-        }
-        if !self.holds {
-            because.push("the bound does not hold under this reading".to_owned());
-        }
-        let listed = |(id, options): (&String, &Vec<String>)| format!("{id} is {}", options.join(" or "));
-        let mut premises = vec![
-            self.settings.because.clone(),
-            "bends are cell centres".to_owned(),
-            "every segment is free in all cells whose inside it crosses, or in all cells of Bresenham's line"
-                .to_owned(),
-        ];
-        premises.extend(self.settings.holds_when.iter().map(listed));
-        let outcome = is_beyond.then_some(Outcome::Proved);
-        Found { outcome, because, premises, without_premises: !self.holds, ..Found::default() }
-    }
+    Ok(())
 }

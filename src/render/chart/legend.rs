@@ -12,8 +12,6 @@ pub enum Swatch {
     Point(Marker, Rgb),
     /// A filled box, perhaps with an edge.
     Area(Fill, Option<Stroke>),
-    /// A filled box with a line through it: a band and its centre.
-    Band(Fill, Stroke),
 }
 
 /// One entry of the legend.
@@ -23,6 +21,18 @@ pub struct Key {
     pub swatch: Swatch,
     /// What it means.
     pub label: String,
+}
+
+impl Key {
+    /// A line.
+    pub fn line(label: &str, stroke: Stroke) -> Self {
+        Self { swatch: Swatch::Line(stroke, None), label: label.to_owned() }
+    }
+
+    /// An entry with this label, if there is one.
+    pub(super) fn labelled(label: &str, swatch: Swatch) -> Vec<Self> {
+        if label.is_empty() { Vec::new() } else { vec![Self { swatch, label: label.to_owned() }] }
+    }
 }
 
 const SWATCH_PT: f64 = 20.0;
@@ -89,10 +99,6 @@ fn swatch(canvas: &mut Canvas, swatch: &Swatch, [x, y]: [f64; 2]) {
         }
         Swatch::Point(marker, color) => canvas.marker(middle, *marker, 2.4, *color),
         Swatch::Area(fill, stroke) => canvas.rect(area, Some(*fill), stroke.as_ref()),
-        Swatch::Band(fill, stroke) => {
-            canvas.rect(Rect { x, y: y - 3.5, w: SWATCH_PT, h: 7.0 }, Some(*fill), None);
-            canvas.polyline(&ends, stroke);
-        }
     }
 }
 

@@ -27,18 +27,6 @@ impl Line {
         Self { points, stroke, marker: None, label: String::new() }
     }
 
-    /// The share of `values` that is at most x, as steps; values that are infinite never count as reached.
-    pub fn ecdf(values: &[f64], stroke: Stroke) -> Self {
-        let mut sorted: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
-        sorted.sort_by(f64::total_cmp);
-        let mut points = Vec::new();
-        for (index, &value) in sorted.iter().enumerate().filter(|(_, value)| value.is_finite()) {
-            points.push([value, index as f64 / sorted.len() as f64]);
-            points.push([value, (index + 1) as f64 / sorted.len() as f64]);
-        }
-        Self::through(points, stroke)
-    }
-
     /// The same with an entry in the legend.
     #[must_use]
     pub fn labelled(self, label: impl Into<String>) -> Self {
@@ -74,15 +62,11 @@ impl Mark for Line {
     }
 
     fn keys(&self) -> Vec<Key> {
-        labelled(
+        Key::labelled(
             &self.label,
             Swatch::Line(self.stroke, self.marker.map(|marker| (marker, self.stroke.color))),
         )
     }
-}
-
-fn labelled(label: &str, swatch: Swatch) -> Vec<Key> {
-    if label.is_empty() { Vec::new() } else { vec![Key { swatch, label: label.to_owned() }] }
 }
 
 /// A filled strip between two curves over the same abscissae.
@@ -105,7 +89,7 @@ impl Mark for Band {
     }
 
     fn keys(&self) -> Vec<Key> {
-        labelled(&self.label, Swatch::Area(self.fill, None))
+        Key::labelled(&self.label, Swatch::Area(self.fill, None))
     }
 }
 
@@ -157,7 +141,7 @@ impl Mark for Points {
     }
 
     fn keys(&self) -> Vec<Key> {
-        labelled(&self.label, Swatch::Point(self.marker, self.color))
+        Key::labelled(&self.label, Swatch::Point(self.marker, self.color))
     }
 }
 
@@ -185,7 +169,7 @@ impl Mark for Shape {
             (None, Some(stroke)) => Swatch::Line(stroke, None),
             (None, None) => return Vec::new(),
         };
-        labelled(&self.label, swatch)
+        Key::labelled(&self.label, swatch)
     }
 }
 

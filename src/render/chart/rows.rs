@@ -46,7 +46,7 @@ impl Mark for Interval {
 
     fn keys(&self) -> Vec<Key> {
         let swatch = Swatch::Line(Stroke::solid(self.color, 1.0), Some((self.marker, self.color)));
-        if self.label.is_empty() { Vec::new() } else { vec![Key { swatch, label: self.label.clone() }] }
+        Key::labelled(&self.label, swatch)
     }
 }
 
@@ -92,7 +92,7 @@ impl Mark for BoxStrip {
     fn keys(&self) -> Vec<Key> {
         let edge = Some(Stroke::solid(self.color.mixed(INK, 0.35), 0.9));
         let swatch = Swatch::Area(Fill::solid(self.color.mixed(WHITE, 0.55)), edge);
-        if self.label.is_empty() { Vec::new() } else { vec![Key { swatch, label: self.label.clone() }] }
+        Key::labelled(&self.label, swatch)
     }
 }
 
@@ -118,6 +118,6 @@ impl Mark for Bars {
 
     fn keys(&self) -> Vec<Key> {
         let swatch = Swatch::Area(self.fill, None);
-        if self.label.is_empty() { Vec::new() } else { vec![Key { swatch, label: self.label.clone() }] }
+        Key::labelled(&self.label, swatch)
     }
 }

@@ -79,6 +79,20 @@ impl Sheet {
         self.panels.push(panel);
     }
 
+    /// The same with `panels` in the next places.
+    ///
+    /// # Errors
+    /// That of the first panel that cannot be made.
+    pub fn with(
+        mut self,
+        panels: impl IntoIterator<Item = Result<Panel, RenderError>>,
+    ) -> Result<Self, RenderError> {
+        for panel in panels {
+            self.add(panel?);
+        }
+        Ok(self)
+    }
+
     /// Draws everything.
     ///
     /// # Errors

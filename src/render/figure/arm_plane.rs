@@ -33,7 +33,7 @@ panels = [
     build: |settings, study, _paper| {
         let read: ArmPlane = settings.read()?;
         for panel in &read.panels {
-            ask::known(settings, study, std::slice::from_ref(&panel.problem), &panel.contenders)?;
+            ask::known(settings, study, [&panel.problem], &panel.contenders)?;
         }
         Ok(Box::new(read))
     },
@@ -88,12 +88,12 @@ impl Kind for ArmPlane {
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let columns = if self.postures { 2 } else { self.panels.len().min(2) };
-        let mut sheet = Sheet::new(Width::Double, columns, PLOT_PT);
-        for panel in self.panels.iter().filter(|_| !self.postures) {
-            sheet.add(self.panel(scene, panel)?);
+        if !self.postures {
+            let panels = self.panels.iter().map(|panel| self.panel(scene, panel));
+            return Sheet::new(Width::Double, self.panels.len().min(2), PLOT_PT).with(panels);
         }
-        for panel in self.panels.iter().filter(|_| self.postures) {
+        let mut sheet = Sheet::new(Width::Double, 2, PLOT_PT);
+        for panel in &self.panels {
             let both = ask::exhibit(scene, ask::draw(scene, &panel.problem, 0)?, "branches")?;
             let stations: Vec<&[f64]> = both.values.chunks(both.width).collect();
             for (name, station) in [("elbow down", stations[1]), ("elbow up", stations[0])] {
@@ -148,11 +148,7 @@ impl ArmPlane {
             return;
         }
         let path: Vec<[f64; 2]> = stations.iter().map(|station| [station[4], station[5]]).collect();
-        let ends = [("start", Marker::Circle, path.first()), ("goal", Marker::Diamond, path.last())];
-        for (label, marker, at) in ends {
-            let points = at.into_iter().copied().collect();
-            panel.add(Points::of(points, marker, 3.0, GREEN).labelled(label));
-        }
+        ask::add_ends(panel, &path, 3.0, [(Marker::Circle, GREEN), (Marker::Diamond, GREEN)]);
         let stroke = series_stroke(ask::place(scene, &row.key.contender));
         panel.add(Line::through(path, stroke).labelled(row.key.contender.to_string()));
     }
@@ -182,26 +178,23 @@ fn title(problem: &str, rows: &[&Row]) -> String {
     }
 }
 
-fn zone_color(code: f64) -> Rgb {
-    match code as u8 {
-        1 => GREY.mixed(WHITE, 0.55),
-        2 => YELLOW.mixed(WHITE, 0.35),
-        3 => BLACK.mixed(WHITE, 0.35),
-        4 => ORANGE.mixed(WHITE, 0.35),
-        _ => SKY.mixed(WHITE, 0.65),
-    }
-}
+/// What a point of the plane is, by its code, and its colour.
+const ZONES: [(&str, Rgb); 5] = [
+    ("free", SKY.mixed(WHITE, 0.65)),
+    ("out of reach", GREY.mixed(WHITE, 0.55)),
+    ("inner radius", YELLOW.mixed(WHITE, 0.35)),
+    ("in an obstacle", BLACK.mixed(WHITE, 0.35)),
+    ("a link would hit", ORANGE.mixed(WHITE, 0.35)),
+];
 
 fn zone_cells(zones: &Exhibit, corner: [f64; 2], step: f64, columns: usize) -> Cells {
-    let names = ["free", "out of reach", "inner radius", "in an obstacle", "a link would hit"];
-    let keys = names.iter().enumerate().map(|(code, name)| cell_key(*name, zone_color(code as f64)));
     Cells {
         corner,
         cell: [step, step],
         columns,
-        colors: zones.values.iter().map(|code| Some(zone_color(*code))).collect(),
+        colors: zones.values.iter().map(|code| Some(ZONES[*code as usize].1)).collect(),
         lines: None,
-        keys: keys.collect(),
+        keys: ZONES.map(|(name, color)| cell_key(name, color)).to_vec(),
     }
 }
 

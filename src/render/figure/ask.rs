@@ -6,23 +6,38 @@ use crate::analysis::metric::{self, Metric};
 use crate::analysis::selection::Selection;
 use crate::analysis::statistic::OfDraw;
 use crate::render::RenderError;
+use crate::render::chart::Panel;
+use crate::render::chart::marks::Points;
+use crate::render::style::{Marker, Rgb};
 use crate::study::Study;
 use crate::study::key::{DrawKey, Owner, SweepKey};
-use crate::study::name;
 use crate::study::paper::Paper;
 use crate::study::record::Row;
-use base::settings::{Settings, SettingsError, none_called};
+use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 use engine::planner::Exhibit;
 use std::sync::Arc;
 
 /// Refuses problem groups and contenders that `study` does not have.
-pub(super) fn known(
+pub(super) fn known<'a>(
     settings: &Settings,
     study: &Study,
-    problems: &[String],
-    contenders: &[String],
+    problems: impl IntoIterator<Item = &'a String>,
+    contenders: impl IntoIterator<Item = &'a String>,
 ) -> Result<(), SettingsError> {
-    super::check_labels(settings, study, contenders, problems)
+    let mut faults = Faults::default();
+    let mut check = |what: &str, keys: &[&str], label: &String, known: &[&str]| {
+        if !known.contains(&label.as_str()) {
+            let hint = did_you_mean(label, known.iter().copied());
+            let message = format!("no {what} is called `{label}`{hint}; they are {}", known.join(", "));
+            faults.add(settings.error_about("", keys, label, message));
+        }
+    };
+    let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
+    let keys = ["contender", "against", "rows"];
+    contenders.into_iter().for_each(|label| check("contender", &keys, label, &known));
+    let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
+    problems.into_iter().for_each(|label| check("problem group", &["problem"], label, &known));
+    faults.done()
 }
 
 /// The metric called `name`.
@@ -73,13 +88,18 @@ pub(super) fn points(exhibit: &Exhibit) -> Vec<[f64; 2]> {
     exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1]]).collect()
 }
 
+/// Marks the first of `points` as the start and the last as the goal, each as said.
+pub(super) fn add_ends(panel: &mut Panel, points: &[[f64; 2]], radius_pt: f64, looks: [(Marker, Rgb); 2]) {
+    let ends = [("start", points.first()), ("goal", points.last())];
+    for ((label, at), (marker, color)) in ends.into_iter().zip(looks) {
+        let at = at.into_iter().copied().collect();
+        panel.add(Points::of(at, marker, radius_pt, color).labelled(label));
+    }
+}
+
 /// The point of the sweeps that people write as `text`.
 pub(super) fn sweep(settings: &Settings, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
-    study.sweep_point(text).map(|point| point.key).ok_or_else(|| {
-        let known: Vec<String> = study.sweep_points().iter().map(|point| name::sweep(&point.key)).collect();
-        let message = format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
-        settings.error_about("", &["sweep"], text, message)
-    })
+    study.sweep_called(text).map_err(|message| settings.error_about("", &["sweep"], text, message))
 }
 
 /// The printed number of the claim `id`, which the settings name at `key`.

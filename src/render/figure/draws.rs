@@ -2,18 +2,19 @@
 //!
 //! What is drawn stands in each claim's check `one_draw`.
 
-use super::{Entry, Kind, Scene, asked_claim, printed_value};
+use super::{Entry, Kind, Scene};
 use crate::analysis::context::Context;
 use crate::analysis::criterion;
-use crate::analysis::statistic::{cumulative, quantile};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{INK, Stroke, Width, series_stroke};
-use base::settings::{Accepted, Settings};
+use crate::study::paper::{Claim, Paper};
+use base::settings::{Accepted, Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::summary::{cumulative, quantile_type7 as quantile};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -37,7 +38,7 @@ panels = [
     build: |settings, _study, paper| {
         let read: Draws = settings.read()?;
         for panel in &read.panels {
-            asked_claim(settings, paper, &panel.claim, "one_draw")?;
+            asked_claim(settings, paper, &panel.claim)?;
         }
         Ok(Box::new(Asked { read, settings: settings.clone() }))
     },
@@ -74,21 +75,18 @@ struct Asked {
 
 impl Kind for Asked {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, self.read.columns, PLOT_PT);
-        for panel in &self.read.panels {
-            sheet.add(self.panel(scene, panel)?);
-        }
-        Ok(sheet)
+        let panels = self.read.panels.iter().map(|panel| self.panel(scene, panel));
+        Sheet::new(Width::Double, self.read.columns, PLOT_PT).with(panels)
     }
 }
 
 impl Asked {
     fn panel(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Result<Panel, RenderError> {
         let (paper, point) = (scene.evidence.paper, &scene.evidence.point);
-        let claim = asked_claim(&self.settings, paper, &spec.claim, "one_draw")?;
+        let claim = asked_claim(&self.settings, paper, &spec.claim)?;
         let context = Context { claim, settings: &self.settings, paper, point };
         let sets = criterion::draws(&context, scene.evidence)?;
-        let printed = printed_value(scene.evidence, &spec.claim);
+        let printed = context.print().ok().map(|print| print.printed.value());
         // The outermost hundredth on either side would squeeze all the rest.
         let ends = sets.iter().flat_map(|set| [0.01, 0.99].map(|share| quantile(&set.values, share)));
         let x = Axis::over(&spec.axis, ends.flatten().chain(printed));
@@ -102,4 +100,16 @@ impl Asked {
         }
         Ok(panel)
     }
+}
+
+/// The claim called `id`, whose criterion `one_draw` says what is to be shown.
+fn asked_claim<'p>(settings: &Settings, paper: &'p Paper, id: &str) -> Result<&'p Claim, SettingsError> {
+    let known = paper.claims.iter().map(|claim| claim.id.as_str());
+    let missing = || settings.error_about("", &["claim"], id, none_called("claim", id, known));
+    let claim = paper.claim(id).ok_or_else(missing)?;
+    if claim.criteria().any(|(own, _)| own == "one_draw") {
+        return Ok(claim);
+    }
+    let message = format!("claim `{id}` has no criterion `one_draw`, which says what is to be shown");
+    Err(settings.error_about("", &["claim"], id, message))
 }

@@ -24,7 +24,7 @@ panels = [
 "#,
     build: |settings, study, _paper| {
         let read: EndpointPairs = settings.read()?;
-        ask::known(settings, study, std::slice::from_ref(&read.problem), &[])?;
+        ask::known(settings, study, [&read.problem], [])?;
         Ok(Box::new(read))
     },
 };

@@ -1,7 +1,7 @@
 //! Searches on grid maps: opened cells of each side at the end or at moments before, raw and tidied path, refused lines of
 //! sight.
 
-use super::{Entry, Kind, Scene, Shown, ask, check_labels};
+use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::legend::{Key, cell_key};
 use crate::render::chart::marks::{Cells, Line, Points};
@@ -28,7 +28,7 @@ contenders = ["A*", "Improved A*"]
 "#,
     build: |settings, study, _paper| {
         let read: GridSearch = settings.read()?;
-        check_labels(settings, study, &read.contenders, &read.problems)?;
+        ask::known(settings, study, &read.problems, &read.contenders)?;
         if read.moments.iter().any(|share| !(0.0..=1.0).contains(share)) {
             let message = "shares of opened cells from 0 to 1 are accepted, one a panel";
             return Err(settings.error_at("moments", message));
@@ -52,17 +52,10 @@ struct GridSearch {
     tidying: bool,
 }
 
-fn start_side() -> Rgb {
-    SKY.mixed(WHITE, 0.6)
-}
-
-fn goal_side() -> Rgb {
-    ORANGE.mixed(WHITE, 0.2)
-}
-
-fn blocked() -> Rgb {
-    BLACK.mixed(WHITE, 0.25)
-}
+/// Cells opened from the start's side, from the goal's, and blocked ones.
+const START_SIDE: Rgb = SKY.mixed(WHITE, 0.6);
+const GOAL_SIDE: Rgb = ORANGE.mixed(WHITE, 0.2);
+const BLOCKED: Rgb = BLACK.mixed(WHITE, 0.25);
 
 impl Kind for GridSearch {
     fn shown(&self) -> Vec<Shown<'_>> {
@@ -74,22 +67,15 @@ impl Kind for GridSearch {
         for problem in &self.problems {
             for contender in &self.contenders {
                 let map = Map::of(scene, ask::trial(scene, problem, 0, None, contender)?)?;
-                for share in &self.moments {
-                    panels.push(map.moment(*share)?);
-                }
                 match (&self.moments[..], self.tidying) {
-                    ([], true) => panels.push(map.tidied(problem)?),
-                    ([], false) => panels.push(map.searched()?),
-                    _ => {}
+                    ([], true) => panels.push(map.tidied(problem)),
+                    ([], false) => panels.push(map.searched()),
+                    (moments, _) => panels.extend(moments.iter().map(|share| map.moment(*share))),
                 }
             }
         }
         let height = if self.moments.is_empty() { 215.0 } else { 150.0 };
-        let mut sheet = Sheet::new(Width::Double, panels.len(), height);
-        for panel in panels {
-            sheet.add(panel);
-        }
-        Ok(sheet)
+        Sheet::new(Width::Double, panels.len(), height).with(panels)
     }
 }
 
@@ -129,14 +115,12 @@ impl<'a> Map<'a> {
         );
         let [width, height] = self.size.map(|side| side as f64);
         let mut panel = window(title, [[0.0, width], [0.0, height]])?;
-        let layers = [
-            (self.listed("opened_goal_side"), goal_side()),
-            (self.listed("opened_start_side"), start_side()),
-        ];
+        let layers =
+            [(self.listed("opened_goal_side"), GOAL_SIDE), (self.listed("opened_start_side"), START_SIDE)];
         let keys = vec![
-            cell_key("blocked", blocked()),
-            cell_key("opened by the start's side", start_side()),
-            cell_key("opened by the goal's side", goal_side()),
+            cell_key("blocked", BLOCKED),
+            cell_key("opened by the start's side", START_SIDE),
+            cell_key("opened by the goal's side", GOAL_SIDE),
         ];
         panel.add(self.painted(&layers, keys));
         if let Some(raw) = self.exhibit("raw_path") {
@@ -145,7 +129,7 @@ impl<'a> Map<'a> {
         }
         if let Some(path) = self.exhibit("path") {
             panel.add(Line::through(centres(path), Stroke::solid(VERMILLION, 1.6)).labelled("returned path"));
-            add_ends(&mut panel, &centres(path));
+            ask::add_ends(&mut panel, &centres(path), 3.2, ENDS);
         }
         Ok(panel)
     }
@@ -159,11 +143,11 @@ impl<'a> Map<'a> {
         let around: Vec<[f64; 2]> = sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
         let mut panel = self.panel_about(title, &around)?;
         let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());
-        let mut keys = vec![cell_key("blocked", blocked()), cell_key("opened from the start", start_side())];
+        let mut keys = vec![cell_key("blocked", BLOCKED), cell_key("opened from the start", START_SIDE)];
         if !sides[1].is_empty() {
-            keys.push(cell_key("opened from the goal", goal_side()));
+            keys.push(cell_key("opened from the goal", GOAL_SIDE));
         }
-        panel.add(self.painted(&[(goal, goal_side()), (start, start_side())], keys));
+        panel.add(self.painted(&[(goal, GOAL_SIDE), (start, START_SIDE)], keys));
         let path = self.exhibit("raw_path").or_else(|| self.exhibit("path")).map(centres).unwrap_or_default();
         if share >= 1.0 {
             panel.add(Line::through(path.clone(), Stroke::solid(BLUE, 1.4)).labelled("path found"));
@@ -172,7 +156,7 @@ impl<'a> Map<'a> {
                 panel.add(Points::of(met, Marker::Square, 3.0, PURPLE).labelled("where the sides met"));
             }
         }
-        add_ends(&mut panel, &path);
+        ask::add_ends(&mut panel, &path, 3.2, ENDS);
         Ok(panel)
     }
 
@@ -185,7 +169,7 @@ impl<'a> Map<'a> {
         let path = centres(path);
         let title = format!("{problem}: {} bends before, {} after", bent.len() - 2, path.len() - 2);
         let mut panel = self.panel_about(title, &centres(raw))?;
-        panel.add(self.painted(&[], vec![cell_key("blocked", blocked())]));
+        panel.add(self.painted(&[], vec![cell_key("blocked", BLOCKED)]));
         let lines = refused.values.chunks(refused.width).flat_map(|ends| {
             let [from, to] = [[ends[0] + 0.5, ends[1] + 0.5], [ends[2] + 0.5, ends[3] + 0.5]];
             [from, to, [f64::NAN; 2]]
@@ -197,7 +181,7 @@ impl<'a> Map<'a> {
         panel.add(Points::of(bent, Marker::Circle, 1.8, BLUE).labelled("its bends"));
         let kept = Line::through(path.clone(), Stroke::solid(VERMILLION, 1.6)).marked(Marker::Square);
         panel.add(kept.labelled("after deletion"));
-        add_ends(&mut panel, &path);
+        ask::add_ends(&mut panel, &path, 3.2, ENDS);
         Ok(panel)
     }
 
@@ -224,7 +208,7 @@ impl<'a> Map<'a> {
     fn painted(&self, layers: &[(Vec<[f64; 2]>, Rgb)], keys: Vec<Key>) -> Cells {
         let [columns, rows] = self.size;
         let mut colors = vec![None; columns * rows];
-        for (cells, color) in layers.iter().chain(&[(ask::points(self.walls), blocked())]) {
+        for (cells, color) in layers.iter().chain(&[(ask::points(self.walls), BLOCKED)]) {
             for [x, y] in cells {
                 colors[*y as usize * columns + *x as usize] = Some(*color);
             }
@@ -240,14 +224,8 @@ fn window(title: String, [x, y]: [[f64; 2]; 2]) -> Result<Panel, RenderError> {
     Ok(Panel::new(title, x, y).trimmed(Trim::Frame).with_equal_scales())
 }
 
-/// Markers on the first and the last of `points`.
-fn add_ends(panel: &mut Panel, points: &[[f64; 2]]) {
-    for (label, marker, at) in
-        [("start", Marker::Circle, points.first()), ("goal", Marker::Diamond, points.last())]
-    {
-        panel.add(Points::of(at.into_iter().copied().collect(), marker, 3.2, GREEN).labelled(label));
-    }
-}
+/// How the ends of paths are marked.
+const ENDS: [(Marker, Rgb); 2] = [(Marker::Circle, GREEN), (Marker::Diamond, GREEN)];
 
 /// A cell (x, y) is drawn as the unit square from (x, y) to (x + 1, y + 1), as the paper places its points.
 fn centres(path: &Exhibit) -> Vec<[f64; 2]> {
@@ -261,7 +239,7 @@ mod tests {
 
     #[test]
     fn walls_both_sides_and_bare_paper_differ_in_grey() {
-        let mut greys = [blocked(), start_side(), goal_side(), WHITE].map(Rgb::luminance);
+        let mut greys = [BLOCKED, START_SIDE, GOAL_SIDE, WHITE].map(Rgb::luminance);
         greys.sort_by(f64::total_cmp);
         assert!(greys.windows(2).all(|pair| pair[1] - pair[0] >= SERIES_MARGIN), "{greys:?}");
     }

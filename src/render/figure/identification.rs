@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::evidence::Run;
-use crate::analysis::statistic::{curves_of_draws, distance_of_draws, mean_of_draws, plan};
+use crate::analysis::statistic::plan;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -13,6 +13,8 @@ use crate::study::{Study, name};
 use base::settings::{Accepted, Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::bands::{curves_of, distance_of_mean};
+use stats::bootstrap;
 use std::collections::BTreeSet;
 
 /// The registry's entry.
@@ -32,7 +34,7 @@ studies = ["identify_full", "identify_front", "identify_branch", "identify_poses
 "#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
-        ask::known(settings, study, &[], std::slice::from_ref(&read.contender))?;
+        ask::known(settings, study, [], [&read.contender])?;
         if let Some(missing) = read.studies.iter().find(|name| paper.study(name).is_none()) {
             let known = paper.studies.iter().map(|study| study.name.as_str());
             let message = none_called("study", missing, known);
@@ -134,7 +136,7 @@ impl Identification {
             let Some(value) = value else { continue };
             let draws = ask::solved_percents(scene, run, &group.label, &self.read.contender, &point.key);
             let plan = plan(&[&run.study.name, &name::sweep(&point.key)]);
-            if let Some(found) = mean_of_draws(&draws, plan) {
+            if let Some(found) = bootstrap::mean(&draws, plan) {
                 points.push([value, found.value, found.interval.low, found.interval.high]);
             }
         }
@@ -165,7 +167,7 @@ impl Identification {
             let cells: Vec<Vec<f64>> = self.row.iter().map(cell).collect();
             let at = format!("{}={value}", self.read.sweep);
             let plan = plan(&["row", &run.study.name, &at]);
-            let found = distance_of_draws(&curves_of_draws(&cells), &printed, plan);
+            let found = distance_of_mean(&curves_of(&cells), &printed, plan);
             if let (Some(at), Some(found)) = (value.as_f64(), found) {
                 points.push([at, found.value, found.interval.low, found.interval.high]);
             }

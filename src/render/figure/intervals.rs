@@ -3,7 +3,7 @@
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Draw, Selection, posed};
-use crate::analysis::statistic::{OfAll, OfDraw, differences_percent, mean_of_draws, plan};
+use crate::analysis::statistic::{OfAll, OfDraw, differences_percent, plan};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
@@ -17,7 +17,7 @@ use crate::study::paper::Paper;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::Estimate;
+use stats::bootstrap::{self, Estimate};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -92,8 +92,7 @@ impl Intervals {
                 panel.metric.as_ref().map(|name| ask::produced(settings, study, name)).transpose()?;
             let (group, contender) =
                 if metric.is_some() { (&None, &panel.against) } else { (&panel.against, &None) };
-            let groups: Vec<String> = panel.problems.iter().chain(group).cloned().collect();
-            ask::known(settings, study, &groups, contender.as_slice())?;
+            ask::known(settings, study, panel.problems.iter().chain(group), contender)?;
             let printed =
                 ask::all_printed(settings, paper, &format!("panels.{index}.printed"), &panel.printed)?;
             panels.push(What { metric, printed });
@@ -143,7 +142,7 @@ impl Intervals {
             Some(base) => differences_percent([&draws(of(base)), &own]),
             None => own.iter().filter_map(|draw| OfDraw::SolvedPercent.of(draw)).collect(),
         };
-        mean_of_draws(&values, plan(&[&scene.run.study.name, group, contender]))
+        bootstrap::mean(&values, plan(&[&scene.run.study.name, group, contender]))
     }
 
     /// What stands in each row: the place across the rows, the contender, what was found.
@@ -213,11 +212,8 @@ impl Kind for Intervals {
         let names = self.names(scene);
         let row_pt = if self.is_by_group() { 6.0 + 5.0 * self.contenders.len() as f64 } else { 13.0 };
         let height = (names.len() as f64 * row_pt).max(60.0);
-        let mut sheet = Sheet::new(Width::Double, self.columns(), height).level();
-        for index in 0..self.panels.len() {
-            sheet.add(self.panel(scene, index, &names)?);
-        }
-        Ok(sheet)
+        let panels = (0..self.panels.len()).map(|index| self.panel(scene, index, &names));
+        Sheet::new(Width::Double, self.columns(), height).level().with(panels)
     }
 
     fn table(&self, scene: &Scene<'_>, label: &str, caption: &str) -> Result<Option<Table>, RenderError> {

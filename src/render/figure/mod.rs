@@ -27,9 +27,9 @@ use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::tabulated::{Trials, trials};
 use crate::analysis::verdict::Verdicts;
 use crate::study::Study;
-use crate::study::paper::{Claim, Paper};
+use crate::study::paper::Paper;
 use crate::study::spec::FigureSpec;
-use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean, none_called};
+use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean};
 use toml::Table as Toml;
 
 /// What a figure is drawn from.
@@ -139,55 +139,6 @@ pub static REGISTRY: &[&Entry] = &[
     &tradeoff::ENTRY,
     &work_cell::ENTRY,
 ];
-
-/// How the keys of settings start that name contenders.
-const CONTENDER_KEYS: [&str; 3] = ["contender", "against", "rows"];
-
-/// Refuses contenders and problem groups that `study` does not have.
-fn check_labels<'a>(
-    settings: &Settings,
-    study: &Study,
-    contenders: impl IntoIterator<Item = &'a String>,
-    problems: impl IntoIterator<Item = &'a String>,
-) -> Result<(), SettingsError> {
-    let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
-    let mut faults = Faults::default();
-    for label in contenders.into_iter().filter(|label| !known.contains(&label.as_str())) {
-        let hint = did_you_mean(label, known.iter().copied());
-        let message = format!("no contender is called `{label}`{hint}; they are {}", known.join(", "));
-        faults.add(settings.error_about("", &CONTENDER_KEYS, label, message));
-    }
-    let groups: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-    for label in problems.into_iter().filter(|label| !groups.contains(&label.as_str())) {
-        let hint = did_you_mean(label, groups.iter().copied());
-        let message = format!("no problem group is called `{label}`{hint}; they are {}", groups.join(", "));
-        faults.add(settings.error_about("", &["problem"], label, message));
-    }
-    faults.done()
-}
-
-/// The claim called `id`, whose criterion `name` says what is to be shown.
-fn asked_claim<'p>(
-    settings: &Settings,
-    paper: &'p Paper,
-    id: &str,
-    name: &str,
-) -> Result<&'p Claim, SettingsError> {
-    let Some(claim) = paper.claim(id) else {
-        let known = paper.claims.iter().map(|claim| claim.id.as_str());
-        return Err(settings.error_about("", &["claim"], id, none_called("claim", id, known)));
-    };
-    if claim.criteria().any(|(own, _)| own == name) {
-        return Ok(claim);
-    }
-    let message = format!("claim `{id}` has no criterion `{name}`, which says what is to be shown");
-    Err(settings.error_about("", &["claim"], id, message))
-}
-
-/// The number that the claim called `id` prints.
-fn printed_value(evidence: &Evidence<'_>, id: &str) -> Option<f64> {
-    evidence.paper.claim(id)?.printed.as_ref()?.parse().ok()
-}
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -26,7 +26,7 @@ sweep = "delta_deg=10.0"
     build: |settings, study, _paper| {
         let read: Read = settings.read()?;
         for panel in &read.panels {
-            ask::known(settings, study, std::slice::from_ref(&panel.problem), &panel.contenders)?;
+            ask::known(settings, study, [&panel.problem], &panel.contenders)?;
         }
         let sweep = read.sweep.as_ref().map(|text| ask::sweep(settings, study, text)).transpose()?;
         Ok(Box::new(MotionCurves { read, sweep }))

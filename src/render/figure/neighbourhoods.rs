@@ -23,7 +23,7 @@ contenders = ["A* 8"]
 "#,
     build: |settings, study, _paper| {
         let read: Neighbourhoods = settings.read()?;
-        ask::known(settings, study, std::slice::from_ref(&read.problem), &read.contenders)?;
+        ask::known(settings, study, [&read.problem], &read.contenders)?;
         Ok(Box::new(read))
     },
 };
@@ -49,12 +49,10 @@ impl Kind for Neighbourhoods {
         let rows = self.contenders.iter().map(|label| ask::trial(scene, &self.problem, 0, None, label));
         let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
         let width = if rows.len() == 1 { Width::Single } else { Width::Double };
-        let mut sheet = Sheet::new(width, rows.len().min(4), PLOT_PT);
-        for row in rows {
-            let region = ask::exhibit(scene, &row.key, "region")?;
-            sheet.add(panel(row, region, scene.run.exhibit(&row.key, "drawn"))?);
-        }
-        Ok(sheet)
+        let panels = rows.iter().map(|row| {
+            panel(row, ask::exhibit(scene, &row.key, "region")?, scene.run.exhibit(&row.key, "drawn"))
+        });
+        Sheet::new(width, rows.len().min(4), PLOT_PT).with(panels)
     }
 }
 

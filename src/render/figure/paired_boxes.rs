@@ -4,7 +4,6 @@
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::Selection;
-use crate::analysis::statistic::{box_of, mean, median, quantile};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::BoxStrip;
@@ -15,6 +14,7 @@ use crate::study::key::SweepKey;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::summary::{box_of, mean, median, quantile_type7 as quantile};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -31,7 +31,7 @@ savings = ["length.least", "length.greatest"]
 "#,
     build: |settings, study, paper| {
         let read: Read = settings.read()?;
-        ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
+        ask::known(settings, study, [&read.problems], &read.contenders)?;
         let metric = ask::metric(settings, &read.metric)?;
         let printed = ask::all_printed(settings, paper, "savings", read.savings.iter().flatten())?;
         let sweep = ask::sweep(settings, study, &read.sweep)?;

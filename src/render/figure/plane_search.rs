@@ -26,8 +26,7 @@ panels = [{ contender = "Original A*", title = "", bare = true }]
 "#,
     build: |settings, study, _paper| {
         let read: PlaneSearch = settings.read()?;
-        let contenders: Vec<String> = read.panels.iter().map(|panel| panel.contender.clone()).collect();
-        ask::known(settings, study, std::slice::from_ref(&read.problems), &contenders)?;
+        ask::known(settings, study, [&read.problems], read.panels.iter().map(|panel| &panel.contender))?;
         Ok(Box::new(read))
     },
 };
@@ -86,7 +85,7 @@ impl Kind for PlaneSearch {
                     None => self.searches(&mut panel, scene, row, &path, of)?,
                 }
             }
-            ends(&mut panel, &path);
+            ask::add_ends(&mut panel, &path, 3.4, [(Marker::Square, GREEN), (Marker::Square, ORANGE)]);
             sheet.add(panel);
         }
         Ok(sheet)
@@ -178,12 +177,4 @@ fn straightened(
         panel.add(Points::of(shown, Marker::Diamond, 2.8, VERMILLION).labelled("retained"));
     }
     Ok(())
-}
-
-fn ends(panel: &mut Panel, path: &[[f64; 2]]) {
-    let ends = [("start", GREEN, path.first()), ("goal", ORANGE, path.last())];
-    for (label, color, at) in ends {
-        let points = at.into_iter().copied().collect();
-        panel.add(Points::of(points, Marker::Square, 3.4, color).labelled(label));
-    }
 }

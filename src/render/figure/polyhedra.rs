@@ -4,8 +4,8 @@
 use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
-use crate::render::chart::{Axis, Key, Panel, Sheet, Swatch, Trim};
-use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark, Vec3};
+use crate::render::chart::{Key, Panel, Sheet};
+use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark, Vec3, box_corners};
 use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, ORANGE, PURPLE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
@@ -31,7 +31,7 @@ views = ["corner"]
 "#,
     build: |settings, study, _paper| {
         let read: Read = settings.read()?;
-        super::check_labels(settings, study, &read.contenders, [&read.problem])?;
+        ask::known(settings, study, [&read.problem], &read.contenders)?;
         for (key, count) in [("contenders", read.contenders.len()), ("views", read.views.len())] {
             if count == 0 {
                 return Err(settings.error_at(key, format!("{key} is empty; at least one is accepted")));
@@ -122,7 +122,7 @@ impl Kind for Polyhedra {
                     if *is_arm { arm(&mut solids, scene, row)? } else { paths(&mut solids, scene, row)? };
                 let seen = if views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
                 let title = format!("{}: {}{seen}", row.key.contender, self.said(row));
-                sheet.add(panel(title, solids, *view, keys)?);
+                sheet.add(panel(title, solids, *view, keys));
             }
         }
         Ok(sheet)
@@ -149,10 +149,10 @@ impl Polyhedra {
         let rows = |contender: &String| scene.run.rows(&self.read.problem, contender).into_iter();
         let (first, others) = self.read.contenders.split_first()?;
         let fails = |replicate: u32, other: &String| {
-            rows(other).any(|row| row.draw() == replicate && row.status != Status::Solved)
+            rows(other).any(|row| row.draw() == replicate && !row.is_solved())
         };
         let is_chosen = |row: &&Row| {
-            row.status == Status::Solved
+            row.is_solved()
                 && scene.run.exhibit(&row.key, "rods").is_some()
                 && others.iter().all(|other| fails(row.draw(), other))
         };
@@ -195,8 +195,7 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
             solids.capsule(from, to, rod[7], Paint::solid(shade(1.0)));
         }
     }
-    let along =
-        Key { swatch: Swatch::Line(axis(0.0), None), label: "axes of the rods on the way".to_owned() };
+    let along = Key::line("axes of the rods on the way", axis(0.0));
     let mut keys = vec![along, cell_key("arm at the end", shade(1.0))];
     for (name, label, color) in
         [("tip_path", "path to be followed", PURPLE), ("tip_trail", "way of the tip", VERMILLION)]
@@ -204,7 +203,7 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
         if let Some(found) = scene.run.exhibit(&row.key, name) {
             let stroke = Stroke::solid(color, 1.3);
             solids.polyline(points(found), stroke);
-            keys.push(Key { swatch: Swatch::Line(stroke, None), label: label.to_owned() });
+            keys.push(Key::line(label, stroke));
         }
     }
     let trail = points(ask::exhibit(scene, &row.key, "tip_trail")?);
@@ -221,7 +220,7 @@ fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, 
     let mut line = |solids: &mut Solids, name: &str, label: &str, stroke: Stroke| {
         if let Some(found) = scene.run.exhibit(&row.key, name) {
             solids.polyline(points(found), stroke);
-            keys.push(Key { swatch: Swatch::Line(stroke, None), label: label.to_owned() });
+            keys.push(Key::line(label, stroke));
         }
     };
     line(solids, "raw_path", "path as searched", Stroke::solid(BLUE, 0.8).dashed(Dash::Dashed));
@@ -289,18 +288,14 @@ fn bodies(vertices: &[Vec3], faces: Vec<Vec<usize>>) -> Vec<(Vec<Vec3>, Vec<Vec<
 
 /// The twelve edges of a box.
 fn edges(low: Vec3, high: Vec3) -> Vec<[Vec3; 2]> {
-    let corner =
-        |index: usize| [0, 1, 2].map(|axis| if index >> axis & 1 == 0 { low[axis] } else { high[axis] });
-    let pairs = (0..8).flat_map(|index| (0..3).map(move |axis| (index, index | 1 << axis)));
-    pairs.filter(|(from, to)| from != to).map(|(from, to)| [corner(from), corner(to)]).collect()
+    let corners = box_corners(low, high);
+    let pairs = (0..8).flat_map(|index| (0..3).map(move |axis| [index, index | 1 << axis]));
+    pairs.filter(|[from, to]| from != to).map(|ends| ends.map(|index| corners[index])).collect()
 }
 
 /// A panel that shows `scene`.
-fn panel(title: String, scene: Solids, view: View, mut keys: Vec<Key>) -> Result<Panel, RenderError> {
-    let bare = || Axis::linear("", 0.0, 1.0);
-    let mut panel = Panel::new(title, bare()?, bare()?).trimmed(Trim::Bare);
+fn panel(title: String, scene: Solids, view: View, mut keys: Vec<Key>) -> Panel {
     keys.push(cell_key("obstacle", SKY.mixed(WHITE, 0.25)));
     let bar = Some(ScaleBar { length: 20.0, label: "20 cm".to_owned() });
-    panel.add(SceneMark { scene, camera: view.camera(), bar, keys });
-    Ok(panel)
+    SceneMark { scene, camera: view.camera(), bar, keys }.panel(title)
 }

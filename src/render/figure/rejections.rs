@@ -25,7 +25,7 @@ problems = ["cell"]
 "#,
     build: |settings, study, _paper| {
         let read: Rejections = settings.read()?;
-        ask::known(settings, study, &read.problems, &[])?;
+        ask::known(settings, study, &read.problems, [])?;
         Ok(Box::new(read))
     },
 };
@@ -103,10 +103,7 @@ impl Rejections {
 
 impl Kind for Rejections {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, PANELS.len(), 150.0);
-        for (left_out, title) in PANELS {
-            sheet.add(self.panel(scene, left_out, title)?);
-        }
-        Ok(sheet)
+        let panels = PANELS.map(|(left_out, title)| self.panel(scene, left_out, title));
+        Sheet::new(Width::Double, PANELS.len(), 150.0).with(panels)
     }
 }

@@ -2,8 +2,7 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::Selection;
-use crate::analysis::statistic::means_along;
+use crate::analysis::selection::{Case, Selection, by_draw};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -12,6 +11,7 @@ use crate::study::column;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::summary::means_along;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -28,7 +28,7 @@ over = "obstacles"
 "#,
     build: |settings, study, _paper| {
         let read: Settings = settings.read()?;
-        super::check_labels(settings, study, [&read.contender, &read.against], &read.problems)?;
+        ask::known(settings, study, &read.problems, [&read.contender, &read.against])?;
         let metric = ask::metric(settings, &read.metric)?;
         let column = column::find(&read.over)
             .ok_or_else(|| settings.error_at("over", format!("there is no column `{}`", read.over)))?;
@@ -86,9 +86,7 @@ impl SavingOver {
         let all = ask::trials(scene.run, group, &self.settings.contender);
         let against = Some(self.settings.against.clone());
         let draws = Selection { against, metric: Some(self.metric), ..all }.draws(scene.evidence);
-        let cases = draws.iter().flat_map(|draw| &draw.cases);
-        cases
-            .filter_map(|case| Some([case.row.value(&self.settings.over)?, case.saving_percent()?]))
-            .collect()
+        let point = |case: &Case<'_>| Some([case.row.value(&self.settings.over)?, case.saving_percent()?]);
+        by_draw(&draws, point).concat()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::statistic::{band_of_draws, curves_of_draws, mean, plan};
+use crate::analysis::statistic::plan;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -15,6 +15,8 @@ use crate::study::paper::Paper;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::bands::{curves_of, sup_t};
+use stats::summary::mean;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -82,8 +84,7 @@ const DRAWN: usize = 60;
 impl SweepCurves {
     fn new(settings: &Settings, study: &Study, paper: &Paper) -> Result<Self, SettingsError> {
         let read: Read = settings.read()?;
-        let contenders: Vec<String> = read.rows.iter().map(|row| row.contender.clone()).collect();
-        ask::known(settings, study, std::slice::from_ref(&read.problems), &contenders)?;
+        ask::known(settings, study, [&read.problems], read.rows.iter().map(|row| &row.contender))?;
         let metrics =
             read.metrics.iter().map(|name| ask::metric(settings, name)).collect::<Result<_, _>>()?;
         if study.sweeps.len() > 1 {
@@ -117,7 +118,7 @@ impl SweepCurves {
         let share = |(_, at): &(f64, SweepKey)| {
             ask::solved_percents(scene, scene.run, &self.read.problems, contender, at)
         };
-        curves_of_draws(&self.points.iter().map(share).collect::<Vec<_>>())
+        curves_of(&self.points.iter().map(share).collect::<Vec<_>>())
     }
 
     /// A curve through these numbers, one a point of the sweep.
@@ -141,7 +142,7 @@ impl SweepCurves {
     ) -> Result<(), RenderError> {
         let index = ask::series(scene, &row.contender, place);
         let curves = self.curves(scene, &row.contender);
-        let Some(found) = band_of_draws(&curves, plan(&["success_bands", &row.contender])) else {
+        let Some(found) = sup_t(&curves, plan(&["success_bands", &row.contender])) else {
             let what = format!("two draws of `{}` on `{}`", row.contender, self.read.problems);
             return Err(RenderError::NotStored { what });
         };
@@ -207,25 +208,17 @@ impl Kind for SweepCurves {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         if !self.metrics.is_empty() {
             let note = "A trial that spent its budget shows what it spent.";
-            let mut sheet = Sheet::new(Width::Double, self.metrics.len(), 165.0).noted(note);
-            for metric in &self.metrics {
-                sheet.add(self.metric(scene, metric)?);
-            }
-            return Ok(sheet);
+            let sheet = Sheet::new(Width::Double, self.metrics.len(), 165.0).noted(note);
+            return sheet.with(self.metrics.iter().map(|metric| self.metric(scene, metric)));
         }
         if self.read.single_draws {
-            let mut sheet = Sheet::new(Width::Double, self.rows.len(), 170.0);
-            for row in &self.rows {
-                sheet.add(self.single_draws(scene, row)?);
-            }
-            return Ok(sheet);
+            let panels = self.rows.iter().map(|row| self.single_draws(scene, row));
+            return Sheet::new(Width::Double, self.rows.len(), 170.0).with(panels);
         }
         let mut panel = self.panel("")?;
         for (place, row) in self.rows.iter().enumerate() {
             self.add_band(scene, &mut panel, row, place)?;
         }
-        let mut sheet = Sheet::new(Width::Double, 1, 210.0);
-        sheet.add(panel);
-        Ok(sheet)
+        Sheet::new(Width::Double, 1, 210.0).with([Ok(panel)])
     }
 }

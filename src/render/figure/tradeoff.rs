@@ -1,7 +1,7 @@
 //! One metric against another, a point a contender: means over the same problems with intervals both ways, or every trial
 //! with the medians.
 
-use super::{Entry, Kind, Scene, ask, check_labels};
+use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Draw, Selection};
 use crate::analysis::statistic::{OfAll, median, plan};
@@ -10,7 +10,7 @@ use crate::render::chart::labels::Labels;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{BLACK, SERIES, Stroke, WHITE, Width, series_color, series_marker};
-use crate::study::record::{Row, Status};
+use crate::study::record::Row;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -30,12 +30,8 @@ panels = [{ title = "simple", problems = ["simple cells", "simple rectangles", "
 "#,
     build: |settings, study, _paper| {
         let read: Tradeoff = settings.read()?;
-        check_labels(
-            settings,
-            study,
-            &read.contenders,
-            read.panels.iter().flat_map(|panel| &panel.problems),
-        )?;
+        let problems = read.panels.iter().flat_map(|panel| &panel.problems);
+        ask::known(settings, study, problems, &read.contenders)?;
         let metrics = [ask::produced(settings, study, &read.x)?, ask::produced(settings, study, &read.y)?];
         Ok(Box::new(Ready { read, metrics }))
     },
@@ -111,8 +107,8 @@ impl Ready {
     /// Every trial, and the medians of each contender, failures at infinity.
     fn trials(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Result<Panel, RenderError> {
         let both = |row: &Row| {
-            let solved = row.status == Status::Solved;
-            let value = |metric| if solved { scene.run.value(row, metric) } else { Some(f64::INFINITY) };
+            let value =
+                |metric| if row.is_solved() { scene.run.value(row, metric) } else { Some(f64::INFINITY) };
             Some([value(self.metrics[0])?, value(self.metrics[1])?])
         };
         let of = |label: &String| -> Vec<[f64; 2]> {
@@ -147,15 +143,12 @@ impl Ready {
 
 impl Kind for Ready {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let height = if self.read.trials { 190.0 } else { 150.0 };
-        let mut sheet = Sheet::new(Width::Double, self.read.panels.len(), height);
-        for panel in &self.read.panels {
-            sheet.add(if self.read.trials { self.trials(scene, panel)? } else { self.means(scene, panel) });
-        }
+        let (panels, sheet) = (&self.read.panels, |pt| Sheet::new(Width::Double, self.read.panels.len(), pt));
         if self.read.trials {
-            return Ok(sheet);
+            return sheet(190.0).with(panels.iter().map(|panel| self.trials(scene, panel)));
         }
-        Ok(sheet.noted("Means over the maps that every contender solved, with 95 % bootstrap intervals of each mean over maps."))
+        let note = "Means over the maps that every contender solved, with 95 % bootstrap intervals of each mean over maps.";
+        sheet(150.0).noted(note).with(panels.iter().map(|panel| Ok(self.means(scene, panel))))
     }
 }
 

@@ -2,11 +2,11 @@
 
 use super::{Entry, Kind, Scene, Shown, ask};
 use crate::analysis::metric;
-use crate::analysis::selection::{Case, Selection};
+use crate::analysis::selection::{Case, Selection, by_draw, cases};
 use crate::analysis::statistic::median;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
-use crate::render::chart::{Axis, Key, Panel, Sheet, Trim};
+use crate::render::chart::{Key, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{Dash, GREY, Rgb, Stroke, WHITE, Width, YELLOW, series_color};
@@ -30,7 +30,7 @@ at_once = 3
 "#,
     build: |settings, study, _paper| {
         let read: WorkCell = settings.read()?;
-        ask::known(settings, study, std::slice::from_ref(&read.problems), &read.contenders)?;
+        ask::known(settings, study, [&read.problems], &read.contenders)?;
         if read.poses.is_empty() == read.contenders.is_empty() {
             return Err(settings.error("either poses or contenders are accepted"));
         }
@@ -71,10 +71,8 @@ const VIEWS: [(&str, Camera); 2] = [
 /// How far the floor reaches beyond what stands on it, millimetres.
 const MARGIN_MM: f64 = 100.0;
 
-/// The paint of obstacles.
-fn obstacle() -> Rgb {
-    YELLOW.mixed(GREY, 0.35).mixed(WHITE, 0.35)
-}
+/// The colour of obstacles.
+const OBSTACLE: Rgb = YELLOW.mixed(GREY, 0.35).mixed(WHITE, 0.35);
 
 /// The cell of a draw: floor and obstacles.
 fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderError> {
@@ -85,15 +83,10 @@ fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderErr
         solids.sheet(sheet, Paint { outlined: true, ..Paint::solid(GREY.mixed(WHITE, 0.82)) });
     }
     for corners in boxes.values.chunks(boxes.width) {
-        let vertices = corners.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        solids.polyhedron(
-            vertices,
-            faces.iter().map(|face| face.to_vec()).collect(),
-            Paint::solid(obstacle()),
-        );
+        let corners = corners.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
+        solids.cuboid(corners, Paint::solid(OBSTACLE));
     }
-    add_capsules(&mut solids, rounds, Paint::solid(obstacle()));
+    add_capsules(&mut solids, rounds, Paint::solid(OBSTACLE));
     Ok(solids)
 }
 
@@ -141,13 +134,10 @@ fn add_capsules(solids: &mut Solids, capsules: &Exhibit, paint: Paint) {
     }
 }
 
-/// A panel that shows `solids`.
-fn panel(title: &str, solids: Solids, camera: Camera, keys: Vec<Key>) -> Result<Panel, RenderError> {
-    let unused = || Axis::linear("", 0.0, 1.0);
-    let mut panel = Panel::new(title, unused()?, unused()?).trimmed(Trim::Bare);
+/// A panel that shows `scene`.
+fn panel(title: &str, scene: Solids, camera: Camera, keys: Vec<Key>) -> Panel {
     let bar = Some(ScaleBar { length: 500.0, label: "500 mm".to_owned() });
-    panel.add(SceneMark { scene: solids, camera, bar, keys });
-    Ok(panel)
+    SceneMark { scene, camera, bar, keys }.panel(title)
 }
 
 impl WorkCell {
@@ -159,7 +149,7 @@ impl WorkCell {
         for shown in named.chunks(self.at_once.max(1)) {
             for (title, camera) in VIEWS {
                 let mut solids = furnished(scene, draw)?;
-                let mut keys = vec![cell_key("obstacles", obstacle())];
+                let mut keys = vec![cell_key("obstacles", OBSTACLE)];
                 for (place, (index, [pose, name])) in shown.iter().enumerate() {
                     let color = series_color(*index).mixed(WHITE, 0.35);
                     let body = ask::exhibit(scene, draw, &format!("body {pose}"))?;
@@ -172,7 +162,7 @@ impl WorkCell {
                     }
                     keys.push(cell_key(format!("robot at {name}"), color));
                 }
-                sheet.add(panel(title, solids, camera, keys)?);
+                sheet.add(panel(title, solids, camera, keys));
             }
         }
         Ok(sheet)
@@ -187,12 +177,9 @@ impl WorkCell {
         if let Some(rank) = self.rank(scene, replicate) {
             sheet = sheet.titled(rank);
         }
-        for view in 0..VIEWS.len() {
-            for index in 0..self.contenders.len() {
-                sheet.add(self.way(scene, replicate, index, view)?);
-            }
-        }
-        Ok(sheet)
+        let all =
+            (0..VIEWS.len()).flat_map(|view| (0..self.contenders.len()).map(move |index| (view, index)));
+        sheet.with(all.map(|(view, index)| self.way(scene, replicate, index, view)))
     }
 
     fn way(
@@ -232,7 +219,7 @@ impl WorkCell {
         } else {
             format!("the same {seen}")
         };
-        panel(&title, solids, camera, Vec::new())
+        Ok(panel(&title, solids, camera, Vec::new()))
     }
 
     /// What the picked draw's saving is among those of all draws, in words.
@@ -241,9 +228,8 @@ impl WorkCell {
         let all = ask::trials(scene.run, &self.problems, self.contenders.last()?);
         let (against, query) = (self.contenders.first().cloned(), Some(self.query.clone()));
         let draws = Selection { against, metric, query, ..all }.draws(scene.evidence);
-        let cases = || draws.iter().flat_map(|draw| &draw.cases);
-        let own = cases().find(|case| case.row.draw() == draw)?.saving_percent()?;
-        let all: Vec<f64> = cases().filter_map(Case::saving_percent).collect();
+        let own = cases(&draws).find(|case| case.row.draw() == draw)?.saving_percent()?;
+        let all = by_draw(&draws, Case::saving_percent).concat();
         let below = all.iter().filter(|saving| **saving < own).count();
         Some(format!(
             "saving {own:.1} %: {below} of {} roadmaps save less, the median saves {:.1} %",

@@ -1,9 +1,9 @@
 //! A scene as a mark on a sheet.
 
 use super::order::{Item, Look, back_to_front};
-use super::{Camera, Scene, Vec3, along, dot, sub};
+use super::{Camera, Scene, Vec3, dot, sub};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
-use crate::render::chart::{Key, Mark, View};
+use crate::render::chart::{Axis, Key, Mark, Panel, Trim, View};
 use crate::render::style::{BLUE, Fill, GREEN, HAIR_PT, INK, Rgb, Stroke, TextSize, VERMILLION};
 
 /// A bar that shows how long a length looks.
@@ -22,7 +22,7 @@ pub struct SceneMark {
     pub scene: Scene,
     /// From where.
     pub camera: Camera,
-    /// The scale bar, drawn in a parallel view only.
+    /// The scale bar.
     pub bar: Option<ScaleBar>,
     /// Entries for the legend.
     pub keys: Vec<Key>,
@@ -35,8 +35,6 @@ const FOOT_PT: f64 = 30.0;
 pub(super) struct Lens {
     camera: Camera,
     middle: Vec3,
-    /// Distance of the eye from the middle; none in a parallel view.
-    distance: Option<f64>,
     scale: f64,
     shift: [f64; 2],
 }
@@ -44,9 +42,8 @@ pub(super) struct Lens {
 impl Lens {
     /// A lens that shows all of `scene` inside `room`.
     pub fn fitting(scene: &Scene, camera: Camera, room: Rect) -> Self {
-        let (middle, radius) = scene.ball();
-        let distance = camera.distance_radii.map(|radii| radii * radius);
-        let mut lens = Self { camera, middle, distance, scale: 1.0, shift: [0.0; 2] };
+        let (middle, _) = scene.ball();
+        let mut lens = Self { camera, middle, scale: 1.0, shift: [0.0; 2] };
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in scene.extent().map(|point| lens.at(point)) {
             for axis in 0..2 {
@@ -65,25 +62,26 @@ impl Lens {
 
     /// Where a point of the world lies on the page.
     pub fn at(&self, point: Vec3) -> [f64; 2] {
-        let ([right, up, back], offset) = (self.camera.axes(), sub(point, self.middle));
-        let near = self.distance.map_or(1.0, |distance| distance / (distance - dot(offset, back)));
-        let place = |axis: Vec3, sign: f64| self.scale * sign * near * dot(offset, axis);
+        let ([right, up, _], offset) = (self.camera.axes(), sub(point, self.middle));
+        let place = |axis: Vec3, sign: f64| self.scale * sign * dot(offset, axis);
         [self.shift[0] + place(right, 1.0), self.shift[1] + place(up, -1.0)]
-    }
-
-    /// Where the eye is; nowhere in a parallel view.
-    fn eye(&self) -> Option<Vec3> {
-        self.distance.map(|distance| along(self.middle, self.camera.axes()[2], distance))
     }
 }
 
 impl SceneMark {
+    /// It alone on a panel without axes.
+    pub fn panel(self, title: impl Into<String>) -> Panel {
+        let bare = || Axis::over("", []);
+        let mut panel = Panel::new(title, bare(), bare()).trimmed(Trim::Bare);
+        panel.add(self);
+        panel
+    }
+
     /// Everything to draw, back to front.
-    pub(super) fn items(&self, lens: &Lens) -> Vec<Item> {
-        let eye = lens.eye();
+    pub(super) fn items(&self) -> Vec<Item> {
         let mut items = Vec::new();
         for (solid, mesh) in self.scene.meshes.iter().enumerate() {
-            items.extend(mesh.visible(solid, &self.camera, eye));
+            items.extend(mesh.visible(solid, &self.camera));
         }
         for (index, chain) in self.scene.chains.iter().enumerate() {
             let solid = self.scene.meshes.len() + index;
@@ -91,7 +89,7 @@ impl SceneMark {
             items.extend(chain.points.windows(2).map(piece));
         }
         let (_, radius) = self.scene.ball();
-        back_to_front(items, eye.unwrap_or(self.camera.axes()[2]), eye.is_none(), radius * 1e-7)
+        back_to_front(items, self.camera.axes()[2], radius * 1e-7)
     }
 
     fn triad(&self, canvas: &mut Canvas, foot: Rect) {
@@ -113,7 +111,7 @@ impl SceneMark {
     }
 
     fn scale_bar(&self, canvas: &mut Canvas, lens: &Lens, foot: Rect) {
-        let Some(bar) = self.bar.as_ref().filter(|_| lens.distance.is_none()) else { return };
+        let Some(bar) = &self.bar else { return };
         let (right, y, length) = (foot.right() - 4.0, foot.bottom() - 5.0, bar.length * lens.scale);
         let ink = Stroke::solid(INK, 1.0);
         canvas.polyline(&[[right - length, y], [right, y]], &ink);
@@ -209,7 +207,7 @@ impl Mark for SceneMark {
         let frame = view.frame;
         let room = Rect { x: frame.x + 6.0, y: frame.y + 3.0, w: frame.w - 12.0, h: frame.h - FOOT_PT - 3.0 };
         let lens = Lens::fitting(&self.scene, self.camera, room);
-        draw_items(canvas, &lens, &self.items(&lens));
+        draw_items(canvas, &lens, &self.items());
         for chain in &self.scene.overlays {
             let points: Vec<[f64; 2]> = chain.points.iter().map(|&point| lens.at(point)).collect();
             canvas.polyline(&points, &chain.stroke);

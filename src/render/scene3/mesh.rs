@@ -77,14 +77,13 @@ impl Mesh {
         face.iter().map(|&index| self.vertices[index]).collect()
     }
 
-    /// Faces that look at the camera, then the outlines that part them; all belong to `solid`. `eye` is none in a parallel
-    /// view.
-    pub fn visible(&self, solid: usize, camera: &Camera, eye: Option<Vec3>) -> Vec<Item> {
+    /// Faces that look at the camera, then the outlines that part them; all belong to `solid`.
+    pub fn visible(&self, solid: usize, camera: &Camera) -> Vec<Item> {
         let (mut items, mut fronts) = (Vec::new(), vec![None; self.faces.len()]);
         for (index, face) in self.faces.iter().enumerate() {
             let mut corners = self.corners(face);
             let mut outward = normal(&corners);
-            let towards = eye.map_or(camera.axes()[2], |eye| sub(eye, corners[0]));
+            let towards = camera.axes()[2];
             if dot(outward, towards) < 0.0 && self.two_sided {
                 corners.reverse();
                 outward = outward.map(|value| -value);

@@ -39,9 +39,9 @@ pub(super) struct Item {
 /// How many faces are tried as cutting planes.
 const TRIES: usize = 24;
 
-/// `items` so that nothing is followed by what lies behind it, as seen from `eye` (a point, or a
-/// direction if `parallel`). Points closer than `slack` to a plane count as lying in it.
-pub(super) fn back_to_front(items: Vec<Item>, eye: Vec3, parallel: bool, slack: f64) -> Vec<Item> {
+/// `items` so that nothing is followed by what lies behind it, as seen from the direction `eye`.
+/// Points closer than `slack` to a plane count as lying in it.
+pub(super) fn back_to_front(items: Vec<Item>, eye: Vec3, slack: f64) -> Vec<Item> {
     let mut sorted = Vec::with_capacity(items.len());
     let mut todo = vec![items];
     while let Some(region) = todo.pop() {
@@ -54,8 +54,8 @@ pub(super) fn back_to_front(items: Vec<Item>, eye: Vec3, parallel: bool, slack: 
             }
             Some(plane) => {
                 let Sides { above, within, below } = divided(region, plane, slack);
-                let height = dot(plane.normal, eye) - if parallel { 0.0 } else { plane.offset };
-                let (mut near, far) = if height >= 0.0 { (above, below) } else { (below, above) };
+                let is_above = dot(plane.normal, eye) >= 0.0;
+                let (mut near, far) = if is_above { (above, below) } else { (below, above) };
                 // Lines in the plane are edges of what stands on it, or are drawn on it: not to be covered.
                 let (lines, within): (Vec<Item>, Vec<Item>) =
                     within.into_iter().partition(|item| matches!(item.look, Look::Line(_)));

@@ -19,12 +19,6 @@ fn data_rise_from_the_lower_left_corner_of_the_frame() {
 }
 
 #[test]
-fn an_ecdf_ends_at_the_share_of_finite_values() {
-    let line = Line::ecdf(&[2.0, f64::INFINITY, 1.0, 2.0], Stroke::solid(BLUE, 1.0));
-    assert_eq!(line.points, [[1.0, 0.0], [1.0, 0.25], [2.0, 0.25], [2.0, 0.5], [2.0, 0.5], [2.0, 0.75]]);
-}
-
-#[test]
 fn runs_cover_every_coloured_cell_once_and_no_other() {
     let mut random = seed::stream(seed::derive(5, &["cells"]));
     let pick = |random: &mut seed::Stream| [None, Some(BLUE), Some(ORANGE)][random.random_range(0..3)];

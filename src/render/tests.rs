@@ -1,6 +1,6 @@
 //! A sample of every helper, held free of overlapping labels.
 //!
-//! `REPLAN_DEMO_DIR=target/demo cargo test --lib render::demo` also writes the files, to be looked at.
+//! `REPLAN_DEMO_DIR=target/demo cargo test --lib render::tests` also writes the files, to be looked at.
 
 use super::canvas::{Align, Stand, Type};
 use super::chart::legend::cell_key;
@@ -8,7 +8,7 @@ use super::chart::marks::{Band, Cells, Line, Note, Points, Shape};
 use super::chart::rows::{Bars, BoxStrip, Interval};
 use super::chart::rules::Rules;
 use super::chart::{Axis, Panel, Sheet, Trim};
-use super::scene3::{Camera, Paint, ScaleBar, Scene, SceneMark, Vec3};
+use super::scene3::{Camera, Paint, ScaleBar, Scene, SceneMark, Vec3, box_corners};
 use super::style::{
     BLACK, BLUE, Dash, Fill, GREEN, GREY, GRID, Marker, ORANGE, PURPLE, SKY, Stroke, TextSize, VERMILLION,
     WHITE, Width, YELLOW, series_color, series_marker, series_stroke,
@@ -16,6 +16,7 @@ use super::style::{
 use super::vector::Provenance;
 use base::seed;
 use rand::RngExt as _;
+use stats::summary::cumulative;
 
 fn hold(name: &str, sheet: &Sheet) {
     let provenance = Provenance {
@@ -158,7 +159,9 @@ fn distributions_with_marked_values() {
         Axis::linear("share of maps", 0.0, 1.0).unwrap(),
     );
     for (index, part) in values.chunks(200).enumerate() {
-        second.add(Line::ecdf(part, series_stroke(index)).labelled(format!("density {}", index + 1)));
+        second.add(
+            Line::through(cumulative(part), series_stroke(index)).labelled(format!("density {}", index + 1)),
+        );
     }
     let marks = (0..6).map(|index| (5.0 + 1.5 * f64::from(index), format!("printed {index}"))).collect();
     second.add(Rules { marks, stroke: Stroke::solid(BLACK, 0.6).dashed(Dash::Dotted) });
@@ -277,9 +280,9 @@ fn cell() -> Scene {
         let y = f64::from(step) * 200.0;
         scene.polyline(vec![[-900.0, y, 0.0], [1500.0, y, 0.0]], Stroke::solid(WHITE, 0.4));
     }
-    scene.cuboid([600.0, -700.0, 0.0], [1200.0, -200.0, 500.0], Paint::solid(SKY));
-    scene.cuboid([700.0, 250.0, 0.0], [1300.0, 800.0, 350.0], Paint::solid(YELLOW));
-    scene.cuboid([900.0, 400.0, 350.0], [1100.0, 600.0, 600.0], Paint::solid(GREEN));
+    scene.cuboid(box_corners([600.0, -700.0, 0.0], [1200.0, -200.0, 500.0]), Paint::solid(SKY));
+    scene.cuboid(box_corners([700.0, 250.0, 0.0], [1300.0, 800.0, 350.0]), Paint::solid(YELLOW));
+    scene.cuboid(box_corners([900.0, 400.0, 350.0], [1100.0, 600.0, 600.0]), Paint::solid(GREEN));
     let joints: [Vec3; 6] = [
         [0.0, 0.0, 0.0],
         [0.0, 0.0, 450.0],
@@ -303,10 +306,8 @@ fn cell() -> Scene {
 #[test]
 fn a_robot_cell_from_two_sides() {
     let mut sheet = Sheet::new(Width::Double, 2, 210.0);
-    let cameras = [
-        ("parallel view", Camera::parallel(35.0, 25.0)),
-        ("perspective", Camera { distance_radii: Some(3.5), ..Camera::parallel(-55.0, 20.0) }),
-    ];
+    let cameras =
+        [("from one side", Camera::parallel(35.0, 25.0)), ("from the other", Camera::parallel(-55.0, 20.0))];
     for (title, camera) in cameras {
         let bare = || Axis::linear("", 0.0, 1.0).unwrap();
         let mut panel = Panel::new(title, bare(), bare()).trimmed(Trim::Bare);
