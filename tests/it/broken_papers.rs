@@ -33,7 +33,7 @@ const BROKEN: [(&str, &str, &[Mistake]); 10] = [
                 "family = \"rectangles\"",
                 "compare.toml:17:10: there is no problem family `rectangles`",
             ),
-            ("paper.toml", "[claim.check.lower]", "[claim.check.less]", "paper.toml:67:14: "),
+            ("paper.toml", "[claim.check.lower]", "[claim.check.less]", "there is no criterion `less`"),
         ],
     ),
     (

@@ -27,6 +27,9 @@ fn copy(bench: &Bench, root: &Path, name: &str) {
     for entry in fs::read_dir(root.join(name)).unwrap() {
         let entry = entry.unwrap();
         let file = entry.file_name().into_string().unwrap();
+        if entry.path().is_dir() {
+            continue;
+        }
         bench.write(&format!("{name}/{file}"), &fs::read(entry.path()).unwrap());
     }
 }

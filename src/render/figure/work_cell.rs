@@ -68,9 +68,6 @@ const VIEWS: [(&str, Camera); 2] = [
     ("from above left", Camera::parallel(35.0, 48.0)),
 ];
 
-/// How far a part may be from where it was at another pose to stand still, millimetres.
-const STILL_MM: f64 = 1e-6;
-
 /// How far the floor reaches beyond what stands on it, millimetres.
 const MARGIN_MM: f64 = 100.0;
 
@@ -118,11 +115,14 @@ fn floor(scene: &Scene<'_>, draw: &Arc<DrawKey>, stills: [&Exhibit; 2], height: 
     vec![[x0, y0, height], [x1, y0, height], [x1, y1, height], [x0, y1, height]]
 }
 
-/// The parts of `body` that do not stand where they stand in `first`.
+/// The parts of `body` that are elsewhere than in `first`, by more than they are thick.
 fn moved(body: &Exhibit, first: &Exhibit) -> Exhibit {
     let parts = body.values.chunks(body.width).zip(first.values.chunks(first.width));
-    let stands =
-        |(part, other): &(&[f64], &[f64])| part.iter().zip(*other).all(|(a, b)| (a - b).abs() <= STILL_MM);
+    let apart_mm = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+    let stands = |(part, other): &(&[f64], &[f64])| {
+        let ends = [apart_mm(&part[..3], &other[..3]), apart_mm(&part[3..6], &other[3..6])];
+        ends.iter().all(|apart_mm| *apart_mm <= 2.0 * part[6])
+    };
     let values = parts.filter(|pair| !stands(pair)).flat_map(|(part, _)| part.to_vec()).collect();
     Exhibit { values, ..body.clone() }
 }
@@ -153,7 +153,7 @@ impl WorkCell {
                 for (place, (index, [pose, name])) in shown.iter().enumerate() {
                     let color = series_color(*index).mixed(WHITE, 0.35);
                     let body = ask::exhibit(scene, draw, &format!("body {pose}"))?;
-                    // What stands still from pose to pose is drawn once.
+                    // What hardly moves from pose to pose is drawn once.
                     let first = ask::exhibit(scene, draw, &format!("body {}", shown[0].1[0]))?;
                     let parts = if place == 0 { body.clone() } else { moved(body, first) };
                     add_capsules(&mut solids, &parts, Paint { outlined: false, ..Paint::solid(color) });
