@@ -48,7 +48,9 @@ mod tests {
         let printed = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
         assert_eq!(sha256(b"abc"), printed);
         let mut hasher = Hasher::default();
-        [&b"a"[..], b"", b"bc"].iter().for_each(|bytes| hasher.write_all(bytes).unwrap());
+        for bytes in [&b"a"[..], b"", b"bc"] {
+            hasher.write_all(bytes).unwrap();
+        }
         assert_eq!(hasher.finish(), printed);
     }
 }

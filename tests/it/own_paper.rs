@@ -1,4 +1,4 @@
-//! Papers of one's own: what `replan new` writes, and every command and file of docs/YOUR_OWN_PAPER.md.
+//! Papers of one's own: what `replan new` writes, and every command and file of `docs/YOUR_OWN_PAPER.md`.
 
 use crate::paper::{Bench, Said};
 use std::fs;
