@@ -103,15 +103,12 @@ impl Audit {
                 say!("{line}");
             }
         }
-        let impossible = report.tally.values().map(|tally| tally.impossible).sum::<usize>();
-        match impossible {
-            0 => Ok(()),
-            found => {
-                let are =
-                    if found == 1 { "1 finding is".to_owned() } else { format!("{found} findings are") };
-                Err(Failure::stale(format!("{source}: {are} impossible under the premises named")))
-            }
-        }
+        let are = match report.tally.values().map(|tally| tally.impossible).sum::<usize>() {
+            0 => return Ok(()),
+            1 => "1 finding is".to_owned(),
+            found => format!("{found} findings are"),
+        };
+        Err(Failure::stale(format!("{source}: {are} impossible under the premises named")))
     }
 }
 

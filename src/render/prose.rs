@@ -1,8 +1,10 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
-use super::tables::number;
 use crate::analysis::verdict::Verdicts;
 use crate::study::paper::filled;
+
+/// Paragraphs and lists are broken into lines of so many characters.
+pub const COLUMNS: usize = 120;
 
 /// `text` with every `{claim}` replaced by our number beside that claim, and every `{claim:form}` by what the form asks for; a
 /// dash where there is none.
@@ -21,6 +23,16 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
         };
         found.unwrap_or_else(|| "–".to_owned())
     })
+}
+
+/// A number with four decimals at most; what these would show as zero stands as a power of ten.
+pub fn number(value: f64) -> String {
+    if value != 0.0 && value.abs() < 5e-5 {
+        return format!("{value:.1e}");
+    }
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    if text == "-0" { "0".to_owned() } else { text }
 }
 
 /// `text` as Markdown that shows it literally, on one line; what stands between backticks is code.

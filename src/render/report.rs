@@ -6,7 +6,7 @@ mod details;
 
 pub use chapter::{Chapter, Page, unread};
 
-use super::prose::{markdown, wrapped};
+use super::prose::{COLUMNS, markdown, wrapped};
 use crate::analysis::class::Verdict;
 use crate::analysis::verdict::{Judged, Verdicts};
 use crate::study::StudyError;
@@ -24,8 +24,16 @@ pub struct Undrawn {
     pub why: String,
 }
 
-/// Paragraphs and lists are broken into lines of so many characters.
-pub(super) const COLUMNS: usize = 120;
+/// The parts of the details with their anchors.
+const SECTIONS: [(&str, &str); 7] = [
+    ("Claims", "claims"),
+    ("What holds together", "together"),
+    ("Readings", "readings"),
+    ("Changes after a run", "changes"),
+    ("Further figures and tables", "figures"),
+    ("Ledger", "ledger"),
+    ("Studies", "studies"),
+];
 
 const OPENING: &str = "# What the papers claim and what we found
 

@@ -97,7 +97,7 @@ pub fn markdown(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<String, 
         let safe: Vec<String> = cells.iter().map(|cell| safe(cell)).collect();
         format!("| {} |\n", safe.join(" | "))
     };
-    let caption = super::prose::wrapped("", &safe(&table.caption), 0, super::report::COLUMNS);
+    let caption = super::prose::wrapped("", &safe(&table.caption), 0, super::prose::COLUMNS);
     let mut text = format!("{caption}\n\n{}|{}\n", line(&grid.head), "---|".repeat(grid.head.len()));
     for (title, rows) in &grid.blocks {
         text += &format!("| **{}** |{}\n", safe(title), " |".repeat(grid.head.len() - 1));

@@ -1,7 +1,7 @@
 //! The paper's tables with ours beside them, and every number as a macro.
 
 use super::latex::{Cell, Column, Numbers, Table};
-use super::prose::markdown as safe;
+use super::prose::{markdown as safe, number};
 use super::{RenderError, marks};
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
@@ -73,18 +73,12 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
         };
         latex.row(line(&row.label, "printed", &beside.printed));
         latex.row(line("", "ours", &beside.ours));
-        let classes: Vec<String> = beside
-            .classes
-            .iter()
-            .map(|judged| judged.map_or_else(dash, |j| j.outcome().to_owned()))
-            .collect();
-        let mut classes = line("", "verdict", &classes);
+        let outcome =
+            |judged: Option<&Judged>| judged.map_or_else(dash, |judged| judged.outcome().to_owned());
+        let mut classes =
+            line("", "verdict", &beside.classes.iter().copied().map(outcome).collect::<Vec<_>>());
         for (cell, judged) in classes.iter_mut().skip(2).zip(&beside.classes) {
-            let jointly = table.jointly.iter().filter(|together| {
-                together.cells.iter().any(|cell| judged.is_some_and(|judged| judged.claim == *cell.get_ref()))
-            });
-            let jointly = jointly.filter_map(|together| verdicts.claim(together.claim.get_ref()));
-            let said: Vec<String> = judged.iter().copied().chain(jointly).filter_map(premises).collect();
+            let said = granted(table, *judged, verdicts);
             if !said.is_empty() {
                 latex.footnote(cell, said.join(" "));
             }
@@ -96,6 +90,15 @@ pub fn table(evidence: &Evidence<'_>, table: &TableSpec, verdicts: &Verdicts) ->
         latex.note(note);
     }
     latex.latex(&made(paper, &table.id, verdicts))
+}
+
+/// What the proofs of a cell's class take for granted, those of the cells that it is met together with among them.
+fn granted(table: &TableSpec, judged: Option<&Judged>, verdicts: &Verdicts) -> Vec<String> {
+    let jointly = table.jointly.iter().filter(|together| {
+        together.cells.iter().any(|cell| judged.is_some_and(|judged| judged.claim == *cell.get_ref()))
+    });
+    let jointly = jointly.filter_map(|together| verdicts.claim(together.claim.get_ref()));
+    judged.into_iter().chain(jointly).filter_map(premises).collect()
 }
 
 /// `table` in Markdown. Up to two columns stand side by side, each as printed, ours and class; more stand one line above
@@ -133,17 +136,19 @@ pub fn markdown(
             }
         }
     }
-    let head = if is_wide {
-        line("", "", escaped(&table.columns))
-    } else {
-        let columns = escaped(&table.columns).into_iter();
-        let columns =
-            columns.flat_map(|name| [format!("{name}: printed"), "ours".to_owned(), "class".to_owned()]);
-        std::iter::once(String::new()).chain(columns).collect()
-    };
+    let columns = escaped(&table.columns);
+    let head = if is_wide { line("", "", columns) } else { side_by_side(columns) };
     let rule = vec!["---".to_owned(); head.len()];
     let lines = [head, rule].into_iter().chain(lines);
     Ok(lines.map(|cells| format!("| {} |\n", cells.join(" | "))).collect::<Vec<_>>().concat())
+}
+
+/// The head of a table that has printed, ours and class side by side.
+fn side_by_side(columns: Vec<String>) -> Vec<String> {
+    let named = columns
+        .into_iter()
+        .flat_map(|name| [format!("{name}: printed"), "ours".to_owned(), "class".to_owned()]);
+    std::iter::once(String::new()).chain(named).collect()
 }
 
 /// What a proof that a claim is impossible takes for granted.
@@ -237,16 +242,6 @@ fn rounded(estimate: &Estimate, decimals: usize) -> String {
         }
         None => number(estimate.value),
     }
-}
-
-/// A number with four decimals at most; what these would show as zero stands as a power of ten.
-pub(super) fn number(value: f64) -> String {
-    if value != 0.0 && value.abs() < 5e-5 {
-        return format!("{value:.1e}");
-    }
-    let text = format!("{value:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
-    if text == "-0" { "0".to_owned() } else { text }
 }
 
 #[cfg(test)]

@@ -242,7 +242,7 @@ fn why_says_that_a_stored_run_cannot_be_read() {
     let out = bench.done(&["run", "./mini", "--why"]);
     assert!(
         out.contains(
-            "why: what is stored cannot be used: target/replan/mini/data/runs/mini/draws.manifest.toml:1:1: missing field `study`"
+            "why: what is stored cannot be used: target/replan/mini/data/runs/mini/draws.manifest.toml:1:1: is not what replan wrote: truncated, edited, or of another version; run the study again"
         ),
         "{out}"
     );

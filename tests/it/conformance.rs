@@ -167,7 +167,8 @@ fn no_planner_is_refused_and_optimal_ones_cost_what_the_oracle_finds() {
                 assert!(is_among(LOOK_AT_POINTS, subject.entry, &subject.settings), "{what}: {refusal}");
                 excused.insert(subject.entry.name);
             }
-            assert!(cost > optimum - 1e-9, "{what}: {cost} is below {optimum}");
+            let may_undercut = subject.planner.is_any_angle();
+            assert!(may_undercut || cost > optimum - 1e-9, "{what}: {cost} is below {optimum}");
             let is_above = cost > optimum + 1e-9;
             assert!(!subject.planner.is_optimal() || !is_above, "{what}: {cost} is above {optimum}");
             *above += usize::from(is_above);

@@ -52,7 +52,8 @@ fn is_located(message: &str) -> bool {
     if first.contains(".parquet") || first.contains("manifest.toml") || first.contains("verdicts.toml") {
         return true;
     }
-    let endings = [".toml", ".txt", ".map", ".scen", ".csv", ".md"];
+    let endings =
+        [".toml", ".txt", ".map", ".scen", ".csv", ".md", ".json", ".yaml", ".urdf", ".stl", ".pgm", ".png"];
     let is_file =
         |ending: &str| first.match_indices(ending).any(|(at, _)| is_place(&first[at + ending.len()..]));
     endings.into_iter().any(is_file)

@@ -108,7 +108,9 @@ impl Case {
     pub fn refusal(&self, plan: &Plan, subject: &Subject) -> Option<String> {
         let (steps, optimal) = (subject.planner.steps(), subject.planner.is_optimal());
         match &self.posed {
-            Posed::Lattice(optimum) => lattice::refusal(self, *optimum, plan, [true, optimal]),
+            Posed::Lattice(optimum) => {
+                lattice::refusal(self, *optimum, plan, [!subject.planner.is_any_angle(), optimal])
+            }
             Posed::Arm(solids) => arm::refusal(self, solids, plan, steps, optimal),
             Posed::Roadmap(places, plane) => roadmap::refusal(self, places, plane, plan, Some(subject)),
             Posed::Polyhedra(scene) => polyhedra::refusal(self, scene, plan),

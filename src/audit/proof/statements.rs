@@ -115,6 +115,6 @@ mod tests {
     fn an_inner_disc_has_the_radius_of_the_links_difference() {
         assert!(reach_ring([30.0, 20.0], 10.0).is_possible);
         let proof = reach_ring([30.0, 20.0], 20.0);
-        assert!(!proof.is_possible && proof.because[1].contains("θ2 is -151.0°"), "{proof:?}");
+        assert!(!proof.is_possible && proof.because[1].contains("θ2 is -153.6°"), "{proof:?}");
     }
 }

@@ -58,15 +58,8 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
     let mut input = Input::of_tables(super::tables(raws, faults));
     for (name, cell) in document.cells {
         let place = line(cell.span().start);
-        match super::cells::number(cell.get_ref()) {
-            Ok(_) if !super::unit(cell.get_ref()).1.is_empty() => {
-                faults.push(Fault::new(
-                    place,
-                    format!("cell `{name}`: `{}` has a unit; {WITHOUT}", cell.get_ref()),
-                ));
-            }
-            Ok(super::Number::Plain { value, spread: None }) => input.name(name, value, digits, place),
-            Ok(_) => faults.push(Fault::new(place, format!("cell `{name}`: one number is accepted here"))),
+        match number_of(cell.get_ref()) {
+            Ok(value) => input.name(name, value, digits, place),
             Err(message) => faults.push(Fault::new(place, format!("cell `{name}`: {message}"))),
         }
     }
@@ -84,6 +77,15 @@ pub fn read(text: &str, faults: &mut Vec<Fault>) -> Option<Input> {
         }
     }
     Some(input)
+}
+
+/// The one number, without a unit, that a named cell holds.
+fn number_of(text: &str) -> Result<super::Printed, String> {
+    match super::cells::number(text)? {
+        _ if !super::unit(text).1.is_empty() => Err(format!("`{text}` has a unit; {WITHOUT}")),
+        super::Number::Plain { value, spread: None } => Ok(value),
+        _ => Err("one number is accepted here".to_owned()),
+    }
 }
 
 /// The table whose text starts at `place`; none, with a fault, if it is not one Markdown table.

@@ -81,6 +81,13 @@ const WHOLE: [(&str, &str); 29] = [
     ),
 ];
 
+/// Whether `found` is of `check` and speaks against the number under every rounding.
+fn is_refused(found: &Finding, check: &str) -> bool {
+    found.check == check
+        && found.class < Class::Unchecked
+        && !found.said.contains("not if digits are rounded to nearest")
+}
+
 #[test]
 fn corrupted_numbers_are_caught_as_often_as_the_power_says() {
     let options = Options { keeps_possible: true, ..Options::default() };
@@ -105,11 +112,7 @@ fn corrupted_numbers_are_caught_as_often_as_the_power_says() {
             let Some(print) = first.with_units(units) else { continue };
             asked += 1;
             let report = audited(&format!("{before}{print}{after}"), Format::Toml, &fast);
-            let is_refused = |found: &Finding| {
-                found.class < Class::Unchecked && !found.said.contains("not if digits are rounded to nearest")
-            };
-            caught +=
-                u32::from(report.findings.iter().any(|found| found.check == check && is_refused(found)));
+            caught += u32::from(report.findings.iter().any(|found| is_refused(found, check)));
         }
         let (share, stated) = (f64::from(caught) / f64::from(asked), power.share());
         // A share that a sample shows as 1 is likely a little less.

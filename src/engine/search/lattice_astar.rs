@@ -203,27 +203,22 @@ impl LatticeAstar {
         for block in &shape.blocks {
             let (mut kept, mut open, mut better) = (0, 0, 0);
             for column in &block.columns {
-                let first = place.wrapping_add_signed(column.first);
+                let (first, shift) = (place.wrapping_add_signed(column.first), column.shift);
                 let free = query.columns.free().window(first) & column.mask;
                 let here = query.successors.kept(cell, column.dx, shape.reach, free);
-                kept |= here << column.shift;
-                open |= (here & !lists.closed.window(first)) << column.shift;
-                better |= (improved(simd, g, &column.lengths[..shape.rows], &lists.bounds[first as usize..])
-                    & column.mask)
-                    << column.shift;
+                kept |= here << shift;
+                open |= (here & !lists.closed.window(first)) << shift;
+                let (lengths, bounds) = (&column.lengths[..shape.rows], &lists.bounds[first as usize..]);
+                better |= (improved(simd, g, lengths, bounds) & column.mask) << shift;
             }
             better &= open;
             while better != 0 {
                 let bit = better.trailing_zeros();
                 better &= better - 1;
                 let step = block.steps[bit as usize];
-                let way = Way {
-                    g: g + step.length,
-                    parent: rank,
-                    place: place.wrapping_add_signed(step.place),
-                    cell: cell.wrapping_add_signed(step.cell),
-                };
-                if lists.take(&way, query) {
+                let [place, cell] =
+                    [(place, step.place), (cell, step.cell)].map(|(at, by)| at.wrapping_add_signed(by));
+                if lists.take(&Way { g: g + step.length, parent: rank, place, cell }, query) {
                     seen.lists.open += 1;
                     looked_up.before_new += looked_up.open + u64::from((open << (63 - bit)).count_ones());
                 }
@@ -231,10 +226,9 @@ impl LatticeAstar {
             looked_up.all += u64::from(kept.count_ones());
             looked_up.open += u64::from(open.count_ones());
         }
-        let new = seen.lists.open - before.open;
-        seen.counters.opened += new;
+        seen.counters.opened += seen.lists.open - before.open;
         seen.counters.generated += looked_up.all;
-        seen.scans.membership_comparisons += looked_up.comparisons(before, new);
+        seen.scans.membership_comparisons += looked_up.comparisons(before, seen.lists.open - before.open);
     }
 }
 

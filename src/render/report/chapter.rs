@@ -1,12 +1,11 @@
 //! A paper's chapter: what was found, its tables beside ours, figures, and claims that lead to their evidence.
 
-use super::details::SECTIONS;
-use super::{COLUMNS, Undrawn, begin_of_line, item, link, linked, paragraph, place, said};
+use super::{SECTIONS, Undrawn, begin_of_line, item, link, linked, paragraph, place, said};
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{Judged, Verdicts};
 use crate::render::figure::caption;
-use crate::render::prose::{markdown, prose, wrapped};
+use crate::render::prose::{COLUMNS, markdown, prose, wrapped};
 use crate::render::tables::{self, short};
 use crate::render::{RenderError, results, state};
 use crate::study::paper::{CLAIMS, FIGURES, Paper};

@@ -2,9 +2,9 @@
 //! claims have in common is said once.
 
 use super::chapter::Page;
-use super::{COLUMNS, anchor, item, linked, paragraph, place, said};
+use super::{SECTIONS, anchor, item, linked, paragraph, place, said};
 use crate::analysis::verdict::{Finding, Judged, Together, Verdicts};
-use crate::render::prose::{markdown, wrapped};
+use crate::render::prose::{COLUMNS, markdown, wrapped};
 use crate::render::results;
 use crate::render::tables::{self, short};
 use crate::study::paper::LedgerRow;
@@ -223,17 +223,6 @@ fn alike(counted: &[(String, String)]) -> String {
         groups.iter().map(each).collect::<Vec<_>>().join("; ")
     }
 }
-
-/// The parts of the details with their anchors.
-pub(super) const SECTIONS: [(&str, &str); 7] = [
-    ("Claims", "claims"),
-    ("What holds together", "together"),
-    ("Readings", "readings"),
-    ("Changes after a run", "changes"),
-    ("Further figures and tables", "figures"),
-    ("Ledger", "ledger"),
-    ("Studies", "studies"),
-];
 
 fn section(text: &mut String, at: usize) {
     let (name, to) = SECTIONS[at];

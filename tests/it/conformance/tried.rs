@@ -77,6 +77,10 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "lazy_theta_star",
+        &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'\nties = 'lifo'"],
+    ),
+    (
         "posture",
         &[
             "adjust = true\nsign = 'down'\nclamp = 'floor'\ndistance = 'exact'\npose = 'inverse'\ndamping = 0.02\n\
@@ -103,6 +107,10 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
     ("shorten_best", &["least = 'length'", "least = 'nodes'"]),
     ("straighten", &["last = 'as_printed'", "last = 'goal'"]),
     ("straighten_from_previous", &["resume = 'last_joined'", "resume = 'first_refused'"]),
+    (
+        "theta_star",
+        &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'\nties = 'larger_g'"],
+    ),
     ("visibility_edges", &["spacing_cm = 2.0"]),
 ];
 

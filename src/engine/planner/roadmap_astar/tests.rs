@@ -183,7 +183,7 @@ fn only_a_search_by_length_for_itself_promises_a_shortest_path() {
 #[test]
 fn numbers_that_cannot_be_are_refused_by_name() {
     for (samples, neighbour_mm, more, said) in [
-        ("0", "28.0", "", "samples is 0; at least 1 is accepted"),
+        ("0", "28.0", "", "`samples` is 0; a whole number from 1 to 4294967295 is accepted"),
         ("40", "0.0", "", "neighbour_mm is 0; a length above 0 is accepted"),
         ("40", "-1.0", "", "neighbour_mm is -1; a length above 0 is accepted"),
         ("40", "nan", "", "`neighbour_mm` is nan; a finite number is accepted"),

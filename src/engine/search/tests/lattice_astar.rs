@@ -90,13 +90,14 @@ fn told((report, scans): &(Report<f64>, ListScans)) -> (Option<(&[u32], u64)>, b
     (route, report.outcome == Outcome::BudgetSpent, report.counters, *scans)
 }
 
+/// A hop is refused by chance, one of six.
+fn by_chance(from: u32, [dx, dy]: [i32; 2]) -> bool {
+    let mixed = (u64::from(from) << 16 ^ (dx * 64 + dy) as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    !(mixed >> 32).is_multiple_of(6)
+}
+
 #[test]
 fn the_specialised_search_has_the_path_cost_and_counters_of_the_general_one() {
-    // A hop is refused by chance, one of six.
-    let by_chance = |from: u32, [dx, dy]: [i32; 2]| {
-        let mixed = (u64::from(from) << 16 ^ (dx * 64 + dy) as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        !(mixed >> 32).is_multiple_of(6)
-    };
     let (mut solved, mut spent, mut lowered, mut count) = (0, 0, 0, 0);
     for offsets in neighbourhoods() {
         for ties in ORDERS {
@@ -108,25 +109,15 @@ fn the_specialised_search_has_the_path_cost_and_counters_of_the_general_one() {
                 let mut costs = Vec::new();
                 for (lower_open, max_expansions) in [(true, u64::MAX), (false, u64::MAX), (true, 5)] {
                     let spacing = if case.seed % 2 == 0 { 1.0 } else { 0.3 };
-                    let query = Query {
-                        grid: &case.grid,
-                        offsets: &offsets,
-                        spacing,
-                        ends: case.ends,
-                        lower_open,
-                        max_expansions,
-                    };
+                    let (grid, offsets, ends) = (&case.grid, &offsets, case.ends);
+                    let query = Query { grid, offsets, spacing, ends, lower_open, max_expansions };
+                    let mut hops = Hops(by_chance, [0; 2]);
                     let (truth, got) = if case.seed % 3 == 0 {
-                        (
-                            query.general(&mut general, |_, _| true),
-                            query.special(&mut special, &columns, &mut ()),
-                        )
+                        let truth = query.general(&mut general, |_, _| true);
+                        (truth, query.special(&mut special, &columns, &mut ()))
                     } else {
-                        let mut hops = Hops(by_chance, [0; 2]);
-                        (
-                            query.general(&mut general, by_chance),
-                            query.special(&mut special, &columns, &mut hops),
-                        )
+                        let truth = query.general(&mut general, by_chance);
+                        (truth, query.special(&mut special, &columns, &mut hops))
                     };
                     assert_eq!(told(&got), told(&truth), "seed {}, {ties:?}, {offsets:?}", case.seed);
                     solved += u32::from(got.0.outcome.route().is_some());
