@@ -184,11 +184,11 @@ fn only_a_search_by_length_for_itself_promises_a_shortest_path() {
 fn numbers_that_cannot_be_are_refused_by_name() {
     for (samples, neighbour_mm, more, said) in [
         ("0", "28.0", "", "`samples` is 0; a whole number from 1 to 4294967295 is accepted"),
-        ("40", "0.0", "", "neighbour_mm is 0; a length above 0 is accepted"),
-        ("40", "-1.0", "", "neighbour_mm is -1; a length above 0 is accepted"),
-        ("40", "nan", "", "`neighbour_mm` is nan; a finite number is accepted"),
-        ("40", "inf", "", "`neighbour_mm` is inf; a finite number is accepted"),
-        ("40", "28.0", "nearest = 0", "nearest is 0; at least 1 is accepted, or leave it out"),
+        ("40", "0.0", "", "`neighbour_mm` is 0.0; a number above 0 is accepted"),
+        ("40", "-1.0", "", "`neighbour_mm` is -1.0; a number above 0 is accepted"),
+        ("40", "nan", "", "`neighbour_mm` is nan; a finite number above 0 is accepted"),
+        ("40", "inf", "", "`neighbour_mm` is inf; a finite number above 0 is accepted"),
+        ("40", "28.0", "nearest = 0", "`nearest` is 0; a whole number from 1 to 4294967295 is accepted"),
     ] {
         let text =
             format!("samples = {samples}\nneighbour_mm = {neighbour_mm}\ncost = 'hops'\n{NEVER}\n{more}");
