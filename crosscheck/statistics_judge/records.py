@@ -83,8 +83,12 @@ class Study:
 
     @property
     def groups(self) -> list[str]:
-        """The labels of its problem groups."""
-        return [group["label"] for group in self.spec.get("problems", [])]
+        """The labels of its problem groups; one with `each` stands for those that its files were stored as."""
+        found = []
+        for group in self.spec.get("problems", []):
+            stored = sorted(name for name in self.trials.words("group")[1] if name.startswith(group["label"] + " "))
+            found += stored if "each" in group else [group["label"]]
+        return found
 
     def sweep_points(self) -> list[str]:
         """The points of its sweeps, named as trials name them."""
