@@ -1,7 +1,8 @@
 """MuJoCo's forward kinematics of the URDF robots in data/robots, for a Rust test to hold ours against.
 
-Writes tests/it/crosscheck/urdf/<robot>.json: joint angles drawn from a written seed within the limits, and for each the place and the
-rotation, row by row, of every link that MuJoCo knows. Run from the repository's root after a URDF file has changed:
+Writes tests/it/crosscheck/urdf/<robot>.json: joint angles drawn from a written seed within the limits, and for
+each the place and the rotation, row by row, of every link that MuJoCo knows. Run from the repository's root after a
+URDF file has changed:
 
     python crosscheck/urdf_frames.py
 """
@@ -32,7 +33,12 @@ def answers(path: Path) -> dict:
         for name in names:
             body = data.body(name)
             frames[name].append([*body.xpos.tolist(), *body.xmat.tolist()])
-    return {"mujoco": mujoco.__version__, "angles_rad": angles.tolist(), "tip": names[-1], "frames": frames[names[-1]]}
+    return {
+        "mujoco": mujoco.__version__,
+        "angles_rad": angles.tolist(),
+        "tip": names[-1],
+        "frames": frames[names[-1]],
+    }
 
 
 def main() -> None:

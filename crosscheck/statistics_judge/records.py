@@ -83,10 +83,12 @@ class Study:
 
     @property
     def groups(self) -> list[str]:
-        """The labels of its problem groups; one with `each` stands for those that its files were stored as."""
+        """The labels of its problem groups; one with `each` stands for a group a file, as stored."""
         found = []
         for group in self.spec.get("problems", []):
-            stored = sorted(name for name in self.trials.words("group")[1] if name.startswith(group["label"] + " "))
+            stored = sorted(
+                name for name in self.trials.words("group")[1] if name.startswith(group["label"] + " ")
+            )
             found += stored if "each" in group else [group["label"]]
         return found
 
