@@ -1,8 +1,8 @@
 """MuJoCo's forward kinematics of the URDF robots in data/robots, for a Rust test to hold ours against.
 
-Writes tests/it/crosscheck/urdf/<robot>.json: joint angles drawn from a written seed within the limits, and the
-place and the rotation, row by row, of every link that MuJoCo knows. Run from the root of the repository after a
-URDF file has changed:
+Writes tests/it/crosscheck/urdf/<robot>.json: joint angles drawn from a written seed within the limits, and
+the place and the rotation, row by row, of every link that MuJoCo knows. Run from the root of the repository
+after a URDF file has changed:
 
     python crosscheck/urdf_frames.py
 """
