@@ -1,7 +1,7 @@
 //! Two stored runs, or two contenders of one, beside each other.
 //!
 //! What both sides ran is paired by its typed key; what only one has is told apart. A [`Change`] goes from the first side to
-//! the second. Its intervals resample what was drawn independently ([`pair`]); trials that one side alone solved have no
+//! the second. Its intervals resample what was drawn independently (`pair`); trials that one side alone solved have no
 //! change of a mean, and count as an infinite loss of that side in medians, wins and the probability of improvement.
 
 mod cells;

@@ -61,8 +61,11 @@ impl Sample {
             };
             said += &whole_ones;
         }
-        if let (Some(least), Some(most)) = (self.least, self.most) {
-            said += &format!(", from {least} to {most}");
+        match (self.least, self.most) {
+            (Some(least), Some(most)) => said += &format!(", from {least} to {most}"),
+            (Some(least), None) => said += &format!(", at least {least}"),
+            (None, Some(most)) => said += &format!(", at most {most}"),
+            (None, None) => {}
         }
         said
     }

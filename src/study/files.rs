@@ -64,7 +64,7 @@ pub const FOREIGN: &str = "file of something else";
 /// Files of a paper's folder that are no studies: the paper itself, and what an independent judge is asked.
 const NO_STUDIES: [&str; 2] = ["paper.toml", "crosscheck.toml"];
 
-/// The TOML files in `folder` besides those of [`NO_STUDIES`] and hidden ones, in the order of their names.
+/// The TOML files in `folder` besides those of `NO_STUDIES` and hidden ones, in the order of their names.
 ///
 /// # Errors
 /// What the system refuses.

@@ -52,8 +52,17 @@ fn in_column(
     });
     let mut rows: Vec<_> = rows.collect();
     rows.sort_by(|a, b| (&a.0, a.1).cmp(&(&b.0, b.1)));
-    for pair in rows.windows(2).filter(|pair| pair[0].0 == pair[1].0 && pair[0].1 < pair[1].1) {
-        give(Box::new(Rises { numbers: [pair[1].2.clone(), pair[0].2.clone()], is_anytime }));
+    let value = |row: &(_, _, Quoted)| row.2.print.value();
+    for same in rows.chunk_by(|a, b| a.0 == b.0) {
+        // The greatest value with fewer samples: a slow fall shows against it, not against the row before.
+        let mut greatest = None;
+        for level in same.chunk_by(|a, b| a.1 == b.1) {
+            for (more, fewer) in level.iter().zip(std::iter::repeat(greatest)) {
+                let Some(fewer): Option<&(_, _, Quoted)> = fewer else { break };
+                give(Box::new(Rises { numbers: [more.2.clone(), fewer.2.clone()], is_anytime }));
+            }
+            greatest = greatest.into_iter().chain(level).max_by(|a, b| value(a).cmp(&value(b)));
+        }
     }
 }
 

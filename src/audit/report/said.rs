@@ -186,3 +186,30 @@ fn a_search_that_ends_without_data_says_so() {
         output::line("t", finding)
     );
 }
+
+#[test]
+fn an_end_that_carries_a_proof_is_among_its_premises() {
+    for (end, mean, said) in [("most=2", "2.5", "at most 2"), ("least=1", "0.5", "at least 1")] {
+        let table = format!("| p | t [mean, integers, n=10, {end}] |\n|-|-|\n| A | {mean} |\n");
+        let finding = found(&table, Format::Markdown, "grim");
+        assert_eq!(finding.class, Class::Impossible);
+        assert!(finding.premises[0].contains(said), "{:?}", finding.premises);
+    }
+}
+
+#[test]
+fn a_fall_in_small_steps_shows_against_the_greatest_success_with_fewer_samples() {
+    let rows = |from: u32| (0..10).map(move |row| format!("| {} | {} |\n", row + 1, from - row));
+    let table = |rows: String| format!("| samples [samples] | success [%, anytime] |\n|-|-|\n{rows}");
+    let impossible = |text: &str| {
+        let report = audited(text, Format::Markdown, &Options::default());
+        report
+            .findings
+            .iter()
+            .filter(|found| found.check == "rises" && found.class == Class::Impossible)
+            .count()
+    };
+    // Digits may be rounded or cut, so that a fall of two units may be none; seven rows fall by more.
+    assert_eq!(impossible(&table(rows(90).collect())), 7);
+    assert_eq!(impossible(&table(rows(90).take(2).collect())), 0);
+}

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 
 /// The chapter of a paper. Its texts may hold `{claim}`, which our number beside that claim replaces, and `{claim:form}` with
-/// one of [`FORMS`].
+/// one of `FORMS`.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ReportSpec {
