@@ -8,7 +8,7 @@ const COLUMNS: usize = 80;
 
 /// `first` and then the words of `text`, on lines of 80 columns, those after the first indented by `indent`.
 pub fn wrapped(first: &str, text: &str, indent: usize) -> String {
-    crate::render::prose::wrapped(first, text, indent, COLUMNS)
+    crate::render::prose::plain(first, text, indent, COLUMNS)
 }
 
 /// Everything that is known of `item`.

@@ -76,10 +76,20 @@ fn literal(text: &str) -> String {
 /// `first` and then the words of `text`, on lines of at most `columns` characters where words allow it, those after the first
 /// indented by `indent`. No line begins with what Markdown would take for the beginning of a list or a heading.
 pub fn wrapped(first: &str, text: &str, indent: usize, columns: usize) -> String {
+    broken(first, text, [indent, columns], begins_a_block)
+}
+
+/// As [`wrapped`], for a terminal: any word may begin a line.
+pub fn plain(first: &str, text: &str, indent: usize, columns: usize) -> String {
+    broken(first, text, [indent, columns], |_| false)
+}
+
+/// The words on lines, none of which begins with a word that `stays` with the one before.
+fn broken(first: &str, text: &str, [indent, columns]: [usize; 2], stays: fn(&str) -> bool) -> String {
     let mut lines = Vec::new();
     let (mut line, mut is_fresh) = (first.to_owned(), true);
     for word in text.split_whitespace() {
-        if !is_fresh && line.chars().count() + 1 + word.chars().count() > columns && !begins_a_block(word) {
+        if !is_fresh && line.chars().count() + 1 + word.chars().count() > columns && !stays(word) {
             lines.push(std::mem::replace(&mut line, " ".repeat(indent)));
             is_fresh = true;
         }
@@ -123,5 +133,6 @@ mod tests {
     fn lines_break_at_words_and_never_before_what_would_begin_a_list() {
         assert_eq!(wrapped("- ", "one two three", 2, 8), "- one\n  two\n  three");
         assert_eq!(wrapped("", "it is 9 + 4 = 13. or more", 0, 7), "it is 9 +\n4 = 13.\nor more");
+        assert_eq!(plain("", "it is 9 + 4 = 13. or more", 0, 7), "it is 9\n+ 4 =\n13. or\nmore");
     }
 }

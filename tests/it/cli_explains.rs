@@ -88,3 +88,12 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
     assert_eq!(said.code, Some(2), "{}", said.err);
     assert!(said.err.contains("there is no planner `astr` (did you mean `astar`?)"), "{}", said.err);
 }
+
+#[test]
+fn what_list_prints_of_the_committed_papers_fits_80_columns() {
+    let mut list = std::process::Command::new(env!("CARGO_BIN_EXE_replan"));
+    let said = list.arg("list").current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+    let said = String::from_utf8(said.stdout).unwrap();
+    let wide: Vec<&str> = said.lines().filter(|line| line.chars().count() > 80).collect();
+    assert!(said.lines().count() > 100 && wide.is_empty(), "{wide:#?}");
+}
