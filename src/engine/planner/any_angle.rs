@@ -2,8 +2,9 @@
 
 use super::lattice::{self, Posed, SightSetting, TiesSetting, sees};
 use super::pool::Pool;
-use super::{Invalid, Plan, Request, Value};
+use super::{Invalid, Plan, Planner, Request, Value};
 use crate::search::{AnyAngle, Heap, Observer, Seen, Sighted, Trace, When};
+use base::settings::{Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -23,9 +24,39 @@ pub(super) struct AnyAngleSettings {
     pool: Pool<AnyAngle<Heap>>,
 }
 
+/// The planner that looks at lines of sight at the time `when`.
+pub(super) fn built(settings: &Settings, when: When) -> Result<Box<dyn Planner>, SettingsError> {
+    let read: AnyAngleSettings = settings.read()?;
+    Ok(Box::new(Timed { settings: read, when }))
+}
+
+/// An any-angle planner that looks at lines of sight at one time.
+struct Timed {
+    settings: AnyAngleSettings,
+    when: When,
+}
+
+impl Planner for Timed {
+    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
+        self.settings.plan(request, self.when)
+    }
+
+    fn is_optimal(&self) -> bool {
+        false
+    }
+
+    fn is_complete(&self) -> bool {
+        true
+    }
+
+    fn is_any_angle(&self) -> bool {
+        true
+    }
+}
+
 impl AnyAngleSettings {
     /// The plan of a search that looks at lines of sight at the time `when`; its path lists corners alone.
-    pub(super) fn plan(&self, request: &Request<'_>, when: When) -> Result<Plan, Invalid> {
+    fn plan(&self, request: &Request<'_>, when: When) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
         let (grid, mut trace) = (posed.world.grid(), Trace::default());
         let Seen { report, sight_checks } = if request.trace {

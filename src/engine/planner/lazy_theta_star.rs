@@ -3,8 +3,8 @@
 //! # Source
 //! Nash, Koenig & Tovey, *Lazy Theta\*: Any-Angle Path Planning and Path Length Analysis in 3D*, AAAI 2010.
 
-use super::any_angle::{AnyAngleSettings, COLUMNS};
-use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use super::any_angle::{AnyAngleSettings, COLUMNS, built};
+use super::{Build, Entry};
 use crate::search::When;
 use crate::space::WorldKind;
 use base::settings::Accepted;
@@ -21,28 +21,5 @@ pub static ENTRY: Entry = Entry {
 line_of_sight = "exact_interior"
 ties = "fifo"
 "#,
-    build: Build::Planner(|settings| {
-        let read: AnyAngleSettings = settings.read()?;
-        Ok(Box::new(LazyThetaStar(read)))
-    }),
+    build: Build::Planner(|settings| built(settings, When::Taken)),
 };
-
-struct LazyThetaStar(AnyAngleSettings);
-
-impl Planner for LazyThetaStar {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        self.0.plan(request, When::Taken)
-    }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        true
-    }
-
-    fn is_any_angle(&self) -> bool {
-        true
-    }
-}

@@ -3,8 +3,8 @@
 //! # Source
 //! Nash, Daniel, Koenig & Felner, *Theta\*: Any-Angle Path Planning on Grids*, AAAI 2007.
 
-use super::any_angle::{AnyAngleSettings, COLUMNS};
-use super::{Build, Entry, Invalid, Plan, Planner, Request};
+use super::any_angle::{AnyAngleSettings, COLUMNS, built};
+use super::{Build, Entry};
 use crate::search::When;
 use crate::space::WorldKind;
 use base::settings::Accepted;
@@ -21,28 +21,5 @@ pub static ENTRY: Entry = Entry {
 line_of_sight = "exact_interior"
 ties = "fifo"
 "#,
-    build: Build::Planner(|settings| {
-        let read: AnyAngleSettings = settings.read()?;
-        Ok(Box::new(ThetaStar(read)))
-    }),
+    build: Build::Planner(|settings| built(settings, When::Generated)),
 };
-
-struct ThetaStar(AnyAngleSettings);
-
-impl Planner for ThetaStar {
-    fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
-        self.0.plan(request, When::Generated)
-    }
-
-    fn is_optimal(&self) -> bool {
-        false
-    }
-
-    fn is_complete(&self) -> bool {
-        true
-    }
-
-    fn is_any_angle(&self) -> bool {
-        true
-    }
-}

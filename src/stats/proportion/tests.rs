@@ -53,11 +53,9 @@ fn binomial_tails_add_up_to_what_pascals_triangle_gives() {
         for share in [0.01, 0.3, 0.5, 0.97] {
             let mut mass = vec![1.0];
             for _ in 0..trials {
-                let next = |k: usize| {
-                    let stay = mass.get(k).copied().unwrap_or(0.0) * (1.0 - share);
-                    stay + if k > 0 { mass[k - 1] * share } else { 0.0 }
-                };
-                mass = (0..=mass.len()).map(next).collect();
+                let (stay, hit) = (mass.iter().map(|m| m * (1.0 - share)), mass.iter().map(|m| m * share));
+                // Nobody has one hit more than trials, nor came to none by a hit.
+                mass = stay.chain([0.0]).zip([0.0].into_iter().chain(hit)).map(|(a, b)| a + b).collect();
             }
             for hits in 0..=trials {
                 let expected: f64 = mass[hits..].iter().sum();
