@@ -13,4 +13,6 @@ pub mod crosscheck;
 
 pub mod render;
 
+pub mod page;
+
 pub mod cli;

@@ -30,6 +30,7 @@ mod new;
 mod places;
 mod progress;
 mod render;
+mod report;
 mod repro;
 mod run;
 mod schema;
@@ -60,6 +61,7 @@ const EXAMPLES: &str = "Examples:
   replan new ./my/paper --from grid  a small paper to be changed into your own; docs/YOUR_OWN_PAPER.md
   replan repro ./my/paper            a paper of your own: a folder with paper.toml and studies
   replan repro zhang --trial witness/w1/a-star
+  replan report zhang --open         the paper's report as a page, with replays
   replan show zhang t1.improved.cost one claim with its evidence
   replan render zhang --check        are the committed plots and tables what the stored run gives?
   replan list planners               what contenders can name
@@ -85,6 +87,8 @@ enum Command {
     Judge(judge::Judge),
     /// Draw a paper's figures and tables again from its stored run and verdicts
     Render(render::Render),
+    /// Write a paper's report as one HTML page: claims, evidence, figures, replays
+    Report(report::Report),
     /// Compare two stored runs, or two contenders of one: changes with intervals, and gates on them
     Compare(compare::Compare),
     /// Write stored trials and their statistics for other programs
@@ -146,6 +150,10 @@ impl Failure {
         Self::new(3, message)
     }
 
+    fn tool(message: impl Into<String>) -> Self {
+        Self::new(4, message)
+    }
+
     fn new(code: u8, message: impl Into<String>) -> Self {
         Self { code, message: message.into(), is_touched: false }
     }
@@ -177,6 +185,16 @@ impl From<crate::render::RenderError> for Failure {
     fn from(error: crate::render::RenderError) -> Self {
         let code = if matches!(error, crate::render::RenderError::Interrupted) { 130 } else { 2 };
         Self::new(code, error.to_string())
+    }
+}
+
+impl From<crate::page::PageError> for Failure {
+    fn from(error: crate::page::PageError) -> Self {
+        match error {
+            crate::page::PageError::Render(error) => error.into(),
+            crate::page::PageError::Study(error) => error.into(),
+            other => Self::new(1, other.to_string()),
+        }
     }
 }
 
@@ -212,6 +230,7 @@ pub fn run() -> ExitCode {
         Command::Shard(command) => command.run(),
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
+        Command::Report(command) => command.run(),
         Command::Compare(command) => command.run(),
         Command::Export(command) => command.run(),
         Command::Show(command) => command.run(),

@@ -10,14 +10,20 @@ use crate::analysis::verdict::{Estimate, Judged, Verdicts};
 use crate::study::paper::{Paper, TableRow, TableSpec};
 
 /// What a row of one of the paper's tables shows: in each column what it printed, ours, and the class with its claim.
-struct Beside<'a> {
-    printed: Vec<String>,
-    ours: Vec<String>,
-    classes: Vec<Option<&'a Judged>>,
+pub struct Beside<'a> {
+    /// What the paper printed, a cell a column.
+    pub printed: Vec<String>,
+    /// Ours.
+    pub ours: Vec<String>,
+    /// The claim of the cell, with its class.
+    pub classes: Vec<Option<&'a Judged>>,
 }
 
 /// The row of the table; none if it holds no claims.
-fn beside<'a>(
+///
+/// # Errors
+/// [`RenderError::NotStored`] if ours was not stored.
+pub fn beside<'a>(
     evidence: &Evidence<'_>,
     table: &TableSpec,
     row: &TableRow,

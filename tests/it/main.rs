@@ -25,6 +25,7 @@ mod latex;
 mod laws;
 mod mutation;
 mod own_paper;
+mod page;
 mod paper;
 mod polyhedra;
 mod registries;

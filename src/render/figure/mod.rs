@@ -30,6 +30,8 @@ use crate::study::Study;
 use crate::study::paper::Paper;
 use crate::study::spec::FigureSpec;
 use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean};
+use serde::Serialize;
+use std::collections::BTreeSet;
 use toml::Table as Toml;
 
 /// What a figure is drawn from.
@@ -55,6 +57,11 @@ pub trait Kind {
         Vec::new()
     }
 
+    /// Its curves as numbers, if they run along a sweep and are worth looking up; `caption` says what they show.
+    fn curves(&self, _scene: &Scene<'_>, _caption: &str) -> Option<Curves> {
+        None
+    }
+
     /// The numbers behind the figure as a table under its own name, where they are worth one.
     ///
     /// # Errors
@@ -62,6 +69,36 @@ pub trait Kind {
     fn table(&self, _scene: &Scene<'_>, _label: &str, _caption: &str) -> Result<Option<Table>, RenderError> {
         Ok(None)
     }
+}
+
+/// Curves along a sweep as numbers, for those who look values up.
+#[derive(Serialize)]
+pub struct Curves {
+    /// What they show.
+    pub title: String,
+    /// What stands along the axis.
+    pub axis: String,
+    /// What the numbers are, with their unit.
+    pub value: String,
+    /// The values of the sweep.
+    pub at: Vec<f64>,
+    /// The curves.
+    pub lines: Vec<CurveLine>,
+}
+
+/// A curve: a number a value of the sweep, none where there is none.
+#[derive(Serialize)]
+pub struct CurveLine {
+    /// What it is of.
+    pub label: String,
+    /// The number of the contender, which gives a curve and what is printed beside it one colour.
+    pub of: usize,
+    /// Its numbers.
+    pub values: Vec<Option<f64>>,
+    /// The ends of the band around it, if it has one.
+    pub band: Option<[Vec<f64>; 2]>,
+    /// Whether it is what the paper prints.
+    pub is_printed: bool,
 }
 
 /// Trials of which a figure draws what was kept.
@@ -93,6 +130,15 @@ impl<'a> Shown<'a> {
             trials.replicates > self.draw && self.contender.is_none_or(is_by)
         })
     }
+}
+
+/// The problem groups of `study`, each with its draw, of which figures draw what was kept.
+pub fn drawn(study: &Study, paper: &Paper) -> BTreeSet<(String, u32)> {
+    let kinds = study.figures.iter().filter_map(|figure| build(figure, study, paper).ok());
+    let shown = |kind: Box<dyn Kind>| -> Vec<(String, u32)> {
+        kind.shown().iter().map(|shown| (shown.problems.to_owned(), shown.draw)).collect()
+    };
+    kinds.flat_map(shown).collect()
 }
 
 /// A registered kind of figure.

@@ -1,6 +1,6 @@
 //! Shares of solved queries or metrics along a sweep, one curve a contender, printed rows on top.
 
-use super::{Entry, Kind, Scene, ask};
+use super::{CurveLine, Curves, Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::statistic::plan;
 use crate::render::RenderError;
@@ -205,6 +205,43 @@ impl SweepCurves {
 }
 
 impl Kind for SweepCurves {
+    fn curves(&self, scene: &Scene<'_>, caption: &str) -> Option<Curves> {
+        if self.read.single_draws || !self.metrics.is_empty() {
+            return None;
+        }
+        let line = |(of, row): (usize, &RowOf)| {
+            let curves = self.curves(scene, &row.contender);
+            let found = sup_t(&curves, plan(&["success_bands", &row.contender]))?;
+            let band = [
+                found.band.iter().map(|band| band.low.max(0.0)).collect(),
+                found.band.iter().map(|band| band.high.min(100.0)).collect(),
+            ];
+            let label = format!("{}: mean of {} draws", row.contender, curves.len());
+            let values = found.mean.iter().copied().map(Some).collect();
+            Some(CurveLine { label, of, values, band: Some(band), is_printed: false })
+        };
+        let printed = |(of, row): (usize, &RowOf)| {
+            let at = |x: f64| row.printed.iter().find(|point| point[0] == x).map(|point| point[1]);
+            let values = self.points.iter().map(|(x, _)| at(*x)).collect();
+            CurveLine {
+                label: format!("{}: printed", row.contender),
+                of,
+                values,
+                band: None,
+                is_printed: true,
+            }
+        };
+        let found = self.rows.iter().enumerate().filter_map(line);
+        let printed = self.rows.iter().enumerate().filter(|(_, row)| !row.printed.is_empty()).map(printed);
+        Some(Curves {
+            title: caption.to_owned(),
+            axis: self.read.axis.clone(),
+            value: "solved (%)".to_owned(),
+            at: self.points.iter().map(|(x, _)| *x).collect(),
+            lines: found.chain(printed).collect(),
+        })
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         if !self.metrics.is_empty() {
             let note = "A trial that spent its budget shows what it spent.";

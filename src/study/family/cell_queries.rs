@@ -2,7 +2,7 @@
 
 mod picture;
 
-use super::{Entry, Family, Query};
+use super::{Entry, Family, Query, Stance};
 use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::ARM_COLUMNS;
 use crate::study::{Inputs, StudyError};
@@ -370,6 +370,10 @@ impl Family for Posed {
 
     fn extent(&self) -> Option<Extent> {
         Some(Extent { samples: self.read.samples, radius_mm: self.read.radius_mm })
+    }
+
+    fn stance(&self, q_rad: &[f64]) -> Option<Stance> {
+        picture::stance(&self.cell, q_rad)
     }
 
     fn inputs(&self) -> &[PathBuf] {

@@ -20,6 +20,17 @@ pub struct Query {
     pub goal: Vec<f64>,
 }
 
+/// Where the parts of an arm are at one configuration, in millimetres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stance {
+    /// Both ends and the radius of each capsule, x, y, z, x, y, z, radius.
+    pub capsules_mm: Vec<[f64; 7]>,
+    /// The tip.
+    pub tip_mm: [f64; 3],
+    /// From the arm's surface to the nearest obstacle; `None` where the family has no distance.
+    pub clearance_mm: Option<f64>,
+}
+
 /// A family with its settings.
 pub trait Family: Send + Sync {
     /// The kind of world its problems are posed in.
@@ -70,6 +81,12 @@ pub trait Family: Send + Sync {
     /// it, say.
     fn known(&self, _query: usize) -> Counts {
         Counts::new()
+    }
+
+    /// Where its arm is with its joints at `q_rad`; `None` without an arm, or for another number of joints.
+    fn stance(&self, q_rad: &[f64]) -> Option<Stance> {
+        let _ = q_rad;
+        None
     }
 
     /// The files that were read for it.

@@ -17,7 +17,7 @@ mod random_cells;
 mod random_polyhedra;
 mod random_rectangles;
 
-pub use entry::{Entry, Family, Query};
+pub use entry::{Entry, Family, Query, Stance};
 
 /// Every family, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[

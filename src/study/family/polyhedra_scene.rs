@@ -1,16 +1,17 @@
 //! One scene of polyhedra from a file, with written queries, or queries drawn from balls around them; with an arm,
 //! or without.
 
-use super::{Entry, Family, Query};
+use super::{Entry, Family, Query, Stance};
 use crate::study::prepared::{Prepared, polyhedra};
 use crate::study::verification::CARRIED_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::seed;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
-use engine::geometry::Vec3;
+use engine::geometry::{Capsule, Vec3};
 use engine::kinematics::Robot;
 use engine::planner::Invalid;
 use engine::space::polyhedra::{CarriedArm, DOWN, PolyhedraError, read_scene};
+use engine::space::roadmap::joints;
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
@@ -36,6 +37,8 @@ queries = [{ start = [70, -46, 36], goal = [70, 41, 51] }]
 "#,
     build: |settings, inputs| Ok::<Box<dyn Family>, StudyError>(Box::new(posed(settings, inputs)?)),
 };
+
+const MM_PER_CM: f64 = 10.0;
 
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -192,6 +195,20 @@ impl Family for Posed {
             goal: self.near(&mut stream, &query.goal, radius),
         };
         self.queries.iter().map(&mut drawn).collect()
+    }
+
+    fn stance(&self, q_rad: &[f64]) -> Option<Stance> {
+        let (arm, q) = (self.world.arm()?, joints(q_rad)?);
+        let mm = |point: &Vec3| -> [f64; 3] { (point * MM_PER_CM).into() };
+        let capsule = |rod: &Capsule| {
+            let ([ax, ay, az], [bx, by, bz]) = (mm(&rod.segment.a), mm(&rod.segment.b));
+            [ax, ay, az, bx, by, bz, rod.radius * MM_PER_CM]
+        };
+        let capsules_mm = arm.rods(&q).iter().map(capsule).collect();
+        let domain = self.world.domain();
+        let clearance_cm = arm.clearance(&q, self.world.bodies(), (domain.max - domain.min).norm(), false);
+        let clearance_mm = Some(clearance_cm * MM_PER_CM);
+        Some(Stance { capsules_mm, tip_mm: mm(&arm.tip(&q)), clearance_mm })
     }
 
     fn inputs(&self) -> &[PathBuf] {

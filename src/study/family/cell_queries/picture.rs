@@ -1,6 +1,6 @@
 //! What pictures and tables of a cell need: obstacles and the robot at the queries' ends, millimetres.
 
-use super::Query;
+use super::{Query, Stance};
 use engine::geometry::{Solid, Vec3};
 use engine::planner::Exhibit;
 use engine::space::cell::Cell;
@@ -58,12 +58,19 @@ fn floor(cell: &Cell) -> Option<Exhibit> {
     (values != [0.0]).then(|| Exhibit { name: "floor".to_owned(), width: 1, values })
 }
 
-fn body(cell: &Cell, name: String, config: &[f64]) -> Exhibit {
+/// Where the robot is at `q_rad`; `None` unless it has six angles.
+pub(super) fn stance(cell: &Cell, q_rad: &[f64]) -> Option<Stance> {
+    let q = joints(q_rad)?;
     let mut placed = Vec::new();
-    let q = joints(config).expect("a query of an arm has six angles");
     cell.place(&q, &mut placed);
-    let capsules = placed.iter().flat_map(|c| round(&c.segment.a, &c.segment.b, c.radius));
-    Exhibit { name, width: 7, values: capsules.collect() }
+    let capsules_mm = placed.iter().map(|c| round(&c.segment.a, &c.segment.b, c.radius)).collect();
+    let tip_mm = mm(&cell.robot().arm().chain().forward(&q).origin);
+    Some(Stance { capsules_mm, tip_mm, clearance_mm: Some(cell.clearance_m(&q) * 1e3) })
+}
+
+fn body(cell: &Cell, name: String, config: &[f64]) -> Exhibit {
+    let stance = stance(cell, config).expect("a query of an arm has six angles");
+    Exhibit { name, width: 7, values: stance.capsules_mm.concat() }
 }
 
 /// Joint angles in degrees, flange and tip in millimetres, and the tool's direction.

@@ -1,6 +1,6 @@
 //! What pictures of a robot among solids need, millimetres, in the form of cells: boxes by their corners, all else by capsules.
 
-use super::Query;
+use super::{Query, Stance};
 use base::solid::{Form, Solid};
 use engine::geometry::{Capsule, Frame};
 use engine::kinematics::robot::capsule_around;
@@ -38,16 +38,27 @@ fn corners(solid: &Solid) -> Vec<f64> {
     (0..8).flat_map(|i| solid.pose.point(corner(i)).map(|x| x * 1e3)).collect()
 }
 
-fn round(capsule: &Capsule) -> Vec<f64> {
+fn round(capsule: &Capsule) -> [f64; 7] {
     let (a, b) = (capsule.segment.a * 1e3, capsule.segment.b * 1e3);
-    vec![a.x, a.y, a.z, b.x, b.y, b.z, capsule.radius * 1e3]
+    [a.x, a.y, a.z, b.x, b.y, b.z, capsule.radius * 1e3]
 }
 
-fn body(space: &JointSpace, name: String, q: &[f64]) -> Exhibit {
+/// Where the robot is at `q`, every part by the capsule around it; `None` for another number of angles.
+pub(super) fn stance(space: &JointSpace, q: &[f64]) -> Option<Stance> {
+    if q.len() != space.chain().joints().len() {
+        return None;
+    }
     let frames = space.chain().frames(q);
     let capsules =
         space.robot().solids.iter().filter_map(|(link, solid)| capsule_around(solid, &frames[*link]).ok());
-    Exhibit { name, width: 7, values: capsules.flat_map(|capsule| round(&capsule)).collect() }
+    let capsules_mm = capsules.map(|capsule| round(&capsule)).collect();
+    let tip = space.chain().forward(q).origin * 1e3;
+    Some(Stance { capsules_mm, tip_mm: [tip.x, tip.y, tip.z], clearance_mm: None })
+}
+
+fn body(space: &JointSpace, name: String, q: &[f64]) -> Exhibit {
+    let stance = stance(space, q).expect("a query has as many angles as the robot has axes");
+    Exhibit { name, width: 7, values: stance.capsules_mm.concat() }
 }
 
 /// Joint angles in degrees, last joint and tip in millimetres, and the tip's direction.

@@ -1,0 +1,135 @@
+//! `replan report`: a paper's report as one HTML page.
+
+use super::places::{Places, home, papers};
+use super::progress::doing;
+use super::{Failure, How, Which};
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::Verdicts;
+use crate::page;
+use crate::render::output::Output;
+use crate::study::ReadingChoice;
+use crate::study::paper::Paper;
+use crate::study::store::write_whole;
+use clap::Args;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Writes reports as pages of HTML that need nothing else: claim, finding, trial, replay.
+///
+/// Example: replan report zhang --open
+#[derive(Args)]
+pub struct Report {
+    /// A paper's name, or a folder that holds a paper.toml; every paper of the project if absent
+    paper: Option<String>,
+    /// Read the run below this folder instead of the committed places
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Write the pages into this folder instead of target/replan/report/
+    #[arg(long, value_name = "DIR")]
+    to: Option<PathBuf>,
+    /// Open the page when it is written
+    #[arg(long)]
+    open: bool,
+}
+
+impl Report {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        let folder = match &self.to {
+            Some(folder) => folder.clone(),
+            None => home(None)?.join("target/replan/report"),
+        };
+        let papers = match &self.paper {
+            Some(paper) => vec![paper.clone()],
+            None => papers(),
+        };
+        let mut listed = Vec::new();
+        let mut failed = None;
+        for paper in &papers {
+            let which = Which { paper: paper.clone(), out: self.out.clone() };
+            match write(&Places::find(&which, "")?, &folder) {
+                Ok(line) => listed.push(line),
+                Err((line, failure)) => {
+                    listed.extend(line);
+                    failed = Some(failed.unwrap_or(failure));
+                }
+            }
+        }
+        let shown = match (&self.paper, &listed[..]) {
+            (Some(_), [[id, ..]]) => folder.join(format!("{id}.html")),
+            _ => folder.join("index.html"),
+        };
+        if self.paper.is_none() {
+            write_whole(&shown, page::index(&listed).as_bytes())?;
+        }
+        say!("{}", shown.display());
+        failed.map_or(Ok(()), Err)?;
+        if self.open { open(&shown) } else { Ok(()) }
+    }
+}
+
+/// Writes the page of the paper at `places` into `folder`; gives its line of the index. What cannot be shown is said in the
+/// page's first line, and is a failure all the same.
+fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String; 3]>, Failure)> {
+    let how = How { quick: false, seed: None, readings: None, threads: None };
+    let paper = super::load::load(places, &how).map_err(|failure| (None, failure))?;
+    let file = folder.join(format!("{}.html", paper.id));
+    let line = |said: String| [paper.id.clone(), paper.source.title.clone(), said];
+    match made(&paper, places, folder) {
+        Ok(said) => Ok(line(said)),
+        Err(failure) => {
+            let why = page::unread(&paper.id, &paper.source.title, &failure.message);
+            match write_whole(&file, why.as_bytes()) {
+                Ok(()) => Err((Some(line(format!("Nothing is shown: {}", failure.message))), failure)),
+                Err(error) => Err((None, error.into())),
+            }
+        }
+    }
+}
+
+fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<String, Failure> {
+    let verdicts = Verdicts::read(&places.runs)?;
+    let point = ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|message| {
+        Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
+    })?;
+    let evidence = Evidence::read(paper, point, &places.runs)?;
+    doing(&format!("{}: writing its page", paper.id));
+    let figures = figures(paper, &places.plots);
+    let rest = format!("{}-replays.zip", paper.id);
+    let made = page::page(&evidence, &verdicts, &figures, &places.inputs, &rest)?;
+    write_whole(&folder.join(format!("{}.html", paper.id)), made.html.as_bytes())?;
+    let size = made.html.len() as f64 / 1e6;
+    let beside = made.rest.as_ref().map(|rest| rest.len() as f64 / 1e6);
+    if let Some(bytes) = &made.rest {
+        write_whole(&folder.join(&rest), bytes)?;
+    }
+    let beside = beside.map_or_else(String::new, |size| format!(", and {size:.2} MB of replays in {rest}"));
+    say!("{}: {size:.2} MB{beside}", paper.id);
+    Ok(verdicts.counts().classes)
+}
+
+/// The figures of `paper` as they were drawn into `folder`; what is not there is not shown, and the page says so in its place.
+fn figures(paper: &Paper, folder: &Path) -> Vec<Output> {
+    let read = |id: &str| {
+        let name = format!("{id}.svg");
+        fs::read(folder.join(&name)).ok().map(|bytes| Output { name, bytes })
+    };
+    paper.figure_ids().filter_map(read).collect()
+}
+
+/// Opens `file` with what the desktop opens pages with.
+fn open(file: &Path) -> Result<(), Failure> {
+    let programs = ["xdg-open", "open", "explorer"];
+    let started = programs.iter().find_map(|program| {
+        let mut command = Command::new(program);
+        command.arg(file).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
+    });
+    started.map(drop).ok_or_else(|| {
+        Failure::tool(format!(
+            "none of {} is here to open it; open {} yourself",
+            programs.join(", "),
+            file.display()
+        ))
+    })
+}

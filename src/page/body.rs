@@ -1,0 +1,295 @@
+//! What of a page is read as text: findings, claims with their evidence, the paper's tables beside ours, and places for what
+//! is drawn.
+
+use super::html::{escaped, prose as inline};
+use crate::analysis::class::Verdict;
+use crate::analysis::evidence::Evidence;
+use crate::analysis::tabulated::grid;
+use crate::analysis::verdict::{Finding, Judged, Verdicts};
+use crate::render::RenderError;
+use crate::render::figure::caption;
+use crate::render::prose::prose;
+use crate::render::tables::{Beside, beside, short};
+use crate::study::paper::TableSpec;
+
+/// What the text is made of.
+pub struct Body<'a> {
+    /// The records.
+    pub evidence: &'a Evidence<'a>,
+    /// What was found.
+    pub verdicts: &'a Verdicts,
+    /// The trials of which there is a replay.
+    pub replayed: &'a [&'a str],
+}
+
+/// The class as a name of CSS.
+fn kind(judged: &Judged) -> String {
+    judged.verdict.name().replace(' ', "-")
+}
+
+/// A class as a word on its colour.
+fn badge(class: &str, word: &str) -> String {
+    format!("<span class=\"class {class}\">{}</span>", escaped(word))
+}
+
+impl Body<'_> {
+    /// The page's text. `state` stands first: what a reader must know of a run that is not the study's own.
+    ///
+    /// # Errors
+    /// A table for which something is not stored.
+    pub fn html(&self, state: &[String], is_without_curves: bool) -> Result<String, RenderError> {
+        let said = state.iter().map(|said| format!("<p class=\"state\">{}</p>\n", escaped(said)));
+        let mut text: String = said.collect();
+        text += &self.head(state.is_empty());
+        text += &self.navigation(is_without_curves);
+        text += &self.claims();
+        text += &self.tables()?;
+        if !is_without_curves {
+            text += "<section id=\"curves\"><h2>Curves</h2></section>\n";
+        }
+        text += &self.replays();
+        text += &self.figures();
+        Ok(text + "</main>\n")
+    }
+
+    fn is_claim(&self, id: &str) -> bool {
+        self.verdicts.claim(id).is_some()
+    }
+
+    /// Text of ours about the paper, with our numbers in it.
+    fn said(&self, text: &str) -> String {
+        inline(&prose(text, self.verdicts), |id| self.is_claim(id))
+    }
+
+    fn head(&self, is_own: bool) -> String {
+        let (paper, counts) = (self.evidence.paper, self.verdicts.counts());
+        let source = &paper.source;
+        let about: Vec<&str> = [source.authors.as_ref(), source.published.as_ref()]
+            .into_iter()
+            .flatten()
+            .map(String::as_str)
+            .collect();
+        let mut text = format!("<main><header><h1>{}</h1>\n", escaped(&source.title));
+        text += &format!("<p>{}</p>\n", escaped(&about.join(". ")));
+        // Findings were written on the study's own run; of any other they may be false.
+        if is_own {
+            text += "<ul>\n";
+            text.extend(paper.report.findings.iter().map(|said| format!("<li>{}</li>\n", self.said(said))));
+            text += "</ul>\n";
+        }
+        let more = counts.parts.into_iter().chain(counts.asserted);
+        let counts: Vec<String> =
+            std::iter::once(counts.classes).chain(more).map(|said| format!("{}.", escaped(&said))).collect();
+        text + &format!("<p>{}</p></header>\n", counts.join(" "))
+    }
+
+    fn navigation(&self, is_without_curves: bool) -> String {
+        let parts = [
+            ("claims", "Claims", true),
+            ("tables", "Tables", true),
+            ("curves", "Curves", !is_without_curves),
+            ("replays", "Replays", !self.replayed.is_empty()),
+            ("figures", "Figures", true),
+        ];
+        let link = |(to, name, _): &(&str, &str, bool)| format!("<a href=\"#{to}\">{name}</a>");
+        let links: Vec<String> = parts.iter().filter(|(.., is_there)| *is_there).map(link).collect();
+        format!("<nav aria-label=\"parts of this page\">{}</nav>\n", links.join(" "))
+    }
+
+    fn claims(&self) -> String {
+        let classes: String = Verdict::ALL.iter().map(|class| option(class.name())).collect();
+        let mut text = format!(
+            "<section id=\"claims\"><h2>Claims</h2>\n<form class=\"filter\" id=\"filter\" role=\"search\">\
+             <label>words <input type=\"search\" name=\"words\"></label>\
+             <label>class <select name=\"class\"><option value=\"\">any</option>{classes}</select></label>\
+             <label>hangs on <select name=\"hangs\"><option value=\"\">anything</option></select></label>\
+             <label><input type=\"checkbox\" name=\"parts\"> with parts and cells</label>\
+             <output></output></form>\n"
+        );
+        text += "<div class=\"wide\"><table id=\"claimed\"><thead><tr>";
+        for (key, name) in [
+            ("claim", "claim"),
+            ("paper", "the paper"),
+            ("ours", "ours"),
+            ("class", "class"),
+            ("readings", "readings"),
+        ] {
+            text += &format!(
+                "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\" data-sort=\"{key}\">{name}</button></th>"
+            );
+        }
+        text += "</tr></thead>\n";
+        text.extend(self.verdicts.claims.iter().map(|judged| self.claim(judged)));
+        text + "</table></div></section>\n"
+    }
+
+    /// A claim's line, and below it the evidence that opens.
+    fn claim(&self, judged: &Judged) -> String {
+        let id = escaped(&judged.claim);
+        let unit = judged.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+        let printed = judged.printed.as_ref().map(|printed| format!("{printed}{unit}"));
+        let quote = judged.quote.as_ref().map(|quote| format!("“{quote}”"));
+        let says = printed.or(quote).or_else(|| judged.says.clone()).unwrap_or_default();
+        let ours = judged.ours().map_or_else(
+            || "–".to_owned(),
+            |ours| format!("{} ({}; n = {})", short(ours), ours.what, ours.n),
+        );
+        let readings = judged.across_readings().unwrap_or_default();
+        let rank = Verdict::ALL.iter().position(|class| *class == judged.verdict).unwrap_or(0);
+        let part = if judged.part_of.is_some() { " data-part" } else { "" };
+        format!(
+            "<tbody id=\"claim={id}\" data-class=\"{}\" data-rank=\"{rank}\"{part}>\
+             <tr><th scope=\"row\"><button type=\"button\" class=\"open\" aria-expanded=\"false\">{id}</button></th>\
+             <td>{}: {}</td><td>{}</td><td>{}</td><td class=\"readings\">{}</td></tr>\n\
+             <tr class=\"evidence\" hidden><td colspan=\"5\">{}</td></tr></tbody>\n",
+            escaped(judged.verdict.name()),
+            escaped(&judged.at),
+            escaped(&says),
+            escaped(&ours),
+            badge(&kind(judged), judged.outcome()),
+            escaped(&readings),
+            self.evidence_of(judged)
+        )
+    }
+
+    fn evidence_of(&self, judged: &Judged) -> String {
+        let line = |what: &str, said: &Option<String>| {
+            said.as_ref().map_or_else(String::new, |said| {
+                format!("<p>{what}: {}</p>", inline(said, |id| self.is_claim(id)))
+            })
+        };
+        let whole = judged.part_of.as_ref().map(|whole| format!("`{whole}`"));
+        let mut text = line("the paper says", &judged.says);
+        text += &line("word for word", &judged.quote);
+        text += &line("a part of", &whole);
+        text += &line("must hold", &judged.theorem);
+        text += &line("changed after a run", &judged.changed_after_run);
+        text + &judged.findings.iter().map(|finding| self.finding(finding)).collect::<String>()
+    }
+
+    fn finding(&self, finding: &Finding) -> String {
+        let class = finding
+            .verdict
+            .map_or_else(String::new, |class| badge(&class.name().replace(' ', "-"), class.name()));
+        let mut text =
+            format!("<div class=\"finding\"><p><code>{}</code> {class}</p><ul>", escaped(&finding.criterion));
+        let mut add = |said: &str| text += &format!("<li>{}</li>", inline(said, |id| self.is_claim(id)));
+        if let Some(ours) = &finding.ours {
+            let solved =
+                ours.solved.map_or_else(String::new, |[solved, all]| format!(", {solved} of {all} solved"));
+            add(&format!("ours: {} ({}; n = {}{solved})", short(ours), ours.what, ours.n));
+        }
+        finding.because.iter().for_each(|said| add(said));
+        finding.settles.iter().for_each(|said| add(&format!("what would settle it: {said}")));
+        finding.premises.iter().for_each(|said| add(&format!("premise: {said}")));
+        text += &finding
+            .trial
+            .as_ref()
+            .map_or_else(String::new, |trial| format!("<li>{}</li>", self.trial(trial)));
+        text + "</ul></div>"
+    }
+
+    /// A trial: how to run it again, and its replay if there is one.
+    fn trial(&self, trial: &str) -> String {
+        let again = format!("replan repro {} --trial '{trial}'", self.evidence.paper.id);
+        let replay = if self.replayed.contains(&trial) {
+            format!(" <a href=\"#replay={0}\">replay</a>", escaped(trial))
+        } else {
+            String::new()
+        };
+        format!("trial <code>{}</code>{replay}; again: <code>{}</code>", escaped(trial), escaped(&again))
+    }
+
+    fn tables(&self) -> Result<String, RenderError> {
+        let paper = self.evidence.paper;
+        let mut text = "<section id=\"tables\"><h2>The paper's tables beside ours</h2>\n".to_owned();
+        for table in paper.tables.iter().filter(|table| table.rows.iter().any(|row| !row.claims.is_empty())) {
+            text += &self.table(table)?;
+        }
+        for table in &paper.results {
+            let cells = grid(self.evidence, table).map_err(|what| RenderError::NotStored { what })?;
+            let line = |tag: &str, cells: &[String]| {
+                let cells: String =
+                    cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
+                format!("<tr>{cells}</tr>\n")
+            };
+            text += &format!(
+                "<div class=\"wide\"><table class=\"plain\"><caption>{}</caption><thead>{}</thead>",
+                escaped(&table.caption),
+                line("th", &cells.head)
+            );
+            for (title, rows) in &cells.blocks {
+                let rows: String = rows.iter().map(|row| line("td", row)).collect();
+                text += &format!(
+                    "<tbody><tr><th colspan=\"{}\">{}</th></tr>{rows}</tbody>",
+                    cells.head.len(),
+                    escaped(title)
+                );
+            }
+            text += "</table></div>\n";
+        }
+        Ok(text + "</section>\n")
+    }
+
+    /// One of the paper's tables: in each cell what it printed, ours, and the class as a word on its colour.
+    fn table(&self, table: &TableSpec) -> Result<String, RenderError> {
+        let columns: String =
+            table.columns.iter().map(|name| format!("<th scope=\"col\">{}</th>", escaped(name))).collect();
+        let mut text = format!(
+            "<div class=\"wide\"><table class=\"plain\"><caption>{}</caption><thead><tr><th></th>{columns}</tr></thead><tbody>\n",
+            escaped(&table.caption)
+        );
+        for row in &table.rows {
+            let cells: String = match beside(self.evidence, table, row, self.verdicts)? {
+                None => row.cells.iter().map(|cell| format!("<td>{}</td>", escaped(cell))).collect(),
+                Some(Beside { printed, ours, classes }) => {
+                    let cells = printed.iter().zip(&ours).zip(&classes);
+                    cells.map(|((printed, ours), judged)| cell(printed, ours, *judged)).collect()
+                }
+            };
+            text += &format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", escaped(&row.label));
+        }
+        text += "</tbody></table></div>\n";
+        let ours = table.ours.as_ref().map(|ours| &ours.note);
+        let notes: Vec<&str> = table.notes.iter().chain(ours).map(String::as_str).collect();
+        Ok(text + &format!("<p class=\"note\">{}</p>\n", escaped(&notes.join(" "))))
+    }
+
+    fn replays(&self) -> String {
+        if self.replayed.is_empty() {
+            return String::new();
+        }
+        "<section id=\"replays\"><h2>Replays</h2>\n<p>Stored trials, step by step; contenders on one problem stand side by side. \
+         Arrow keys step, the space bar plays.</p>\n<div id=\"player\"></div></section>\n"
+            .to_owned()
+    }
+
+    fn figures(&self) -> String {
+        let mut text = "<section id=\"figures\"><h2>Figures</h2>\n".to_owned();
+        for run in self.evidence.runs() {
+            for figure in &run.study.figures {
+                let id = escaped(figure.id.get_ref());
+                let about = escaped(&caption(figure, run));
+                text += &format!(
+                    "<figure><img data-figure=\"{id}\" alt=\"{about}\"><figcaption>{id}: {about}</figcaption></figure>\n"
+                );
+            }
+        }
+        text + "</section>\n"
+    }
+}
+
+fn option(name: &str) -> String {
+    format!("<option>{}</option>", escaped(name))
+}
+
+fn cell(printed: &str, ours: &str, judged: Option<&Judged>) -> String {
+    let Some(judged) = judged else { return "<td>–</td>".to_owned() };
+    format!(
+        "<td class=\"cell\"><b>{}</b><br>ours {}<br><a href=\"#claim={}\">{}</a></td>",
+        escaped(printed),
+        escaped(ours),
+        escaped(&judged.claim),
+        badge(&kind(judged), judged.outcome())
+    )
+}

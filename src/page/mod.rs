@@ -1,0 +1,147 @@
+//! A paper's report as one HTML page that needs nothing else: claims, the paper's tables beside ours, figures, and replays of
+//! stored trials.
+//!
+//! What can be read stands in the page as HTML, so that it reads and prints without a script. What a script draws (figures,
+//! replays) is packed, and unpacked when it is looked at. Nothing here is computed that analysis or a stored trial does not say:
+//! frames of an arm are where its family places it.
+
+mod body;
+mod curves;
+mod html;
+mod packed;
+mod replay;
+
+use crate::analysis::evidence::Evidence;
+use crate::analysis::verdict::Verdicts;
+use crate::render::output::Output;
+use crate::render::{RenderError, state};
+use crate::study::{Inputs, StudyError};
+use body::Body;
+pub use html::escaped;
+use packed::{Pack, Packed};
+
+/// The most that a page may take, in bytes.
+pub const PAGE_BYTES: usize = 4_000_000;
+
+/// The viewer, bundled from `viewer/` with three.js and uPlot by `bundle/build.sh`.
+pub const VIEWER: &str = include_str!("bundle/viewer.js");
+/// Its style, uPlot's at its head.
+pub const STYLE: &str = include_str!("bundle/viewer.css");
+/// The licences of what is bundled.
+pub const LICENCES: &str = include_str!("bundle/LICENCES.txt");
+
+/// Why a page could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum PageError {
+    /// A table for which something is not stored.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A family that cannot be built again.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// What did not fit could not be packed.
+    #[error("replays that do not fit cannot be put into a zip: {0}")]
+    Zip(#[from] zip::result::ZipError),
+    /// What is shown could not be packed.
+    #[error("what is shown cannot be packed: {0}")]
+    Pack(#[from] std::io::Error),
+}
+
+/// A page, and what did not fit.
+pub struct Page {
+    /// The page.
+    pub html: String,
+    /// A zip archive of the replays that did not fit.
+    pub rest: Option<Vec<u8>>,
+}
+
+/// The page of the paper of `evidence` with `figures` as they were drawn; `rest` is the name of the file for what does not fit.
+///
+/// # Errors
+/// [`PageError`].
+pub fn page(
+    evidence: &Evidence<'_>,
+    verdicts: &Verdicts,
+    figures: &[Output],
+    inputs: &Inputs,
+    rest: &str,
+) -> Result<Page, PageError> {
+    let (replays, curves) = (replay::all(evidence, verdicts, inputs)?, curves::all(evidence, verdicts)?);
+    let named: Vec<&str> =
+        replays.iter().flat_map(|replay| replay.trials.iter().map(String::as_str)).collect();
+    let body = Body { evidence, verdicts, replayed: &named };
+    let mut text = opening(&evidence.paper.id, &evidence.paper.source.title);
+    text += &body.html(&state(evidence, verdicts), curves.is_empty())?;
+    let (mut packs, mut pack) = (Vec::new(), Pack::new(PAGE_BYTES, text.len() + VIEWER.len() + STYLE.len()));
+    for curve in &curves {
+        packs.push(pack.always(
+            "curves",
+            &curve.title,
+            &serde_json::to_vec(curve).expect("plain numbers"),
+        )?);
+    }
+    for figure in figures.iter().filter(|file| file.name.ends_with(".svg")) {
+        packs.push(pack.always("figure", figure.name.trim_end_matches(".svg"), &figure.bytes)?);
+    }
+    for replay in &replays {
+        packs.extend(pack.if_it_fits("replay", &replay.title, &replay.json())?);
+    }
+    let (left, rest_bytes) = pack.rest()?;
+    text += &closing(&packs, left, rest);
+    Ok(Page { html: text, rest: rest_bytes })
+}
+
+/// The page of a paper whose run cannot be shown, for the reason `why`.
+pub fn unread(id: &str, title: &str, why: &str) -> String {
+    let said = format!("<p class=\"state\">Nothing is shown: {}.</p>", escaped(why.trim_end_matches('.')));
+    format!("{}{said}<main><h1>{}</h1></main></body></html>\n", opening(id, title), escaped(title))
+}
+
+/// The page that leads to those of `papers`, each with its title and what is said of it.
+pub fn index(papers: &[[String; 3]]) -> String {
+    let row = |[id, title, said]: &[String; 3]| {
+        format!(
+            "<tr><td><a href=\"{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td></tr>\n",
+            escaped(id),
+            escaped(title),
+            escaped(said)
+        )
+    };
+    let rows: String = papers.iter().map(row).collect();
+    let head = "<thead><tr><th>paper</th><th>title</th><th>sentences and rows</th></tr></thead>";
+    format!(
+        "{}<main><h1>What the papers claim and what we found</h1><div class=\"wide\"><table class=\"plain\">{head}<tbody>\n{rows}</tbody></table></div></main></body></html>\n",
+        opening("replan", "What the papers claim and what we found")
+    )
+}
+
+fn opening(id: &str, title: &str) -> String {
+    format!(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{}: {}</title>\n<style>{STYLE}</style></head>\n<body>\n",
+        escaped(id),
+        escaped(title)
+    )
+}
+
+/// What is packed, what did not fit, and the viewer.
+fn closing(packs: &[Packed], left: usize, rest: &str) -> String {
+    let mut text = String::new();
+    if left > 0 {
+        let rest = escaped(rest);
+        text += &format!(
+            "<p class=\"rest\">{left} more replays did not fit: they are in <a href=\"{rest}\">{rest}</a>, which lies beside this \
+             page. Unpack it and open one here: <input type=\"file\" id=\"more\" accept=\".json\" aria-label=\"a replay's file\"></p>\n"
+        );
+    }
+    text.extend(packs.iter().map(Packed::html));
+    // The bundle is ours and holds no closing tag: its test says so.
+    text + &format!(
+        "<script>{VIEWER}</script>\n<!--\n{}\n-->\n</body></html>\n",
+        LICENCES.replace("--", "- -")
+    )
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,99 @@
+//! What a script unpacks: gzip in base64, as long as the page stays within its limit; what is left over goes into a zip.
+
+use super::PageError;
+use super::html::escaped;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::io::{Cursor, Write as _};
+use zip::write::SimpleFileOptions;
+
+/// Something packed, ready to stand in a page.
+pub struct Packed {
+    kind: &'static str,
+    name: String,
+    base64: String,
+}
+
+impl Packed {
+    /// It as an element of the page.
+    pub fn html(&self) -> String {
+        format!(
+            "<script type=\"application/octet-stream\" data-kind=\"{}\" data-name=\"{}\">{}</script>\n",
+            self.kind,
+            escaped(&self.name),
+            self.base64
+        )
+    }
+}
+
+/// Packs things until the page is full.
+pub struct Pack {
+    room: usize,
+    rest: Vec<(String, Vec<u8>)>,
+}
+
+impl Pack {
+    /// For a page of at most `limit` bytes of which `taken` are spoken for.
+    pub fn new(limit: usize, taken: usize) -> Self {
+        // What stands around the packed things takes a little as well.
+        Self { room: limit.saturating_sub(taken + limit / 50), rest: Vec::new() }
+    }
+
+    /// `bytes`, whether or not there is room.
+    ///
+    /// # Errors
+    /// Packing that the system refused.
+    pub fn always(&mut self, kind: &'static str, name: &str, bytes: &[u8]) -> Result<Packed, PageError> {
+        let packed = packed(kind, name, bytes)?;
+        self.room = self.room.saturating_sub(packed.html().len());
+        Ok(packed)
+    }
+
+    /// `bytes` if there is room; else they go to the rest.
+    ///
+    /// # Errors
+    /// As [`always`](Self::always).
+    pub fn if_it_fits(
+        &mut self,
+        kind: &'static str,
+        name: &str,
+        bytes: &[u8],
+    ) -> Result<Option<Packed>, PageError> {
+        let packed = packed(kind, name, bytes)?;
+        let size = packed.html().len();
+        if size <= self.room {
+            self.room -= size;
+            return Ok(Some(packed));
+        }
+        self.rest.push((name.to_owned(), bytes.to_vec()));
+        Ok(None)
+    }
+
+    /// How much did not fit, and a zip of it.
+    ///
+    /// # Errors
+    /// As [`always`](Self::always).
+    pub fn rest(self) -> Result<(usize, Option<Vec<u8>>), PageError> {
+        if self.rest.is_empty() {
+            return Ok((0, None));
+        }
+        let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        // Without a time, so that equal runs give equal bytes.
+        let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
+        for (index, (name, bytes)) in self.rest.iter().enumerate() {
+            let name: String =
+                name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+            archive.start_file(format!("{index:04}-{name}.json"), options)?;
+            archive.write_all(bytes)?;
+        }
+        Ok((self.rest.len(), Some(archive.finish()?.into_inner())))
+    }
+}
+
+fn packed(kind: &'static str, name: &str, bytes: &[u8]) -> Result<Packed, PageError> {
+    let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
+    gzip.write_all(bytes)?;
+    Ok(Packed { kind, name: name.to_owned(), base64: STANDARD.encode(gzip.finish()?) })
+}

@@ -1,0 +1,58 @@
+//! A search on a grid: cells in the order in which they were opened and closed.
+
+use super::{Case, said};
+use engine::planner::Exhibit;
+use serde::Serialize;
+
+/// A map with what each trial did on it.
+#[derive(Serialize)]
+pub struct Scene {
+    size: [usize; 2],
+    blocked: Vec<[u32; 2]>,
+    lanes: Vec<Lane>,
+}
+
+/// One trial.
+#[derive(Serialize)]
+struct Lane {
+    label: String,
+    said: String,
+    /// Opened cells of each side, in their order.
+    opened: [Vec<[u32; 2]>; 2],
+    /// Closed cells, in their order, where they were kept.
+    closed: Vec<[u32; 2]>,
+    raw: Vec<[f64; 2]>,
+    path: Vec<[f64; 2]>,
+}
+
+fn cells(exhibit: Option<&Exhibit>) -> Vec<[u32; 2]> {
+    let rows = exhibit.into_iter().flat_map(|exhibit| exhibit.values.chunks(exhibit.width));
+    rows.map(|cell| [cell[0] as u32, cell[1] as u32]).collect()
+}
+
+fn centres(exhibit: Option<&Exhibit>) -> Vec<[f64; 2]> {
+    cells(exhibit).into_iter().map(|[x, y]| [f64::from(x) + 0.5, f64::from(y) + 0.5]).collect()
+}
+
+/// The search of `case`; none if it is not on a grid.
+pub fn scene(case: &Case<'_>) -> Option<Scene> {
+    let run = case.run;
+    let kept = |name: &str| run.exhibit(&case.rows[0].key.on, name);
+    let (size, blocked) = (kept("size_cells")?, kept("blocked")?);
+    let lane = |row: &&crate::study::record::Row| {
+        let kept = |name: &str| run.exhibit(&row.key, name);
+        Lane {
+            label: row.key.contender.to_string(),
+            said: said(row),
+            opened: ["opened_start_side", "opened_goal_side"].map(|name| cells(kept(name))),
+            closed: cells(kept("closed_start_side")),
+            raw: centres(kept("raw_path")),
+            path: centres(kept("path")),
+        }
+    };
+    Some(Scene {
+        size: [size.values[0] as usize, size.values[1] as usize],
+        blocked: cells(Some(blocked)),
+        lanes: case.rows.iter().map(lane).collect(),
+    })
+}

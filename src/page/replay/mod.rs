@@ -1,0 +1,113 @@
+//! Replays: what was stored of trials on one problem, side by side and in step.
+
+mod arm;
+mod grid;
+mod plane;
+
+use super::PageError;
+use crate::analysis::evidence::{Evidence, Run};
+use crate::analysis::verdict::Verdicts;
+use crate::render::figure;
+use crate::study::Group;
+use crate::study::Inputs;
+use crate::study::record::Row;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Trials on one problem.
+#[derive(Serialize)]
+pub struct Replay {
+    /// The problem, with its study.
+    pub title: String,
+    /// The names of the trials, as `--trial` takes them.
+    pub trials: Vec<String>,
+    /// What is shown.
+    #[serde(flatten)]
+    scene: Shown,
+}
+
+#[derive(Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+enum Shown {
+    Grid(grid::Scene),
+    Plane(plane::Scene),
+    Arm(arm::Scene),
+}
+
+impl Replay {
+    /// It as JSON.
+    pub fn json(&self) -> Vec<u8> {
+        serde_json::to_vec(self).expect("texts and finite numbers")
+    }
+}
+
+/// The trials of a problem that have something to show, each with its run.
+struct Case<'r> {
+    run: &'r Run<'r>,
+    group: &'r Group,
+    rows: Vec<&'r Row>,
+}
+
+/// Every replay of the paper, those first that a finding names or a figure draws.
+///
+/// # Errors
+/// A family that cannot be built again.
+pub fn all(evidence: &Evidence<'_>, verdicts: &Verdicts, inputs: &Inputs) -> Result<Vec<Replay>, PageError> {
+    let findings = verdicts.claims.iter().flat_map(|judged| &judged.findings);
+    let named: BTreeSet<&str> = findings.filter_map(|finding| finding.trial.as_deref()).collect();
+    let mut ranked = Vec::new();
+    for run in evidence.runs() {
+        let drawn = figure::drawn(run.study, evidence.paper);
+        for case in cases(run) {
+            let group = case.group.label.clone();
+            let draw = case.rows[0].draw();
+            let Some(replay) = replay(evidence, &case, inputs)? else { continue };
+            let is_named = replay.trials.iter().any(|trial| named.contains(trial.as_str()));
+            let is_drawn = drawn.contains(&(group, draw));
+            ranked.push((!is_drawn, !is_named, replay));
+        }
+    }
+    ranked.sort_by_key(|(undrawn, unnamed, _)| (*undrawn, *unnamed));
+    Ok(ranked.into_iter().map(|(.., replay)| replay).collect())
+}
+
+/// The problems of which something was kept under the reading that claims are judged under, in the order of groups and draws.
+fn cases<'r>(run: &'r Run<'r>) -> Vec<Case<'r>> {
+    let mut cases = Vec::new();
+    for group in &run.study.groups {
+        let mut problems: BTreeMap<_, Vec<&Row>> = BTreeMap::new();
+        for contender in &run.study.contenders {
+            for row in run.rows(&group.label, &contender.label) {
+                let is_first = row.key.repeat == 0 && run.exhibits(&row.key).next().is_some();
+                if is_first {
+                    let key = (row.draw(), row.query().to_owned(), row.key.sweep.clone());
+                    problems.entry(key).or_default().push(row);
+                }
+            }
+        }
+        cases.extend(problems.into_values().map(|rows| Case { run, group, rows }));
+    }
+    cases
+}
+
+fn replay(evidence: &Evidence<'_>, case: &Case<'_>, inputs: &Inputs) -> Result<Option<Replay>, PageError> {
+    let scene = match grid::scene(case).map(Shown::Grid).or_else(|| plane::scene(case).map(Shown::Plane)) {
+        Some(scene) => Some(scene),
+        None => arm::scene(evidence, case, inputs)?.map(Shown::Arm),
+    };
+    let sweep = case.rows[0].key.sweep.values().iter();
+    let sweep: String = sweep.map(|(setting, value)| format!(", {setting} = {value}")).collect();
+    let title = format!("{}: {}{sweep}", case.run.study.name, case.run.problem(case.rows[0]));
+    let trials = case.rows.iter().map(|row| case.run.trial(row)).collect();
+    Ok(scene.map(|scene| Replay { title, trials, scene }))
+}
+
+/// What became of a trial, in words.
+fn said(row: &Row) -> String {
+    let lengths = [("path_cost_cells", "cells"), ("path_length_cm", "cm"), ("path_length_mm", "mm")];
+    let length = lengths.iter().find_map(|(column, unit)| Some(format!("{:.2} {unit}", row.value(column)?)));
+    match (row.is_solved(), length) {
+        (true, Some(length)) => length,
+        _ => row.status.to_string().replace('_', " "),
+    }
+}

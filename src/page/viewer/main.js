@@ -1,0 +1,22 @@
+// The page's script: filters and sorts claims, unpacks figures, plays replays, shows curves. It computes no result.
+import { claims } from "./claims.js";
+import { curves } from "./curves.js";
+import { figures } from "./figures.js";
+import { player } from "./player.js";
+import { unpack } from "./unpack.js";
+
+const packed = (kind) => [...document.querySelectorAll(`script[data-kind="${kind}"]`)];
+
+figures(packed("figure"), unpack);
+curves(packed("curves"), unpack);
+const show = player(packed("replay"), unpack);
+claims();
+
+// Links within the page name what they show: #claim=ID, #class=WORD, #replay=TRIAL&step=N.
+async function follow() {
+  const asked = new URLSearchParams(location.hash.slice(1));
+  if (asked.has("replay")) await show(asked.get("replay"), asked);
+  document.documentElement.dataset.ready = "yes";
+}
+addEventListener("hashchange", follow);
+follow();

@@ -1,0 +1,153 @@
+//! The page that `replan report` writes: what it says of runs that cannot be shown, and how it behaves in a browser.
+
+mod driver;
+
+use crate::paper::Bench;
+use driver::Browser;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const PAPERS: [&str; 5] = ["fu2018", "gallery", "planar", "tang2023", "zhang"];
+/// A page may take so many bytes.
+const PAGE_BYTES: usize = 4_000_000;
+
+/// The committed paper `name` as a page.
+fn page(bench: &Bench, name: &str) -> PathBuf {
+    let to = bench.at("pages");
+    let output = Command::new(env!("CARGO_BIN_EXE_replan"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["report", name, "--to"])
+        .arg(&to)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    to.join(format!("{name}.html"))
+}
+
+/// The first line of the page's body.
+fn first_line(page: &Path) -> String {
+    let text = fs::read_to_string(page).unwrap();
+    text.split("<body>\n").nth(1).unwrap().lines().next().unwrap().to_owned()
+}
+
+#[test]
+fn every_committed_paper_fits_into_four_megabytes_and_asks_nothing_of_the_network() {
+    let bench = Bench::empty();
+    for name in PAPERS {
+        let text = fs::read_to_string(page(&bench, name)).unwrap();
+        assert!(text.len() < PAGE_BYTES, "{name}: {} bytes", text.len());
+        let (body, _) = text.split_once("<script>").unwrap();
+        for outside in ["src=\"http", "href=\"http", "url(http", "@import"] {
+            assert!(!body.contains(outside), "{name}: {outside}");
+        }
+    }
+}
+
+const SHOWN: &str =
+    "return [...document.getElementById('claimed').tBodies].filter((line) => !line.hidden).length";
+
+#[test]
+fn claims_filter_sort_and_open_in_a_browser() {
+    let bench = Bench::empty();
+    let Some(browser) = Browser::open([1280, 800]) else { return };
+    let file = page(&bench, "zhang");
+    browser.go(&file, "claims");
+    let all = browser.run(SHOWN).as_u64().unwrap();
+    browser.picture("zhang-claims-1280");
+    browser.run("const f = document.getElementById('filter'); f.elements.class.value = 'impossible'; f.dispatchEvent(new Event('input'))");
+    let impossible = browser.run(SHOWN).as_u64().unwrap();
+    assert!((1..all).contains(&impossible), "{impossible} of {all}");
+    browser.run("document.querySelector('[data-sort=class]').click()");
+    browser.go(&file, "claim=t1.improved.cost");
+    assert_eq!(
+        browser.run(
+            "return document.getElementById('claim=t1.improved.cost').querySelector('.evidence').hidden"
+        ),
+        json!(false)
+    );
+    browser.picture("zhang-claim-1280");
+    assert_eq!(browser.console(), json!([]));
+}
+
+/// The drawn pixels of the replay, as the browser gives them.
+const PIXELS: &str =
+    "return [...document.querySelectorAll('.stage canvas')].map((canvas) => canvas.toDataURL()).join()";
+
+/// Pictures of the replay of `trial` in `page` at these steps; no two are equal.
+fn moves(browser: &Browser, page: &Path, trial: &str, steps: &[u32], name: &str) {
+    let mut drawn: Vec<Value> = Vec::new();
+    for step in steps {
+        browser.go(page, &format!("replay={trial}&step={step}"));
+        browser.wait(&format!("return document.querySelector('[name=step]').value === '{step}'"));
+        let pixels = browser.run(PIXELS);
+        assert!(
+            pixels.as_str().unwrap().len() > 1_000 && !drawn.contains(&pixels),
+            "{trial} stands still at {step}"
+        );
+        drawn.push(pixels);
+    }
+    browser.picture(name);
+    assert_eq!(browser.console(), json!([]), "{trial}");
+}
+
+#[test]
+fn replays_change_from_step_to_step_in_wide_and_narrow_windows() {
+    let bench = Bench::empty();
+    let replays = [
+        ("zhang", "witness/w1/a-star", [2, 40, 69]),
+        ("planar", "methods/case-1/a-8", [0, 10, 20]),
+        ("gallery", "ur5/cell/low/shortest", [0, 30, 60]),
+    ];
+    for [width, height] in [[1280, 800], [390, 844]] {
+        let Some(browser) = Browser::open([width, height]) else { return };
+        for (paper, trial, steps) in replays {
+            moves(&browser, &page(&bench, paper), trial, &steps, &format!("{paper}-replay-{width}"));
+        }
+    }
+}
+
+#[test]
+fn the_play_button_plays() {
+    let bench = Bench::empty();
+    let Some(browser) = Browser::open([1280, 800]) else { return };
+    browser.go(&page(&bench, "planar"), "replay=methods/case-1/a-8");
+    browser.run("document.querySelector('[name=play]').click()");
+    browser.wait("return Number(document.querySelector('[name=step]').value) > 2");
+    assert_eq!(browser.console(), json!([]));
+}
+
+#[test]
+fn text_of_a_paper_never_becomes_part_of_the_page() {
+    let bench = Bench::new();
+    bench.edit("mini/paper.toml", "title = \"", "title = \"<script>document.title = 'taken'</script> ");
+    bench.done(&["repro", "mini", "--quick", "--out", "quick"]);
+    bench.done(&["report", "mini", "--out", "quick", "--to", "pages"]);
+    let file = bench.at("pages/mini.html");
+    let text = fs::read_to_string(&file).unwrap();
+    assert!(!text.contains("<script>document.title") && text.contains("&lt;script&gt;document.title"));
+    assert!(first_line(&file).starts_with("<p class=\"state\">Quick run"), "{}", first_line(&file));
+}
+
+#[test]
+fn missing_stale_and_damaged_runs_are_said_in_the_first_line() {
+    let bench = Bench::new();
+    let said = bench.run(&["report", "mini", "--to", "pages"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    let first = || first_line(&bench.at("pages/mini.html"));
+    assert!(first().contains("Nothing is shown: ") && first().contains("no verdicts"), "{}", first());
+
+    bench.done(&["repro", "mini", "--out", "run"]);
+    let draws = fs::read_dir(bench.at("run/data/runs/mini")).unwrap().map(|entry| entry.unwrap().path());
+    let trials = draws.into_iter().find(|path| path.to_string_lossy().ends_with(".trials.parquet")).unwrap();
+    let bytes = fs::read(&trials).unwrap();
+    fs::write(&trials, &bytes[..bytes.len() - 9]).unwrap();
+    assert_ne!(bench.run(&["report", "mini", "--out", "run", "--to", "pages"]).code, Some(0));
+    assert!(first().contains("Nothing is shown: ") && first().contains("trials.parquet"), "{}", first());
+
+    fs::write(&trials, &bytes).unwrap();
+    bench.edit("mini/paper.toml", "[[claim]]", "[[claim]]\n# changed\n");
+    bench.run(&["report", "mini", "--out", "run", "--to", "pages"]);
+    assert!(!first().contains("Nothing is shown"), "{}", first());
+}

@@ -1,0 +1,142 @@
+//! A browser driven over the `WebDriver` protocol (W3C): Chromium, headless, through chromedriver on the loopback address.
+
+use serde_json::{Value, json};
+use std::env;
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use tempfile::TempDir;
+
+/// The first of `names` among the programs of this machine.
+fn program(names: &[&str]) -> Option<PathBuf> {
+    let path = env::var_os("PATH")?;
+    env::split_paths(&path)
+        .flat_map(|folder| names.iter().map(move |name| folder.join(name)))
+        .find(|p| p.is_file())
+}
+
+/// A browser with one window.
+pub struct Browser {
+    driver: Child,
+    port: u16,
+    session: String,
+    _profile: TempDir,
+}
+
+impl Browser {
+    /// A browser with a window of this size; none, and a line that says so, where Chromium or its driver is not installed.
+    pub fn open([width, height]: [u32; 2]) -> Option<Self> {
+        let chromium = program(&["chromium", "chromium-browser", "google-chrome"]);
+        let (Some(chromium), Some(driver)) = (chromium, program(&["chromedriver"])) else {
+            eprintln!("skipped: Chromium or chromedriver is not installed, so no page was opened");
+            return None;
+        };
+        let profile = tempfile::tempdir().unwrap();
+        let mut driver = Command::new(driver)
+            .arg("--port=0")
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let lines = BufReader::new(driver.stdout.take().unwrap()).lines();
+        let port = lines.map_while(Result::ok).find_map(|line| {
+            line.split("started successfully on port ").nth(1)?.trim_end_matches('.').parse().ok()
+        });
+        let mut browser = Self {
+            driver,
+            port: port.expect("chromedriver says its port"),
+            session: String::new(),
+            _profile: profile,
+        };
+        let data = format!("--user-data-dir={}", browser._profile.path().display());
+        let size = format!("--window-size={width},{height}");
+        let args = [
+            "--headless",
+            "--no-sandbox",
+            "--disable-quic",
+            "--no-first-run",
+            "--disable-sync",
+            "--use-angle=swiftshader",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--enable-unsafe-swiftshader",
+            &data,
+            &size,
+        ];
+        let wanted = json!({ "browserName": "chrome", "goog:loggingPrefs": { "browser": "ALL" },
+            "goog:chromeOptions": { "binary": chromium, "args": args, "mobileEmulation": null } });
+        let mut wanted = wanted;
+        wanted["goog:chromeOptions"].as_object_mut().unwrap().remove("mobileEmulation");
+        let made = browser.ask("POST", "/session", &json!({ "capabilities": { "alwaysMatch": wanted } }));
+        browser.session = made["sessionId"].as_str().unwrap_or_else(|| panic!("{made}")).to_owned();
+        Some(browser)
+    }
+
+    /// Sends a command and gives the value of its answer.
+    fn ask(&self, method: &str, path: &str, body: &Value) -> Value {
+        let body = if method == "POST" { body.to_string() } else { String::new() };
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        let length = body.len();
+        let head = format!(
+            "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\nContent-Length: {length}\r\n\r\n"
+        );
+        stream.write_all((head + &body).as_bytes()).unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        let (_, body) = answer.split_once("\r\n\r\n").unwrap();
+        serde_json::from_str::<Value>(body).unwrap()["value"].take()
+    }
+
+    fn of_session(&self, method: &str, path: &str, body: &Value) -> Value {
+        self.ask(method, &format!("/session/{}{path}", self.session), body)
+    }
+
+    /// Opens `page` at `hash` and waits until it is ready.
+    pub fn go(&self, page: &Path, hash: &str) {
+        self.of_session("POST", "/url", &json!({ "url": format!("file://{}#{hash}", page.display()) }));
+        self.wait("return document.documentElement.dataset.ready === 'yes'");
+    }
+
+    /// What `script` returns.
+    pub fn run(&self, script: &str) -> Value {
+        self.of_session("POST", "/execute/sync", &json!({ "script": script, "args": [] }))
+    }
+
+    /// Runs `script` until it returns true.
+    pub fn wait(&self, script: &str) {
+        for _ in 0..600 {
+            if self.run(script) == Value::Bool(true) {
+                return;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(100));
+        }
+        panic!("never true: {script}");
+    }
+
+    /// What the page wrote to its console.
+    pub fn console(&self) -> Value {
+        self.of_session("POST", "/se/log", &json!({ "type": "browser" }))
+    }
+
+    /// A picture of the window in base64, kept under `name` where `REPLAN_SCREENSHOTS` names a folder.
+    pub fn picture(&self, name: &str) -> String {
+        let picture = self.of_session("GET", "/screenshot", &Value::Null);
+        let picture = picture.as_str().unwrap_or_else(|| panic!("{picture}")).to_owned();
+        if let Some(folder) = env::var_os("REPLAN_SCREENSHOTS") {
+            fs::write(Path::new(&folder).join(format!("{name}.base64")), &picture).unwrap();
+        }
+        picture
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        if !self.session.is_empty() && !std::thread::panicking() {
+            self.of_session("DELETE", "", &Value::Null);
+        }
+        let _ = self.driver.kill();
+        let _ = self.driver.wait();
+    }
+}
