@@ -1,9 +1,9 @@
 //! The hull of every robot file ends at the tip that the file declares: what a study plans for is what it names.
 
+use super::super::urdf::capsule_around;
 use super::*;
 use crate::geometry::{Frame, Vec3};
 use crate::kinematics::open_chain::OpenChain;
-use super::super::urdf::capsule_around;
 use std::path::PathBuf;
 
 /// A chain that ends a hull this near its tip ends it there: the Panda's fingers are boxes, in capsules 0.4 mm too short.
