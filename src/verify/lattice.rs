@@ -151,7 +151,9 @@ impl Case<'_> {
         let refusal = self.refuse_corners(from, [dx, dy]);
         let own = answer.sight_corners.filter(|_| !answer.in_graph);
         refusal.filter(|_| {
-            own.is_none_or(|corner_rule| Self { corner_rule, ..*self }.refuse_corners(from, [dx, dy]).is_some())
+            own.is_none_or(|corner_rule| {
+                Self { corner_rule, ..*self }.refuse_corners(from, [dx, dy]).is_some()
+            })
         })
     }
 

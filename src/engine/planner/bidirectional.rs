@@ -4,8 +4,8 @@ use super::lattice::{self, COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Bidirectional, BidirectionalReport, BidirectionalRules, Combined, End, GridGraph, Heap, Meeting, Observer,
-    Octile, SideChoice, euclidean_to, falling, sum,
+    Bidirectional, BidirectionalReport, BidirectionalRules, Combined, End, GridGraph, Heap, Meeting,
+    Observer, Octile, SideChoice, euclidean_to, falling, sum,
 };
 use crate::space::WorldKind;
 use base::grid::NeighbourOrder;

@@ -155,13 +155,7 @@ pub(super) fn sees(world: &LatticeWorld, sight: Sight, from: [i32; 2], to: [i32;
 }
 
 /// Whether the segment is free by the line of sight and cuts no corner that `corners` forbids.
-pub(super) fn sees_by(
-    grid: &Grid2,
-    corners: CornerRule,
-    sight: Sight,
-    from: [i32; 2],
-    to: [i32; 2],
-) -> bool {
+pub(super) fn sees_by(grid: &Grid2, corners: CornerRule, sight: Sight, from: [i32; 2], to: [i32; 2]) -> bool {
     let is_free = |[x, y]: [i32; 2]| grid.is_free_xy(x, y);
     if !sight.all_cells(from, to, is_free) {
         return false;

@@ -34,7 +34,10 @@ impl Turn {
 
     fn point(self, grid: &Grid2, at: [i32; 2]) -> [i32; 2] {
         let (size, [x, y]) = (self.size(grid), self.step(at));
-        [if self.reversed[0] { x + size[0] - 1 } else { x }, if self.reversed[1] { y + size[1] - 1 } else { y }]
+        [
+            if self.reversed[0] { x + size[0] - 1 } else { x },
+            if self.reversed[1] { y + size[1] - 1 } else { y },
+        ]
     }
 
     fn grid(self, grid: &Grid2) -> Grid2 {
@@ -77,7 +80,10 @@ fn drawn(stream: &mut Stream) -> (&'static str, toml::Table) {
     if pick(&["one side", "two sides"]) == "one side" {
         let weight = pick(&["falling", "one"]);
         let weight: toml::Value = if weight == "one" { 1.into() } else { weight.into() };
-        return ("astar", [("weight".to_owned(), weight), ("ties".to_owned(), ties.into())].into_iter().collect());
+        return (
+            "astar",
+            [("weight".to_owned(), weight), ("ties".to_owned(), ties.into())].into_iter().collect(),
+        );
     }
     let settings = [
         ("weight", pick(&["one", "falling"])),
@@ -103,7 +109,13 @@ impl Case {
         Self { grid: turn.grid(&self.grid), rule: self.rule, ends }
     }
 
-    fn plan(&self, name: &str, settings: &toml::Table, order: NeighbourOrder, stages: &[Box<dyn Stage>]) -> Plan {
+    fn plan(
+        &self,
+        name: &str,
+        settings: &toml::Table,
+        order: NeighbourOrder,
+        stages: &[Box<dyn Stage>],
+    ) -> Plan {
         let mut settings = settings.clone();
         settings.insert("neighbours".to_owned(), toml::Value::try_from(order).unwrap());
         let world = World::Lattice(LatticeWorld::new(self.grid.clone(), self.rule));
@@ -138,7 +150,11 @@ fn turning_a_map_with_its_neighbour_order_turns_the_path_and_keeps_every_count()
             let other = case.turned(turn).plan(name, &settings, turn.order(order), &stages);
             let wanted: Vec<[i32; 2]> =
                 cells(&plan.path).into_iter().map(|point| turn.point(&case.grid, point)).collect();
-            assert_eq!(cells(&other.path), wanted, "seed {number}, {name}, {settings:?}, {order:?}, {turn:?}");
+            assert_eq!(
+                cells(&other.path),
+                wanted,
+                "seed {number}, {name}, {settings:?}, {order:?}, {turn:?}"
+            );
             let counts = |plan: &Plan| -> Counts { plan.counts.clone() };
             assert_eq!(counts(&other), counts(&plan), "seed {number}, {name}, {settings:?}, {turn:?}");
             let unturned = case.turned(turn).plan(name, &settings, order, &stages);

@@ -101,7 +101,8 @@ fn a_step_is_refused_exactly_where_it_enters_a_blocked_cell_or_cuts_a_forbidden_
                     );
                     by_reason[if is_free { usize::from(!is_open) } else { 2 }] += 1;
                 }
-                let moves_keep_their_rule = case.refuse_step(&[from, to], &answer(true, Some(CornerRule::Allow)));
+                let moves_keep_their_rule =
+                    case.refuse_step(&[from, to], &answer(true, Some(CornerRule::Allow)));
                 assert!(moves_keep_their_rule.is_some() || keeps(rule), "{rule:?}, {from:?} to {to:?}");
             }
         }
