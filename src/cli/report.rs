@@ -112,8 +112,8 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<String, Failure
 /// The figures of `paper` as they were drawn into `folder`; what is not there is not shown, and the page says so in its place.
 fn figures(paper: &Paper, folder: &Path) -> Vec<Output> {
     let read = |id: &str| {
-        let name = format!("{id}.svg");
-        fs::read(folder.join(&name)).ok().map(|bytes| Output { name, bytes })
+        let read = fs::read(folder.join(format!("{id}.svg")));
+        read.ok().map(|bytes| Output { name: id.to_owned(), bytes })
     };
     paper.figure_ids().filter_map(read).collect()
 }

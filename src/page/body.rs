@@ -207,22 +207,25 @@ impl Body<'_> {
             text += &self.table(table)?;
         }
         for table in &paper.results {
-            let cells = grid(self.evidence, table).map_err(|what| RenderError::NotStored { what })?;
+            let found = grid(self.evidence, table).map_err(|what| RenderError::NotStored { what })?;
             let line = |tag: &str, cells: &[String]| {
-                let cells: String =
-                    cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
+                let cells: String = cells
+                    .iter()
+                    .map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell)))
+                    .collect::<Vec<_>>()
+                    .concat();
                 format!("<tr>{cells}</tr>\n")
             };
             text += &format!(
                 "<div class=\"wide\"><table class=\"plain\"><caption>{}</caption><thead>{}</thead>",
                 escaped(&table.caption),
-                line("th", &cells.head)
+                line("th", &found.head)
             );
-            for (title, rows) in &cells.blocks {
+            for (title, rows) in &found.blocks {
                 let rows: String = rows.iter().map(|row| line("td", row)).collect();
                 text += &format!(
                     "<tbody><tr><th colspan=\"{}\">{}</th></tr>{rows}</tbody>",
-                    cells.head.len(),
+                    found.head.len(),
                     escaped(title)
                 );
             }
@@ -233,21 +236,20 @@ impl Body<'_> {
 
     /// One of the paper's tables: in each cell what it printed, ours, and the class as a word on its colour.
     fn table(&self, table: &TableSpec) -> Result<String, RenderError> {
-        let columns: String =
-            table.columns.iter().map(|name| format!("<th scope=\"col\">{}</th>", escaped(name))).collect();
+        let columns = cells("th", &table.columns);
         let mut text = format!(
             "<div class=\"wide\"><table class=\"plain\"><caption>{}</caption><thead><tr><th></th>{columns}</tr></thead><tbody>\n",
             escaped(&table.caption)
         );
         for row in &table.rows {
-            let cells: String = match beside(self.evidence, table, row, self.verdicts)? {
-                None => row.cells.iter().map(|cell| format!("<td>{}</td>", escaped(cell))).collect(),
+            let shown: String = match beside(self.evidence, table, row, self.verdicts)? {
+                None => cells("td", &row.cells),
                 Some(Beside { printed, ours, classes }) => {
-                    let cells = printed.iter().zip(&ours).zip(&classes);
-                    cells.map(|((printed, ours), judged)| cell(printed, ours, *judged)).collect()
+                    let both = printed.iter().zip(&ours).zip(&classes);
+                    both.map(|((printed, ours), judged)| cell(printed, ours, *judged)).collect()
                 }
             };
-            text += &format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", escaped(&row.label));
+            text += &format!("<tr><th scope=\"row\">{}</th>{shown}</tr>\n", escaped(&row.label));
         }
         text += "</tbody></table></div>\n";
         let ours = table.ours.as_ref().map(|ours| &ours.note);
@@ -277,6 +279,12 @@ impl Body<'_> {
         }
         text + "</section>\n"
     }
+}
+
+/// Each of `texts` as a cell.
+fn cells(tag: &str, texts: &[String]) -> String {
+    let cells: Vec<String> = texts.iter().map(|text| format!("<{tag}>{}</{tag}>", escaped(text))).collect();
+    cells.concat()
 }
 
 fn option(name: &str) -> String {

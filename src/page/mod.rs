@@ -55,7 +55,7 @@ pub struct Page {
     pub rest: Option<Vec<u8>>,
 }
 
-/// The page of the paper of `evidence` with `figures` as they were drawn; `rest` is the name of the file for what does not fit.
+/// The page of the paper of `evidence` with `figures` as they were drawn, SVG by the name of each; `rest` is the name of the file for what does not fit.
 ///
 /// # Errors
 /// [`PageError`].
@@ -80,8 +80,8 @@ pub fn page(
             &serde_json::to_vec(curve).expect("plain numbers"),
         )?);
     }
-    for figure in figures.iter().filter(|file| file.name.ends_with(".svg")) {
-        packs.push(pack.always("figure", figure.name.trim_end_matches(".svg"), &figure.bytes)?);
+    for figure in figures {
+        packs.push(pack.always("figure", &figure.name, &figure.bytes)?);
     }
     for replay in &replays {
         packs.extend(pack.if_it_fits("replay", &replay.title, &replay.json())?);

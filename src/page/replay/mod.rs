@@ -96,7 +96,8 @@ fn replay(evidence: &Evidence<'_>, case: &Case<'_>, inputs: &Inputs) -> Result<O
         None => arm::scene(evidence, case, inputs)?.map(Shown::Arm),
     };
     let sweep = case.rows[0].key.sweep.values().iter();
-    let sweep: String = sweep.map(|(setting, value)| format!(", {setting} = {value}")).collect();
+    let sweep: Vec<String> = sweep.map(|(setting, value)| format!(", {setting} = {value}")).collect();
+    let sweep = sweep.concat();
     let title = format!("{}: {}{sweep}", case.run.study.name, case.run.problem(case.rows[0]));
     let trials = case.rows.iter().map(|row| case.run.trial(row)).collect();
     Ok(scene.map(|scene| Replay { title, trials, scene }))
