@@ -65,9 +65,13 @@ pub fn claims_hash(paper: &Paper) -> String {
 
 /// What a claim says and how it is judged, in a line.
 fn question(claim: &Claim) -> String {
-    let asked = claim.asked().map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()));
+    let asked =
+        claim.asked().map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()));
     let (asked, parts) = (asked.collect::<Vec<_>>(), &claim.parts);
-    format!("{} {:?} {:?} {:?} {asked:?} {parts:?}\n", claim.id, claim.printed, claim.digits, claim.untestable)
+    format!(
+        "{} {:?} {:?} {:?} {asked:?} {parts:?}\n",
+        claim.id, claim.printed, claim.digits, claim.untestable
+    )
 }
 
 /// The hash of what one claim says and how it is judged, with its parts and the claims that its criteria name.

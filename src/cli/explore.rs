@@ -93,7 +93,12 @@ impl Explore {
         let path = Exploration::first(&places.runs);
         exploration.write(&path)?;
         verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
-        say!("{} trials under {} readings; what was found is in {}", exploration.trials, points.len(), path.display());
+        say!(
+            "{} trials under {} readings; what was found is in {}",
+            exploration.trials,
+            points.len(),
+            path.display()
+        );
         Ok(())
     }
 }
@@ -159,7 +164,8 @@ impl<'p> Explorer<'p> {
     fn studies(&self, draws: impl Fn(&Study) -> u32) -> Vec<Ran<'p>> {
         let ran = |study: &'p Study| {
             let explore = study.explore.as_ref()?;
-            let answers = explore.stands_for.as_ref().and_then(|name| self.paper.study(name)).unwrap_or(study);
+            let answers =
+                explore.stands_for.as_ref().and_then(|name| self.paper.study(name)).unwrap_or(study);
             let mut cut = study.clone().explored(explore, draws(study));
             if self.second_seed {
                 cut.seed = study.second_seed?;
@@ -247,7 +253,11 @@ impl<'p> Explorer<'p> {
     ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
         let (mut found, mut sets) = (Vec::new(), Vec::new());
         let bar = Bar::default();
-        crate::study::runner::Progress::begin(&bar, &format!("{}: judging readings", self.paper.id), points.len());
+        crate::study::runner::Progress::begin(
+            &bar,
+            &format!("{}: judging readings", self.paper.id),
+            points.len(),
+        );
         for point in points {
             safe_point(stop_flag(), "the trials are kept")?;
             let view = evidence.under(point.clone());
@@ -267,19 +277,22 @@ impl<'p> Explorer<'p> {
         folder: &std::path::Path,
     ) -> Result<(Manifest, Records), Failure> {
         let lock = Lock::take(folder)?;
-        let report = session::run(study, &Options {
-            lock: &lock,
-            points: &study.as_trials_see(points),
-            inputs: &self.places.inputs,
-            command: command_line(),
-            claims: claims::claims_hash(self.paper),
-            portion: None,
-            quick: false,
-            fresh: false,
-            threads: self.threads,
-            stop: stop_flag(),
-            progress: &Bar::default(),
-        })?;
+        let report = session::run(
+            study,
+            &Options {
+                lock: &lock,
+                points: &study.as_trials_see(points),
+                inputs: &self.places.inputs,
+                command: command_line(),
+                claims: claims::claims_hash(self.paper),
+                portion: None,
+                quick: false,
+                fresh: false,
+                threads: self.threads,
+                stop: stop_flag(),
+                progress: &Bar::default(),
+            },
+        )?;
         let records = read_records(folder, &study.name, &report.manifest.files)?;
         Ok((report.manifest, records))
     }

@@ -76,8 +76,10 @@ fn judged(evidence: &Evidence<'_>, places: &Places) -> Result<Verdicts, Failure>
     let is_default = evidence.point == default_point(evidence.paper);
     if is_default && !verdicts.quick {
         let read = |path: PathBuf| Exploration::read(&path);
-        let stored =
-            Stored { first: read(Exploration::first(&places.runs))?, second: read(Exploration::second(&places.runs))? };
+        let stored = Stored {
+            first: read(Exploration::first(&places.runs))?,
+            second: read(Exploration::second(&places.runs))?,
+        };
         across::apply(evidence.paper, &mut verdicts, &stored);
     }
     Ok(verdicts)

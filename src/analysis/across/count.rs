@@ -88,8 +88,13 @@ impl Axes {
             let Some(reading) = own.first().copied() else { continue };
             // The default run has more draws than an exploration.
             let is_default = own.contains(&0);
-            let class = if is_default { default.get(id).copied().unwrap_or(result.class) } else { result.class };
-            let seen = if result.sight == Sight::Looked { own.clone() } else { own[..usize::from(is_default)].to_vec() };
+            let class =
+                if is_default { default.get(id).copied().unwrap_or(result.class) } else { result.class };
+            let seen = if result.sight == Sight::Looked {
+                own.clone()
+            } else {
+                own[..usize::from(is_default)].to_vec()
+            };
             counted.not_looked_at += own.len() - seen.len();
             counted.looked += seen.len();
             if !seen.is_empty() {
@@ -105,7 +110,8 @@ impl Axes {
     fn calibrating<'c>(&'c self, paper: &Paper, first: &Exploration, id: &str) -> Vec<&'c str> {
         let whole = paper.whole_of(id).map(|whole| whole.id.as_str());
         let parts = paper.claim(id).map(|claim| claim.parts.ids()).unwrap_or_default();
-        let is_own = |other: &str| other == id || whole == Some(other) || parts.iter().any(|part| part == other);
+        let is_own =
+            |other: &str| other == id || whole == Some(other) || parts.iter().any(|part| part == other);
         let all = self.calibration.iter().map(String::as_str);
         all.filter(|other| !is_own(other) && first.is_current(paper, other)).collect()
     }

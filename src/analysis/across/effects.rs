@@ -35,7 +35,9 @@ fn each(axes: &Axes, first: &Exploration, id: &str, default: Verdict, voting: bo
     for axis in &axes.readings {
         for option in axis.options.keys().filter(|option| **option != axis.default) {
             let alone = BTreeMap::from([(axis.id.clone(), option.clone())]);
-            let Some(result) = first.place(&alone).and_then(|place| first.result(id, place)) else { continue };
+            let Some(result) = first.place(&alone).and_then(|place| first.result(id, place)) else {
+                continue;
+            };
             if axis.votes(option) != voting || result.sight == Sight::Unexplored {
                 continue;
             }

@@ -74,11 +74,7 @@ fn hangs(axes: &Axes, first: &Exploration, groups: &[Group], votes: &[Verdict]) 
             let shares: Vec<String> = shares
                 .map(|(option, [holds, fails])| format!("{option} {holds} of {}", holds + fails))
                 .collect();
-            format!(
-                "hangs on {} and others: {class} under {holds} of {all} ({})",
-                axis.id,
-                shares.join(", ")
-            )
+            format!("hangs on {} and others: {class} under {holds} of {all} ({})", axis.id, shares.join(", "))
         }
         _ => format!("hangs on several readings: {class} under {holds} of {all}"),
     }

@@ -84,8 +84,7 @@ fn across(
     });
     let class = combine::combined(&votes, counted.is_existential);
     let count = |wanted| votes.iter().filter(|vote| vote.polarity() == wanted).count();
-    let unconfirmed =
-        votes.iter().zip(&counted.groups).filter(|(vote, group)| **vote != group.class).count();
+    let unconfirmed = votes.iter().zip(&counted.groups).filter(|(vote, group)| **vote != group.class).count();
     Some(Across {
         class,
         default: judged.verdict,

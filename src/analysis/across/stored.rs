@@ -81,8 +81,9 @@ fn shown(value: f64) -> f64 {
 /// What a reading is, by the options that differ from the defaults.
 pub fn differing(paper: &Paper, point: &ReadingChoice) -> BTreeMap<String, String> {
     let readings = paper.readings();
-    let is_default =
-        |id: &String, option: &String| readings.iter().any(|reading| reading.id == *id && reading.default == *option);
+    let is_default = |id: &String, option: &String| {
+        readings.iter().any(|reading| reading.id == *id && reading.default == *option)
+    };
     let other = point.choices().iter().filter(|(id, option)| !is_default(id, option));
     other.map(|(id, option)| (id.clone(), option.clone())).collect()
 }
@@ -96,7 +97,8 @@ impl Exploration {
         more: &BTreeMap<usize, BTreeMap<String, Glance>>,
     ) -> Self {
         let of_claim = |id: &String| {
-            let (mut results, mut studies, mut existential) = (Vec::<ExploredResult>::new(), BTreeSet::new(), false);
+            let (mut results, mut studies, mut existential) =
+                (Vec::<ExploredResult>::new(), BTreeSet::new(), false);
             for (place, glances) in glances.iter().enumerate() {
                 let Some(first) = glances.get(id) else { continue };
                 let with_more = more.get(&place).and_then(|glances| glances.get(id));
@@ -144,8 +146,10 @@ impl Exploration {
             return Ok(None);
         }
         let read = Document::open(path).and_then(|document| document.read_stored());
-        let found: Self = read.map_err(|error| StudyError::touched(error, "explore or confirm the paper again"))?;
-        let beyond = |result: &ExploredResult| result.readings.iter().any(|place| *place >= found.readings.len());
+        let found: Self =
+            read.map_err(|error| StudyError::touched(error, "explore or confirm the paper again"))?;
+        let beyond =
+            |result: &ExploredResult| result.readings.iter().any(|place| *place >= found.readings.len());
         if found.claims.values().flat_map(|claim| &claim.results).any(beyond) {
             let reason = "a result names a reading that is not listed; explore or confirm the paper again";
             return Err(StudyError::stored(path, reason));
