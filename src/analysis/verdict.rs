@@ -213,6 +213,13 @@ impl Judged {
         self.across.as_ref().map(|across| across.said.clone())
     }
 
+    /// [`across_readings`](Self::across_readings) with its class on the second seed, where that was run.
+    pub fn beside(&self) -> Option<String> {
+        let second = self.second.map(|second| format!("second seed: {}", second.name()));
+        let said: Vec<String> = self.across_readings().into_iter().chain(second).collect();
+        (!said.is_empty()).then(|| said.join("; "))
+    }
+
     /// Its class under the reading that its findings are of.
     pub fn alone(&self) -> Verdict {
         self.across.as_ref().map_or(self.verdict, |across| across.default)

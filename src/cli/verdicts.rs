@@ -31,7 +31,7 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
         }
         text += &line(&row, widths);
         let what = judged.ours().map(|ours| ours.what.clone());
-        let what: Vec<String> = what.into_iter().chain(judged.across_readings()).collect();
+        let what: Vec<String> = what.into_iter().chain(judged.beside()).collect();
         if !what.is_empty() {
             text += &(wrapped("   ", &what.join("; "), 4, COLUMNS) + "\n");
         }
