@@ -1,6 +1,7 @@
 //! Classes across readings, on a small paper through the whole program: run, explore, confirm, judge.
 
 use crate::paper::Bench;
+use replan::analysis::class::Verdict;
 use replan::analysis::verdict::{Judged, Verdicts};
 use std::fs;
 
@@ -179,7 +180,7 @@ fn a_default_that_decides_leaves_it_undecided_and_says_on_what_once_a_second_see
     toy.0.done(&["confirm", "./toy"]);
     assert_eq!(toy.said("fewer"), pair("undecided", "hangs on hurry: reproduced if three (1 of 2)"));
     let judged = toy.claim("fewer");
-    assert_eq!(judged.second.map(|class| class.name()), Some("reproduced"));
+    assert_eq!(judged.second.map(Verdict::name), Some("reproduced"));
     assert_eq!(judged.across.unwrap().default.name(), "reproduced");
     // What is stored is what judging gives, and a report says so.
     toy.0.done(&["judge", "./toy", "--check"]);

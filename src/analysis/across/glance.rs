@@ -45,13 +45,14 @@ pub struct Glance {
 /// Those of [`validate`](claims::validate).
 pub fn glances(evidence: &Evidence<'_>) -> Result<BTreeMap<String, Glance>, SettingsError> {
     let paper = evidence.paper;
-    let alone = |claim: &Claim| Ok((claim.id.clone(), alone(claim, claims::weighed(evidence, claim, true)?)));
+    let alone =
+        |claim: &Claim| Ok((claim.id.clone(), alone(claim, &claims::weighed(evidence, claim, true)?)));
     // Gathered in order before any error is passed on, so that it is the first claim's.
     let found: Vec<Result<_, SettingsError>> = paper.claims.par_iter().map(alone).collect();
     Ok(with_parts(paper, found.into_iter().collect::<Result<_, _>>()?))
 }
 
-fn alone(claim: &Claim, weighed: Vec<Weighed>) -> Glance {
+fn alone(claim: &Claim, weighed: &[Weighed]) -> Glance {
     let decides = |one: &&Weighed| one.finding.verdict.is_some();
     let verdicts = weighed.iter().filter_map(|one| one.finding.verdict);
     let class = class::combined(verdicts, claim.untestable.is_some());
@@ -65,7 +66,7 @@ fn alone(claim: &Claim, weighed: Vec<Weighed>) -> Glance {
         sight,
         existential,
         ours: ours.map(|ours| (ours.value, ours.interval, ours.n)),
-        results: digest(&weighed),
+        results: digest(weighed),
         studies: weighed.iter().filter(decides).flat_map(|one| one.studies.iter().cloned()).collect(),
     }
 }

@@ -105,14 +105,13 @@ impl Exploration {
                 existential |= first.existential;
                 studies.extend(first.studies.iter().cloned());
                 let found = results.iter_mut().find(|known| known.results == first.results);
-                match found {
-                    Some(known) => known.take(place, with_more),
-                    None => {
-                        let mut result = ExploredResult::of(first);
-                        result.take(place, with_more);
-                        results.push(result);
-                    }
+                if let Some(known) = found {
+                    known.take(place, with_more);
+                    continue;
                 }
+                let mut result = ExploredResult::of(first);
+                result.take(place, with_more);
+                results.push(result);
             }
             let asked = paper.claim(id).map_or_else(String::new, |claim| claim_hash(paper, claim));
             (id.clone(), ExploredClaim { asked, studies, existential, results })

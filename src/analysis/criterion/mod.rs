@@ -49,7 +49,7 @@ pub trait Criterion {
 
 /// Whether trials ran under the evidence's reading of all that `criterion` looks at; of anything at all, if one witness would do.
 pub fn is_covered(criterion: &dyn Criterion, evidence: &Evidence<'_>, existential: bool) -> bool {
-    let is_run = |study: &&Study| evidence.run(&study.name).is_some_and(|run| run.is_covered());
+    let is_run = |study: &&Study| evidence.run(&study.name).is_some_and(Run::is_covered);
     if existential {
         return criterion.studies().iter().any(is_run);
     }

@@ -19,9 +19,9 @@ pub static ENTRY: Entry = Entry {
     statistic: "The greatest effect of each axis's voting options, one at a time beside the defaults; a row is a sentence or a table row; \
                 left out are axes and claims that nothing moves.",
     settings: Accepted::of::<ClaimsByAxes>(),
-    example: r#"
+    example: r"
 claims = []
-"#,
+",
     build: |settings, _study, paper| {
         let read: ClaimsByAxes = settings.read()?;
         for (index, id) in read.claims.iter().enumerate() {
