@@ -227,7 +227,7 @@ const WRONG: [(&str, Format, &str); 21] = [
     (
         "a,time [value],b [value],both [value, sum=time+b]\nx,950 ms,1 ms,1.2 s\n",
         Format::Csv,
-        "2:4: column `both`: `1.2 s` is the sum of numbers such as `950 ms`; one unit is accepted",
+        "2:4: column `both`: `1.2 s` is the sum of numbers such as `950 ms`, in the unit s and in the unit ms; one unit is accepted",
     ),
     (
         "a,b [mean, digits=6]\nx,2.50\n",
