@@ -12,7 +12,12 @@ pub fn annotation(name: &str, unit: &str, texts: &[&str]) -> String {
     }
     let read: Vec<_> = texts.iter().map(|text| number(&plain(text).0)).collect();
     let filled = read.iter().filter(|number| !matches!(number, Ok(Number::Missing))).count();
-    let numbers = read.iter().filter(|number| matches!(number, Ok(Number::Plain { .. }))).count();
+    // Decimal commas and marks of thousands are of numbers too, so that they are told.
+    let is_number = |number: &&Result<Number, String>| match number {
+        Ok(number) => matches!(number, Number::Plain { .. }),
+        Err(message) => message.contains("decimal comma") || message.contains("thousands separator"),
+    };
+    let numbers = read.iter().filter(is_number).count();
     // A column with a few faulty numbers is one of numbers, so that they are told.
     if numbers == 0 || 2 * numbers < filled {
         return "label".to_owned();
@@ -43,6 +48,18 @@ pub fn join(columns: &mut [Column]) {
             column.annotation += &format!(", of={name}");
             column.meaning = Meaning::parse(&column.annotation).unwrap_or_default();
         }
+    }
+}
+
+/// Proposes the column that probably holds n, for the stub alone: a row without n is no fault of a guess.
+pub fn propose_n(columns: &mut [Column]) {
+    let is_n = |column: &&Column| {
+        ["n", "runs", "trials", "episodes", "problems"].contains(&column.name.to_lowercase().as_str())
+            && !matches!(column.meaning.kind, Kind::Skip | Kind::Statistics)
+    };
+    let Some(name) = columns.iter().find(is_n).map(|column| column.name.clone()) else { return };
+    for column in columns.iter_mut().filter(|column| column.written.is_none() && column.name != name) {
+        column.annotation = column.annotation.replace('?', &name);
     }
 }
 

@@ -324,6 +324,10 @@ fn what_rests_on_a_guess_is_a_signal_and_the_header_makes_it_a_proof() {
     assert!(premise.contains("`% of 250, higher is better` was guessed"), "{premise}");
     let said = found(&text.replace("(% of 250)", "[% of 250]"), Format::Csv, "grim");
     assert_eq!(said.class, Class::Impossible);
+    let runs = read("p,runs,success\nA,30,50.0\nB,-,33.3\n", Format::Csv).unwrap();
+    assert_eq!(stub_line(&runs.tables[0]), "p [label],runs [value],success [% of runs, higher is better]");
+    let comma = refused("p;success;time\nA;33,3;1.234,5\nB;90,0;2,5\n", Format::Csv);
+    assert!(comma.starts_with("2:2: column `success`: `33,3` has a decimal comma"), "{comma}");
     let counts = read("q,solved of 20\nq1,3\nq2,20\nq3,7\n", Format::Csv).unwrap();
     assert_eq!(stub_line(&counts.tables[0]), "q [label],solved of 20 [count of 20, higher is better]");
 }

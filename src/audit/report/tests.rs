@@ -295,11 +295,11 @@ fn guesses_are_a_header_that_can_be_read() {
     let text = "planner,Success rate (%),Time (s),n\nA,33.3,1.2 ± 0.1,250\nB,12.5,1.3 ± 0.2,250\n";
     let input = read(text, Format::Csv).unwrap();
     let stub = crate::reader::stub(&input.tables[0]);
-    assert_eq!(stub[1], "Success rate (%) [% of ?, higher is better]");
-    assert_eq!(stub[2], "Time (s) [mean, n=?, ±sd, lower is better]");
+    assert_eq!(stub[1], "Success rate (%) [% of n, higher is better]");
+    assert_eq!(stub[2], "Time (s) [mean, n=n, ±sd, lower is better]");
     let half = read("planner,rate [% of 30],Time (s)\nA,33.3,1.2\n", Format::Csv).unwrap();
     assert_eq!(crate::reader::stub(&half.tables[0])[1], "rate [% of 30]", "what was written stays");
-    let corrected = format!("{}\nA,33.3,1.2 ± 0.1,250\n", stub.join(",").replace("% of ?", "% of n"));
+    let corrected = format!("{}\nA,33.3,1.2 ± 0.1,250\n", stub.join(","));
     let report = audited(&corrected, Format::Csv, &Options::default());
     assert!(report.has_impossible(), "{report:?}");
 }
