@@ -213,7 +213,12 @@ def compare_claim(
         finding = stored["finding"][-1] if stored.get("finding") else {}
         compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("verdict"), of_parts, said)
         possible = [*possible, of_parts]
-    compare_class(f"{paper}: `{claim.id}`", stored["verdict"], whole(claim, possible), said)
+    # Findings are those under the default reading; across readings is another question.
+    across = stored.get("across")
+    default = across["default"] if across else stored["verdict"]
+    compare_class(f"{paper}: `{claim.id}`", default, whole(claim, possible), said)
+    if across and across["class"] != stored["verdict"]:
+        said.differ.append(f"{paper}: `{claim.id}` is {stored['verdict']}, but {across['class']} across readings")
 
 
 def compare_class(where: str, stored: str | None, possible: Classes, said: Said) -> None:

@@ -60,18 +60,26 @@ fn check_metrics(paper: &Paper, faults: &mut Faults) {
 
 /// The hash of what claims say and how they are judged, for manifests: wording and ledger do not count.
 pub fn claims_hash(paper: &Paper) -> String {
-    let judged = paper.claims.iter().map(|claim| {
-        let asked: Vec<String> = claim
-            .asked()
-            .map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()))
-            .collect();
-        let parts = &claim.parts;
-        format!(
-            "{} {:?} {:?} {:?} {asked:?} {parts:?}\n",
-            claim.id, claim.printed, claim.digits, claim.untestable
-        )
-    });
-    sha256(judged.collect::<String>().as_bytes())
+    sha256(paper.claims.iter().map(question).collect::<String>().as_bytes())
+}
+
+/// What a claim says and how it is judged, in a line.
+fn question(claim: &Claim) -> String {
+    let asked =
+        claim.asked().map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()));
+    let (asked, parts) = (asked.collect::<Vec<_>>(), &claim.parts);
+    format!(
+        "{} {:?} {:?} {:?} {asked:?} {parts:?}\n",
+        claim.id, claim.printed, claim.digits, claim.untestable
+    )
+}
+
+/// The hash of what one claim says and how it is judged, with its parts and the claims that its criteria name.
+pub fn claim_hash(paper: &Paper, claim: &Claim) -> String {
+    let own = question(claim);
+    let is_named = |other: &&Claim| other.id != claim.id && own.contains(&format!("\"{}\"", other.id));
+    let others = paper.claims.iter().filter(is_named).map(question);
+    sha256((own.clone() + &others.collect::<String>()).as_bytes())[..16].to_owned()
 }
 
 /// Judges every claim under the evidence's reading.
@@ -90,6 +98,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         command: evidence.runs().next().map_or_else(String::new, |run| run.manifest.command.clone()),
         quick: evidence.runs().any(|run| run.manifest.quick),
         reading: evidence.point.choices().clone(),
+        explored: None,
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
         claims,
         together: together(evidence)?,
@@ -121,20 +130,51 @@ impl<'a> Built<'a> {
     }
 }
 
-/// One claim by its own criteria and rules.
-fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
-    let mut findings = Vec::new();
+/// A finding, how the trials behind it came about, and what they are.
+pub struct Weighed {
+    /// The finding.
+    pub finding: Finding,
+    /// What lowers its class.
+    pub caps: Caps,
+    /// Whether trials of all studies that it looks at ran under the reading.
+    pub is_covered: bool,
+    /// A hash of the results that it rests on, if it was asked for.
+    pub results: String,
+    /// The studies that it looks at.
+    pub studies: Vec<String>,
+}
+
+/// What each criterion and rule of a claim finds that decides or is shown; with hashes of what they rest on only if
+/// `hashed`.
+///
+/// # Errors
+/// Those of [`validate`].
+pub fn weighed(evidence: &Evidence<'_>, claim: &Claim, hashed: bool) -> Result<Vec<Weighed>, SettingsError> {
+    let mut all = Vec::new();
     for (asked, name, settings) in claim.asked() {
         let context = Context { claim, settings, paper: evidence.paper, point: &evidence.point };
-        let mut finding = match Built::new(asked, name, &context)? {
+        let mut one = match Built::new(asked, name, &context)? {
             Built::Rule(rule) => of_rule(name, rule.find(evidence)),
-            Built::Criterion(criterion, entry) => of_criterion(entry.name, &*criterion, evidence, claim),
+            Built::Criterion(criterion, entry) => {
+                let mut one = of_criterion(entry.name, &*criterion, evidence, claim);
+                if hashed {
+                    one.results = criterion::results(&*criterion, evidence);
+                }
+                one
+            }
         };
         if asked == Asked::Shown {
-            (finding.verdict, finding.settles) = (None, None);
+            (one.finding.verdict, one.finding.settles) = (None, None);
         }
-        findings.push(finding);
+        all.push(one);
     }
+    Ok(all)
+}
+
+/// One claim by its own criteria and rules.
+fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
+    let findings: Vec<Finding> =
+        weighed(evidence, claim, false)?.into_iter().map(|one| one.finding).collect();
     let verdicts = findings.iter().filter_map(|finding| finding.verdict);
     let verdict = class::combined(verdicts, claim.untestable.is_some());
     Ok(judged(evidence, claim, verdict, findings))
@@ -159,19 +199,21 @@ fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings
         theorem: claim.theorem.clone(),
         part_of: evidence.paper.whole_of(&claim.id).map(|whole| whole.id.clone()),
         changed_after_run: claim.changed_after_run.clone(),
+        second: None,
+        across: None,
         reading: reading.unwrap_or_else(|| evidence.point.name().to_owned()),
         findings,
     }
 }
 
-fn of_rule(name: &str, found: Found) -> Finding {
+fn of_rule(name: &str, found: Found) -> Weighed {
     let caps =
         Caps { existential: found.existential, without_premises: found.without_premises, ..Caps::default() };
     let mut finding = finding(name, found, caps);
     if caps.without_premises && finding.verdict.is_none() {
         finding.because.push("the premises of the proof do not hold under this reading".to_owned());
     }
-    finding
+    Weighed { finding, caps, is_covered: true, results: String::new(), studies: Vec::new() }
 }
 
 fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
@@ -189,7 +231,7 @@ fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
     }
 }
 
-fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: &Claim) -> Finding {
+fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: &Claim) -> Weighed {
     let found = of.find(evidence);
     let studies = of.studies();
     let caps = Caps {
@@ -202,7 +244,9 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         clock: of.is_clock().then(|| sessions(of, evidence)),
         without_premises: found.without_premises,
     };
-    finding(name, found, caps)
+    let studies = studies.iter().map(|study| study.name.clone()).collect();
+    let is_covered = criterion::is_covered(of, evidence, caps.existential);
+    Weighed { finding: finding(name, found, caps), caps, is_covered, results: String::new(), studies }
 }
 
 /// What the stored sessions of the clock say, each judged by itself.
@@ -226,20 +270,28 @@ fn parts_settle(parts: &Parts, verdicts: &[Verdict]) -> String {
     "what settles its parts".to_owned()
 }
 
+/// How the classes of a claim's parts make its own.
+pub type OfParts = fn(&[Verdict]) -> Verdict;
+
+/// What the way is called in which a claim takes its class from its parts, that way, and their ids; none if it does not.
+pub fn of_parts(claim: &Claim) -> Option<(&'static str, OfParts, &[String])> {
+    Some(match &claim.parts {
+        Parts::None => return None,
+        // A row with criteria of its own is judged by them; its cells are shown.
+        Parts::Cells(_) if claim.asked().next().is_some() => return None,
+        Parts::AllOf(ids) => ("all_of", class::all_of, ids),
+        Parts::Cells(ids) => ("cells", class::all_of, ids),
+        Parts::AnyOf(ids) => ("any_of", class::any_of, ids),
+        Parts::MeansOneOf(ids) => ("means_one_of", class::one_meant, ids),
+    })
+}
+
 /// Sentences of parts and rows of cells take their class from theirs.
 fn with_parts(paper: &Paper, mut judged: Vec<Judged>) -> Vec<Judged> {
     let alone: BTreeMap<String, Verdict> =
         judged.iter().map(|one| (one.claim.clone(), one.verdict)).collect();
     for (claim, judged) in paper.claims.iter().zip(&mut judged) {
-        let (name, of, ids): (_, fn(&[Verdict]) -> Verdict, _) = match &claim.parts {
-            Parts::None => continue,
-            // A row with criteria of its own is judged by them; its cells are shown.
-            Parts::Cells(_) if claim.asked().next().is_some() => continue,
-            Parts::AllOf(ids) => ("all_of", class::all_of, ids),
-            Parts::Cells(ids) => ("cells", class::all_of, ids),
-            Parts::AnyOf(ids) => ("any_of", class::any_of, ids),
-            Parts::MeansOneOf(ids) => ("means_one_of", class::one_meant, ids),
-        };
+        let Some((name, of, ids)) = of_parts(claim) else { continue };
         let verdicts: Vec<Verdict> = ids.iter().map(|id| alone[id]).collect();
         let listed = |verdict: Verdict| {
             let with = ids.iter().zip(&verdicts).filter(|(_, found)| **found == verdict);

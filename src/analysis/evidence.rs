@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use stats::summary;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A paper with the stored runs of its studies.
 pub struct Evidence<'a> {
@@ -40,6 +40,7 @@ pub struct Run<'a> {
     /// The session of the clock, from 1.
     session: u32,
     index: Arc<Index>,
+    hash: OnceLock<String>,
 }
 
 /// Where things are in the records.
@@ -92,6 +93,18 @@ impl<'a> Evidence<'a> {
         };
         let runs = paper.studies.iter().filter_map(run).collect();
         Self { paper, point, runs, polylines: Arc::default() }
+    }
+
+    /// The same, but for studies that were run under other readings elsewhere: each given by the study that ran and the one
+    /// whose claims it answers.
+    #[must_use]
+    pub fn with(mut self, explored: Vec<(&'a Study, &'a Study, Manifest, Records)>) -> Self {
+        for (ran, answers, manifest, records) in explored {
+            let run = Run::of(ran, &self.point, manifest, records);
+            self.runs.insert(ran.name.as_str(), run.under(&self.point));
+            self.runs.insert(answers.name.as_str(), run);
+        }
+        self
     }
 
     /// [`shortest_polyline`](audit::turns::shortest_polyline), searched once however many rules ask under however many
@@ -168,7 +181,7 @@ impl<'a> Run<'a> {
         let index = Arc::new(Index::of(study.names(), &records));
         let reading = point.for_trials(&study.readings).key(&study.readings);
         let (manifest, records) = (Arc::new(manifest), Arc::new(records));
-        Self { study, manifest, records, reading, session: 1, index }
+        Self { study, manifest, records, reading, session: 1, index, hash: OnceLock::new() }
     }
 
     fn under(&self, point: &ReadingChoice) -> Self {
@@ -179,6 +192,7 @@ impl<'a> Run<'a> {
             reading: point.for_trials(&self.study.readings).key(&self.study.readings),
             session: self.session,
             index: self.index.clone(),
+            hash: OnceLock::new(),
         }
     }
 
@@ -217,6 +231,29 @@ impl<'a> Run<'a> {
         let of_reading = self.index.rows.get(&self.reading);
         let found = of_reading.and_then(|groups| groups.get(group)?.get(contender));
         found.into_iter().flatten().map(|row| &self.records.batch.rows[*row]).collect()
+    }
+
+    /// A hash of all rows under the reading, whatever the reading is called.
+    pub fn results(&self) -> String {
+        self.hash.get_or_init(|| self.hashed()).clone()
+    }
+
+    fn hashed(&self) -> String {
+        let mut text = String::new();
+        let of_reading = self.index.rows.get(&self.reading).into_iter().flatten();
+        for row in of_reading.flat_map(|(_, contenders)| contenders.values().flatten()) {
+            let row = &self.records.batch.rows[*row];
+            let key = &row.key;
+            text += &format!(
+                "{} {} {} {:?} {:?} {} {}",
+                key.on.group, key.contender, key.on.draw, key.query, key.sweep, key.repeat, row.status
+            );
+            for (column, value) in row.values.iter() {
+                text += &format!(" {} {value:?}", column.name);
+            }
+            text.push('\n');
+        }
+        sha256(text.as_bytes())
     }
 
     /// The name of a trial, with its study, as `--trial` takes it.

@@ -5,6 +5,7 @@
 //! arithmetic on what it prints. What either finds becomes a [`class`] in one place, for one claim after the other
 //! ([`judge`](claims::judge)).
 
+pub mod across;
 pub mod claims;
 pub mod class;
 pub mod compare;

@@ -73,6 +73,91 @@ pub struct Finding {
     pub premises: Vec<String>,
 }
 
+/// What a reading does to a claim when it alone departs from its default, the least first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Effect {
+    /// It cannot touch it.
+    None,
+    /// It moves our number, not what is said of the claim.
+    Number,
+    /// It leaves open what was decided, or decides what was open.
+    Opens,
+    /// It turns it.
+    Turns,
+}
+
+/// The greatest effect of an axis's options.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EffectOf {
+    /// What it does.
+    pub effect: Effect,
+    /// The option.
+    pub option: String,
+    /// The class under it.
+    pub class: Verdict,
+}
+
+/// What the readings make of a claim.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Across {
+    /// Its class across readings.
+    pub class: Verdict,
+    /// Its class under the default reading.
+    pub default: Verdict,
+    /// `holds under 44 of 44`, or what it hangs on.
+    pub said: String,
+    /// How many different results count.
+    pub counted: usize,
+    /// How many readings they come from.
+    pub looked: usize,
+    /// Of the results, those that speak for it.
+    pub holds: usize,
+    /// Those that leave it open.
+    pub open: usize,
+    /// Those that speak against it.
+    pub fails: usize,
+    /// Those that speak against most others, without a second seed to say so too: they count as open.
+    pub unconfirmed: usize,
+    /// Readings that vote and do not look at it.
+    pub not_looked_at: usize,
+    /// Readings that vote and contradict what the study was calibrated to.
+    pub incompatible: usize,
+    /// Every voting reading does, so that all are judged.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub none_compatible: bool,
+    /// What probes that are never counted do, where they change what is said of it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub probes: Vec<String>,
+    /// What each reading does alone, where it can touch it.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub effects: BTreeMap<String, EffectOf>,
+}
+
+/// What of a paper's readings was explored.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Explored {
+    /// How many readings.
+    pub readings: usize,
+    /// How many trials it took.
+    pub trials: u64,
+    /// Claims of which what is stored is stale: they are judged under the default reading alone.
+    #[serde(default)]
+    pub stale: Vec<String>,
+    /// For some claim no voting reading is compatible.
+    #[serde(default)]
+    pub none_compatible: bool,
+    /// Whether a second seed was run.
+    #[serde(default)]
+    pub second_seed: bool,
+    /// Claims of which what is stored of the second seed is stale.
+    #[serde(default)]
+    pub second_stale: Vec<String>,
+}
+
 /// A claim with what was found about it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -100,6 +185,12 @@ pub struct Judged {
     /// What was changed in how it is judged after a run had been seen, and why.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub changed_after_run: Option<String>,
+    /// Its class under the default reading on the second seed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second: Option<Verdict>,
+    /// What the readings make of it, if they were explored; its findings are those under the default reading.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub across: Option<Across>,
     /// The reading it was judged under.
     pub reading: String,
     /// What each criterion found.
@@ -119,12 +210,25 @@ impl Judged {
 
     /// What the readings make of it, in a few words that stand behind its class; none if no reading was asked.
     pub fn across_readings(&self) -> Option<String> {
-        None
+        self.across.as_ref().map(|across| across.said.clone())
+    }
+
+    /// [`across_readings`](Self::across_readings) with its class on the second seed, where that was run.
+    pub fn beside(&self) -> Option<String> {
+        let second = self.second.map(|second| format!("second seed: {}", second.name()));
+        let said: Vec<String> = self.across_readings().into_iter().chain(second).collect();
+        (!said.is_empty()).then(|| said.join("; "))
+    }
+
+    /// Its class under the reading that its findings are of.
+    pub fn alone(&self) -> Verdict {
+        self.across.as_ref().map_or(self.verdict, |across| across.default)
     }
 
     /// The number of ours that stands beside the printed one.
     pub fn ours(&self) -> Option<&Estimate> {
-        let deciding = self.findings.iter().find(|finding| finding.verdict == Some(self.verdict));
+        let alone = self.alone();
+        let deciding = self.findings.iter().find(|finding| finding.verdict == Some(alone));
         deciding
             .and_then(|finding| finding.ours.as_ref())
             .or_else(|| self.findings.iter().find_map(|finding| finding.ours.as_ref()))
@@ -163,6 +267,9 @@ pub struct Verdicts {
     pub reading: BTreeMap<String, String>,
     /// Studies whose claims changed after their run: a margin may have moved after seeing the data.
     pub claims_changed_since: Vec<String>,
+    /// What of the readings was explored; absent if nothing was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub explored: Option<Explored>,
     /// Every claim.
     #[serde(default, rename = "claim")]
     pub claims: Vec<Judged>,

@@ -3,15 +3,18 @@
 use super::places::Places;
 use super::progress::doing;
 use super::{Failure, How, Which, verdicts};
+use crate::analysis::across::stored::Exploration;
+use crate::analysis::across::{self, Stored};
 use crate::analysis::claims;
 use crate::analysis::difference::differences;
-use crate::analysis::evidence::Evidence;
+use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::Verdicts;
 use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use clap::Args;
 use std::fs;
+use std::path::PathBuf;
 
 /// Judges a paper's claims again.
 #[derive(Args)]
@@ -45,7 +48,7 @@ impl Judge {
 /// Judges again and refuses stored verdicts that are not what comes out, to the byte.
 fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Failure> {
     let (stored, path) = (Verdicts::read(&places.runs)?, Verdicts::path(&places.runs));
-    let now = claims::judge(&read(paper, point, places)?)?;
+    let now = judged(&read(paper, point, places)?, places)?;
     let mut found = differences(&stored, &now);
     if found.is_empty() && fs::read(&path)? != now.text().as_bytes() {
         found.push("the same verdicts in other words than `replan judge` writes".to_owned());
@@ -61,9 +64,24 @@ fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Fai
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
 pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
     let evidence = read(paper, point, places)?.remembering(&places.home.join(POLYLINES));
-    let verdicts = claims::judge(&evidence)?;
+    let verdicts = judged(&evidence, places)?;
     evidence.keep_polylines();
     verdicts.write(&places.runs)?;
+    Ok(verdicts)
+}
+
+/// The verdicts by `evidence`; across readings if it is a full run under the defaults and readings were explored.
+fn judged(evidence: &Evidence<'_>, places: &Places) -> Result<Verdicts, Failure> {
+    let mut verdicts = claims::judge(evidence)?;
+    let is_default = evidence.point == default_point(evidence.paper);
+    if is_default && !verdicts.quick {
+        let read = |path: PathBuf| Exploration::read(&path);
+        let stored = Stored {
+            first: read(Exploration::first(&places.runs))?,
+            second: read(Exploration::second(&places.runs))?,
+        };
+        across::apply(evidence.paper, &mut verdicts, &stored);
+    }
     Ok(verdicts)
 }
 
@@ -71,7 +89,7 @@ pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Ver
 const POLYLINES: &str = "target/replan/cache/polylines.json";
 
 /// The stored run of `paper`, to be judged under `point`.
-fn read<'a>(paper: &'a Paper, point: ReadingChoice, places: &Places) -> Result<Evidence<'a>, Failure> {
+pub fn read<'a>(paper: &'a Paper, point: ReadingChoice, places: &Places) -> Result<Evidence<'a>, Failure> {
     doing(&format!("{}: judging {} claims", paper.id, paper.claims.len()));
     Ok(Evidence::read(paper, point, &places.runs)?)
 }

@@ -17,9 +17,11 @@ mod audit_file;
 pub mod catalogue;
 mod check;
 mod compare;
+mod confirm;
 mod crosscheck;
 mod example;
 mod explain;
+mod explore;
 mod export;
 pub mod file_schema;
 mod judge;
@@ -83,6 +85,10 @@ enum Command {
     Status(status::Status),
     /// Cut a run into shards and write the script that runs them: for Slurm, GNU parallel or Python
     Shard(shard::Shard),
+    /// Judge a paper's claims under every reading of what it leaves open
+    Explore(explore::Explore),
+    /// Judge a paper's claims on a second seed, and readings that turn one
+    Confirm(confirm::Confirm),
     /// Judge a paper's claims again from its stored run
     Judge(judge::Judge),
     /// Draw a paper's figures and tables again from its stored run and verdicts
@@ -228,6 +234,8 @@ pub fn run() -> ExitCode {
         Command::Merge(command) => command.run(),
         Command::Status(command) => command.run(),
         Command::Shard(command) => command.run(),
+        Command::Explore(command) => command.run(),
+        Command::Confirm(command) => command.run(),
         Command::Judge(command) => command.run(),
         Command::Render(command) => command.run(),
         Command::Report(command) => command.run(),

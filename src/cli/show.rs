@@ -5,6 +5,7 @@ use super::verdicts::{COLUMNS, print};
 use super::{Failure, Which};
 use crate::analysis::verdict::{Finding, Judged, Verdicts};
 use crate::render::prose::wrapped;
+use crate::render::report::across_lines;
 use crate::render::tables::short;
 use base::settings::none_called;
 use clap::Args;
@@ -52,6 +53,7 @@ fn shown(judged: &Judged) -> String {
         ("quote", judged.quote.as_ref().map(|quote| format!("“{quote}”"))),
         ("printed", printed),
         ("readings", judged.across_readings()),
+        ("second seed", judged.second.map(|class| class.name().to_owned())),
         ("part of", judged.part_of.clone()),
         ("must hold", judged.theorem.clone()),
         ("changed after a run", judged.changed_after_run.clone()),
@@ -59,6 +61,7 @@ fn shown(judged: &Judged) -> String {
         text += &said
             .map_or_else(String::new, |said| wrapped("  ", &format!("{what}: {said}"), 4, COLUMNS) + "\n");
     }
+    text.extend(across_lines(judged).map(|line| wrapped("  ", &line, 4, COLUMNS) + "\n"));
     text + &judged.findings.iter().map(found).collect::<String>()
 }
 

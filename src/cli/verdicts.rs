@@ -31,7 +31,7 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
         }
         text += &line(&row, widths);
         let what = judged.ours().map(|ours| ours.what.clone());
-        let what: Vec<String> = what.into_iter().chain(judged.across_readings()).collect();
+        let what: Vec<String> = what.into_iter().chain(judged.beside()).collect();
         if !what.is_empty() {
             text += &(wrapped("   ", &what.join("; "), 4, COLUMNS) + "\n");
         }
@@ -43,12 +43,35 @@ fn table(verdicts: &Verdicts, is_coloured: bool) -> String {
     for said in [Some(classes), parts, asserted, quick].into_iter().flatten() {
         text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
+    for said in explored(verdicts) {
+        text += &(wrapped("", &said, 2, COLUMNS) + "\n");
+    }
     if !verdicts.claims_changed_since.is_empty() {
         let studies = verdicts.claims_changed_since.join(", ");
         let said = format!("claims or margins changed after the run of {studies}; run it again with --fresh");
         text += &(wrapped("", &said, 2, COLUMNS) + "\n");
     }
     text
+}
+
+/// What is to be known of readings and the second seed as a whole.
+fn explored(verdicts: &Verdicts) -> Vec<String> {
+    let Some(explored) = &verdicts.explored else { return Vec::new() };
+    let stale = |claims: &[String], what: &str, command: &str| {
+        let (count, verb) = (claims.len(), if claims.len() == 1 { "claim is" } else { "claims are" });
+        (count > 0).then(|| {
+            format!("{count} {verb} {what}: what they ask or what their studies run has changed since; {command} again")
+        })
+    };
+    let compatible = explored.none_compatible.then(|| {
+        "no voting reading agrees with all that the studies were calibrated to, so that all of them are judged".to_owned()
+    });
+    let paper = &verdicts.paper;
+    let explore = format!("replan explore {paper}");
+    let readings = stale(&explored.stale, "judged under the default reading alone", &explore);
+    let confirm = format!("replan confirm {paper}");
+    let second = stale(&explored.second_stale, "without a second seed", &confirm);
+    [compatible, readings, second].into_iter().flatten().collect()
 }
 
 /// A row: the claim, what is printed and ours, how many cases were solved of all, and the class.

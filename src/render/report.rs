@@ -3,8 +3,10 @@
 mod chapter;
 mod chapters;
 mod details;
+mod readings;
 
 pub use chapter::{Chapter, Page, unread};
+pub use readings::across_lines;
 
 use super::prose::{COLUMNS, markdown, wrapped};
 use crate::analysis::class::Verdict;

@@ -271,6 +271,7 @@ mod tests {
                 command: String::new(),
                 quick: false,
                 reading: std::collections::BTreeMap::new(),
+                explored: None,
                 claims_changed_since: Vec::new(),
                 claims: Vec::new(),
                 together: Vec::new(),

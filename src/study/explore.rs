@@ -1,11 +1,17 @@
 //! Which readings of a paper are explored: points in the product of its readings.
 
+use super::checked::Study;
+use super::contender::{Contender, StageUse};
+use super::group::Group;
 use super::reading::{Reading, ReadingChoice, single_options};
+use super::spec::OptionSpec;
+use base::hash::sha256;
 use base::seed::{self, Stream};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// How far a paper's readings are explored, besides its defaults and every other option by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -92,11 +98,49 @@ fn with_fitted(readings: &[Reading], point: &ReadingChoice) -> Result<Vec<Readin
     all.iter().map(|choices| ReadingChoice::new(readings, choices)).collect()
 }
 
+/// A hash of all that trials of `study` depend on under any reading, as its spec and the program say; words and figures do not count.
+pub fn stamp(study: &Study) -> String {
+    let stage = |stage: &StageUse| {
+        format!("{} {} {:?}", stage.entry.name, stage.entry.revision, stage.settings.table())
+    };
+    let group = |group: &Group| {
+        let (family, settings) = (group.family, group.settings.table());
+        format!("{} {:?} {} {} {settings:?}", group.label, group.draw, family.name, family.revision)
+    };
+    let contender = |contender: &Contender| {
+        let stages: Vec<String> = contender.stages.iter().map(stage).collect();
+        format!("{} {stages:?} {:?}", contender.label, contender.departs)
+    };
+    let option = |(name, option): (&String, &Arc<OptionSpec>)| {
+        format!("{name} {:?} {:?} {:?} {:?}", option.problem, option.stage, option.metric, option.digits)
+    };
+    let reading = |reading: &Reading| {
+        let options: Vec<String> = reading.options.iter().map(option).collect();
+        format!("{} {} {options:?}", reading.id, reading.default)
+    };
+    let text = format!(
+        "{} {} {} {:?} {} {} {:?} {:?} {:?}\n{:?}\n{:?}\n{:?}\n{:?}",
+        study.paper,
+        study.name,
+        study.seed,
+        study.second_seed,
+        study.task.name,
+        study.task.revision,
+        study.task_settings.table(),
+        study.budget,
+        study.explore,
+        study.groups.iter().map(group).collect::<Vec<_>>(),
+        study.contenders.iter().map(contender).collect::<Vec<_>>(),
+        study.sweeps,
+        study.readings.iter().map(reading).collect::<Vec<_>>(),
+    );
+    sha256(text.as_bytes())[..16].to_owned()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::spec::{BoundsSpec, OptionSpec};
+    use super::super::spec::BoundsSpec;
     use super::*;
-    use std::sync::Arc;
 
     /// A reading with the options 0 to `count - 1`, of which those below `cited` cite the paper.
     fn reading(id: &str, count: usize, cited: usize, fitted: bool) -> Reading {

@@ -4,6 +4,7 @@
 
 mod arm_plane;
 mod ask;
+mod claims_by_axes;
 mod draws;
 mod endpoint_pairs;
 mod grid_search;
@@ -169,6 +170,7 @@ pub fn caption(spec: &FigureSpec, run: &Run<'_>) -> String {
 /// Every kind, in the order of their names.
 pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
+    &claims_by_axes::ENTRY,
     &draws::ENTRY,
     &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,

@@ -163,7 +163,7 @@ impl Page<'_> {
                 || "–".to_owned(),
                 |ours| format!("{} ({}; n = {})", short(ours), markdown(&ours.what), ours.n),
             );
-            let readings = judged.across_readings().map_or_else(String::new, |words| format!(" ({words})"));
+            let readings = judged.beside().map_or_else(String::new, |words| format!(" ({words})"));
             let claim = link(judged, &format!("`{}`", judged.claim), &details);
             let (said, class) = (markdown(&format!("{}: {}", judged.at, said(judged))), judged.outcome());
             *text += &format!("| {claim} | {said} | {ours} | {class}{} |\n", markdown(&readings));

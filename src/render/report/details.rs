@@ -2,6 +2,7 @@
 //! claims have in common is said once.
 
 use super::chapter::Page;
+use super::readings::across_lines;
 use super::{SECTIONS, anchor, item, linked, paragraph, place, said};
 use crate::analysis::verdict::{Finding, Judged, Together, Verdicts};
 use crate::render::prose::{COLUMNS, markdown, wrapped};
@@ -65,21 +66,6 @@ impl Page<'_> {
         let all = first.iter().map(|set| (set, true)).chain(further.map(|set| (set, false)));
         for (set, with_fail) in all {
             *text += &together(set, with_fail);
-        }
-    }
-
-    fn readings(&self, text: &mut String) {
-        let readings = self.evidence.paper.readings();
-        if readings.is_empty() {
-            *text += "The studies have no readings.\n";
-        }
-        for reading in readings {
-            let option = |name: &String| {
-                if *name == reading.default { format!("**{name}** (default)") } else { name.clone() }
-            };
-            let options: Vec<String> = reading.options.keys().map(option).collect();
-            let about = format!("`{}`: {}. {}", reading.id, options.join(", "), markdown(&reading.why));
-            *text += &item(0, &about);
         }
     }
 
@@ -229,7 +215,7 @@ fn section(text: &mut String, at: usize) {
     *text += &format!("\n## {name} {}\n\n", place(to));
 }
 
-fn links(claims: &[impl AsRef<str>]) -> String {
+pub(super) fn links(claims: &[impl AsRef<str>]) -> String {
     let link = |claim: &str| format!("[`{claim}`](#{})", anchor(claim));
     claims.iter().map(|claim| link(claim.as_ref())).collect::<Vec<_>>().join(", ")
 }
@@ -246,8 +232,7 @@ fn together(set: &Together, with_fail: bool) -> String {
 /// What was found about one claim; `known` has the claims that said something first.
 fn evidence<'a>(judged: &'a Judged, verdicts: &Verdicts, known: &mut BTreeMap<String, &'a str>) -> String {
     let mut text = format!("{}\n", place(&judged.claim));
-    let readings =
-        judged.across_readings().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
+    let readings = judged.beside().map_or_else(String::new, |words| format!(", {}", markdown(&words)));
     let mut about = format!("**`{}`: {}{readings}**. ", judged.claim, judged.outcome());
     about += &markdown(&format!("{}: {}", judged.at, said(judged)));
     if let Some(whole) = &judged.part_of {
@@ -260,7 +245,8 @@ fn evidence<'a>(judged: &'a Judged, verdicts: &Verdicts, known: &mut BTreeMap<St
     let theorem = judged.theorem.iter().map(|theorem| format!("it must hold: {}", markdown(theorem)));
     let findings =
         judged.findings.iter().flat_map(|finding| finding_lines(finding, verdicts, known, &judged.claim));
-    let lines: Vec<(usize, String)> = theorem.map(|line| (0, line)).chain(findings).collect();
+    let across = across_lines(judged).map(|line| (0, markdown(&line)));
+    let lines: Vec<(usize, String)> = theorem.map(|line| (0, line)).chain(across).chain(findings).collect();
     text.extend(lines.iter().map(|(depth, line)| item(*depth, line)));
     text + "\n"
 }

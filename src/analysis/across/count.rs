@@ -1,0 +1,161 @@
+//! Which readings count for a claim: those that vote and are compatible with what the study was calibrated to; equal results
+//! count once.
+
+use super::super::class::{Polarity, Verdict};
+use super::glance::Sight;
+use super::stored::Exploration;
+use crate::study::Reading;
+use crate::study::paper::Paper;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The readings of a paper.
+pub struct Axes {
+    /// Each reading.
+    pub readings: Vec<Reading>,
+    /// The claims that some study was calibrated to.
+    calibration: BTreeSet<String>,
+}
+
+/// Readings that give one result for a claim.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// The first of them, by its place.
+    pub reading: usize,
+    /// All of them that count.
+    pub readings: Vec<usize>,
+    /// The class.
+    pub class: Verdict,
+}
+
+/// The readings that count for a claim.
+#[derive(Debug, Default)]
+pub struct Counted {
+    /// By what they give.
+    pub groups: Vec<Group>,
+    /// How many readings looked at it.
+    pub looked: usize,
+    /// How many would count, but do not look at it.
+    pub not_looked_at: usize,
+    /// How many vote, but are not compatible or are fitted worse than others.
+    pub incompatible: usize,
+    /// No voting reading is compatible, so that all of them are judged.
+    pub none_compatible: bool,
+    /// One witness would do.
+    pub is_existential: bool,
+}
+
+impl Axes {
+    /// Those of `paper`.
+    pub fn of(paper: &Paper) -> Self {
+        let calibration = paper.studies.iter().flat_map(|study| study.fitted_to.iter().cloned()).collect();
+        Self { readings: paper.readings(), calibration }
+    }
+
+    /// The option that `reading`, by what differs from the defaults, takes on `axis`.
+    pub fn option<'r>(axis: &'r Reading, reading: &'r BTreeMap<String, String>) -> &'r str {
+        reading.get(&axis.id).unwrap_or(&axis.default)
+    }
+
+    /// Whether every option of `reading` votes.
+    pub fn votes(&self, reading: &BTreeMap<String, String>) -> bool {
+        self.readings.iter().all(|axis| axis.votes(Self::option(axis, reading)))
+    }
+
+    /// The readings of `first` that count for the claim called `id`; `default` are the claims' classes in the default run.
+    pub fn counted(
+        &self,
+        paper: &Paper,
+        first: &Exploration,
+        id: &str,
+        default: &BTreeMap<String, Verdict>,
+    ) -> Counted {
+        let Some(claim) = first.claims.get(id) else { return Counted::default() };
+        let voting: Vec<usize> =
+            (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place])).collect();
+        let calibration = self.calibrating(paper, first, id);
+        let compatible = self.compatible(first, &voting, &calibration, default);
+        let none_compatible = compatible.is_empty() && !voting.is_empty();
+        let judged = if none_compatible { voting.clone() } else { compatible };
+        let mut counted = Counted {
+            incompatible: voting.len() - judged.len(),
+            none_compatible,
+            is_existential: claim.existential,
+            ..Counted::default()
+        };
+        for result in &claim.results {
+            let own: Vec<usize> =
+                result.readings.iter().copied().filter(|place| judged.contains(place)).collect();
+            let Some(reading) = own.first().copied() else { continue };
+            // The default run has more draws than an exploration.
+            let is_default = own.contains(&0);
+            let class =
+                if is_default { default.get(id).copied().unwrap_or(result.class) } else { result.class };
+            let seen = if result.sight == Sight::Looked {
+                own.clone()
+            } else {
+                own[..usize::from(is_default)].to_vec()
+            };
+            counted.not_looked_at += own.len() - seen.len();
+            counted.looked += seen.len();
+            if !seen.is_empty() {
+                counted.groups.push(Group { reading, readings: seen, class });
+            }
+        }
+        counted.groups.sort_by_key(|group| group.reading);
+        counted
+    }
+
+    /// The claims whose being contradicted makes a reading incompatible: a claim never filters itself, nor its parts nor
+    /// the sentence that it is a part of; one that is stale filters nothing.
+    fn calibrating<'c>(&'c self, paper: &Paper, first: &Exploration, id: &str) -> Vec<&'c str> {
+        let whole = paper.whole_of(id).map(|whole| whole.id.as_str());
+        let parts = paper.claim(id).map(|claim| claim.parts.ids()).unwrap_or_default();
+        let is_own =
+            |other: &str| other == id || whole == Some(other) || parts.iter().any(|part| part == other);
+        let all = self.calibration.iter().map(String::as_str);
+        all.filter(|other| !is_own(other) && first.is_current(paper, other)).collect()
+    }
+
+    /// The voting readings under which no calibration claim is contradicted and each has power; of those that differ in
+    /// fitted readings alone, the ones under which most of these claims hold.
+    fn compatible(
+        &self,
+        first: &Exploration,
+        voting: &[usize],
+        calibration: &[&str],
+        default: &BTreeMap<String, Verdict>,
+    ) -> Vec<usize> {
+        let holds = |place: usize| -> Option<usize> {
+            let mut holds = 0;
+            for id in calibration {
+                let Some(result) = first.result(id, place) else { continue };
+                // What its studies were not explored for says nothing of other readings.
+                if result.sight == Sight::Unexplored {
+                    continue;
+                }
+                let full = default.get(*id).filter(|_| place == 0);
+                let polarity = full.unwrap_or(&result.class).polarity();
+                if polarity == Polarity::Against || (result.sight == Sight::Powerless && full.is_none()) {
+                    return None;
+                }
+                holds += usize::from(polarity == Polarity::For);
+            }
+            Some(holds)
+        };
+        let fits: BTreeMap<usize, usize> =
+            voting.iter().filter_map(|place| Some((*place, holds(*place)?))).collect();
+        let mut best: BTreeMap<Vec<&str>, usize> = BTreeMap::new();
+        for (place, holds) in &fits {
+            let most = best.entry(self.unfitted(first, *place)).or_default();
+            *most = (*most).max(*holds);
+        }
+        let is_best = |(place, holds): &(usize, usize)| best[&self.unfitted(first, *place)] == *holds;
+        fits.into_iter().filter(is_best).map(|(place, _)| place).collect()
+    }
+
+    /// The options that a reading takes where nothing is fitted.
+    fn unfitted<'r>(&'r self, first: &'r Exploration, place: usize) -> Vec<&'r str> {
+        let axes = self.readings.iter().filter(|axis| !axis.fitted);
+        axes.map(|axis| Self::option(axis, &first.readings[place])).collect()
+    }
+}

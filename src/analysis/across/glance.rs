@@ -1,0 +1,125 @@
+//! What is found about every claim under one reading, in the few numbers that are stored.
+
+use super::super::claims::{self, Weighed};
+use super::super::class::{self, Caps, Polarity, Verdict};
+use super::super::evidence::Evidence;
+use crate::study::paper::{Claim, Paper};
+use base::hash::sha256;
+use base::settings::SettingsError;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Whether a class says something of a claim under a reading, the least first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sight {
+    /// Its trials did not run under the reading, or the clock was not read.
+    Unexplored,
+    /// There are too few draws, or hardly any printed value could have been refused.
+    Powerless,
+    /// It was looked at.
+    Looked,
+}
+
+/// A claim under one reading.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Glance {
+    /// Its class there.
+    pub class: Verdict,
+    /// Whether that says something.
+    pub sight: Sight,
+    /// One witness would do.
+    pub existential: bool,
+    /// Our number with its interval, and of how many draws.
+    pub ours: Option<(f64, Option<[f64; 2]>, usize)>,
+    /// A hash of the results that it rests on.
+    pub results: String,
+    /// The studies that it looks at.
+    pub studies: BTreeSet<String>,
+}
+
+/// Every claim under the evidence's reading, by id.
+///
+/// # Errors
+/// Those of [`validate`](claims::validate).
+pub fn glances(evidence: &Evidence<'_>) -> Result<BTreeMap<String, Glance>, SettingsError> {
+    let paper = evidence.paper;
+    let alone =
+        |claim: &Claim| Ok((claim.id.clone(), alone(claim, &claims::weighed(evidence, claim, true)?)));
+    // Gathered in order before any error is passed on, so that it is the first claim's.
+    let found: Vec<Result<_, SettingsError>> = paper.claims.par_iter().map(alone).collect();
+    Ok(with_parts(paper, found.into_iter().collect::<Result<_, _>>()?))
+}
+
+fn alone(claim: &Claim, weighed: &[Weighed]) -> Glance {
+    let decides = |one: &&Weighed| one.finding.verdict.is_some();
+    let verdicts = weighed.iter().filter_map(|one| one.finding.verdict);
+    let class = class::combined(verdicts, claim.untestable.is_some());
+    let deciding: Vec<&Weighed> = weighed.iter().filter(|one| one.finding.verdict == Some(class)).collect();
+    let sight = deciding.iter().map(|one| sight(one, class)).max().unwrap_or(Sight::Looked);
+    let ours = deciding.iter().find_map(|one| one.finding.ours.as_ref());
+    let existential = weighed.iter().any(|one| decides(&one))
+        && weighed.iter().filter(decides).all(|one| one.caps.existential);
+    Glance {
+        class,
+        sight,
+        existential,
+        ours: ours.map(|ours| (ours.value, ours.interval, ours.n)),
+        results: digest(weighed),
+        studies: weighed.iter().filter(decides).flat_map(|one| one.studies.iter().cloned()).collect(),
+    }
+}
+
+/// What the findings that decide rest on, and what they say: readings that only change what a name means move these.
+fn digest(weighed: &[Weighed]) -> String {
+    let decides = weighed.iter().filter(|one| one.finding.verdict.is_some());
+    let said = |one: &Weighed| {
+        let ours = one.finding.ours.as_ref().map(|ours| (ours.value.to_bits(), ours.n));
+        format!("{} {:?} {ours:?} {}\n", one.finding.criterion, one.finding.verdict, one.results)
+    };
+    sha256(decides.map(said).collect::<String>().as_bytes())[..12].to_owned()
+}
+
+fn sight(one: &Weighed, class: Verdict) -> Sight {
+    let Caps { powerless, few, clock, .. } = one.caps;
+    if !one.is_covered || clock.is_some() {
+        Sight::Unexplored
+    } else if class == Verdict::Undecided && (powerless || few) {
+        Sight::Powerless
+    } else {
+        Sight::Looked
+    }
+}
+
+/// Sentences of parts and rows of cells take what they are from theirs.
+fn with_parts(paper: &Paper, mut glances: BTreeMap<String, Glance>) -> BTreeMap<String, Glance> {
+    let alone = glances.clone();
+    for claim in &paper.claims {
+        let Some((_, of, ids)) = claims::of_parts(claim) else { continue };
+        let parts: Vec<&Glance> = ids.iter().map(|id| &alone[id]).collect();
+        let of_parts = of(&parts.iter().map(|part| part.class).collect::<Vec<_>>());
+        let own = &alone[&claim.id];
+        let found = claim.asked().next().map(|_| own.class).into_iter().chain([of_parts]);
+        let class = class::combined(found, claim.untestable.is_some());
+        let alike = |part: &&&Glance| part.class.polarity() == class.polarity();
+        let mut speaks: Vec<&&Glance> = parts.iter().filter(alike).collect();
+        if speaks.is_empty() {
+            speaks = parts.iter().collect();
+        }
+        // A sentence that all parts must meet is looked at only where all of them are.
+        let sights = speaks.iter().map(|part| part.sight);
+        let sight = if class.polarity() == Polarity::For { sights.min() } else { sights.max() };
+        let results: String = parts.iter().map(|part| part.results.as_str()).chain([&*own.results]).collect();
+        let whole = Glance {
+            class,
+            sight: sight.unwrap_or(Sight::Looked),
+            existential: parts.iter().all(|part| part.existential),
+            ours: None,
+            results: sha256(results.as_bytes())[..12].to_owned(),
+            studies: parts.iter().flat_map(|part| part.studies.iter().cloned()).collect(),
+        };
+        glances.insert(claim.id.clone(), whole);
+    }
+    glances
+}

@@ -1,0 +1,232 @@
+//! What exploring a paper's readings found: a row for every claim and result, under the readings that give it.
+
+use super::super::claims::claim_hash;
+use super::super::class::Verdict;
+use super::super::verdict::Together;
+use super::glance::{Glance, Sight};
+use crate::study::explore::stamp;
+use crate::study::paper::Paper;
+use crate::study::store::write_whole;
+use crate::study::{ReadingChoice, StudyError};
+use base::settings::Document;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Readings of a paper under which its claims were judged.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Exploration {
+    /// The paper.
+    pub paper: String,
+    /// The command that made it.
+    pub command: String,
+    /// How many trials it took.
+    pub trials: u64,
+    /// The options that differ from the defaults of each reading, the default reading first.
+    pub readings: Vec<BTreeMap<String, String>>,
+    /// What the studies were when it was made, by name.
+    pub studies: BTreeMap<String, String>,
+    /// The claims, by id.
+    #[serde(default)]
+    pub claims: BTreeMap<String, ExploredClaim>,
+    /// Which claims hold jointly under some reading.
+    #[serde(default)]
+    pub together: Vec<Together>,
+}
+
+/// A claim with all that was found about it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExploredClaim {
+    /// What it said and how it was judged: a hash.
+    pub asked: String,
+    /// The studies that it looks at.
+    pub studies: BTreeSet<String>,
+    /// One witness would do.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub existential: bool,
+    /// What was found, equal results once.
+    pub results: Vec<ExploredResult>,
+}
+
+/// What was found about a claim under some readings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExploredResult {
+    /// The readings, by their places.
+    pub readings: Vec<usize>,
+    /// The class.
+    pub class: Verdict,
+    /// Whether that says something.
+    pub sight: Sight,
+    /// Our number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// Its interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval: Option<[f64; 2]>,
+    /// Of how many draws.
+    #[serde(default)]
+    pub n: usize,
+    /// A hash of the trials' results.
+    pub results: String,
+}
+
+/// A number to the digits that are shown of it.
+fn shown(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// What a reading is, by the options that differ from the defaults.
+pub fn differing(paper: &Paper, point: &ReadingChoice) -> BTreeMap<String, String> {
+    let readings = paper.readings();
+    let is_default = |id: &String, option: &String| {
+        readings.iter().any(|reading| reading.id == *id && reading.default == *option)
+    };
+    let other = point.choices().iter().filter(|(id, option)| !is_default(id, option));
+    other.map(|(id, option)| (id.clone(), option.clone())).collect()
+}
+
+impl Exploration {
+    /// That of `glances` under `points`; `more` are those of points, by their places, that ran once more with more draws.
+    pub fn of(
+        paper: &Paper,
+        points: &[ReadingChoice],
+        glances: &[BTreeMap<String, Glance>],
+        more: &BTreeMap<usize, BTreeMap<String, Glance>>,
+    ) -> Self {
+        let of_claim = |id: &String| {
+            let (mut results, mut studies, mut existential) =
+                (Vec::<ExploredResult>::new(), BTreeSet::new(), false);
+            for (place, glances) in glances.iter().enumerate() {
+                let Some(first) = glances.get(id) else { continue };
+                let with_more = more.get(&place).and_then(|glances| glances.get(id));
+                existential |= first.existential;
+                studies.extend(first.studies.iter().cloned());
+                let found = results.iter_mut().find(|known| known.results == first.results);
+                if let Some(known) = found {
+                    known.take(place, with_more);
+                    continue;
+                }
+                let mut result = ExploredResult::of(first);
+                result.take(place, with_more);
+                results.push(result);
+            }
+            let asked = paper.claim(id).map_or_else(String::new, |claim| claim_hash(paper, claim));
+            (id.clone(), ExploredClaim { asked, studies, existential, results })
+        };
+        let ids: BTreeSet<&String> = glances.iter().flat_map(BTreeMap::keys).collect();
+        Self {
+            paper: paper.id.clone(),
+            readings: points.iter().map(|point| differing(paper, point)).collect(),
+            studies: paper.studies.iter().map(|study| (study.name.clone(), stamp(study))).collect(),
+            claims: ids.into_iter().map(of_claim).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Where the first exploration of the paper whose runs are in `folder` lies.
+    pub fn first(folder: &Path) -> PathBuf {
+        folder.join("explored.toml")
+    }
+
+    /// Where what was found on the second seed lies.
+    pub fn second(folder: &Path) -> PathBuf {
+        folder.join("second_seed.toml")
+    }
+
+    /// The exploration in `path`, if there is one.
+    ///
+    /// # Errors
+    /// [`StudyError::Touched`] if it cannot be understood.
+    pub fn read(path: &Path) -> Result<Option<Self>, StudyError> {
+        if !path.exists() {
+            return Ok(None);
+        }
+        let read = Document::open(path).and_then(|document| document.read_stored());
+        let found: Self =
+            read.map_err(|error| StudyError::touched(error, "explore or confirm the paper again"))?;
+        let beyond =
+            |result: &ExploredResult| result.readings.iter().any(|place| *place >= found.readings.len());
+        if found.claims.values().flat_map(|claim| &claim.results).any(beyond) {
+            let reason = "a result names a reading that is not listed; explore or confirm the paper again";
+            return Err(StudyError::stored(path, reason));
+        }
+        Ok(Some(found))
+    }
+
+    /// Writes it to `path`.
+    ///
+    /// # Errors
+    /// [`StudyError::Io`].
+    pub fn write(&self, path: &Path) -> Result<(), StudyError> {
+        let text = toml::to_string(self).expect("an exploration is strings, numbers and tables of them");
+        write_whole(path, text.as_bytes())
+    }
+
+    /// The place of the reading with these options, if it was explored.
+    pub fn place(&self, options: &BTreeMap<String, String>) -> Option<usize> {
+        self.readings.iter().position(|reading| reading == options)
+    }
+
+    /// What was found about the claim called `id` under the reading at `place`.
+    pub fn result(&self, id: &str, place: usize) -> Option<&ExploredResult> {
+        self.claims.get(id)?.results.iter().find(|result| result.readings.contains(&place))
+    }
+
+    /// Whether what is stored of the claim called `id` is of the claim and the studies as they are.
+    pub fn is_current(&self, paper: &Paper, id: &str) -> bool {
+        let Some((stored, claim)) = self.claims.get(id).zip(paper.claim(id)) else { return false };
+        let is_as = |name: &String| {
+            paper.study(name).is_some_and(|study| self.studies.get(name) == Some(&stamp(study)))
+        };
+        // What stands for a study answers for it.
+        let stands = paper.studies.iter().filter(|study| {
+            let other = study.explore.as_ref().and_then(|explore| explore.stands_for.as_ref());
+            other.is_some_and(|other| stored.studies.contains(other))
+        });
+        stored.asked == claim_hash(paper, claim)
+            && stored.studies.iter().all(is_as)
+            && stands.map(|study| &study.name).all(is_as)
+    }
+
+    /// The claims of `paper` that it no longer speaks of.
+    pub fn stale(&self, paper: &Paper) -> Vec<String> {
+        let ids = paper.claims.iter().map(|claim| &claim.id);
+        ids.filter(|id| !self.is_current(paper, id)).cloned().collect()
+    }
+}
+
+impl ExploredResult {
+    fn of(glance: &Glance) -> Self {
+        let mut result = Self {
+            readings: Vec::new(),
+            class: glance.class,
+            sight: glance.sight,
+            value: None,
+            interval: None,
+            n: 0,
+            results: glance.results.clone(),
+        };
+        result.set(glance);
+        result
+    }
+
+    fn set(&mut self, glance: &Glance) {
+        (self.class, self.sight) = (glance.class, glance.sight);
+        self.value = glance.ours.map(|(value, ..)| shown(value)).filter(|value| value.is_finite());
+        let interval = glance.ours.and_then(|(_, interval, _)| interval);
+        self.interval =
+            interval.map(|ends| ends.map(shown)).filter(|ends| ends.iter().all(|end| end.is_finite()));
+        self.n = glance.ours.map_or(0, |(_, _, n)| n);
+    }
+
+    /// Takes the reading at `place`, and what more draws say under it.
+    fn take(&mut self, place: usize, more: Option<&Glance>) {
+        self.readings.push(place);
+        if let Some(more) = more.filter(|more| more.sight >= self.sight) {
+            self.set(more);
+        }
+    }
+}

@@ -1,0 +1,70 @@
+use super::super::class::Verdict::{
+    self, Attainable, DirectionOnly, Fitted, Impossible, NotReproduced, Reproduced, Undecided, Untestable,
+};
+use super::combine::{combined, confirmed, flips};
+use super::count::Group;
+
+fn groups(classes: &[Verdict]) -> Vec<Group> {
+    let group =
+        |(reading, class): (usize, &Verdict)| Group { reading, readings: vec![reading], class: *class };
+    classes.iter().enumerate().map(group).collect()
+}
+
+/// So many of each class.
+fn many(classes: &[(usize, Verdict)]) -> Vec<Verdict> {
+    classes.iter().flat_map(|(count, class)| std::iter::repeat_n(*class, *count)).collect()
+}
+
+#[test]
+fn classes_combine_as_the_table_says() {
+    for (classes, expected) in [
+        (many(&[(3, Reproduced)]), Reproduced),
+        (many(&[(3, Reproduced), (1, Fitted), (1, DirectionOnly)]), DirectionOnly),
+        (many(&[(2, NotReproduced), (1, Impossible)]), NotReproduced),
+        (many(&[(2, Impossible)]), Impossible),
+        (many(&[(9, Reproduced), (1, Undecided)]), Reproduced),
+        (many(&[(8, Reproduced), (1, Undecided)]), Undecided),
+        (many(&[(9, NotReproduced), (1, Untestable)]), NotReproduced),
+        (many(&[(8, NotReproduced), (1, Undecided)]), Undecided),
+        (many(&[(9, Impossible), (1, Undecided)]), NotReproduced),
+        (many(&[(40, Reproduced), (1, NotReproduced)]), Undecided),
+        (many(&[(1, Reproduced), (40, Impossible)]), Undecided),
+        (many(&[(4, Undecided)]), Undecided),
+        (many(&[(4, Untestable)]), Untestable),
+        (many(&[(4, Untestable), (1, Undecided)]), Undecided),
+        (Vec::new(), Undecided),
+    ] {
+        assert_eq!(combined(&classes, false), expected, "{classes:?}");
+    }
+}
+
+#[test]
+fn one_witness_makes_an_existential_claim_and_none_leaves_it_open() {
+    assert_eq!(combined(&many(&[(43, Undecided), (1, Attainable)]), true), Attainable);
+    assert_eq!(combined(&many(&[(43, Undecided), (1, Attainable)]), false), Undecided);
+    assert_eq!(combined(&many(&[(44, Undecided)]), true), Undecided);
+}
+
+#[test]
+fn noise_among_a_hundred_readings_does_not_flip_a_class() {
+    let found = groups(&many(&[(60, Reproduced), (3, NotReproduced), (37, Reproduced)]));
+    assert_eq!(flips(&found).iter().map(|flip| flip.reading).collect::<Vec<_>>(), [60, 61, 62]);
+    let by_second = |second: Option<Verdict>| combined(&confirmed(&found, |_| second), false);
+    assert_eq!(by_second(Some(Reproduced)), Reproduced);
+    assert_eq!(by_second(Some(Undecided)), Reproduced);
+    assert_eq!(by_second(None), Reproduced);
+    // What turns twice is no noise.
+    assert_eq!(by_second(Some(NotReproduced)), Undecided);
+    // Nor is noise what many readings show: unconfirmed they leave it open.
+    let found = groups(&many(&[(30, Reproduced), (20, NotReproduced)]));
+    assert_eq!(combined(&confirmed(&found, |_| None), false), Undecided);
+}
+
+#[test]
+fn what_stands_alone_against_most_must_be_confirmed_whichever_way_it_speaks() {
+    let found = groups(&many(&[(1, Reproduced), (19, NotReproduced)]));
+    assert_eq!(flips(&found).iter().map(|flip| flip.reading).collect::<Vec<_>>(), [0]);
+    assert_eq!(combined(&confirmed(&found, |_| None), false), NotReproduced);
+    assert_eq!(combined(&confirmed(&found, |_| Some(Reproduced)), false), Undecided);
+    assert!(flips(&groups(&many(&[(9, NotReproduced), (3, Undecided)]))).is_empty());
+}

@@ -1,0 +1,122 @@
+//! `replan confirm`: a paper's claims on the second seed.
+
+use super::explore::{Explorer, judged, scratch};
+use super::judge;
+use super::load::load;
+use super::places::Places;
+use super::{Failure, How, Which, command_line, verdicts};
+use crate::analysis::across::stored::Exploration;
+use crate::analysis::across::to_confirm;
+use crate::analysis::evidence::{Evidence, default_point};
+use crate::study::lock::Lock;
+use crate::study::manifest::MadeBy;
+use crate::study::paper::Paper;
+use crate::study::{ReadingChoice, Study};
+use clap::Args;
+use std::collections::BTreeMap;
+
+/// Runs a paper's studies once more on the second seed that each spec writes down, and with it every reading that turns a
+/// claim, with more draws: a class that turns counts only if it turns twice.
+///
+/// No clock is read. What was run stays below target/replan/confirm/, so that a command that was stopped goes on from there.
+///
+/// Example: replan confirm zhang
+#[derive(Args)]
+pub struct Confirm {
+    #[command(flatten)]
+    which: Which,
+    /// Threads for the trials; the machine's number if absent
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    threads: Option<u32>,
+}
+
+impl Confirm {
+    /// Runs the command.
+    pub fn run(self) -> Result<(), Failure> {
+        MadeBy::here();
+        let how = How { quick: false, seed: None, readings: None, threads: self.threads };
+        let places = Places::find(&self.which, "")?;
+        let paper = load(&places, &how)?;
+        check_seeds(&paper)?;
+        let _lock = Lock::take(&places.runs)?;
+        let explorer = Explorer {
+            paper: &paper,
+            places: &places,
+            threads: self.threads.map(|threads| threads as usize),
+            folder: scratch(&places, &paper, "confirm"),
+            second_seed: true,
+        };
+        let second = confirmed(&explorer)?;
+        let path = Exploration::second(&places.runs);
+        second.write(&path)?;
+        verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
+        say!(
+            "{} trials on the second seed, {} readings besides the default; what was found is in {}",
+            second.trials,
+            second.readings.len() - 1,
+            path.display()
+        );
+        Ok(())
+    }
+}
+
+/// Refuses a paper of which a study has no second seed.
+fn check_seeds(paper: &Paper) -> Result<(), Failure> {
+    let without: Vec<&str> = paper
+        .studies
+        .iter()
+        .filter(|study| study.second_seed.is_none())
+        .map(|study| study.name.as_str())
+        .collect();
+    if without.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::input(format!(
+        "{}: `second_seed` is missing in {}; a number other than `seed` is accepted, written before the first run",
+        paper.folder.display(),
+        without.join(", ")
+    )))
+}
+
+/// Every claim on the second seed: under the default reading with all draws, and under readings that turn a claim.
+fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Failure> {
+    let (paper, places) = (explorer.paper, explorer.places);
+    let verdicts = judged(paper, places)?;
+    let default = default_point(paper);
+    let again: Vec<Study> = paper.studies.iter().map(reseeded).collect();
+    let (mut stored, mut trials) = (BTreeMap::new(), 0);
+    for study in &again {
+        let run = explorer.run(study, std::slice::from_ref(&default), &explorer.folder.join("default"))?;
+        trials += run.1.batch.rows.len();
+        stored.insert(study.name.clone(), run);
+    }
+    let evidence = Evidence::of(paper, default.clone(), stored);
+    let (mut found, _) = explorer.judge_under(&evidence, std::slice::from_ref(&default))?;
+    let mut points = vec![default];
+    if let Some(first) = Exploration::read(&Exploration::first(&places.runs))? {
+        let readings = paper.readings();
+        let chosen = to_confirm(paper, &verdicts, &first);
+        let chosen = chosen.into_iter().filter(|place| *place > 0);
+        // A reading that the specs no longer have belongs to an exploration that is stale.
+        let turned: Vec<ReadingChoice> =
+            chosen.filter_map(|place| ReadingChoice::new(&readings, &first.readings[place]).ok()).collect();
+        let draws = |study: &Study| {
+            study.explore.as_ref().map_or(0, |explore| explore.more_draws.unwrap_or(explore.draws))
+        };
+        let (glances, _) = explorer.look(&turned, "turned", &draws)?;
+        found.extend(glances);
+        points.extend(turned);
+    }
+    let all = Exploration::of(paper, &points, &found, &BTreeMap::new());
+    Ok(Exploration { command: command_line(), trials: trials as u64, ..all })
+}
+
+/// The study on its second seed; no clock is read and nothing is kept for figures.
+fn reseeded(study: &Study) -> Study {
+    let mut again = study.clone();
+    again.seed = study.second_seed.unwrap_or(study.seed);
+    again.timing = None;
+    again.keeps.clear();
+    again.figures.clear();
+    again
+}

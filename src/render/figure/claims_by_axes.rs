@@ -1,0 +1,111 @@
+//! What each reading of a paper does to each of its claims when it alone departs from its default.
+
+use super::{Entry, Kind, Scene};
+use crate::analysis::verdict::{Across, Effect, Judged};
+use crate::render::RenderError;
+use crate::render::canvas::{Align, Stand, Type};
+use crate::render::chart::legend::cell_key;
+use crate::render::chart::marks::{Cells, Note};
+use crate::render::chart::{Axis, Panel, Sheet};
+use crate::render::style::{BLUE, GREY, GRID, Rgb, Stroke, TextSize, VERMILLION, WHITE, Width};
+use base::settings::{Accepted, none_called};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "claims_by_axes",
+    about: "which reading moves which claim: the greatest effect of an axis's voting options, one at a time",
+    statistic: "The greatest effect of each axis's voting options, one at a time beside the defaults; a row is a sentence or a table row; \
+                left out are axes and claims that nothing moves.",
+    settings: Accepted::of::<ClaimsByAxes>(),
+    example: r"
+claims = []
+",
+    build: |settings, _study, paper| {
+        let read: ClaimsByAxes = settings.read()?;
+        for (index, id) in read.claims.iter().enumerate() {
+            if paper.claim(id).is_none() {
+                let known = paper.claims.iter().map(|claim| claim.id.as_str());
+                return Err(settings.error_at(&format!("claims.{index}"), none_called("claim", id, known)));
+            }
+        }
+        Ok(Box::new(read))
+    },
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ClaimsByAxes {
+    /// The claims, from above; all sentences and rows that readings can touch if empty.
+    #[serde(default)]
+    claims: Vec<String>,
+}
+
+/// Height of a row, in points.
+const ROW_PT: f64 = 9.5;
+
+/// What an effect is called and drawn as, the least first.
+const LOOKS: [(Effect, &str, Rgb); 3] = [
+    (Effect::Number, "moves the number", GRID),
+    (Effect::Opens, "opens or decides it", BLUE),
+    (Effect::Turns, "turns it", VERMILLION),
+];
+
+fn color(across: &Across, axis: &str) -> Option<Rgb> {
+    let effect = across.effects.get(axis)?.effect;
+    LOOKS.iter().find(|(own, ..)| *own == effect).map(|(_, _, color)| color.mixed(WHITE, 0.25))
+}
+
+impl ClaimsByAxes {
+    /// The claims that readings can touch, from above.
+    fn rows<'s>(&self, scene: &'s Scene<'_>) -> Vec<(&'s Judged, &'s Across)> {
+        let is_asked = |judged: &&Judged| {
+            if self.claims.is_empty() {
+                judged.part_of.is_none()
+            } else {
+                self.claims.contains(&judged.claim)
+            }
+        };
+        let moved = |judged: &'s Judged| {
+            let across = judged.across.as_ref().filter(|across| !across.effects.is_empty())?;
+            Some((judged, across))
+        };
+        scene.verdicts.claims.iter().filter(is_asked).filter_map(moved).collect()
+    }
+}
+
+impl Kind for ClaimsByAxes {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let rows = self.rows(scene);
+        let readings = scene.evidence.paper.readings();
+        let is_moving = |id: &&str| rows.iter().any(|(_, across)| across.effects.contains_key(*id));
+        let axes: Vec<&str> = readings.iter().map(|reading| reading.id.as_str()).filter(is_moving).collect();
+        if rows.is_empty() || axes.is_empty() {
+            // A quick run, or one whose readings were not explored, has nothing to show; that is no fault of the figure's.
+            return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No explored reading moves a claim."));
+        }
+        // A column more for the class across readings.
+        let columns = axes.iter().copied().chain(["class"]);
+        let names = rows.iter().rev().map(|(judged, _)| judged.claim.as_str());
+        let mut panel = Panel::new("", Axis::names("", columns), Axis::names("", names));
+        let of_row = |(_, across): &(&Judged, &Across)| {
+            axes.iter().map(|axis| color(across, axis)).chain([None]).collect::<Vec<_>>()
+        };
+        panel.add(Cells {
+            corner: [-0.5, -0.5],
+            cell: [1.0, 1.0],
+            columns: axes.len() + 1,
+            colors: rows.iter().rev().flat_map(of_row).collect(),
+            lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
+            keys: LOOKS.map(|(_, label, color)| cell_key(label, color.mixed(WHITE, 0.25))).to_vec(),
+        });
+        let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Centre);
+        for (row, (judged, _)) in rows.iter().rev().enumerate() {
+            let (at, text) = ([axes.len() as f64, row as f64], judged.verdict.name().to_owned());
+            panel.add(Note { at, shift_pt: [0.0, 0.0], text, set });
+        }
+        let height = rows.len() as f64 * ROW_PT + 2.0 * ROW_PT;
+        Sheet::new(Width::Double, 1, height).with([Ok(panel)])
+    }
+}

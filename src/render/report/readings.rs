@@ -1,0 +1,116 @@
+//! What readings do, as details show it: which vote and by what, which claims each moves.
+
+use super::chapter::Page;
+use super::details::links;
+use super::{item, paragraph};
+use crate::analysis::verdict::{Effect, Judged};
+use crate::render::prose::markdown;
+use crate::study::Reading;
+use crate::study::spec::OptionSpec;
+
+impl Page<'_> {
+    /// What the paper leaves open, and what each reading does.
+    pub(super) fn readings(&self, text: &mut String) {
+        let readings = self.evidence.paper.readings();
+        if !readings.is_empty() {
+            self.explored(text);
+        }
+        if readings.is_empty() {
+            *text += "The studies have no readings.\n";
+        }
+        for reading in readings {
+            let option = |name: &String| {
+                if *name == reading.default { format!("**{name}** (default)") } else { name.clone() }
+            };
+            let options: Vec<String> = reading.options.keys().map(option).collect();
+            let about = format!("`{}`: {}. {}", reading.id, options.join(", "), markdown(&reading.why));
+            *text += &item(0, &about);
+            text.extend(votes(&reading).iter().map(|line| item(1, &markdown(line))));
+            text.extend(self.moves(&reading.id).iter().map(|line| item(1, line)));
+        }
+    }
+
+    /// What was explored, and on what it rests.
+    fn explored(&self, text: &mut String) {
+        let Some(explored) = &self.verdicts.explored else {
+            *text += "The readings were not explored: every class is that under the defaults.\n\n";
+            return;
+        };
+        let mut about = format!(
+            "Explored: {} readings, {} trials. A class counts those that vote (by the paper's words or a practice) and are compatible \
+             with what the studies were calibrated to, equal results once; a result against most others counts only if the second seed \
+             gives it too.",
+            explored.readings, explored.trials
+        );
+        if explored.none_compatible {
+            about += " No voting reading agrees with all that the studies were calibrated to, so that all of them are judged.";
+        }
+        *text += &paragraph(&about);
+        for (claims, what) in
+            [(&explored.stale, "the exploration"), (&explored.second_stale, "the second seed")]
+        {
+            if !claims.is_empty() {
+                *text += &item(0, &format!("stale in {what}, and not counted: {}", links(claims)));
+            }
+        }
+    }
+
+    /// Which claims a reading moves alone, by how.
+    fn moves(&self, axis: &str) -> Vec<String> {
+        let of = |effect: Effect| {
+            let is_it = |judged: &&Judged| {
+                let across = judged.across.as_ref();
+                across.and_then(|across| across.effects.get(axis)).is_some_and(|own| own.effect == effect)
+            };
+            self.verdicts.claims.iter().filter(is_it).map(|judged| judged.claim.as_str()).collect::<Vec<_>>()
+        };
+        let kinds = [(Effect::Turns, "turns"), (Effect::Opens, "opens or decides")];
+        let said = |(effect, what)| {
+            let claims = of(effect);
+            (!claims.is_empty()).then(|| format!("{what} {}", links(&claims)))
+        };
+        kinds.into_iter().filter_map(said).collect()
+    }
+}
+
+/// Which options vote and by what, and which are probes.
+fn votes(reading: &Reading) -> Vec<String> {
+    let source = |name: &str, option: &OptionSpec| {
+        let bounds = reading.bounds.as_ref().filter(|_| option.value.is_some());
+        let own = [option.paper.clone(), option.practice.clone(), bounds.map(|bounds| bounds.source.clone())];
+        let said: Vec<String> = own.into_iter().flatten().collect();
+        (!said.is_empty()).then(|| format!("{name} votes: {}", said.join("; ")))
+    };
+    let voting = reading.options.iter().filter(|(name, _)| reading.votes(name));
+    let mut lines: Vec<String> = voting.filter_map(|(name, option)| source(name, option)).collect();
+    let probes: Vec<&str> =
+        reading.options.keys().filter(|name| !reading.votes(name)).map(String::as_str).collect();
+    if !probes.is_empty() {
+        lines.push(format!("probes, never counted: {}", probes.join(", ")));
+    }
+    lines
+}
+
+/// What readings do to a claim beyond the words beside its class.
+pub fn across_lines(judged: &Judged) -> impl Iterator<Item = String> {
+    let across = judged.across.as_ref();
+    let counts = across.map(|across| {
+        let mut parts = vec![format!("{} readings give {} results", across.looked, across.counted)];
+        let more = [
+            (across.not_looked_at, "do not look at it or lack power"),
+            (across.incompatible, "contradict what the studies were calibrated to"),
+            (across.unconfirmed, "results against most others that no second seed confirms count as open"),
+        ];
+        parts.extend(
+            more.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")),
+        );
+        format!("under the defaults {}; {}", across.default.name(), parts.join(", "))
+    });
+    let moves = across.into_iter().flat_map(|across| {
+        let moving = across.effects.iter().filter(|(_, of)| of.effect > Effect::Number);
+        moving.map(|(axis, of)| format!("{axis} = {} alone: {}", of.option, of.class.name()))
+    });
+    let probes = across.filter(|across| !across.probes.is_empty());
+    let probes = probes.map(|across| format!("probes, not counted: {}", across.probes.join("; ")));
+    counts.into_iter().chain(moves).chain(probes)
+}

@@ -1,0 +1,285 @@
+//! Classes across readings, on a small paper through the whole program: run, explore, confirm, judge.
+
+use crate::paper::Bench;
+use replan::analysis::class::Verdict;
+use replan::analysis::verdict::{Judged, Verdicts};
+use std::fs;
+
+const PAPER: &str = r#"
+[source]
+title = "A toy"
+
+[explore]
+sample = 20
+trials = 100_000
+
+[[claim]]
+id = "fewer"
+at = "section 1"
+says = "A* expands fewer nodes than the search from two sides"
+check.lower.of = { study = "draws", problems = "drawn", metric = "expansions", contender = "A*", against = "Two-sided" }
+
+[[claim]]
+id = "shorter"
+at = "section 1"
+says = "the search from two sides is no shorter"
+check.lower = { is = "higher", of = { study = "draws", problems = "drawn", metric = "expansions", contender = "Two-sided", against = "Lazy" } }
+
+[[claim]]
+id = "witness"
+at = "section 2"
+printed = "24"
+check.exists = { metric = "expansions", contenders = "A*", in = [{ study = "room", problems = "room" }] }
+
+[[claim]]
+id = "calibrated"
+at = "section 3"
+printed = "4"
+check.prints_as.of = { study = "room", problems = "room", metric = "expansions", contender = "A*" }
+"#;
+
+/// The readings of both studies: `hurry` touches A* alone, `idle` nothing that is run.
+const READINGS: &str = r#"
+[[reading]]
+id = "hurry"
+why = "the weight is not printed"
+default = "three"
+[reading.option.three]
+paper = "section 1: the weight is three"
+stage.astar = { weight = 3 }
+[reading.option.none]
+stage.astar = { weight = 0 }
+
+[[reading]]
+id = "idle"
+why = "nobody asks"
+default = "a"
+[reading.option.a]
+paper = "section 1"
+stage.joint_astar = { ties = "fifo" }
+[reading.option.b]
+paper = "section 1"
+stage.joint_astar = { ties = "lifo" }
+[reading.option.c]
+paper = "section 1"
+stage.joint_astar = { ties = "larger_g" }
+"#;
+
+const DRAWS: &str = r#"
+paper = "toy"
+question = "Who expands fewer?"
+seed = 7
+second_seed = 8
+[explore]
+draws = 20
+[budget]
+expansions = 10_000
+[[problems]]
+label = "drawn"
+family = "random_cells"
+replicates = 40
+settings = { size_cells = [12, 12], start = [0, 0], goal = [11, 9], blocked_share = 0.2, corner_rule = "allow" }
+[[contender]]
+label = "A*"
+planner = "astar"
+settings = { weight = 3, ties = "fifo" }
+[[contender]]
+label = "Two-sided"
+planner = "bidirectional"
+settings = { weight = "one", meeting = "generated_any", side = "alternate", ties = "fifo" }
+[[contender]]
+label = "Lazy"
+planner = "lazy_theta_star"
+settings = { line_of_sight = "exact_interior" }
+"#;
+
+const ROOM: &str = r#"
+paper = "toy"
+question = "What does A* do in an empty room?"
+seed = 7
+second_seed = 8
+fitted_to = []
+[explore]
+draws = 1
+[budget]
+expansions = 10_000
+[[problems]]
+label = "room"
+family = "grid_map"
+settings = { map = "room.txt", start = [0, 0], goal = [4, 4], corner_rule = "allow" }
+[[contender]]
+label = "A*"
+planner = "astar"
+settings = { weight = 3, ties = "fifo" }
+"#;
+
+/// The toy, with every `from` of its files replaced.
+struct Toy(Bench);
+
+impl Toy {
+    fn new(edits: &[(&str, &str)]) -> Self {
+        let bench = Bench::new();
+        fs::create_dir(bench.at("toy")).unwrap();
+        let mut unused: Vec<&str> = edits.iter().map(|(from, _)| *from).collect();
+        let files = [
+            ("paper.toml", PAPER.to_owned()),
+            ("draws.toml", format!("{DRAWS}{READINGS}")),
+            ("room.toml", format!("{ROOM}{READINGS}")),
+            ("room.txt", ".....\n".repeat(5)),
+        ];
+        for (name, mut text) in files {
+            for (from, to) in edits {
+                unused.retain(|edit| edit != from || !text.contains(from));
+                text = text.replace(from, to);
+            }
+            fs::write(bench.at("toy").join(name), text).unwrap();
+        }
+        assert!(unused.is_empty(), "nothing to replace: {unused:?}");
+        bench.done(&["run", "./toy"]);
+        bench.done(&["explore", "./toy"]);
+        Self(bench)
+    }
+
+    fn verdicts(&self) -> Verdicts {
+        Verdicts::read(&self.0.at("target/replan/toy/data/runs/toy")).unwrap()
+    }
+
+    fn claim(&self, id: &str) -> Judged {
+        self.verdicts().claim(id).unwrap().clone()
+    }
+
+    /// The class of a claim and what stands beside it.
+    fn said(&self, id: &str) -> (String, String) {
+        let judged = self.claim(id);
+        (judged.verdict.name().to_owned(), judged.across_readings().unwrap_or_default())
+    }
+}
+
+fn pair(class: &str, said: &str) -> (String, String) {
+    (class.to_owned(), said.to_owned())
+}
+
+/// A source for the option without a weight.
+const CITED: (&str, &str) = ("[reading.option.none]", "[reading.option.none]\npractice = \"textbooks\"");
+
+#[test]
+fn a_silly_reading_does_not_veto_and_is_printed() {
+    let toy = Toy::new(&[]);
+    assert_eq!(toy.said("fewer"), pair("reproduced", "no reading moves it"));
+    let across = toy.claim("fewer").across.unwrap();
+    assert_eq!(across.probes, ["hurry = none: not reproduced"]);
+    assert!(across.effects.is_empty(), "{:?}", across.effects);
+}
+
+#[test]
+fn a_default_that_decides_leaves_it_undecided_and_says_on_what_once_a_second_seed_agrees() {
+    let toy = Toy::new(&[CITED]);
+    // What turns it has not turned twice: it is open, and more than a tenth of what counts.
+    assert_eq!(toy.said("fewer"), pair("undecided", "holds under 1 of 2 only, open under 1"));
+    assert_eq!(toy.claim("fewer").across.unwrap().unconfirmed, 1);
+    toy.0.done(&["confirm", "./toy"]);
+    assert_eq!(toy.said("fewer"), pair("undecided", "hangs on hurry: reproduced if three (1 of 2)"));
+    let judged = toy.claim("fewer");
+    assert_eq!(judged.second.map(Verdict::name), Some("reproduced"));
+    assert_eq!(judged.across.unwrap().default.name(), "reproduced");
+    // What is stored is what judging gives, and a report says so.
+    toy.0.done(&["judge", "./toy", "--check"]);
+}
+
+#[test]
+fn an_axis_that_cannot_touch_a_claim_does_not_inflate_its_count() {
+    let with = Toy::new(&[CITED]);
+    let across = with.claim("fewer").across.unwrap();
+    // Two weights by three idle options: six readings, two results.
+    assert_eq!((across.looked, across.counted), (6, 2));
+    assert_eq!(across.effects.keys().collect::<Vec<_>>(), ["hurry"]);
+    assert_eq!(with.said("shorter").1, "no reading moves it");
+}
+
+#[test]
+fn a_witness_under_one_reading_makes_a_claim_attainable_and_names_the_reading() {
+    let toy = Toy::new(&[CITED]);
+    assert_eq!(toy.said("witness"), pair("attainable", "met under 1 of 2, hurry = none among them"));
+    assert_eq!(toy.claim("witness").alone().name(), "undecided");
+    // Without a source for that reading nothing attains it.
+    assert_eq!(Toy::new(&[]).said("witness"), pair("undecided", "no reading moves it"));
+}
+
+const FITTED: (&str, &str) = ("fitted_to = []", "fitted_to = [\"calibrated\"]");
+
+#[test]
+fn a_reading_that_contradicts_what_the_study_was_calibrated_to_is_not_counted() {
+    let toy = Toy::new(&[CITED, FITTED]);
+    assert_eq!(toy.said("fewer"), pair("reproduced", "no reading moves it"));
+    assert_eq!(toy.claim("fewer").across.unwrap().incompatible, 3);
+    // A claim never filters itself.
+    toy.0.done(&["confirm", "./toy"]);
+    assert_eq!(toy.said("calibrated"), pair("undecided", "hangs on hurry: fitted if three (1 of 2)"));
+}
+
+#[test]
+fn where_nothing_is_compatible_all_voting_readings_are_judged_and_it_is_said() {
+    let toy = Toy::new(&[CITED, FITTED, ("printed = \"4\"", "printed = \"7\"")]);
+    toy.0.done(&["confirm", "./toy"]);
+    assert_eq!(toy.said("fewer").1, "hangs on hurry: reproduced if three (1 of 2)");
+    let across = toy.claim("fewer").across.unwrap();
+    assert!(across.none_compatible && across.incompatible == 0, "{across:?}");
+    assert!(toy.verdicts().explored.unwrap().none_compatible);
+}
+
+#[test]
+fn a_calibration_claim_whose_study_is_not_explored_filters_nothing() {
+    let unexplored = ("[explore]\ndraws = 1\n", "");
+    let toy = Toy::new(&[CITED, FITTED, unexplored, ("printed = \"4\"", "printed = \"7\"")]);
+    let across = toy.claim("fewer").across.unwrap();
+    assert_eq!((across.counted, across.none_compatible), (2, false), "{across:?}");
+    assert_eq!(toy.claim("calibrated").across, None);
+}
+
+#[test]
+fn a_fitted_reading_is_fitted_again_for_each_setting_of_the_others() {
+    let fitted = ("default = \"three\"", "default = \"three\"\nfitted = true");
+    let toy = Toy::new(&[CITED, fitted, ("fitted_to = []", "fitted_to = [\"witness\"]")]);
+    // Only without a weight is the witness met: that option is what the paper means, whatever the default.
+    let across = toy.claim("fewer").across.unwrap();
+    assert_eq!((across.class.name(), across.looked, across.incompatible), ("not reproduced", 3, 3));
+}
+
+#[test]
+fn what_changed_after_an_exploration_is_stale_and_judged_under_the_default_alone() {
+    let toy = Toy::new(&[]);
+    toy.0.edit("toy/paper.toml", "printed = \"24\"", "printed = \"23\"");
+    let said = toy.0.done(&["judge", "./toy"]);
+    assert!(said.contains("1 claim is judged under the default reading alone"), "{said}");
+    assert_eq!(toy.claim("witness").across, None);
+    assert!(toy.claim("fewer").across.is_some());
+    toy.0.edit("toy/draws.toml", "expansions = 10_000", "expansions = 9_999");
+    toy.0.done(&["run", "./toy"]);
+    toy.0.done(&["judge", "./toy"]);
+    assert_eq!(toy.verdicts().explored.unwrap().stale, ["fewer", "shorter", "witness"]);
+    assert!(toy.verdicts().claims.iter().filter(|judged| judged.across.is_some()).count() == 1);
+}
+
+#[test]
+fn exploring_once_more_runs_nothing_and_writes_the_same_bytes() {
+    let toy = Toy::new(&[CITED]);
+    let path = toy.0.at("target/replan/toy/data/runs/toy/explored.toml");
+    let before = fs::read(&path).unwrap();
+    let said = toy.0.run(&["explore", "./toy"]);
+    assert!(!said.err.contains("trials:"), "{}", said.err);
+    assert!(fs::read(&path).unwrap() == before, "another exploration");
+}
+
+#[test]
+fn a_budget_without_room_and_votes_without_sources_are_refused_where_they_stand() {
+    let toy = Toy::new(&[]);
+    toy.0.edit("toy/paper.toml", "trials = 100_000", "trials = 10");
+    let said = toy.0.run(&["explore", "./toy"]);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("./toy/paper.toml:7:10: the defaults and every other option"), "{}", said.err);
+    toy.0.edit("toy/draws.toml", "paper = \"section 1: the weight is three\"", "");
+    toy.0.edit("toy/room.toml", "paper = \"section 1: the weight is three\"", "");
+    toy.0.edit("toy/draws.toml", "[reading.option.none]", "[reading.option.none]\npractice = \"x\"");
+    let said = toy.0.run(&["check", "./toy"]);
+    assert!(said.err.contains("the default `three` needs `paper` or `practice`"), "{}", said.err);
+}
