@@ -17,8 +17,9 @@ pub use report::{CLAIMS, FIGURES, ReportSpec, filled};
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
 pub use super::spec::Digits;
+use super::spec::StudySpec;
 use super::{Inputs, Reading, Study, StudyError, files};
-use base::settings::{Accepted, Document, Faults};
+use base::settings::{Accepted, Document, Faults, schema_of};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -170,13 +171,18 @@ impl Paper {
             let Some(document) = faults.keep(Document::open(path)) else { continue };
             match files::kind_of(&document, &written) {
                 files::STUDY => {
-                    let document = document.salvaged(&schema(files::STUDY), faults);
+                    // Settings stay as they are written: who reads them tells what is wrong there, and what else is.
+                    let document = document.salvaged(&schema_of::<StudySpec>(), faults);
                     studies.extend(Study::gather(&document, inputs, faults)?);
                 }
                 kind => others.push((path.clone(), kind)),
             }
         }
         for (path, kind) in others.iter().filter(|(_, kind)| *kind != files::FOREIGN) {
+            // A study that names the file has told what is wrong in it.
+            if faults.are_in(path) {
+                continue;
+            }
             faults.keep(Document::open(path).and_then(|document| files::validate(&document, kind)));
         }
         if files.len() == others.len() && faults.is_empty() {
