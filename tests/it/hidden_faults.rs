@@ -23,15 +23,19 @@ fn told(template: &str, changes: &[Change]) -> Vec<String> {
 /// That exactly `wanted` is told, each line by how it begins.
 fn assert_told(template: &str, changes: &[Change], wanted: &[&str]) {
     let told = told(template, changes);
-    let fits = told.len() == wanted.len() && told.iter().zip(wanted).all(|(line, wanted)| line.starts_with(wanted));
+    let fits =
+        told.len() == wanted.len() && told.iter().zip(wanted).all(|(line, wanted)| line.starts_with(wanted));
     assert!(fits, "{changes:?}\nshould be told:\n{}\nis told:\n{}", wanted.join("\n"), told.join("\n"));
 }
 
 const ROBOT: Change = ("robot.toml", "upper_deg = 360", "upper_deg = -500");
 const SCENE: Change = ("scene.toml", "max_mm = [800, -300, 60]", "max_mm = [300, -300, 60]");
 const POSES: Change = ("poses.toml", "-120, -90, 0]", "-120, -90]");
-const IN_FILES: [&str; 3] =
-    ["poses.toml:5:5: `A` is an array of 5", "robot.toml:15:1: joint 1: upper_deg is -500", "scene.toml:13:1: obstacle `shelf`"];
+const IN_FILES: [&str; 3] = [
+    "poses.toml:5:5: `A` is an array of 5",
+    "robot.toml:15:1: joint 1: upper_deg is -500",
+    "scene.toml:13:1: obstacle `shelf`",
+];
 
 #[test]
 fn faults_of_a_robot_a_scene_and_poses_are_told_together() {
@@ -114,7 +118,11 @@ fn a_label_without_a_name_is_told_and_nothing_that_follows_from_it() {
 #[test]
 fn a_figure_of_a_pose_or_a_claim_of_a_query_that_is_not_there_is_refused() {
     let pose = ("cell.toml", "\"high/goal\", \"C\"", "\"hugh/goal\", \"C\"");
-    assert_told("cell", &[pose], &["cell.toml:65:82: there is no query of cell `hugh` (did you mean `high`?); there are high, low"]);
+    assert_told(
+        "cell",
+        &[pose],
+        &["cell.toml:65:82: there is no query of cell `hugh` (did you mean `high`?); there are high, low"],
+    );
     let end = ("cell.toml", "\"high/goal\", \"C\"", "\"high/end\", \"C\"");
     assert_told("cell", &[end], &["cell.toml:65:82: `high/end` is no end of a query"]);
     let query = ("paper.toml", "problems = \"cell\", ", "problems = \"cell\", query = \"hugh\", ");

@@ -242,10 +242,7 @@ pub(super) fn part_of<'a, 't>(value: &'a Spanned<DeValue<'t>>, path: &str) -> &'
 }
 
 /// The value under the key, or the element of the number, that `step` is inside `value`.
-pub(super) fn inner<'a, 't>(
-    value: &'a Spanned<DeValue<'t>>,
-    step: &str,
-) -> Option<&'a Spanned<DeValue<'t>>> {
+pub(super) fn inner<'a, 't>(value: &'a Spanned<DeValue<'t>>, step: &str) -> Option<&'a Spanned<DeValue<'t>>> {
     match value.get_ref() {
         DeValue::Table(table) => table.get(step),
         DeValue::Array(array) => step.parse::<usize>().ok().and_then(|index| array.get(index)),

@@ -1,8 +1,8 @@
 //! What is left of a document without what its schema does not accept: so that one mistake hides no other.
 
+use super::document::parse;
 use super::schema::Node;
 use super::validate::faults;
-use super::document::parse;
 use super::{Document, Faults, Settings};
 use serde::Deserialize as _;
 use serde::de::IntoDeserializer as _;
@@ -10,8 +10,8 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
-use toml::{Spanned, Table};
 use toml::de::{DeArray, DeTable, DeValue};
+use toml::{Spanned, Table};
 
 /// Rounds after which a document is given up: what is taken away may leave something else without a key that it needs.
 const ROUNDS: usize = 20;

@@ -151,8 +151,9 @@ impl WorkCell {
             faults.keep(match end {
                 Some((query, _)) => ask::query(settings, study, &self.problems, query, (&["poses"], pose)),
                 None => {
-                    let message =
-                        format!("`{pose}` is no end of a query; one is accepted, as in `1/start` or `1/goal`");
+                    let message = format!(
+                        "`{pose}` is no end of a query; one is accepted, as in `1/start` or `1/goal`"
+                    );
                     Err(settings.error_at(&format!("poses.{index}.0"), message))
                 }
             });

@@ -40,7 +40,8 @@ impl Study {
             }
             let families = self.check_ends(&points[0], inputs, &mut known, faults)?;
             self.check_sizes(&families, faults);
-            let queries = |family: &dyn Family| family.queries().iter().map(|query| query.name.clone()).collect();
+            let queries =
+                |family: &dyn Family| family.queries().iter().map(|query| query.name.clone()).collect();
             let named: Vec<(usize, Vec<String>)> =
                 families.iter().map(|(group, family)| (group.place, queries(family.as_ref()))).collect();
             drop(families);

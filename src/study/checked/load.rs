@@ -63,6 +63,7 @@ impl Study {
             paper: spec.paper.into_inner(),
             question: spec.question,
             seed: spec.seed,
+            second_seed: spec.second_seed,
             task: named.and_then(|named| faults.keep(named)).unwrap_or_else(task::default),
             task_settings: optional(
                 document,
@@ -116,8 +117,7 @@ fn read_all<S, T>(
 
 /// Labels are told apart in the names of trials.
 fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut Faults) {
-    let labels =
-        spec.problems.iter().map(|p| &p.label).chain(spec.contenders.iter().map(|c| &c.label));
+    let labels = spec.problems.iter().map(|p| &p.label).chain(spec.contenders.iter().map(|c| &c.label));
     let is_nameless = labels.into_iter().any(|label| slug(label.get_ref()).is_empty());
     if is_nameless || document.is_part("problems") || document.is_part("contender") {
         faults.unread(labels_of(study));
@@ -186,6 +186,8 @@ fn reading(spec: ReadingSpec, place: Place) -> Reading {
         id: spec.id.into_inner(),
         why: spec.why,
         default: spec.default.into_inner(),
+        fitted: spec.fitted,
+        bounds: spec.bounds,
         options: spec
             .option
             .into_inner()

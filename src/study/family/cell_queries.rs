@@ -276,16 +276,16 @@ impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
         let mut faults = Faults::default();
-        let robot = faults.keep(input(settings, inputs, "robot", &read.robot, |file| {
-            read.robot(settings, file)
-        }));
+        let robot =
+            faults.keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, file)));
         let scene = faults.keep(input(settings, inputs, "scene", &read.scene, Scene::load));
         let placed = faults.keep(input(settings, inputs, "queries", &read.queries, |file| {
             let document = Document::open(file)?;
             Ok((read_queries(&document)?, document))
         }));
         let all = robot.zip(scene).zip(placed);
-        let (((robot_file, robot), (scene_file, scene)), (queries_file, (placed, document))) = faults.or(all)?;
+        let (((robot_file, robot), (scene_file, scene)), (queries_file, (placed, document))) =
+            faults.or(all)?;
         let files = [robot_file, scene_file, queries_file];
         let scene = if read.obstacles { scene } else { Scene::empty() };
         let cell = Cell::new(robot, scene, read.self_collision);

@@ -179,7 +179,8 @@ impl Conditioned {
             table.extend(of.settings.clone());
             table.insert("corner_rule".to_owned(), Toml::String(self.corner_rule.clone()));
             let (whose, own) = (format!("`of` {}", of.family), format!("of.{index}.settings"));
-            let family = (entry.build)(&Settings::of_parts(settings, &[&own, "shared", ""], whose, table), inputs)?;
+            let family =
+                (entry.build)(&Settings::of_parts(settings, &[&own, "shared", ""], whose, table), inputs)?;
             if family.world() == WorldKind::Lattice {
                 Ok(family)
             } else {
@@ -194,8 +195,7 @@ impl Conditioned {
 
     fn planner(&self, settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
         let whose = format!("planner `{}`", self.planner);
-        let table =
-            Settings::of_parts(settings, &["planner_settings"], whose, self.planner_settings.clone());
+        let table = Settings::of_parts(settings, &["planner_settings"], whose, self.planner_settings.clone());
         let entry = planner::find(&self.planner).filter(|entry| entry.needs == WorldKind::Lattice);
         match entry.map(|entry| entry.build) {
             Some(Build::Planner(build)) => build(&table),

@@ -41,7 +41,8 @@ corner_rule = "forbid_any"
         let file =
             |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
         let mut faults = Faults::default();
-        let files = [file("map", &read.map), file("scenarios", &read.scenarios)].map(|file| faults.keep(file));
+        let files =
+            [file("map", &read.map), file("scenarios", &read.scenarios)].map(|file| faults.keep(file));
         let files = faults.or(match files {
             [Some(map), Some(scenarios)] => Some([map, scenarios]),
             _ => None,

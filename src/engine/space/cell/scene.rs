@@ -149,8 +149,7 @@ impl Scene {
     /// encloses nothing, or a name that stands twice.
     pub fn parse(document: &Document) -> Result<Self, SettingsError> {
         let file: SceneFile = document.read()?;
-        let (mut scene, mut faults) =
-            (Self { name: file.name, obstacles: Vec::new() }, Faults::default());
+        let (mut scene, mut faults) = (Self { name: file.name, obstacles: Vec::new() }, Faults::default());
         if let Some(floor) = &file.floor {
             let solid = HalfSpace::below(floor.get_ref().height_mm * 1e-3).map(Solid::HalfSpace);
             faults.keep(scene.add(document, "floor", floor, solid));
