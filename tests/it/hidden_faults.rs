@@ -57,7 +57,7 @@ fn a_wrong_setting_hides_no_fault_of_the_files_beside_it() {
 fn every_fault_of_one_robot_file_is_told() {
     let capsules = ("robot.toml", "radius_mm = 75", "radius_mm = -75");
     let speeds = ("robot.toml", "speed_deg_s = ", "speed_rad_s = 1\nspeed_deg_s = ");
-    let tool = ("robot.toml", "length_mm = ", "length_mm = -");
+    let tool = ("robot.toml", "length_mm = 0", "length_mm = -5");
     let told = told("cell", &[speeds, tool]);
     assert_eq!(told.len(), 2, "{told:?}");
     assert!(told.iter().any(|line| line.contains("both of speed_deg_s and speed_rad_s")), "{told:?}");
@@ -102,7 +102,7 @@ fn what_an_option_lays_over_settings_is_told_at_its_own_key() {
     assert_told("grid", &[of_stage], &["compare.toml:47:28: `ties` is \"lilo\""]);
     // What the option does not touch is told where it stands, once.
     let other = ("compare.toml", "settings = { weight = 2,", "settings = { weight = -2,");
-    assert_told("grid", &[other], &["compare.toml:36:23: `weight` is -2"]);
+    assert_told("grid", &[other], &["compare.toml:36:23: weight is -2"]);
 }
 
 #[test]

@@ -121,6 +121,7 @@ fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut
     let is_nameless = labels.into_iter().any(|label| slug(label.get_ref()).is_empty());
     if is_nameless || document.is_part("problems") || document.is_part("contender") {
         faults.unread(labels_of(study));
+        faults.unread(columns_of(study));
     }
     unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
     unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
