@@ -3,7 +3,7 @@
 use super::metric::{self, Metric};
 use super::selection_spec::Labels;
 use crate::study::paper::{self, Claim, Paper};
-use crate::study::{ReadingChoice, Study, columns_of};
+use crate::study::{ReadingChoice, Study, columns_of, labels_of};
 use audit::exact::Print;
 use audit::printed::Digits;
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
@@ -105,7 +105,7 @@ impl<'a> Context<'a> {
         let hint = did_you_mean(label, known.iter().copied());
         let message =
             format!("study `{}` has no {what} `{label}`{hint}; it has {}", study.name, known.join(", "));
-        self.settings.error_about(within, keys, label, message)
+        self.settings.error_about(within, keys, label, message).about(&labels_of(&study.name))
     }
 
     /// The problem groups of `study` that `labels` name, in their order; `within` is the part of the settings that names

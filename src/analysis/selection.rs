@@ -105,6 +105,11 @@ impl<'a> Selection<'a> {
         faults.keep(context.study("of", &of.study, &named));
         let groups = faults.keep(context.groups("of", study, &of.problems)).unwrap_or_default();
         let metric = of.metric.as_ref().and_then(|name| faults.keep(context.metric(name, study)));
+        let labels: Vec<&str> = groups.iter().map(String::as_str).collect();
+        let lacking = of.query.as_ref().and_then(|query| study.lacks_query(&labels, query));
+        if let Some(message) = lacking {
+            faults.add(context.settings.error_at("of.query", message));
+        }
         let sweep = of.sweep.as_ref().and_then(|text| faults.keep(sweep_point(context, study, text)));
         faults.done()?;
         let (against, query, whole_draws) = (of.against.clone(), of.query.clone(), of.whole_draws);

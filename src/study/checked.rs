@@ -13,7 +13,7 @@ use super::name::{self, Names};
 use super::reading::{self, Reading, ReadingChoice};
 use super::spec::{BudgetSpec, ExploreSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::task;
-use base::settings::{Document, Settings};
+use base::settings::{Document, Settings, none_called};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -65,6 +65,11 @@ pub struct Study {
 /// What the columns of the study called `name` are called where they may be unread.
 pub fn columns_of(name: &str) -> String {
     format!("columns of {name}")
+}
+
+/// What the labels of the study called `name` are called where one of them may be unread.
+pub fn labels_of(name: &str) -> String {
+    format!("labels of {name}")
 }
 
 impl Study {
@@ -143,6 +148,17 @@ impl Study {
         let found = known.iter().position(|name| name == text);
         found.map(|place| points[place].key.clone()).ok_or_else(|| {
             format!("study `{}` has no sweep `{text}`; it has {}", self.name, known.join(", "))
+        })
+    }
+
+    /// Why there is no query called `name` in the problem groups `labels`; none if there is one, or if some group's queries are not known.
+    pub fn lacks_query(&self, labels: &[&str], name: &str) -> Option<String> {
+        let groups = || self.groups.iter().filter(|group| labels.contains(&group.label.as_str()));
+        let known: BTreeSet<&str> = groups().flat_map(|group| &group.queries).map(String::as_str).collect();
+        let is_known = known.contains(name) || groups().any(|group| group.queries.is_empty());
+        (!is_known && !known.is_empty()).then(|| {
+            let what = format!("query of {}", labels.join(", "));
+            none_called(&what, name, known.iter().copied())
         })
     }
 

@@ -69,9 +69,7 @@ impl Contender {
 impl StageUse {
     /// Its settings with the reading's and the sweep's laid on top.
     pub fn effective(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Settings {
-        let read = point
-            .over_stage(self.entry.name)
-            .fold(self.settings.clone(), |settings, (over, origin)| settings.overlaid(over, origin));
+        let read = point.over_stage(self.entry.name, self.settings.clone());
         match sweep.over.get(self.entry.name) {
             Some(table) => read.overlaid(table, &format!("sweep {}", name::sweep(&sweep.key))),
             None => read,

@@ -149,6 +149,7 @@ mod tests {
             (i.to_string(), Arc::new(OptionSpec { paper, ..OptionSpec::default() }))
         };
         Reading {
+            place: None,
             id: id.to_owned(),
             why: String::new(),
             default: "0".to_owned(),

@@ -4,7 +4,8 @@ use super::error::StudyError;
 use super::family::{Entry, Family};
 use super::inputs::Inputs;
 use super::reading::ReadingChoice;
-use base::settings::Settings;
+use base::settings::{Faults, Settings};
+use std::path::Path;
 use std::sync::Arc;
 use toml::Table;
 
@@ -25,6 +26,8 @@ pub struct Group {
     pub is_numbered: bool,
     /// The family's settings.
     pub settings: Settings,
+    /// The names of the queries asked of every draw; none where the family could not be built.
+    pub queries: Vec<String>,
 }
 
 impl Group {
@@ -36,10 +39,20 @@ impl Group {
         (self.family.build)(&self.settings_under(point), inputs)
     }
 
-    fn settings_under(&self, point: &ReadingChoice) -> Settings {
-        point
-            .over_problem()
-            .fold(self.settings.clone(), |settings, (over, origin)| settings.overlaid(over, origin))
+    /// What is wrong in the files that its settings name, told if the settings themselves are wrong: one fault hides no other.
+    pub fn check_files(&self, point: &ReadingChoice, inputs: &Inputs, study: &Path, faults: &mut Faults) {
+        let salvaged = self.settings_under(point).salvaged(&self.family.settings.schema());
+        let Some(Err(StudyError::Settings(error))) =
+            salvaged.map(|settings| (self.family.build)(&settings, inputs))
+        else {
+            return;
+        };
+        error.each().into_iter().filter(|fault| !fault.is_in(study)).for_each(|fault| faults.add(fault));
+    }
+
+    /// The family's settings under the reading `point`.
+    pub fn settings_under(&self, point: &ReadingChoice) -> Settings {
+        point.over_problem(self.settings.clone())
     }
 }
 

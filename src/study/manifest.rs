@@ -326,9 +326,7 @@ fn problem_hashes(
     let mut hashes = Hashes::new();
     for (reading, point) in points.iter().enumerate() {
         for (place, group) in study.groups.iter().enumerate() {
-            let settings = point
-                .over_problem()
-                .fold(group.settings.clone(), |s, (over, origin)| s.overlaid(over, origin));
+            let settings = group.settings_under(point);
             // The object's own exhibits are kept for every draw of which anything is.
             let kept = study.kept().filter(|trials| trials.problems == group.label);
             let text = format!(

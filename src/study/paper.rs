@@ -18,8 +18,9 @@ use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
 use super::explore::ExplorePaper;
 pub use super::spec::Digits;
+use super::spec::StudySpec;
 use super::{Inputs, Reading, Study, StudyError, files};
-use base::settings::{Accepted, Document, Faults};
+use base::settings::{Accepted, Document, Faults, schema_of};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -130,6 +131,15 @@ pub struct Paper {
     pub document: Arc<Document>,
 }
 
+/// Holds files beside the studies against what they are taken for; what is wrong in one that a study names was told already.
+fn check_others(others: &[(PathBuf, &'static str)], faults: &mut Faults) {
+    for (path, kind) in others.iter().filter(|(_, kind)| *kind != files::FOREIGN) {
+        if !faults.are_in(path) {
+            faults.keep(Document::open(path).and_then(|document| files::validate(&document, kind)));
+        }
+    }
+}
+
 impl Paper {
     /// Reads `paper.toml` and every study in `folder`.
     ///
@@ -175,15 +185,14 @@ impl Paper {
             let Some(document) = faults.keep(Document::open(path)) else { continue };
             match files::kind_of(&document, &written) {
                 files::STUDY => {
-                    let document = document.salvaged(&schema(files::STUDY), faults);
+                    // Settings stay as they are written: who reads them tells what is wrong there, and what else is.
+                    let document = document.salvaged(&schema_of::<StudySpec>(), faults);
                     studies.extend(Study::gather(&document, inputs, faults)?);
                 }
                 kind => others.push((path.clone(), kind)),
             }
         }
-        for (path, kind) in others.iter().filter(|(_, kind)| *kind != files::FOREIGN) {
-            faults.keep(Document::open(path).and_then(|document| files::validate(&document, kind)));
-        }
+        check_others(&others, faults);
         if files.len() == others.len() && faults.is_empty() {
             let what = "no study; a study is a TOML file beside paper.toml".to_owned();
             return Err(StudyError::Missing { path: folder.to_owned(), what });

@@ -3,9 +3,9 @@
 use super::key::ReadingKey;
 use super::name;
 use super::spec::{BoundsSpec, Digits, OptionSpec};
+use base::settings::{Place, Settings};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use toml::Table;
 
 /// One axis of readings.
 #[derive(Debug, Clone)]
@@ -22,6 +22,8 @@ pub struct Reading {
     pub bounds: Option<BoundsSpec>,
     /// What each option changes.
     pub options: BTreeMap<String, Arc<OptionSpec>>,
+    /// Where the options stand, if a file holds them.
+    pub place: Option<Place>,
 }
 
 impl Reading {
@@ -71,7 +73,15 @@ impl Reading {
 pub struct ReadingChoice {
     choices: BTreeMap<String, String>,
     name: String,
-    changes: Vec<(String, Arc<OptionSpec>)>,
+    changes: Vec<Change>,
+}
+
+/// What an option changes, who says so, and where.
+#[derive(Debug, Clone, PartialEq)]
+struct Change {
+    by: String,
+    option: Arc<OptionSpec>,
+    place: Option<Place>,
 }
 
 impl ReadingChoice {
@@ -101,7 +111,9 @@ impl ReadingChoice {
                 differs.push((reading.id.as_str(), option.as_str()));
             }
             point.choices.insert(reading.id.clone(), option.clone());
-            point.changes.push((format!("reading {}={option}", reading.id), change.clone()));
+            let place = reading.place.as_ref().map(|place| place.inside(&[option]));
+            let by = format!("reading {}={option}", reading.id);
+            point.changes.push(Change { by, option: change.clone(), place });
         }
         point.name = name::choice(differs.into_iter());
         Ok(point)
@@ -147,24 +159,33 @@ impl ReadingChoice {
 
     /// How printed digits end under this point, if a reading says so.
     pub fn digits(&self) -> Option<Digits> {
-        self.changes.iter().find_map(|(_, change)| change.digits)
+        self.changes.iter().find_map(|change| change.option.digits)
     }
 
-    /// What is laid over every problem's settings, with who says so.
-    pub fn over_problem(&self) -> impl Iterator<Item = (&Table, &str)> {
-        self.changes.iter().map(|(origin, change)| (&change.problem, origin.as_str()))
+    /// The settings of a problem with what the options lay over them.
+    #[must_use]
+    pub fn over_problem(&self, settings: Settings) -> Settings {
+        let laid = |settings: Settings, Change { by, option, place }: &Change| {
+            let place = place.as_ref().map(|place| place.inside(&["problem"]));
+            settings.overlaid_from(&option.problem, by, place)
+        };
+        self.changes.iter().fold(settings, laid)
     }
 
-    /// What is laid over the settings of the planner or stage called `entry`, with who says so.
-    pub fn over_stage<'a>(&'a self, entry: &'a str) -> impl Iterator<Item = (&'a Table, &'a str)> {
-        self.changes
-            .iter()
-            .filter_map(move |(origin, change)| change.stage.get(entry).map(|table| (table, origin.as_str())))
+    /// The settings of the planner or stage called `entry` with what the options lay over them.
+    #[must_use]
+    pub fn over_stage(&self, entry: &str, settings: Settings) -> Settings {
+        let laid = |settings: Settings, Change { by, option, place }: &Change| {
+            let Some(over) = option.stage.get(entry) else { return settings };
+            let place = place.as_ref().map(|place| place.inside(&["stage", entry]));
+            settings.overlaid_from(over, by, place)
+        };
+        self.changes.iter().fold(settings, laid)
     }
 
     /// The metric that `name` stands for.
     pub fn metric<'a>(&'a self, name: &'a str) -> &'a str {
-        let found = self.changes.iter().find_map(|(_, change)| change.metric.get(name));
+        let found = self.changes.iter().find_map(|change| change.option.metric.get(name));
         found.map_or(name, String::as_str)
     }
 }
@@ -201,6 +222,7 @@ mod tests {
             options: [("opened", option("opened")), ("closed", option("closed"))]
                 .map(|(name, option)| (name.to_owned(), Arc::new(option)))
                 .into(),
+            place: None,
         }]
     }
 

@@ -21,6 +21,7 @@ mod crosscheck;
 mod documented;
 mod floors;
 mod guards;
+mod hidden_faults;
 mod jump_points;
 mod latex;
 mod laws;

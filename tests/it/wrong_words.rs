@@ -103,7 +103,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "problem = { corner_rule = \"forbid_any\" }",
         "problem = { corner_rule = \"never\" }",
-        "reading corners=forbid_any: `corner_rule` is \"never\"; \"allow\", \"forbid_both\" or \"forbid_any\" is",
+        "draws.toml:48:27: `corner_rule` is \"never\"; \"allow\", \"forbid_both\" or \"forbid_any\" is",
     ),
     wrong(
         "draws",

@@ -97,7 +97,9 @@ impl Document {
         if self.text().trim().is_empty() {
             return Err(self.error(0..0, "the file is empty; a TOML table is expected"));
         }
-        self.read_value(self.parsed()?)
+        let value = self.parsed()?;
+        self.refuse_parted(faults(&schema_of::<T>(), value))?;
+        T::deserialize(value.clone().into_deserializer()).map_err(|e| self.toml_error(&e, value.span()))
     }
 
     /// The whole document as a `T` that has no schema: what the program itself wrote.
@@ -114,7 +116,7 @@ impl Document {
     /// # Errors
     /// A syntax error, or every fault at its own place.
     pub fn validate(&self, schema: &serde_json::Value) -> Result<(), SettingsError> {
-        self.refuse(faults(schema, self.parsed()?))
+        self.refuse_parted(faults(schema, self.parsed()?))
     }
 
     /// Whether something was taken away under the key at its top: what seems to be missing there may be written.
@@ -149,7 +151,7 @@ impl Document {
             line: before.matches('\n').count() + 1,
             column: text[line_start..start].chars().count() + 1,
             with: Vec::new(),
-            about: None,
+            about: Box::default(),
             message: message.into(),
             excerpt: printable(text[line_start..].lines().next().unwrap_or_default().trim_end()).into(),
         }
@@ -177,7 +179,15 @@ impl Document {
     fn refuse(&self, found: Vec<Fault>) -> Result<(), SettingsError> {
         let mut all = Faults::default();
         for fault in found {
-            // What a part lacks may stand in the whole.
+            all.add(self.error(fault.span, fault.message));
+        }
+        all.done()
+    }
+
+    /// The same of the whole document: what seems to be lacking where a part was taken away may be written.
+    fn refuse_parted(&self, found: Vec<Fault>) -> Result<(), SettingsError> {
+        let mut all = Faults::default();
+        for fault in found {
             let lacks = fault.lacks.filter(|_| !self.parted.is_empty());
             let error = self.error(fault.span, fault.message);
             all.add(lacks.into_iter().fold(error, |error, key| error.about(&key)));
@@ -223,15 +233,19 @@ pub(super) fn span_of(value: &Spanned<DeValue<'_>>, path: &str) -> Range<usize> 
 pub(super) fn part_of<'a, 't>(value: &'a Spanned<DeValue<'t>>, path: &str) -> &'a Spanned<DeValue<'t>> {
     let mut found = value;
     for step in path.split('.') {
-        let next = match found.get_ref() {
-            DeValue::Table(table) => table.get(step),
-            DeValue::Array(array) => step.parse::<usize>().ok().and_then(|index| array.get(index)),
-            _ => None,
-        };
-        match next {
+        match inner(found, step) {
             Some(next) => found = next,
             None => break,
         }
     }
     found
+}
+
+/// The value under the key, or the element of the number, that `step` is inside `value`.
+pub(super) fn inner<'a, 't>(value: &'a Spanned<DeValue<'t>>, step: &str) -> Option<&'a Spanned<DeValue<'t>>> {
+    match value.get_ref() {
+        DeValue::Table(table) => table.get(step),
+        DeValue::Array(array) => step.parse::<usize>().ok().and_then(|index| array.get(index)),
+        _ => None,
+    }
 }

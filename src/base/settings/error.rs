@@ -1,7 +1,7 @@
 //! What is wrong with a document: one fault, or all of a file at once.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What is wrong with a document or a table in it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -25,8 +25,8 @@ pub enum SettingsError {
         column: usize,
         /// What was laid over what stands there: readings, sweeps.
         with: Vec<String>,
-        /// The name that was looked up, if it was not found.
-        about: Option<Box<str>>,
+        /// The names that were looked up, if it was not found.
+        about: Box<[Box<str>]>,
         /// What was found and what is accepted.
         message: String,
         /// The line itself.
@@ -98,14 +98,24 @@ impl SettingsError {
         self
     }
 
-    /// The same, as a fault of the name `word`, which was looked up and not found. Where what bears the name could not be
-    /// read ([`Faults::unread`]), nothing is said of it.
+    /// The same, as a fault of the name `word`, which was looked up and not found. Where something of the name could not be
+    /// read ([`Faults::unread`]), nothing is said of it. A fault may be of several names.
     #[must_use]
     pub fn about(mut self, word: &str) -> Self {
         if let Self::At { about, .. } = &mut self {
-            *about = Some(word.into());
+            let known = std::mem::take(about).into_vec();
+            *about = known.into_iter().chain([word.into()]).collect();
         }
         self
+    }
+
+    /// Whether it is told at a place in `path`, or at no place.
+    pub fn is_in(&self, path: &Path) -> bool {
+        match self {
+            Self::Unreadable { path: own, .. } | Self::At { path: own, .. } => own == path,
+            Self::Composed { .. } => true,
+            Self::Several(errors) => errors.iter().all(|error| error.is_in(path)),
+        }
     }
 
     /// Each fault by itself.
@@ -178,10 +188,32 @@ impl Faults {
         result.map_err(|error| self.add(error)).ok()
     }
 
+    /// The values that there are, in order; what is wrong with the others is added.
+    pub fn keep_each<T>(&mut self, results: impl IntoIterator<Item = Result<T, SettingsError>>) -> Vec<T> {
+        results.into_iter().filter_map(|result| self.keep(result)).collect()
+    }
+
+    /// The value, unless something is wrong.
+    ///
+    /// # Errors
+    /// All that is wrong, as [`error`](Self::error).
+    ///
+    /// # Panics
+    /// If there is no value and nothing was added that says why.
+    pub fn or<T>(self, value: Option<T>) -> Result<T, SettingsError> {
+        self.done()?;
+        Ok(value.expect("what is missing was told as a fault"))
+    }
+
     /// Says that something called `name` is there but could not be read, for a reason that was added: that the name is not
     /// found elsewhere is no fault then.
     pub fn unread(&mut self, name: impl Into<String>) {
         self.unread.insert(name.into());
+    }
+
+    /// Whether something is wrong in the file at `path`.
+    pub fn are_in(&self, path: &Path) -> bool {
+        self.found.iter().any(|fault| fault.place().1.is_some_and(|own| own == path))
     }
 
     /// Whether nothing is wrong so far.
@@ -192,7 +224,7 @@ impl Faults {
     /// All that is wrong, in the order of the places; only for who has added a fault.
     pub fn error(mut self) -> SettingsError {
         let is_told = |fault: &SettingsError| match fault {
-            SettingsError::At { about: Some(name), .. } => !self.unread.contains(&**name),
+            SettingsError::At { about, .. } => !about.iter().any(|name| self.unread.contains(&**name)),
             _ => true,
         };
         self.found.retain(is_told);

@@ -23,7 +23,7 @@ pub use error::{Faults, SettingsError};
 pub use nearest::{did_you_mean, none_called};
 
 pub use spanned::{AnyTable, AnyValue, Spanned};
-pub use table::Settings;
+pub use table::{Place, Settings};
 
 #[cfg(test)]
 mod tests;

@@ -1,14 +1,17 @@
 //! What is left of a document without what its schema does not accept: so that one mistake hides no other.
 
+use super::document::parse;
 use super::schema::Node;
 use super::validate::faults;
-use super::{Document, Faults};
+use super::{Document, Faults, Settings};
+use serde::Deserialize as _;
+use serde::de::IntoDeserializer as _;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
-use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
+use toml::{Spanned, Table};
 
 /// Rounds after which a document is given up: what is taken away may leave something else without a key that it needs.
 const ROUNDS: usize = 20;
@@ -29,6 +32,18 @@ impl Document {
             faults.unread(name);
         }
         salvaged
+    }
+}
+
+impl Settings {
+    /// These settings with what `schema` does not accept taken away and what it requires filled in, so that what they name can be
+    /// looked at; no file holds them. None if that makes nothing that is accepted.
+    pub fn salvaged(&self, schema: &Value) -> Option<Self> {
+        let text = toml::to_string(self.table()).ok()?;
+        let mut value = parse(&text).ok()?;
+        salvage(schema, &mut value, &mut Vec::new());
+        let table = Table::deserialize(value.clone().into_deserializer()).ok()?;
+        faults(schema, &value).is_empty().then(|| Self::composed("what is left of wrong settings", table))
     }
 }
 

@@ -1,10 +1,11 @@
 //! A table of settings on its way from the spec to the entry that understands it.
 
-use super::document::{in_words, parse, part_of, span_of};
+use super::document::{in_words, inner, parse, part_of, span_of};
 use super::validate::faults;
 use super::{Accepted, Document, Faults, SettingsError, Spanned, schema_of};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer as _};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use toml::Table;
@@ -25,10 +26,107 @@ enum Origin {
     Written { document: Arc<Document>, span: Range<usize> },
     /// No table was written; faults stand at what names the entry.
     Absent { document: Arc<Document>, span: Range<usize>, whose: String },
-    /// Another table was laid over settings, on behalf of `by`.
-    Overlaid { under: Box<Settings>, by: String },
+    /// Another table was laid over settings.
+    Overlaid { under: Box<Settings>, over: Layer },
+    /// It was put together from parts of other settings, which lie under these keys there.
+    Parts { whole: Box<Settings>, keys: Vec<String>, whose: String },
     /// The program put it together.
     Composed(String),
+}
+
+/// A table that is laid over settings.
+#[derive(Debug, Clone, PartialEq)]
+struct Layer {
+    /// On whose behalf.
+    by: String,
+    /// Its keys.
+    keys: BTreeSet<String>,
+    /// Where it stands, if a file holds it.
+    place: Option<Place>,
+}
+
+/// Where a table stands: its document, and the keys and numbers of elements from 0 that lead to it.
+#[derive(Debug, Clone)]
+pub struct Place {
+    /// The document.
+    pub document: Arc<Document>,
+    /// The way to the table.
+    pub steps: Vec<String>,
+}
+
+/// Equal tables say the same wherever they stand.
+impl PartialEq for Place {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Place {
+    /// The table inside this one that `steps` lead to.
+    #[must_use]
+    pub fn inside(&self, steps: &[&str]) -> Self {
+        let mut inside = self.clone();
+        inside.steps.extend(steps.iter().map(|step| (*step).to_owned()));
+        inside
+    }
+
+    fn table(&self) -> Option<&Written<'_>> {
+        let whole = self.document.parsed().ok()?;
+        self.steps.iter().try_fold(whole, |value, step| inner(value, step))
+    }
+}
+
+/// What an error about settings is told at.
+#[derive(Clone, Copy)]
+enum Sought<'a> {
+    /// The value that a path leads to.
+    Value(&'a str),
+    /// The key that a path ends with.
+    Key(&'a str),
+    /// A text: see [`Settings::error_about`].
+    Word { within: &'a str, keys: &'a [&'a str], word: &'a str },
+}
+
+impl Sought<'_> {
+    /// The key of the table that it lies under; empty if it is the table itself or is looked for in all of it.
+    fn first(&self) -> &str {
+        match self {
+            Self::Value(path) | Self::Key(path) => path.split('.').next().unwrap_or_default(),
+            Self::Word { .. } => "",
+        }
+    }
+
+    /// Where it stands in the table, or as near to it as there is anything.
+    fn near(&self, table: &Written<'_>) -> Range<usize> {
+        self.exactly(table).unwrap_or_else(|| match self {
+            Self::Value(path) | Self::Key(path) => span_of(table, path),
+            Self::Word { within, word, .. } => {
+                let part = part_of(table, within);
+                let found = text(part, "", &[""], word).or_else(|| text(table, "", &[""], word));
+                found.unwrap_or_else(|| part.span())
+            }
+        })
+    }
+
+    /// Where it stands in the table, if it does.
+    fn exactly(&self, table: &Written<'_>) -> Option<Range<usize>> {
+        match self {
+            Self::Value(path) => {
+                inner(table, self.first()).filter(|_| !path.is_empty()).map(|_| span_of(table, path))
+            }
+            Self::Key(path) => {
+                let (before, key) = path.rsplit_once('.').unwrap_or(("", path));
+                let mut holder = before.split('.').filter(|step| !step.is_empty());
+                let holder = holder.try_fold(table, |value, step| inner(value, step))?;
+                let mut keys = holder.get_ref().as_table()?.iter().map(|(key, _)| key);
+                keys.find(|found| found.get_ref() == key).map(toml::Spanned::span)
+            }
+            Self::Word { within, keys, word } => {
+                let part = part_of(table, within);
+                text(part, "", keys, word).or_else(|| text(table, "", keys, word))
+            }
+        }
+    }
 }
 
 impl Settings {
@@ -54,15 +152,30 @@ impl Settings {
         &self.table
     }
 
-    /// These settings with the keys of `over` laid on top, on behalf of `origin`.
+    /// Settings that `whose` puts together from parts of `whole`, which lie there under `keys`: what is wrong is told at the first of
+    /// them that has it.
+    pub fn of_parts(whole: &Self, keys: &[&str], whose: impl Into<String>, table: Table) -> Self {
+        let keys = keys.iter().map(|key| (*key).to_owned()).collect();
+        let origin = Origin::Parts { whole: Box::new(whole.clone()), keys, whose: whose.into() };
+        Self { table, origin, filled: Vec::new() }
+    }
+
+    /// These settings with the keys of `over` laid on top, on behalf of `by`.
     #[must_use]
-    pub fn overlaid(&self, over: &Table, origin: &str) -> Self {
+    pub fn overlaid(&self, over: &Table, by: &str) -> Self {
+        self.overlaid_from(over, by, None)
+    }
+
+    /// The same with a table that stands at `place`: what is wrong with its values is told there.
+    #[must_use]
+    pub fn overlaid_from(&self, over: &Table, by: &str, place: Option<Place>) -> Self {
         if over.iter().all(|(key, value)| self.table.get(key) == Some(value)) {
             return self.clone();
         }
         let mut table = self.table.clone();
         table.extend(over.iter().map(|(key, value)| (key.clone(), value.clone())));
-        let origin = Origin::Overlaid { under: Box::new(self.clone()), by: origin.to_owned() };
+        let over = Layer { by: by.to_owned(), keys: over.keys().cloned().collect(), place };
+        let origin = Origin::Overlaid { under: Box::new(self.clone()), over };
         Self { table, origin, filled: self.filled.clone() }
     }
 
@@ -108,8 +221,10 @@ impl Settings {
         let value = parse(&text).map_err(|e| self.error(in_words(e.message())))?;
         let mut all = Faults::default();
         for fault in faults(&schema_of::<T>(), &value) {
-            let error = self.error_at(&path_to(&value, &fault.span), fault.message);
-            all.add(fault.lacks.into_iter().fold(error, |error, key| error.about(&key)));
+            let (path, is_key) = path_to(&value, &fault.span);
+            let path = path.trim_end_matches('.');
+            let sought = if is_key { Sought::Key(path) } else { Sought::Value(path) };
+            all.add(self.placed(fault.message, sought));
         }
         all.done()?;
         T::deserialize(value.into_deserializer()).map_err(|e| self.error(in_words(e.message())))
@@ -123,7 +238,7 @@ impl Settings {
     /// An error about the value that `path` leads to: keys and numbers of elements from 0, as in `panels.0.claim`.
     /// The place is that of the innermost value on the way that the settings have.
     pub fn error_at(&self, path: &str, message: impl Into<String>) -> SettingsError {
-        self.placed(message.into(), &|table| span_of(table, path))
+        self.placed(message.into(), Sought::Value(path))
     }
 
     /// An error about `word`, a name that these settings give: at the first text that is it inside the value that `within`
@@ -135,49 +250,91 @@ impl Settings {
         word: &str,
         message: impl Into<String>,
     ) -> SettingsError {
-        self.placed(message.into(), &|table| {
-            let part = part_of(table, within);
-            let found = text(part, "", keys, word).or_else(|| text(table, "", keys, word));
-            let found = found.or_else(|| text(part, "", &[""], word));
-            found.or_else(|| text(table, "", &[""], word)).unwrap_or_else(|| part.span())
-        })
-        .about(word)
+        self.placed(message.into(), Sought::Word { within, keys, word }).about(word)
     }
 
-    /// An error at the span that `at` finds in the table as it is written.
-    fn placed(&self, message: String, at: &dyn Fn(&Written<'_>) -> Range<usize>) -> SettingsError {
+    /// An error at the place of `sought`: in the uppermost table that holds it, and where none does, in the lowest.
+    fn placed(&self, message: String, sought: Sought<'_>) -> SettingsError {
         match &self.origin {
             Origin::Written { document, span } => {
-                let value = document.parsed().ok().and_then(|whole| find(whole, span));
-                document.error(value.map_or_else(|| span.clone(), at), message)
+                let table = document.parsed().ok().and_then(|whole| find(whole, span));
+                document.error(table.map_or_else(|| span.clone(), |table| sought.near(table)), message)
             }
             Origin::Absent { document, span, whose } => {
-                document.error(span.clone(), format!("{whose}: {message}"))
+                // That the table itself could not be read was said already.
+                document.error(span.clone(), format!("{whose}: {message}")).about("settings")
             }
-            Origin::Overlaid { under, by } => under.placed(message, at).under(by),
+            Origin::Overlaid { under, over } => match over.place.as_ref() {
+                Some(place) if let Some(span) = place.table().and_then(|table| sought.exactly(table)) => {
+                    place.document.error(span, message)
+                }
+                None if over.keys.contains(sought.first()) => under.lowest(message, sought).under(&over.by),
+                _ => under.placed(message, sought).under(&over.by),
+            },
+            Origin::Parts { whole, keys, whose } => {
+                let message = format!("{whose}: {message}");
+                let (Sought::Value(path) | Sought::Key(path)) = sought else {
+                    return whole.placed(message, sought);
+                };
+                let holds = |key: &&String| part_in(&whole.table, key, sought.first());
+                let key = keys.iter().find(holds).or(keys.first()).map_or("", String::as_str);
+                let path = if key.is_empty() { path.to_owned() } else { format!("{key}.{path}") };
+                let is_key = matches!(sought, Sought::Key(_));
+                whole.placed(message, if is_key { Sought::Key(&path) } else { Sought::Value(&path) })
+            }
             Origin::Composed(origin) => SettingsError::Composed { origin: origin.clone(), message },
         }
     }
+
+    /// The same in the lowest table.
+    fn lowest(&self, message: String, sought: Sought<'_>) -> SettingsError {
+        match &self.origin {
+            Origin::Overlaid { under, over } => under.lowest(message, sought).under(&over.by),
+            _ => self.placed(message, sought),
+        }
+    }
+}
+
+/// Whether the table that `path` leads to in `table`, itself if it is empty, has `key`.
+fn part_in(table: &Table, path: &str, key: &str) -> bool {
+    if path.is_empty() {
+        return table.contains_key(key);
+    }
+    let mut steps = path.split('.');
+    let first = steps.next().and_then(|step| table.get(step));
+    let value = steps.fold(first, |value, step| match value? {
+        toml::Value::Array(elements) => elements.get(step.parse::<usize>().ok()?),
+        value => value.get(step),
+    });
+    value.is_some_and(|value| value.get(key).is_some())
 }
 
 /// A value as a document has it.
 type Written<'t> = toml::Spanned<DeValue<'t>>;
 
-/// The keys and numbers of elements that lead to the innermost value around `span`.
-fn path_to(value: &Written<'_>, span: &Range<usize>) -> String {
+/// The keys and numbers of elements that lead to the innermost value around `span`, and whether it is its key that stands there.
+fn path_to(value: &Written<'_>, span: &Range<usize>) -> (String, bool) {
     let around = |inner: &Range<usize>| inner.start <= span.start && span.end <= inner.end;
     let step = match value.get_ref() {
+        _ if value.span() == *span => None,
         DeValue::Table(table) => table
             .iter()
             .find(|(key, inner)| around(&key.span()) || around(&inner.span()))
-            .map(|(key, inner)| (key.get_ref().to_string(), inner)),
+            .map(|(key, inner)| (key.get_ref().to_string(), inner, key.span() == *span)),
         DeValue::Array(array) => {
             let found = array.iter().enumerate().find(|(_, inner)| around(&inner.span()));
-            found.map(|(index, inner)| (index.to_string(), inner))
+            found.map(|(index, inner)| (index.to_string(), inner, false))
         }
         _ => None,
     };
-    step.map_or_else(String::new, |(step, inner)| format!("{step}.{}", path_to(inner, span)))
+    match step {
+        None => (String::new(), false),
+        Some((step, _, true)) => (step, true),
+        Some((step, inner, false)) => {
+            let (rest, is_key) = path_to(inner, span);
+            (format!("{step}.{rest}"), is_key)
+        }
+    }
 }
 
 /// The table inside `value` that has exactly this span.

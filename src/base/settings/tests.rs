@@ -103,7 +103,7 @@ fn a_key_that_no_overlay_gave_is_at_fault_where_the_table_below_has_it() {
         second_part("[[part]]\nsettings = { weight = 1 }\n[[part]]\nsettings = { wait = 3, weight = 2 }\n");
     let over: Table = toml::from_str("weight = 4").unwrap();
     let error = settings.overlaid(&over, "reading weight").read::<Inner>().unwrap_err();
-    assert_eq!(place(&error), (4, 21), "{error}");
+    assert_eq!(place(&error), (4, 14), "{error}");
 }
 
 #[test]

@@ -9,10 +9,10 @@ use crate::render::RenderError;
 use crate::render::chart::Panel;
 use crate::render::chart::marks::Points;
 use crate::render::style::{Marker, Rgb};
-use crate::study::Study;
 use crate::study::key::{DrawKey, Owner, SweepKey};
 use crate::study::paper::Paper;
 use crate::study::record::Row;
+use crate::study::{Study, labels_of};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 use engine::planner::Exhibit;
 use std::sync::Arc;
@@ -29,7 +29,8 @@ pub(super) fn known<'a>(
         if !known.contains(&label.as_str()) {
             let hint = did_you_mean(label, known.iter().copied());
             let message = format!("no {what} is called `{label}`{hint}; they are {}", known.join(", "));
-            faults.add(settings.error_about("", keys, label, message));
+            let labels = labels_of(&study.name);
+            faults.add(settings.error_about("", keys, label, message).about(&labels));
         }
     };
     let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
@@ -38,6 +39,18 @@ pub(super) fn known<'a>(
     let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
     problems.into_iter().for_each(|label| check("problem group", &["problem"], label, &known));
     faults.done()
+}
+
+/// Refuses a query that no problem of the group `problems` of `study` has, which the settings name as `word` under one of `keys`.
+pub(super) fn query(
+    settings: &Settings,
+    study: &Study,
+    problems: &str,
+    name: &str,
+    (keys, word): (&[&str], &str),
+) -> Result<(), SettingsError> {
+    let Some(missing) = study.lacks_query(&[problems], name) else { return Ok(()) };
+    Err(settings.error_about("", keys, word, missing))
 }
 
 /// The metric called `name`.

@@ -7,7 +7,7 @@ use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
 use crate::study::key::SweepKey;
 use crate::study::record::Row;
-use base::settings::Accepted;
+use base::settings::{Accepted, Faults};
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -25,11 +25,15 @@ sweep = "delta_deg=10.0"
 "#,
     build: |settings, study, _paper| {
         let read: Read = settings.read()?;
+        let mut faults = Faults::default();
         for panel in &read.panels {
-            ask::known(settings, study, [&panel.problem], &panel.contenders)?;
+            faults.keep(ask::known(settings, study, [&panel.problem], &panel.contenders));
+            if let Some(query) = &read.query {
+                faults.keep(ask::query(settings, study, &panel.problem, query, (&["query"], query)));
+            }
         }
-        let sweep = read.sweep.as_ref().map(|text| ask::sweep(settings, study, text)).transpose()?;
-        Ok(Box::new(MotionCurves { read, sweep }))
+        let sweep = read.sweep.as_ref().and_then(|text| faults.keep(ask::sweep(settings, study, text)));
+        Ok(Box::new(faults.or(Some(MotionCurves { read, sweep }))?))
     },
 };
 

@@ -11,7 +11,7 @@ use crate::render::style::{
 };
 use crate::study::key::{DrawKey, SweepKey};
 use crate::study::record::{Row, Status};
-use base::settings::Accepted;
+use base::settings::{Accepted, Faults};
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -31,14 +31,18 @@ views = ["corner"]
 "#,
     build: |settings, study, _paper| {
         let read: Read = settings.read()?;
-        ask::known(settings, study, [&read.problem], &read.contenders)?;
+        let mut faults = Faults::default();
+        faults.keep(ask::known(settings, study, [&read.problem], &read.contenders));
+        if let Some(query) = &read.query {
+            faults.keep(ask::query(settings, study, &read.problem, query, (&["query"], query)));
+        }
         for (key, count) in [("contenders", read.contenders.len()), ("views", read.views.len())] {
             if count == 0 {
-                return Err(settings.error_at(key, format!("{key} is empty; at least one is accepted")));
+                faults.add(settings.error_at(key, format!("{key} is empty; at least one is accepted")));
             }
         }
-        let sweep = read.sweep.as_ref().map(|text| ask::sweep(settings, study, text)).transpose()?;
-        Ok(Box::new(Polyhedra { read, sweep }))
+        let sweep = read.sweep.as_ref().and_then(|text| faults.keep(ask::sweep(settings, study, text)));
+        Ok(Box::new(faults.or(Some(Polyhedra { read, sweep }))?))
     },
 };
 

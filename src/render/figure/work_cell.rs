@@ -10,8 +10,9 @@ use crate::render::chart::{Key, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{Dash, GREY, Rgb, Stroke, WHITE, Width, YELLOW, series_color};
+use crate::study::Study;
 use crate::study::key::DrawKey;
-use base::settings::Accepted;
+use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -34,6 +35,7 @@ at_once = 3
         if read.poses.is_empty() == read.contenders.is_empty() {
             return Err(settings.error("either poses or contenders are accepted"));
         }
+        read.check_queries(settings, study)?;
         Ok(Box::new(read))
     },
 };
@@ -141,6 +143,26 @@ fn panel(title: &str, scene: Solids, camera: Camera, keys: Vec<Key>) -> Panel {
 }
 
 impl WorkCell {
+    /// Refuses poses and ways of queries that are not there.
+    fn check_queries(&self, settings: &Settings, study: &Study) -> Result<(), SettingsError> {
+        let mut faults = Faults::default();
+        for (index, [pose, _]) in self.poses.iter().enumerate() {
+            let end = pose.rsplit_once('/').filter(|(_, end)| ["start", "goal"].contains(end));
+            let known = if let Some((query, _)) = end {
+                ask::query(settings, study, &self.problems, query, (&["poses"], pose))
+            } else {
+                let message =
+                    format!("`{pose}` is no end of a query; one is accepted, as in `1/start` or `1/goal`");
+                Err(settings.error_at(&format!("poses.{index}.0"), message))
+            };
+            faults.keep(known);
+        }
+        if !self.contenders.is_empty() {
+            faults.keep(ask::query(settings, study, &self.problems, &self.query, (&["query"], &self.query)));
+        }
+        faults.done()
+    }
+
     /// The robot at its poses.
     fn poses(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let draw = ask::draw(scene, &self.problems, 0)?;

@@ -7,9 +7,10 @@ use super::super::inputs::Inputs;
 use super::super::name;
 use super::super::spec::StudySpec;
 use super::sizes::SWEPT;
-use super::{Contender, Group, ReadingChoice, Study, SweepPoint};
+use super::{Contender, Group, ReadingChoice, Study, SweepPoint, labels_of};
 use base::settings::{Document, Faults, SettingsError, did_you_mean, none_called};
 use engine::planner;
+use engine::space::WorldKind;
 use engine::space::roadmap::Extent;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -40,6 +41,15 @@ impl Study {
             }
             let families = self.check_ends(&points[0], inputs, &mut known, faults)?;
             self.check_sizes(&families, faults);
+            let queries =
+                |family: &dyn Family| family.queries().iter().map(|query| query.name.clone()).collect();
+            let named: Vec<(usize, Vec<String>)> =
+                families.iter().map(|(group, family)| (group.place, queries(family.as_ref()))).collect();
+            drop(families);
+            for group in &mut self.groups {
+                let own = named.iter().find(|(place, _)| *place == group.place);
+                group.queries = own.map(|(_, queries)| queries.clone()).unwrap_or_default();
+            }
         }
         Ok(())
     }
@@ -112,7 +122,10 @@ impl Study {
     ) -> Result<(), StudyError> {
         let mut families: Vec<(&Group, Arc<dyn Family>)> = Vec::new();
         for group in &self.groups {
-            families.extend(keep(faults, known.of(group, point, inputs))?.map(|family| (group, family)));
+            match keep(faults, known.of(group, point, inputs))? {
+                Some(family) => families.push((group, family)),
+                None => group.check_files(point, inputs, self.document.path(), faults),
+            }
         }
         let kinds: BTreeSet<_> = families.iter().map(|(_, family)| family.world()).collect();
         for contender in &self.contenders {
@@ -128,20 +141,25 @@ impl Study {
                     faults.add(self.document.error_at(&place, message));
                 }
             }
-            for stage in &contender.stages {
-                if let Some(kind) = kinds.iter().find(|kind| !kind.serves(stage.entry.needs)) {
-                    let message = format!(
-                        "contender `{}` uses `{}`, which needs a {} world; the study's problems are of kind {}",
-                        contender.label,
-                        stage.entry.name,
-                        stage.entry.needs.name(),
-                        kind.name()
-                    );
-                    faults.add(self.document.error(stage.named.clone(), message));
-                }
-            }
+            self.check_needs(contender, &kinds, faults);
         }
         Ok(())
+    }
+
+    /// Refuses stages that need worlds of another kind than the problems are posed in.
+    fn check_needs(&self, contender: &Contender, kinds: &BTreeSet<WorldKind>, faults: &mut Faults) {
+        for stage in &contender.stages {
+            if let Some(kind) = kinds.iter().find(|kind| !kind.serves(stage.entry.needs)) {
+                let message = format!(
+                    "contender `{}` uses `{}`, which needs a {} world; the study's problems are of kind {}",
+                    contender.label,
+                    stage.entry.name,
+                    stage.entry.needs.name(),
+                    kind.name()
+                );
+                faults.add(self.document.error(stage.named.clone(), message));
+            }
+        }
     }
 
     /// Refuses sweeps that no record could name or that change nothing, and leaves out the former.
@@ -221,14 +239,14 @@ fn check_extent(
 }
 
 /// Trials that figures show or that are kept are of problem groups and contenders that there are.
-pub(super) fn check_selections(spec: &StudySpec, document: &Document, faults: &mut Faults) {
+pub(super) fn check_selections(spec: &StudySpec, document: &Document, study: &str, faults: &mut Faults) {
     let groups: Vec<&str> = spec.problems.iter().map(|group| group.label.get_ref().as_str()).collect();
     let contenders: Vec<&str> = spec.contenders.iter().map(|c| c.label.get_ref().as_str()).collect();
     let mut check = |what: &str, known: &[&str], name: &str, place: String| {
         if !known.contains(&name) {
             let hint = did_you_mean(name, known.iter().copied());
             let message = format!("no {what} is called `{name}`{hint}; they are {}", known.join(", "));
-            faults.add(document.error_at(&place, message).about(name));
+            faults.add(document.error_at(&place, message).about(name).about(&labels_of(study)));
         }
     };
     let shown = spec.figures.iter().enumerate().flat_map(|(figure, spec)| {

@@ -7,8 +7,8 @@ use super::super::name::slug;
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StudySpec, SweepSpec};
 use super::super::{family, task};
 use super::check::check_selections;
-use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of, each};
-use base::settings::{Document, Faults, SettingsError, Spanned, did_you_mean, none_called};
+use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of, each, labels_of};
+use base::settings::{Document, Faults, Place, SettingsError, Spanned, did_you_mean, none_called};
 use engine::planner::{self, Build};
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -53,8 +53,8 @@ impl Study {
 
     /// The study as far as its names exist; what does not goes to `faults`.
     fn resolve(name: String, spec: StudySpec, document: &Arc<Document>, faults: &mut Faults) -> Self {
-        check_labels(&spec, document, faults);
-        check_selections(&spec, document, faults);
+        check_labels(&spec, document, &name, faults);
+        check_selections(&spec, document, &name, faults);
         let named = spec
             .task
             .as_ref()
@@ -82,7 +82,7 @@ impl Study {
             ),
             name,
             sweeps: spec.sweeps.into_iter().map(sweep).collect(),
-            readings: spec.readings.into_iter().map(reading).collect(),
+            readings: readings(spec.readings, document),
             explore: spec.explore,
             budget: spec.budget,
             timing: spec.timing,
@@ -116,7 +116,13 @@ fn read_all<S, T>(
 }
 
 /// Labels are told apart in the names of trials.
-fn check_labels(spec: &StudySpec, document: &Document, faults: &mut Faults) {
+fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut Faults) {
+    let mut labels = spec.problems.iter().map(|p| &p.label).chain(spec.contenders.iter().map(|c| &c.label));
+    let is_nameless = labels.any(|label| slug(label.get_ref()).is_empty());
+    if is_nameless || document.is_part("problems") || document.is_part("contender") {
+        faults.unread(labels_of(study));
+        faults.unread(columns_of(study));
+    }
     unique(document, "problem group", spec.problems.iter().map(|p| &p.label), faults);
     unique(document, "contender", spec.contenders.iter().map(|c| &c.label), faults);
     unique(document, "reading", spec.readings.iter().map(|r| &r.id), faults);
@@ -167,8 +173,17 @@ fn sweep(spec: SweepSpec) -> Sweep {
     Sweep { key: spec.key.into_inner(), of: spec.of.into_inner(), values: spec.values.into_inner() }
 }
 
-fn reading(spec: ReadingSpec) -> Reading {
+fn readings(specs: Vec<ReadingSpec>, document: &Arc<Document>) -> Vec<Reading> {
+    let place = |index: usize| {
+        let steps = ["reading", &index.to_string(), "option"].map(str::to_owned).to_vec();
+        Place { document: document.clone(), steps }
+    };
+    specs.into_iter().enumerate().map(|(index, spec)| reading(spec, place(index))).collect()
+}
+
+fn reading(spec: ReadingSpec, place: Place) -> Reading {
     Reading {
+        place: Some(place),
         id: spec.id.into_inner(),
         why: spec.why,
         default: spec.default.into_inner(),
@@ -200,6 +215,7 @@ fn group(document: &Arc<Document>, spec: &ProblemsSpec) -> Result<Group, Setting
         draw: spec.draw.clone(),
         is_numbered: replicates > 1,
         settings: settings.completed(family.settings),
+        queries: Vec::new(),
     })
 }
 

@@ -78,39 +78,50 @@ struct ArmWorkspace {
 
 impl ArmWorkspace {
     fn posed(&self, settings: &Settings) -> Result<Posed, SettingsError> {
-        let refuse = |key: &'static str| move |message: String| settings.error_at(key, message);
+        let mut faults = Faults::default();
         if !(self.inner_radius_cm.is_finite() && self.inner_radius_cm >= 0.0) {
             let message = format!("inner_radius_cm is {}; 0 or more is accepted", self.inner_radius_cm);
-            return Err(refuse("inner_radius_cm")(message));
+            faults.add(settings.error_at("inner_radius_cm", message));
         }
+        let arm = Planar2r::new(self.links_cm[0], self.links_cm[1])
+            .map_err(|error| settings.error_at("links_cm", format!("links_cm: {error}")));
+        let lattice = TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
+            .map_err(|(key, message)| settings.error_at(key, message));
+        let (arm, lattice) = (faults.keep(arm), faults.keep(lattice));
+        let queries = faults.keep(self.queries(settings));
+        let obstacles =
+            faults.keep(self.obstacles().map_err(|(key, message)| settings.error_at(&key, message)));
+        let (((arm, lattice), queries), obstacles) =
+            faults.or(arm.zip(lattice).zip(queries).zip(obstacles))?;
         let rules = ArmRules {
-            arm: Planar2r::new(self.links_cm[0], self.links_cm[1])
-                .map_err(|e| refuse("links_cm")(format!("links_cm: {e}")))?,
+            arm,
             elbow: self.elbow.into(),
-            lattice: TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
-                .map_err(|(key, message)| refuse(key)(message))?,
+            lattice,
             inner_radius_cm: self.inner_radius_cm,
             touch: self.touching.into(),
             corner_rule: self.corner_rule.into(),
             hop: self.hop_check.into(),
         };
-        let queries = match (self.start_cm, self.goal_cm) {
+        let world = ArmWorld::new(rules, obstacles.clone());
+        check_ends(&world, &queries, settings)?;
+        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
+    }
+
+    /// The query from the start to the goal; none where the study looks for both.
+    fn queries(&self, settings: &Settings) -> Result<Vec<Query>, SettingsError> {
+        match (self.start_cm, self.goal_cm) {
             (Some(start), Some(goal)) => {
-                vec![Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() }]
+                Ok(vec![Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() }])
             }
-            (None, None) => Vec::new(),
+            (None, None) => Ok(Vec::new()),
             (start, _) => {
                 let (given, missing) =
                     if start.is_some() { ("start_cm", "goal_cm") } else { ("goal_cm", "start_cm") };
                 let message =
                     format!("{missing} is missing; start and goal are given together or not at all");
-                return Err(refuse(given)(message));
+                Err(settings.error_at(given, message))
             }
-        };
-        let obstacles = self.obstacles().map_err(|(key, message)| settings.error_at(&key, message))?;
-        let world = ArmWorld::new(rules, obstacles.clone());
-        check_ends(&world, &queries, settings)?;
-        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
+        }
     }
 
     /// The obstacles, or the key at fault and what is wrong.

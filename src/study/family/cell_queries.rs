@@ -2,6 +2,7 @@
 
 mod picture;
 
+use super::input::{input, load_robot};
 use super::{Entry, Family, Query, Stance};
 use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::ARM_COLUMNS;
@@ -12,14 +13,14 @@ use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, Joints, Robot};
 use engine::planner::Invalid;
 use engine::space::WorldKind;
-use engine::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Scene, SpeedRule};
+use engine::space::cell::{self, Cell, EdgeEnd, LineRules, Lines, Scene, SpeedRule};
 use engine::space::roadmap::{Counted, Extent, Local, Sample};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -67,6 +68,7 @@ struct CellQueries {
     /// Whether the arm must not touch itself.
     self_collision: bool,
     /// Instead of the robot file's tool.
+    #[schemars(range(min = 0))]
     tool_mm: Option<f64>,
     /// The file with the groups of poses that are started from and planned to.
     queries: String,
@@ -155,11 +157,20 @@ struct SpeedSetting {
 }
 
 impl CellQueries {
+    /// The robot in `file`, with the tool that is asked for.
+    fn robot(&self, settings: &Settings, file: &Path) -> Result<Robot, SettingsError> {
+        let robot = load_robot(settings, file)?;
+        let Some(tool_mm) = self.tool_mm else { return Ok(robot) };
+        robot
+            .with_tool_length(tool_mm * 1e-3)
+            .map_err(|error| settings.error_at("tool_mm", format!("tool_mm: {error}")))
+    }
+
     fn rules(&self) -> LineRules {
         LineRules {
             path: match self.path {
-                PathSetting::Tool => Path::Tool,
-                PathSetting::Joints => Path::Joints,
+                PathSetting::Tool => cell::Path::Tool,
+                PathSetting::Joints => cell::Path::Joints,
             },
             step_m: self.step_mm * 1e-3,
             step_rad: self.step_deg.to_radians(),
@@ -208,28 +219,32 @@ type Placed = (Vec<Query>, Vec<[Range<usize>; 2]>);
 
 fn read_queries(document: &Document) -> Result<Placed, SettingsError> {
     let file: GroupsFile = document.read()?;
-    let pose = |name: &Spanned<String>| {
+    let mut faults = Faults::default();
+    let mut pose = |name: &Spanned<String>| {
         let found = file.pose_deg.get(name.get_ref()).ok_or_else(|| {
             let known = file.pose_deg.keys().cloned().collect::<Vec<_>>().join(", ");
             document
                 .error(name.span(), format!("there is no pose `{}`; the poses are {known}", name.get_ref()))
-        })?;
+        });
+        let found = faults.keep(found)?;
         if let Some(number) = found.iter().find(|number| !number.is_finite()) {
             let message =
                 format!("pose `{}` has the angle {number}; finite angles are accepted", name.get_ref());
-            return Err(document.error(name.span(), message));
+            faults.add(document.error(name.span(), message));
+            return None;
         }
-        Ok(found.map(f64::to_radians).to_vec())
+        Some(found.map(f64::to_radians).to_vec())
     };
     let query = |group: &GroupEntry| {
-        Ok(Query { name: group.name.clone(), start: pose(&group.from)?, goal: pose(&group.to)? })
+        let (start, goal) = (pose(&group.from), pose(&group.to));
+        Some(Query { name: group.name.clone(), start: start?, goal: goal? })
     };
-    let queries: Vec<Query> = file.groups.iter().map(query).collect::<Result<_, _>>()?;
-    if queries.is_empty() {
-        return Err(document.error_at("group", "there is no group; at least one is accepted"));
+    let queries: Vec<Query> = file.groups.iter().filter_map(query).collect();
+    if file.groups.is_empty() {
+        faults.add(document.error_at("group", "there is no group; at least one is accepted"));
     }
     let places = file.groups.iter().map(|group| [group.from.span(), group.to.span()]).collect();
-    Ok((queries, places))
+    faults.or(Some((queries, places)))
 }
 
 /// That the arm can stand at all ends of queries in `cell`.
@@ -260,20 +275,18 @@ struct Posed {
 impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
-        let locate =
-            |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
-        let files =
-            [locate("robot", &read.robot)?, locate("scene", &read.scene)?, locate("queries", &read.queries)?];
-        let robot = Robot::load(&files[0]).map_err(|e| settings.error_at("robot", e.to_string()))?;
-        let robot = match read.tool_mm {
-            Some(tool_mm) => robot
-                .with_tool_length(tool_mm * 1e-3)
-                .map_err(|e| settings.error_at("tool_mm", format!("tool_mm: {e}")))?,
-            None => robot,
-        };
-        let scene = Scene::load(&files[1])?;
-        let document = Document::open(&files[2])?;
-        let placed = read_queries(&document)?;
+        let mut faults = Faults::default();
+        let robot =
+            faults.keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, file)));
+        let scene = faults.keep(input(settings, inputs, "scene", &read.scene, Scene::load));
+        let placed = faults.keep(input(settings, inputs, "queries", &read.queries, |file| {
+            let document = Document::open(file)?;
+            Ok((read_queries(&document)?, document))
+        }));
+        let all = robot.zip(scene).zip(placed);
+        let (((robot_file, robot), (scene_file, scene)), (queries_file, (placed, document))) =
+            faults.or(all)?;
+        let files = [robot_file, scene_file, queries_file];
         let scene = if read.obstacles { scene } else { Scene::empty() };
         let cell = Cell::new(robot, scene, read.self_collision);
         let ends = posed(&cell, &document, &placed);

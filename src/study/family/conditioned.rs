@@ -146,24 +146,25 @@ impl Conditioned {
     }
 
     fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
+        let mut faults = Faults::default();
         for (name, [low, high]) in &self.given {
             if column::find(name).is_none() {
                 let known: Vec<&str> = column::COLUMNS.iter().map(|column| column.name).collect();
                 let message = format!("`given` names the column `{name}`; there are {}", known.join(", "));
-                return Err(settings.error_at(&format!("given.{name}"), message));
+                faults.add(settings.error_at(&format!("given.{name}"), message));
             }
             if low.is_nan() || high.is_nan() || low > high {
                 let message = format!("`given.{name}` is [{low}, {high}]; [least, greatest] is accepted");
-                return Err(settings.error_at(&format!("given.{name}"), message));
+                faults.add(settings.error_at(&format!("given.{name}"), message));
             }
         }
         if self.of.is_empty() {
-            return Err(settings.error_at("of", "of is empty; at least one family is accepted"));
+            faults.add(settings.error_at("of", "of is empty; at least one family is accepted"));
         }
         if self.tries == 0 {
-            return Err(settings.error_at("tries", "tries is 0; at least 1 is accepted"));
+            faults.add(settings.error_at("tries", "tries is 0; at least 1 is accepted"));
         }
-        Ok(())
+        faults.done()
     }
 
     fn families(&self, settings: &Settings, inputs: &Inputs) -> Result<Vec<Box<dyn Family>>, StudyError> {
@@ -177,9 +178,9 @@ impl Conditioned {
             let mut table = self.shared.clone();
             table.extend(of.settings.clone());
             table.insert("corner_rule".to_owned(), Toml::String(self.corner_rule.clone()));
-            let origin = format!("`of` {}", of.family);
-            let family = (entry.build)(&Settings::composed(&*origin, table), inputs);
-            let family = family.map_err(|error| placed(settings, &origin, error))?;
+            let (whose, own) = (format!("`of` {}", of.family), format!("of.{index}.settings"));
+            let family =
+                (entry.build)(&Settings::of_parts(settings, &[&own, "shared", ""], whose, table), inputs)?;
             if family.world() == WorldKind::Lattice {
                 Ok(family)
             } else {
@@ -193,30 +194,16 @@ impl Conditioned {
     }
 
     fn planner(&self, settings: &Settings) -> Result<Box<dyn Planner>, SettingsError> {
-        let table = Settings::composed(
-            format!("planner_settings of `{}`", self.planner),
-            self.planner_settings.clone(),
-        );
+        let whose = format!("planner `{}`", self.planner);
+        let table = Settings::of_parts(settings, &["planner_settings"], whose, self.planner_settings.clone());
         let entry = planner::find(&self.planner).filter(|entry| entry.needs == WorldKind::Lattice);
         match entry.map(|entry| entry.build) {
-            Some(Build::Planner(build)) => build(&table).map_err(|error| {
-                settings.error_at("planner_settings", format!("planner_settings: {}", error.message()))
-            }),
+            Some(Build::Planner(build)) => build(&table),
             _ => {
                 Err(settings
                     .error_at("planner", format!("there is no planner `{}` for a lattice", self.planner)))
             }
         }
-    }
-}
-
-/// `error` of settings that were put together from `settings`, with their place in the file.
-fn placed(settings: &Settings, origin: &str, error: StudyError) -> StudyError {
-    match error {
-        StudyError::Settings(error @ (SettingsError::Composed { .. } | SettingsError::Several(_))) => {
-            settings.error(format!("{origin}: {}", error.message())).into()
-        }
-        other => other,
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod picture;
 
+use super::input::input;
 use super::{Entry, Family, Query, Stance};
 use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::JOINT_COLUMNS;
@@ -9,7 +10,7 @@ use crate::study::{Inputs, StudyError};
 use base::problem::{Ended, Problem, parse_problem};
 use base::robot::read_urdf;
 use base::seed;
-use base::settings::{Accepted, Document, Settings, SettingsError};
+use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use engine::planner::Invalid;
 use engine::space::roadmap::{Counted, Extent, Local, Sample};
 use engine::space::{JointSpace, WorldKind};
@@ -59,8 +60,10 @@ struct JointQueries {
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
     /// How far the tips of two samples may be apart to be tried as neighbours.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     radius_mm: f64,
     /// How far a joint may move between two configurations that are checked.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     step_deg: f64,
 }
 
@@ -68,25 +71,21 @@ struct Posed {
     read: JointQueries,
     space: JointSpace,
     queries: Vec<Query>,
-    unposed: Option<SettingsError>,
+    ends: Result<(), SettingsError>,
     inputs: Vec<PathBuf>,
 }
 
 impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: JointQueries = settings.read()?;
-        for (key, value) in [("radius_mm", read.radius_mm), ("step_deg", read.step_deg)] {
-            if !(value.is_finite() && value > 0.0) {
-                let message = format!("{key} is {value}; a finite number above 0 is accepted");
-                return Err(settings.error_at(key, message));
-            }
-        }
-        let locate =
-            |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
-        let files = [locate("robot", &read.robot)?, locate("problem", &read.problem)?];
-        let robot = read_urdf(&files[0])?;
-        let document = Document::open(&files[1])?;
-        let problem = parse_problem(&document, read.set.as_deref(), read.index)?;
+        let mut faults = Faults::default();
+        let robot = faults.keep(input(settings, inputs, "robot", &read.robot, read_urdf));
+        let problem = faults.keep(input(settings, inputs, "problem", &read.problem, |file| {
+            let document = Document::open(file)?;
+            Ok((parse_problem(&document, read.set.as_deref(), read.index)?, document))
+        }));
+        let ((robot_file, robot), (problem_file, (problem, document))) = faults.or(robot.zip(problem))?;
+        let files = [robot_file, problem_file];
         let (axes, found) = (robot.joints.len(), problem.start.angles_rad.len());
         if axes != found {
             let message =
@@ -97,10 +96,13 @@ impl Posed {
         let queries = queries(&problem);
         let space =
             JointSpace::new(robot, problem.obstacles, read.self_collision, read.step_deg.to_radians());
-        let mut ends =
+        let ends =
             std::iter::once(("start", &problem.start)).chain(problem.goals.iter().map(|goal| ("goal", goal)));
-        let unposed = ends.find_map(|(what, end)| unposed(&space, &document, what, end));
-        Ok(Self { read, space, queries, unposed, inputs })
+        let mut unposed = Faults::default();
+        for (what, end) in ends {
+            unposed.keep(posed(&space, &document, what, end));
+        }
+        Ok(Self { read, space, queries, ends: unposed.done(), inputs })
     }
 }
 
@@ -116,9 +118,10 @@ fn queries(problem: &Problem) -> Vec<Query> {
     problem.goals.iter().enumerate().map(query).collect()
 }
 
-fn unposed(space: &JointSpace, document: &Document, what: &str, end: &Ended) -> Option<SettingsError> {
-    let refusal = space.refusal(&end.angles_rad)?;
-    Some(document.error(end.at.clone(), format!("the {what} cannot be posed: {refusal}")))
+/// That the robot can stand at `end`.
+fn posed(space: &JointSpace, document: &Document, what: &str, end: &Ended) -> Result<(), SettingsError> {
+    let refused = |refusal| document.error(end.at.clone(), format!("the {what} cannot be posed: {refusal}"));
+    space.refusal(&end.angles_rad).map_or(Ok(()), |refusal| Err(refused(refusal)))
 }
 
 impl Family for Posed {
@@ -160,7 +163,7 @@ impl Family for Posed {
     }
 
     fn check_ends(&self) -> Result<(), SettingsError> {
-        self.unposed.clone().map_or(Ok(()), Err)
+        self.ends.clone()
     }
 
     fn extent(&self) -> Option<Extent> {

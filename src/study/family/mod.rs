@@ -8,6 +8,7 @@ pub(super) mod cell_queries;
 mod conditioned;
 mod entry;
 mod grid_map;
+mod input;
 mod joint_queries;
 mod movingai;
 pub(super) mod plane_queries;

@@ -8,7 +8,7 @@ use super::{Entry, Family, Query};
 use crate::study::StudyError;
 use crate::study::prepared::{Prepared, lattice};
 use base::grid::{Grid2, Scenario, read_movingai_map, read_scenarios};
-use base::settings::Accepted;
+use base::settings::{Accepted, Faults};
 use engine::planner::{Counts, Invalid, Value};
 use engine::space::WorldKind;
 use schemars::JsonSchema;
@@ -40,7 +40,13 @@ corner_rule = "forbid_any"
         let read: MovingAi = settings.read()?;
         let file =
             |key: &str, name: &str| inputs.locate(name).map_err(|message| settings.error_at(key, message));
-        let files = [file("map", &read.map)?, file("scenarios", &read.scenarios)?];
+        let mut faults = Faults::default();
+        let files =
+            [file("map", &read.map), file("scenarios", &read.scenarios)].map(|file| faults.keep(file));
+        let files = faults.or(match files {
+            [Some(map), Some(scenarios)] => Some([map, scenarios]),
+            _ => None,
+        })?;
         let refused =
             |key: &'static str| move |e: base::grid::GridError| settings.error_at(key, e.to_string());
         let grid = read_movingai_map(&files[0]).map_err(refused("map"))?;

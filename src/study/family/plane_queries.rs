@@ -109,11 +109,14 @@ impl MapFile {
             let vertices = corners.iter().map(|corner| Vec2::from(*corner)).collect();
             ConvexPolygon::new(vertices).map_err(|e| document.error(entry.span(), e.to_string()))
         };
+        let mut faults = Faults::default();
         if !self.size_mm.iter().all(|side| side.is_finite() && *side > 0.0) {
             let message = format!("size_mm is {:?}; two lengths above 0 are accepted", self.size_mm);
-            return Err(document.error_at("size_mm", message));
+            faults.add(document.error_at("size_mm", message));
         }
-        Ok(PlaneMap::new(self.size_mm, self.obstacles.iter().map(polygon).collect::<Result<_, _>>()?))
+        let polygons = faults.keep_each(self.obstacles.iter().map(polygon));
+        faults.done()?;
+        Ok(PlaneMap::new(self.size_mm, polygons))
     }
 }
 

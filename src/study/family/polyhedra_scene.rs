@@ -1,6 +1,7 @@
 //! One scene of polyhedra from a file, with written queries, or queries drawn from balls around them; with an arm,
 //! or without.
 
+use super::input::{input, load_robot};
 use super::{Entry, Family, Query, Stance};
 use crate::study::prepared::{Prepared, polyhedra};
 use crate::study::verification::CARRIED_COLUMNS;
@@ -8,7 +9,6 @@ use crate::study::{Inputs, StudyError};
 use base::seed;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::geometry::{Capsule, Vec3};
-use engine::kinematics::Robot;
 use engine::planner::Invalid;
 use engine::space::polyhedra::{CarriedArm, DOWN, PolyhedraError, read_scene};
 use engine::space::roadmap::joints;
@@ -16,7 +16,7 @@ use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -87,41 +87,60 @@ struct Posed {
 
 fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
     let read: SceneSettings = settings.read()?;
-    let refuse = |key: &'static str| move |message: String| settings.error_at(key, message);
-    let file = inputs.locate(&read.scene).map_err(refuse("scene"))?;
-    let scene = read_scene(&file)?;
-    let mut world =
-        PolyhedraWorld::new(scene.bodies, scene.domain, read.step_cm, read.growth_cm).map_err(|e| {
-            let key = match e {
-                PolyhedraError::Step { .. } => "step_cm",
-                PolyhedraError::Growth { .. } => "growth_cm",
-                _ => "scene",
-            };
-            settings.error_at(key, format!("{}: {e}", read.scene))
-        })?;
-    let mut files = vec![file];
-    match (&read.robot, &read.body) {
-        (Some(robot), Some(body)) => {
-            let file = inputs.locate(robot).map_err(refuse("robot"))?;
-            let robot = Robot::load(&file).map_err(|e| settings.error_at("robot", e.to_string()))?;
-            world = world.with_arm(CarriedArm::new(&robot, body).map_err(refuse("body"))?);
-            files.push(file);
-        }
-        (None, None) => {}
-        (robot, _) => {
-            let given = if robot.is_some() { "robot" } else { "body" };
-            return Err(settings.error_at(given, "robot and body are given together or not at all").into());
-        }
-    }
+    let mut faults = Faults::default();
+    let world = faults.keep(input(settings, inputs, "scene", &read.scene, |file| read.world(settings, file)));
+    let arm = faults.keep(read.arm(settings, inputs)).flatten();
     if let Some(radius) = read.scatter_cm
         && !(radius.is_finite() && radius > 0.0)
     {
         let message = format!("scatter_cm is {radius}; more than 0 is accepted");
-        return Err(settings.error_at("scatter_cm", message).into());
+        faults.add(settings.error_at("scatter_cm", message));
+    }
+    let (file, mut world) = faults.or(world)?;
+    let mut files = vec![file];
+    if let Some((file, arm)) = arm {
+        world = world.with_arm(arm);
+        files.push(file);
     }
     let queries: Vec<Query> = read.queries.iter().map(QuerySettings::query).collect();
     check(settings, &world, &queries)?;
     Ok(Posed { world, queries, scatter_cm: read.scatter_cm, inputs: files })
+}
+
+impl SceneSettings {
+    /// The obstacles in `file`.
+    fn world(&self, settings: &Settings, file: &Path) -> Result<PolyhedraWorld, SettingsError> {
+        let scene = read_scene(file)?;
+        PolyhedraWorld::new(scene.bodies, scene.domain, self.step_cm, self.growth_cm).map_err(|error| {
+            let key = match error {
+                PolyhedraError::Step { .. } => "step_cm",
+                PolyhedraError::Growth { .. } => "growth_cm",
+                _ => "scene",
+            };
+            settings.error_at(key, format!("{}: {error}", self.scene))
+        })
+    }
+
+    /// The arm, if there is one, with the file that it was read from.
+    fn arm(
+        &self,
+        settings: &Settings,
+        inputs: &Inputs,
+    ) -> Result<Option<(PathBuf, CarriedArm)>, SettingsError> {
+        let (robot, body) = match (&self.robot, &self.body) {
+            (Some(robot), Some(body)) => (robot, body),
+            (None, None) => return Ok(None),
+            (robot, _) => {
+                let given = if robot.is_some() { "robot" } else { "body" };
+                return Err(settings.error_at(given, "robot and body are given together or not at all"));
+            }
+        };
+        let carried = input(settings, inputs, "robot", robot, |file| {
+            CarriedArm::new(&load_robot(settings, file)?, body)
+                .map_err(|message| settings.error_at("body", message))
+        });
+        carried.map(Some)
+    }
 }
 
 /// Refuses ends that are not free or that the arm cannot reach, and a list without queries.

@@ -7,7 +7,7 @@ use crate::study::prepared::lattice;
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::bars;
 use base::seed::Stream;
-use base::settings::Accepted;
+use base::settings::{Accepted, Faults};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -30,11 +30,13 @@ corner_rule = "allow"
     build: |settings, _inputs| {
         let read: RandomBars = settings.read()?;
         let (count, range) = (read.count, read.length_cells);
-        check_range(settings, "length_cells", range)?;
+        let mut faults = Faults::default();
+        faults.keep(check_range(settings, "length_cells", range));
         let draw = move |stream: &mut Stream, size, free: &[u32]| bars(stream, size, count, range, free);
         let blocked = u64::from(count) * u64::from(range[1]);
         let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, blocked, draw)?))
+        let drawn = faults.keep(Drawn::new(settings, frame, blocked, draw));
+        Ok::<Box<dyn Family>, StudyError>(Box::new(faults.or(drawn)?))
     },
 };
 

@@ -29,15 +29,16 @@ corner_rule = "allow"
 "#,
     build: |settings, _inputs| {
         let read: RandomCells = settings.read()?;
-        let share = read.blocked_share;
+        let (share, mut faults) = (read.blocked_share, Faults::default());
         if !(0.0..1.0).contains(&share) {
             let message = format!("blocked_share is {share}; 0 to below 1 is accepted");
-            return Err(settings.error_at("blocked_share", message).into());
+            faults.add(settings.error_at("blocked_share", message));
         }
         let draw =
             move |stream: &mut Stream, size, free: &[u32]| independent_cells(stream, size, share, free);
         let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, 0, draw)?))
+        let drawn = faults.keep(Drawn::new(settings, frame, 0, draw));
+        Ok::<Box<dyn Family>, StudyError>(Box::new(faults.or(drawn)?))
     },
 };
 

@@ -6,7 +6,7 @@ use crate::study::StudyError;
 use crate::study::prepared::{Prepared, polyhedra};
 use crate::study::verification::POLYHEDRA_COLUMNS;
 use base::seed::{self, Stream};
-use base::settings::{Accepted, Settings, SettingsError};
+use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::geometry::{Aabb, Axis, Convex, Segment, Vec3, distance_segment_convex};
 use engine::planner::Invalid;
 use engine::space::{PolyhedraWorld, WorldKind};
@@ -84,28 +84,28 @@ impl RandomPolyhedra {
     fn check(&self, settings: &Settings) -> Result<(), SettingsError> {
         let [fewest, most] = self.count;
         let [least, greatest] = self.size_cm;
-        let fault = if fewest > most {
-            Some((
-                "count",
-                format!("count is [{fewest}, {most}]; the fewest and the most, in this order, are accepted"),
-            ))
-        } else if !(0.0 < least && least <= greatest && greatest < self.side_cm) {
+        let mut faults = Faults::default();
+        if fewest > most {
+            let message =
+                format!("count is [{fewest}, {most}]; the fewest and the most, in this order, are accepted");
+            faults.add(settings.error_at("count", message));
+        }
+        if !(0.0 < least && least <= greatest && greatest < self.side_cm) {
             let message = format!(
                 "size_cm is [{least}, {greatest}]; two rising sizes above 0 and below side_cm are accepted"
             );
-            Some(("size_cm", message))
-        } else if self.shapes.is_empty() {
-            let message = "shapes is empty; at least one of box, prism, octahedron, wedge, pyramid is needed";
-            Some(("shapes", message.to_owned()))
-        } else {
-            None
-        };
-        if let Some((key, message)) = fault {
-            return Err(settings.error_at(key, message));
+            faults.add(settings.error_at("size_cm", message));
         }
-        let empty = self.world(Vec::new()).map_err(|invalid| settings.error_at("step_cm", invalid.0))?;
-        let queries: Vec<Query> = self.queries.iter().map(QuerySettings::query).collect();
-        super::polyhedra_scene::check(settings, &empty, &queries)
+        if self.shapes.is_empty() {
+            let message = "shapes is empty; at least one of box, prism, octahedron, wedge, pyramid is needed";
+            faults.add(settings.error_at("shapes", message));
+        }
+        let empty = self.world(Vec::new()).map_err(|invalid| settings.error_at("step_cm", invalid.0));
+        if let Some(empty) = faults.keep(empty) {
+            let queries: Vec<Query> = self.queries.iter().map(QuerySettings::query).collect();
+            faults.keep(super::polyhedra_scene::check(settings, &empty, &queries));
+        }
+        faults.done()
     }
 
     fn world(&self, bodies: Vec<Convex>) -> Result<PolyhedraWorld, Invalid> {

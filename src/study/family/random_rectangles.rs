@@ -7,7 +7,7 @@ use crate::study::prepared::lattice;
 use crate::study::verification::LATTICE_COLUMNS;
 use base::grid::rectangles;
 use base::seed::Stream;
-use base::settings::Accepted;
+use base::settings::{Accepted, Faults};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -30,13 +30,15 @@ corner_rule = "allow"
     build: |settings, _inputs| {
         let read: RandomRectangles = settings.read()?;
         let (count, range) = (read.count, read.side_cells);
-        check_range(settings, "side_cells", range)?;
+        let mut faults = Faults::default();
+        faults.keep(check_range(settings, "side_cells", range));
         let draw =
             move |stream: &mut Stream, size, free: &[u32]| rectangles(stream, size, count, range, free);
         let longest = read.size_cells[0].max(read.size_cells[1]);
         let blocked = u64::from(count) * u64::from(range[1].min(longest)).pow(2);
         let frame = (read.size_cells, read.start, read.goal, read.corner_rule);
-        Ok::<Box<dyn Family>, StudyError>(Box::new(Drawn::new(settings, frame, blocked, draw)?))
+        let drawn = faults.keep(Drawn::new(settings, frame, blocked, draw));
+        Ok::<Box<dyn Family>, StudyError>(Box::new(faults.or(drawn)?))
     },
 };
 

@@ -8,10 +8,10 @@ use crate::{
         serial::{AXES, Chain, Joint},
     },
 };
-use base::settings::{Accepted, Document, Spanned};
+use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::{ops::Range, path::Path};
+use std::{collections::BTreeSet, ops::Range, path::Path};
 
 /// What a robot file may hold.
 pub const ROBOT_FILE: Accepted = Accepted::of::<RobotFile>();
@@ -119,16 +119,16 @@ struct CapsuleEntry {
 struct Source<'a>(&'a Document);
 
 impl Source<'_> {
-    fn fault(&self, span: &Range<usize>, message: impl Into<String>) -> KinematicsError {
-        self.0.error(span.clone(), message).into()
+    fn fault(&self, span: &Range<usize>, message: impl Into<String>) -> SettingsError {
+        self.0.error(span.clone(), message)
     }
 
     /// A function that says where an error of a lower floor comes from.
-    fn at(&self, span: Range<usize>) -> impl Fn(KinematicsError) -> KinematicsError {
+    fn at(&self, span: Range<usize>) -> impl Fn(KinematicsError) -> SettingsError {
         move |error| self.fault(&span, error.to_string())
     }
 
-    fn finite(&self, key: &str, value: &Spanned<f64>) -> Result<f64, KinematicsError> {
+    fn finite(&self, key: &str, value: &Spanned<f64>) -> Result<f64, SettingsError> {
         let found = *value.get_ref();
         if found.is_finite() {
             return Ok(found);
@@ -141,14 +141,12 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
     let document = Document::new(path, text.to_owned());
     let source = Source(&document);
     let file: RobotFile = document.read()?;
-    let base = base(&source, &file.base)?;
-    let tool_length_m = 1e-3 * source.finite("tool.length_mm", &file.tool.length_mm)?;
-    if tool_length_m < 0.0 {
-        let found = file.tool.length_mm.get_ref();
-        let message = format!("tool.length_mm is {found}; accepted: 0 (no tool) or more");
-        return Err(source.fault(&file.tool.length_mm.span(), message));
-    }
-    let (chain, far) = chain(&source, &file, base, tool_frame(tool_length_m))?;
+    let mut faults = Faults::default();
+    let base = faults.keep(base(&source, &file.base));
+    let tool_length_m = faults.keep(tool_length_m(&source, &file.tool.length_mm));
+    let joints = faults.keep(joints(&source, &file.joint));
+    let ((base, tool_length_m), joints) = faults.or(base.zip(tool_length_m).zip(joints))?;
+    let (chain, far) = chain(&source, &file, &joints, base, tool_frame(tool_length_m))?;
     let solver = file.solver.as_ref();
     let arm = Arm::new(chain, solver.map(|name| name.get_ref().as_str())).map_err(|error| {
         let span = match &error {
@@ -178,7 +176,16 @@ impl Links<'_> {
     }
 }
 
-fn base(source: &Source, entry: &BaseEntry) -> Result<Frame, KinematicsError> {
+fn tool_length_m(source: &Source, length_mm: &Spanned<f64>) -> Result<f64, SettingsError> {
+    let found = source.finite("tool.length_mm", length_mm)?;
+    if found < 0.0 {
+        let message = format!("tool.length_mm is {found}; accepted: 0 (no tool) or more");
+        return Err(source.fault(&length_mm.span(), message));
+    }
+    Ok(1e-3 * found)
+}
+
+fn base(source: &Source, entry: &BaseEntry) -> Result<Frame, SettingsError> {
     let yaw_rad = source.finite("base.yaw_deg", &entry.yaw_deg)?.to_radians();
     let position_m = Vec3::from(*entry.position_mm.get_ref()) * 1e-3;
     if !position_m.iter().all(|v| v.is_finite()) {
@@ -189,24 +196,32 @@ fn base(source: &Source, entry: &BaseEntry) -> Result<Frame, KinematicsError> {
     Ok(Frame::at(position_m) * Frame::turned(&Vec3::z(), yaw_rad))
 }
 
+fn joints(
+    source: &Source,
+    entries: &Spanned<Vec<Spanned<JointEntry>>>,
+) -> Result<[Joint; AXES], SettingsError> {
+    let mut faults = Faults::default();
+    let count = entries.get_ref().len();
+    if count != AXES {
+        let span = entries.get_ref().last().map_or(entries.span(), Spanned::span);
+        faults.add(source.fault(&span, format!("{count} joints were given; accepted: {AXES}")));
+    }
+    let joints = faults.keep_each(entries.get_ref().iter().map(|entry| joint(source, entry)));
+    faults.or(joints.try_into().ok())
+}
+
 /// The chain, and the file's frames in its frames if they differ.
 fn chain(
     source: &Source,
     file: &RobotFile,
+    joints: &[Joint; AXES],
     base: Frame,
     tool: Frame,
-) -> Result<(Chain, Option<[Frame; AXES + 1]>), KinematicsError> {
+) -> Result<(Chain, Option<[Frame; AXES + 1]>), SettingsError> {
     let entries = &file.joint;
-    let joints: Vec<Joint> =
-        entries.get_ref().iter().map(|entry| joint(source, entry)).collect::<Result<_, _>>()?;
-    let count = joints.len();
-    let joints: [Joint; AXES] = joints.try_into().map_err(|_| {
-        let span = entries.get_ref().last().map_or(entries.span(), Spanned::span);
-        source.fault(&span, format!("{count} joints were given; accepted: {AXES}"))
-    })?;
     let chain = match file.convention {
-        Convention::Distal => Chain::new(joints, base, tool).map(|chain| (chain, None)),
-        Convention::Modified => Chain::modified(joints, base, tool).map(|(chain, far)| (chain, Some(far))),
+        Convention::Distal => Chain::new(*joints, base, tool).map(|chain| (chain, None)),
+        Convention::Modified => Chain::modified(*joints, base, tool).map(|(chain, far)| (chain, Some(far))),
     };
     chain.map_err(|error| {
         let at = match &error {
@@ -217,7 +232,7 @@ fn chain(
     })
 }
 
-fn joint(source: &Source, entry: &Spanned<JointEntry>) -> Result<Joint, KinematicsError> {
+fn joint(source: &Source, entry: &Spanned<JointEntry>) -> Result<Joint, SettingsError> {
     let joint = entry.get_ref();
     let speed_rad_s = match (joint.speed_deg_s, joint.speed_rad_s) {
         (Some(speed_deg_s), None) => speed_deg_s.to_radians(),
@@ -243,35 +258,35 @@ fn bodies(
     source: &Source,
     entries: &Spanned<Vec<BodyEntry>>,
     links: &Links,
-) -> Result<Vec<Body>, KinematicsError> {
-    let mut bodies: Vec<Body> = Vec::new();
-    for entry in entries.get_ref() {
-        let name = entry.name.get_ref();
-        if bodies.iter().any(|body| body.name == *name) {
-            let message = format!("body `{name}` is given twice; accepted: a name of its own");
-            return Err(source.fault(&entry.name.span(), message));
+) -> Result<Vec<Body>, SettingsError> {
+    let (mut names, mut faults) = (BTreeSet::new(), Faults::default());
+    for name in entries.get_ref().iter().map(|entry| &entry.name) {
+        if !names.insert(name.get_ref()) {
+            let message = format!("body `{}` is given twice; accepted: a name of its own", name.get_ref());
+            faults.add(source.fault(&name.span(), message));
         }
-        bodies.push(body(source, entry, links)?);
     }
-    if bodies.is_empty() {
-        return Err(source.fault(&entries.span(), "no body is given; accepted: at least one"));
+    if names.is_empty() {
+        faults.add(source.fault(&entries.span(), "no body is given; accepted: at least one"));
     }
-    Ok(bodies)
+    let bodies = faults.keep_each(entries.get_ref().iter().map(|entry| body(source, entry, links)));
+    faults.or(Some(bodies))
 }
 
-fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, KinematicsError> {
-    let mut parts: Vec<Part> = Vec::new();
+fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, SettingsError> {
+    let (mut names, mut faults) = (BTreeSet::new(), Faults::default());
     for capsule in &entry.capsule {
         let name = &capsule.get_ref().name;
-        if parts.iter().any(|part| part.name == *name) {
+        if !names.insert(name) {
             let message = format!("capsule `{name}` is given twice; accepted: a name of its own");
-            return Err(source.fault(&capsule.span(), message));
+            faults.add(source.fault(&capsule.span(), message));
         }
-        parts.push(part(source, capsule, links)?);
     }
-    if parts.is_empty() {
-        return Err(source.fault(&entry.name.span(), "the body has no capsule; accepted: at least one"));
+    if names.is_empty() {
+        faults.add(source.fault(&entry.name.span(), "the body has no capsule; accepted: at least one"));
     }
+    let parts = faults.keep_each(entry.capsule.iter().map(|capsule| part(source, capsule, links)));
+    faults.done()?;
     if let Some((index, off_m)) = attached::first_off(&parts, links.chain) {
         let (Part { name, link, .. }, off_mm) = (&parts[index], (off_m * 1e6).round() * 1e-3);
         let message = format!(
@@ -280,11 +295,12 @@ fn body(source: &Source, entry: &BodyEntry, links: &Links) -> Result<Body, Kinem
         );
         return Err(source.fault(&entry.capsule[index].span(), message));
     }
-    let self_pairs = entry.self_pairs.iter().map(|pair| self_pair(source, &parts, pair));
-    Ok(Body { name: entry.name.get_ref().clone(), self_pairs: self_pairs.collect::<Result<_, _>>()?, parts })
+    let mut faults = Faults::default();
+    let self_pairs = faults.keep_each(entry.self_pairs.iter().map(|pair| self_pair(source, &parts, pair)));
+    faults.or(Some(Body { name: entry.name.get_ref().clone(), self_pairs, parts }))
 }
 
-fn part(source: &Source, entry: &Spanned<CapsuleEntry>, links: &Links) -> Result<Part, KinematicsError> {
+fn part(source: &Source, entry: &Spanned<CapsuleEntry>, links: &Links) -> Result<Part, SettingsError> {
     let CapsuleEntry { name, link, from_mm, to_mm, tool_share, self_only, radius_mm } = entry.get_ref();
     let (radius_m, at) = (radius_mm * 1e-3, source.at(entry.span()));
     match (link, from_mm, to_mm, tool_share) {
@@ -319,7 +335,7 @@ fn self_pair(
     source: &Source,
     parts: &[Part],
     pair: &Spanned<[String; 2]>,
-) -> Result<[usize; 2], KinematicsError> {
+) -> Result<[usize; 2], SettingsError> {
     let index = |name: &String| {
         parts.iter().position(|part| part.name == *name).ok_or_else(|| {
             let known = parts.iter().map(|part| part.name.as_str()).collect::<Vec<_>>().join(", ");

@@ -1,7 +1,7 @@
 //! Scenes from files: still obstacles by name, in millimetres as drawings give them.
 
 use crate::geometry::{Capsule, Convex, Frame, GeometryError, HalfSpace, OrientedBox, Solid, Sphere, Vec3};
-use base::settings::{Accepted, Document, SettingsError, Spanned};
+use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
@@ -145,28 +145,28 @@ impl Scene {
     /// The scene that `document` describes.
     ///
     /// # Errors
-    /// The line and column of an unknown key, a number that is not finite, a size that is not above 0, a shape that
+    /// All of them at once: the line and column of an unknown key, a number that is not finite, a size that is not above 0, a shape that
     /// encloses nothing, or a name that stands twice.
     pub fn parse(document: &Document) -> Result<Self, SettingsError> {
         let file: SceneFile = document.read()?;
-        let mut scene = Self { name: file.name, obstacles: Vec::new() };
+        let (mut scene, mut faults) = (Self { name: file.name, obstacles: Vec::new() }, Faults::default());
         if let Some(floor) = &file.floor {
             let solid = HalfSpace::below(floor.get_ref().height_mm * 1e-3).map(Solid::HalfSpace);
-            scene.add(document, "floor", floor, solid)?;
+            faults.keep(scene.add(document, "floor", floor, solid));
         }
         for entry in &file.boxes {
-            scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid())?;
+            faults.keep(scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid()));
         }
         for entry in &file.spheres {
-            scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid())?;
+            faults.keep(scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid()));
         }
         for entry in &file.capsules {
-            scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid())?;
+            faults.keep(scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid()));
         }
         for entry in &file.convexes {
-            scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid())?;
+            faults.keep(scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid()));
         }
-        Ok(scene)
+        faults.or(Some(scene))
     }
 
     fn add<T>(

@@ -1,7 +1,7 @@
 //! Scene files: obstacles by name of their shape, or by vertices or planes.
 
 use crate::geometry::{Aabb, Axis, Convex, GeometryError, Vec3};
-use base::settings::{Accepted, Document, SettingsError, Spanned};
+use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
@@ -173,9 +173,8 @@ pub(super) fn scene(document: &Arc<Document>) -> Result<Scene, SettingsError> {
     let solid = |entry: &Spanned<Shape>| {
         entry.get_ref().solid().map_err(|e| document.error(entry.span(), e.to_string()))
     };
-    Ok(Scene {
-        name: file.name,
-        bodies: file.obstacle.iter().map(solid).collect::<Result<_, _>>()?,
-        domain: Aabb { min: file.domain.min.into(), max: file.domain.max.into() },
-    })
+    let mut faults = Faults::default();
+    let bodies = faults.keep_each(file.obstacle.iter().map(solid));
+    let domain = Aabb { min: file.domain.min.into(), max: file.domain.max.into() };
+    faults.or(Some(Scene { name: file.name, bodies, domain }))
 }

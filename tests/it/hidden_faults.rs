@@ -1,0 +1,131 @@
+//! One fault hides no other: what is wrong in the files that a study names, in one table of settings and in an option of a reading
+//! is told in one round, each at its own place, and nothing is said that follows from another fault alone.
+
+use crate::paper::Bench;
+
+/// A change of a file of a template, and what must be said of it.
+type Change = (&'static str, &'static str, &'static str);
+
+/// What `check` says of the template with the changes made, line by line without excerpts.
+fn told(template: &str, changes: &[Change]) -> Vec<String> {
+    let bench = Bench::empty();
+    bench.done(&["new", "toy", "--from", template]);
+    for (file, from, to) in changes {
+        bench.edit(&format!("toy/{file}"), from, to);
+    }
+    let said = bench.run(&["check", "./toy"]);
+    assert_eq!(said.code, Some(2), "{}{}", said.out, said.err);
+    let lines = said.err.lines().filter(|line| !line.starts_with("    "));
+    let place = |line: &str| line.trim_start_matches("replan: ").trim_start_matches("./toy/").to_owned();
+    lines.map(place).collect()
+}
+
+/// That exactly `wanted` is told, each line by how it begins.
+fn assert_told(template: &str, changes: &[Change], wanted: &[&str]) {
+    let told = told(template, changes);
+    let fits =
+        told.len() == wanted.len() && told.iter().zip(wanted).all(|(line, wanted)| line.starts_with(wanted));
+    assert!(fits, "{changes:?}\nshould be told:\n{}\nis told:\n{}", wanted.join("\n"), told.join("\n"));
+}
+
+const ROBOT: Change = ("robot.toml", "upper_deg = 360", "upper_deg = -500");
+const SCENE: Change = ("scene.toml", "max_mm = [800, -300, 60]", "max_mm = [300, -300, 60]");
+const POSES: Change = ("poses.toml", "-120, -90, 0]", "-120, -90]");
+const IN_FILES: [&str; 3] = [
+    "poses.toml:5:5: `A` is an array of 5",
+    "robot.toml:15:1: joint 1: upper_deg is -500",
+    "scene.toml:13:1: obstacle `shelf`",
+];
+
+#[test]
+fn faults_of_a_robot_a_scene_and_poses_are_told_together() {
+    assert_told("cell", &[ROBOT, SCENE, POSES], &IN_FILES);
+}
+
+#[test]
+fn a_wrong_setting_hides_no_fault_of_the_files_beside_it() {
+    let samples = ("cell.toml", "samples = 300\ncounted", "samples = -300\ncounted");
+    let [poses, robot, scene] = IN_FILES;
+    let wanted = ["cell.toml:25:11: `samples` is -300", poses, robot, scene];
+    assert_told("cell", &[ROBOT, SCENE, POSES, samples], &wanted);
+    let missing = ("cell.toml", "samples = 300\ncounted", "counted");
+    let wanted = ["cell.toml:19:1: missing key `samples`", poses, robot, scene];
+    assert_told("cell", &[ROBOT, SCENE, POSES, missing], &wanted);
+}
+
+#[test]
+fn every_fault_of_one_robot_file_is_told() {
+    let capsules = ("robot.toml", "radius_mm = 75", "radius_mm = -75");
+    let speeds = ("robot.toml", "speed_deg_s = ", "speed_rad_s = 1\nspeed_deg_s = ");
+    let tool = ("robot.toml", "length_mm = 0", "length_mm = -5");
+    let told = told("cell", &[speeds, tool]);
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert!(told.iter().any(|line| line.contains("both of speed_deg_s and speed_rad_s")), "{told:?}");
+    assert!(told.iter().any(|line| line.contains("tool.length_mm is -")), "{told:?}");
+    let told = self::told("cell", &[capsules, SCENE]);
+    assert_eq!(told.len(), 2, "{told:?}");
+}
+
+#[test]
+fn a_key_too_many_and_a_key_too_few_in_one_table_are_both_told() {
+    let unknown = ("compare.toml", "settings = { weight = 1,", "settings = { colour = 1,");
+    let wanted = ["compare.toml:31:12: missing key `weight`", "compare.toml:31:14: unknown key `colour`"];
+    assert_told("grid", &[unknown], &wanted);
+    // What is missing in one contender is told although another's is only misspelt.
+    let misspelt = ("compare.toml", "settings = { weight = 2,", "settings = { wieght = 2,");
+    let wanted = [wanted[0], wanted[1], "compare.toml:36:14: unknown key `wieght`"];
+    assert_told("grid", &[unknown, misspelt], &wanted);
+}
+
+#[test]
+fn several_values_of_one_table_that_make_no_sense_are_told_together() {
+    let changes = [
+        ("compare.toml", "start = [2, 2]", "start = [2, 200]"),
+        ("compare.toml", "goal = [36, 30]", "goal = [360, 30]"),
+        ("compare.toml", "side_cells = [2, 8]", "side_cells = [8, 2]"),
+    ];
+    let wanted = [
+        "compare.toml:21:9: start is [2, 200]",
+        "compare.toml:22:8: goal is [360, 30]",
+        "compare.toml:24:14: side_cells is [8, 2]",
+    ];
+    assert_told("grid", &changes, &wanted);
+}
+
+#[test]
+fn what_an_option_lays_over_settings_is_told_at_its_own_key() {
+    let of_problem = ("cell.toml", "problem = { tool_mm = 160 }", "problem = { tool_mm = -160 }");
+    assert_told("cell", &[of_problem], &["cell.toml:57:23: `tool_mm` is -160"]);
+    let unknown = ("cell.toml", "problem = { tool_mm = 160 }", "problem = { tol_mm = 160 }");
+    assert_told("cell", &[unknown], &["cell.toml:57:13: unknown key `tol_mm`"]);
+    let of_stage = ("compare.toml", "ties = \"lifo\" } }", "ties = \"lilo\" } }");
+    assert_told("grid", &[of_stage], &["compare.toml:47:28: `ties` is \"lilo\""]);
+    // What the option does not touch is told where it stands, once.
+    let other = ("compare.toml", "settings = { weight = 2,", "settings = { weight = -2,");
+    assert_told("grid", &[other], &["compare.toml:36:23: weight is -2"]);
+}
+
+#[test]
+fn a_label_without_a_name_is_told_and_nothing_that_follows_from_it() {
+    let group = ("compare.toml", "label = \"maps\"", "label = \"\"");
+    assert_told("grid", &[group], &["compare.toml:16:9: problem group `` has no letter"]);
+    let contender = ("compare.toml", "label = \"A*\"", "label = \"\"");
+    assert_told("grid", &[contender], &["compare.toml:29:9: contender `` has no letter"]);
+    let number = ("compare.toml", "label = \"A*\"", "label = 3");
+    assert_told("grid", &[number], &["compare.toml:29:9: `label` is 3"]);
+}
+
+#[test]
+fn a_figure_of_a_pose_or_a_claim_of_a_query_that_is_not_there_is_refused() {
+    let pose = ("cell.toml", "\"high/goal\", \"C\"", "\"hugh/goal\", \"C\"");
+    assert_told(
+        "cell",
+        &[pose],
+        &["cell.toml:65:82: there is no query of cell `hugh` (did you mean `high`?); there are high, low"],
+    );
+    let end = ("cell.toml", "\"high/goal\", \"C\"", "\"high/end\", \"C\"");
+    assert_told("cell", &[end], &["cell.toml:65:82: `high/end` is no end of a query"]);
+    let query = ("paper.toml", "problems = \"cell\", ", "problems = \"cell\", query = \"hugh\", ");
+    let told = told("cell", &[query]);
+    assert!(told.len() == 1 && told[0].contains("there is no query of cell `hugh`"), "{told:?}");
+}
