@@ -25,7 +25,7 @@ use std::path::PathBuf;
 pub static ENTRY: Entry = Entry {
     name: "cell_queries",
     about: "queries of a six-axis arm in its cell, on roadmaps of free configurations drawn at random",
-    revision: 2,
+    revision: 3,
     prepared: nested_roadmap::ENTRY.name,
     columns: ARM_COLUMNS,
     settings: Accepted::of::<CellQueries>(),
@@ -62,7 +62,7 @@ struct CellQueries {
     robot: String,
     /// The scene file.
     scene: String,
-    /// Whether the scene's obstacles stand there; its floor goes with them.
+    /// Whether the scene's obstacles stand there; what the robot stands on always does.
     obstacles: bool,
     /// Whether the arm must not touch itself.
     self_collision: bool,
@@ -274,7 +274,7 @@ impl Posed {
         let scene = Scene::load(&files[1])?;
         let document = Document::open(&files[2])?;
         let placed = read_queries(&document)?;
-        let scene = if read.obstacles { scene } else { Scene::empty() };
+        let scene = if read.obstacles { scene } else { scene.cleared() };
         let cell = Cell::new(robot, scene, read.self_collision);
         let ends = posed(&cell, &document, &placed);
         let (queries, _) = placed;

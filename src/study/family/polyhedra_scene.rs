@@ -21,7 +21,7 @@ use std::path::PathBuf;
 pub static ENTRY: Entry = Entry {
     name: "polyhedra_scene",
     about: "one scene of polyhedra from a file, with written queries or ones drawn around them; an arm may carry the tip",
-    revision: 2,
+    revision: 3,
     prepared: polyhedra::ENTRY.name,
     columns: CARRIED_COLUMNS,
     settings: Accepted::of::<SceneSettings>(),
@@ -84,32 +84,9 @@ struct Posed {
 
 fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
     let read: SceneSettings = settings.read()?;
-    let refuse = |key: &'static str| move |message: String| settings.error_at(key, message);
-    let file = inputs.locate(&read.scene).map_err(refuse("scene"))?;
-    let scene = read_scene(&file)?;
-    let mut world =
-        PolyhedraWorld::new(scene.bodies, scene.domain, read.step_cm, read.growth_cm).map_err(|e| {
-            let key = match e {
-                PolyhedraError::Step { .. } => "step_cm",
-                PolyhedraError::Growth { .. } => "growth_cm",
-                _ => "scene",
-            };
-            settings.error_at(key, format!("{}: {e}", read.scene))
-        })?;
+    let file = inputs.locate(&read.scene).map_err(|message| settings.error_at("scene", message))?;
     let mut files = vec![file];
-    match (&read.robot, &read.body) {
-        (Some(robot), Some(body)) => {
-            let file = inputs.locate(robot).map_err(refuse("robot"))?;
-            let robot = Robot::load(&file).map_err(|e| settings.error_at("robot", e.to_string()))?;
-            world = world.with_arm(CarriedArm::new(&robot, body).map_err(refuse("body"))?);
-            files.push(file);
-        }
-        (None, None) => {}
-        (robot, _) => {
-            let given = if robot.is_some() { "robot" } else { "body" };
-            return Err(settings.error_at(given, "robot and body are given together or not at all").into());
-        }
-    }
+    let world = world(settings, &read, inputs, &mut files)?;
     if let Some(radius) = read.scatter_cm
         && !(radius.is_finite() && radius > 0.0)
     {
@@ -119,6 +96,43 @@ fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
     let queries: Vec<Query> = read.queries.iter().map(QuerySettings::query).collect();
     check(settings, &world, &queries)?;
     Ok(Posed { world, queries, scatter_cm: read.scatter_cm, inputs: files })
+}
+
+/// The world in the scene file, the first of `files`; with an arm, whose file is added to them.
+fn world(
+    settings: &Settings,
+    read: &SceneSettings,
+    inputs: &Inputs,
+    files: &mut Vec<PathBuf>,
+) -> Result<PolyhedraWorld, SettingsError> {
+    let scene = read_scene(&files[0])?;
+    let (domain, name) = (scene.domain, &read.scene);
+    let world = |bodies| {
+        PolyhedraWorld::new(bodies, domain, read.step_cm, read.growth_cm).map_err(|e| {
+            let key = match e {
+                PolyhedraError::Step { .. } => "step_cm",
+                PolyhedraError::Growth { .. } => "growth_cm",
+                _ => "scene",
+            };
+            settings.error_at(key, format!("{name}: {e}"))
+        })
+    };
+    let (robot, body) = match (&read.robot, &read.body) {
+        (None, None) => return world(scene.bodies),
+        (Some(robot), Some(body)) => (robot, body),
+        (robot, _) => {
+            let given = if robot.is_some() { "robot" } else { "body" };
+            return Err(settings.error_at(given, "robot and body are given together or not at all"));
+        }
+    };
+    let refuse = |key: &'static str| move |message: String| settings.error_at(key, message);
+    let (bodies, support) =
+        scene.with_arm().map_err(|message| settings.error_at("scene", format!("{name}: {message}")))?;
+    let file = inputs.locate(robot).map_err(refuse("robot"))?;
+    let robot = Robot::load(&file).map_err(|e| settings.error_at("robot", e.to_string()))?;
+    let arm = CarriedArm::new(&robot, body, &support).map_err(refuse("body"))?;
+    files.push(file);
+    Ok(world(bodies)?.with_arm(arm))
 }
 
 /// Refuses ends that are not free or that the arm cannot reach, and a list without queries.
@@ -244,6 +258,10 @@ mod tests {
             ("body = 'bones'".to_owned(), ["no body `bones`", "it has paper, mesh"]),
             ("scene = 'data/scenes/none.toml'".to_owned(), ["`data/scenes/none.toml`", "does not exist"]),
             ("robot = 'data/robots/none.toml'".to_owned(), ["`data/robots/none.toml`", "does not exist"]),
+            (
+                "scene = 'data/scenes/tang_e1.toml'".to_owned(),
+                ["at `scene`", "data/scenes/tang_e1.toml: a scene of an arm says where its base stands"],
+            ),
             ("steps = 1".to_owned(), ["steps", "step_cm"]),
         ] {
             let refused = build(&changes, &[]).err().unwrap_or_else(|| panic!("{changes} was accepted"));

@@ -26,8 +26,6 @@ struct RobotFile {
     /// Which Denavit–Hartenberg convention rows and frames follow.
     #[serde(default)]
     convention: Convention,
-    /// Where the base stands.
-    base: BaseEntry,
     /// The tool at the flange.
     tool: ToolEntry,
     /// The joints, from the base on, by Denavit-Hartenberg parameters in its convention.
@@ -44,15 +42,6 @@ enum Convention {
     Distal,
     /// Frames at the near ends: `alpha` and `a` lead from the axis before to the joint's own.
     Modified,
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct BaseEntry {
-    /// x, y and z of the base in the world.
-    position_mm: Spanned<[f64; 3]>,
-    /// How far the base is turned about the vertical.
-    yaw_deg: Spanned<f64>,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -140,14 +129,13 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
     let document = Document::new(path, text.to_owned());
     let source = Source(&document);
     let file: RobotFile = document.read()?;
-    let base = base(&source, &file.base)?;
     let tool_length_m = 1e-3 * source.finite("tool.length_mm", &file.tool.length_mm)?;
     if tool_length_m < 0.0 {
         let found = file.tool.length_mm.get_ref();
         let message = format!("tool.length_mm is {found}; accepted: 0 (no tool) or more");
         return Err(source.fault(&file.tool.length_mm.span(), message));
     }
-    let (chain, far) = chain(&source, &file, base, tool_frame(tool_length_m))?;
+    let (chain, far) = chain(&source, &file, tool_frame(tool_length_m))?;
     let solver = file.solver.as_ref();
     let arm = Arm::new(chain, solver.map(|name| name.get_ref().as_str())).map_err(|error| {
         let span = match &error {
@@ -177,22 +165,10 @@ impl Links<'_> {
     }
 }
 
-fn base(source: &Source, entry: &BaseEntry) -> Result<Frame, KinematicsError> {
-    let yaw_rad = source.finite("base.yaw_deg", &entry.yaw_deg)?.to_radians();
-    let position_m = Vec3::from(*entry.position_mm.get_ref()) * 1e-3;
-    if !position_m.iter().all(|v| v.is_finite()) {
-        let message =
-            format!("base.position_mm is {:?}; accepted: finite numbers", entry.position_mm.get_ref());
-        return Err(source.fault(&entry.position_mm.span(), message));
-    }
-    Ok(Frame::at(position_m) * Frame::turned(&Vec3::z(), yaw_rad))
-}
-
 /// The chain, and the file's frames in its frames if they differ.
 fn chain(
     source: &Source,
     file: &RobotFile,
-    base: Frame,
     tool: Frame,
 ) -> Result<(Chain, Option<[Frame; AXES + 1]>), KinematicsError> {
     let entries = &file.joint;
@@ -204,8 +180,10 @@ fn chain(
         source.fault(&span, format!("{count} joints were given; accepted: {AXES}"))
     })?;
     let chain = match file.convention {
-        Convention::Distal => Chain::new(joints, base, tool).map(|chain| (chain, None)),
-        Convention::Modified => Chain::modified(joints, base, tool).map(|(chain, far)| (chain, Some(far))),
+        Convention::Distal => Chain::new(joints, Frame::IDENTITY, tool).map(|chain| (chain, None)),
+        Convention::Modified => {
+            Chain::modified(joints, Frame::IDENTITY, tool).map(|(chain, far)| (chain, Some(far)))
+        }
     };
     chain.map_err(|error| {
         let at = match &error {
