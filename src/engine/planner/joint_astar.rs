@@ -46,6 +46,10 @@ neighbours = 12
                 format!("neighbours is {}; 12 (one joint) or 728 (any joints) is accepted", read.neighbours);
             return Err(settings.error_at("neighbours", message));
         }
+        if !(read.goal_steps > 0.0 && read.goal_steps <= 1.0) {
+            let message = format!("goal_steps is {}; more than 0 and at most 1 is accepted", read.goal_steps);
+            return Err(settings.error_at("goal_steps", message));
+        }
         Ok(Box::new(read))
     }),
 };

@@ -156,7 +156,9 @@ mod tests {
         assert_eq!((names, raised.floor_m()), (vec!["floor", "pedestal"], Some(-0.1)));
         let hung = read("under = 'nothing'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nwhy = 'hung'\n").unwrap();
         assert!(hung.solids().unwrap().is_empty());
-        let above = read("under = 'nothing'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nwhy = 'hung'\nfloor_mm = -2000\n").unwrap();
+        let above =
+            read("under = 'nothing'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nwhy = 'hung'\nfloor_mm = -2000\n")
+                .unwrap();
         assert_eq!(above.floor_m(), Some(-2.0));
     }
 
