@@ -26,6 +26,7 @@ pub struct CarriedArm {
     arm: Arm,
     body: Body,
     floor: Option<HalfSpace>,
+    has_pedestal: bool,
 }
 
 /// How near a rod is to an obstacle.
@@ -55,7 +56,12 @@ impl CarriedArm {
         })?;
         let floor = support.floor_m().map(|height| HalfSpace::below(height * CM_PER_M));
         let floor = floor.transpose().map_err(|e| e.to_string())?;
-        Ok(Self { arm: robot.arm().placed(support.base()), body: found.exposed(), floor })
+        Ok(Self {
+            arm: robot.arm().placed(support.base()),
+            body: found.exposed(),
+            floor,
+            has_pedestal: support.pedestal().is_some(),
+        })
     }
 
     /// Forward and inverse kinematics, in metres.
@@ -96,13 +102,17 @@ impl CarriedArm {
     }
 
     /// For every obstacle within `reach` of a rod's surface, the floor last, the rod nearest to it, by the exact distance or by the
-    /// printed one.
+    /// printed one. What the first joint alone moves keeps its distance to what the base stands on and is not held against it.
     pub fn contacts(&self, q: &Joints, bodies: &[Convex], reach: f64, printed: bool) -> Vec<Contact> {
         let rods = self.rods(q);
         let nearest = if printed { nearest_segment_convex_printed } else { nearest_segment_convex };
         let of = |obstacle: usize, body: &Convex| {
             let mut best: Option<Contact> = None;
             for (rod, capsule) in rods.iter().enumerate() {
+                let is_under = self.has_pedestal && obstacle + 1 == bodies.len();
+                if is_under && self.body.parts()[rod].link() <= 1 {
+                    continue;
+                }
                 if !Aabb::of_capsule(capsule).grown(reach).overlaps(body.aabb()) {
                     continue;
                 }
@@ -115,7 +125,8 @@ impl CarriedArm {
             best
         };
         let above = |floor: &HalfSpace| {
-            let all = rods.iter().enumerate().map(|(rod, capsule)| {
+            let moving = rods.iter().enumerate().filter(|(rod, _)| self.body.parts()[*rod].link() > 1);
+            let all = moving.map(|(rod, capsule)| {
                 let Nearest { distance, on_a, on_b } = nearest_segment_half_space(&capsule.segment, floor);
                 let clearance = distance - capsule.radius;
                 Contact { obstacle: bodies.len(), rod, clearance, on_rod: on_a, on_obstacle: on_b }
