@@ -105,8 +105,12 @@ fn searches(criterion: &mut Criterion) {
 
 fn postures(criterion: &mut Criterion) {
     let robot = Robot::load(&file("robots/aubo_i10.toml")).unwrap();
-    let arm = CarriedArm::new(&robot, "paper").unwrap();
-    let world = World::Polyhedra(Box::new(world("tang_c1", 7.0).with_arm(arm)));
+    let scene = read_scene(&file("scenes/tang_c1.toml")).unwrap();
+    let domain = scene.domain;
+    let (bodies, support) = scene.with_arm().unwrap();
+    let arm = CarriedArm::new(&robot, "paper", &support).unwrap();
+    let world = PolyhedraWorld::new(bodies, domain, 1.0, 7.0).unwrap().with_arm(arm);
+    let world = World::Polyhedra(Box::new(world));
     let ends = [[70.0, -46.0, 36.0], [70.0, 41.0, 51.0]];
     let key = planner("keynode_astar", "search = 'open_list'\ncluster = true\nlast_resort = true");
     let posture = stage(

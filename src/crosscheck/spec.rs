@@ -14,6 +14,7 @@ use base::seed;
 use base::settings::{Accepted, Document, SettingsError, Spanned};
 use engine::geometry::{Convex, Solid};
 use engine::kinematics::{AXES, Robot};
+use engine::space::Support;
 use engine::space::cell::{Cell, Obstacle, Scene};
 use engine::space::polyhedra::{CarriedArm, read_scene};
 use rayon::prelude::*;
@@ -273,8 +274,8 @@ impl Spec {
         let at_scene = |message: String| self.document.error(scene.span(), message);
         let file = sources.inputs.locate(&r.file).map_err(at_robot)?;
         let loaded = Robot::load(&file).map_err(|error| at_robot(error.to_string()))?;
-        let (stills, check) =
-            s.format.read(&sources.inputs.locate(&s.file).map_err(at_scene)?, &loaded, &r.body)?;
+        let path = sources.inputs.locate(&s.file).map_err(at_scene)?;
+        let Standing { robot: loaded, stills, check } = s.format.read(&path, &loaded, &r.body)?;
         let name = slug(&format!("{} in {}", r.label, s.label));
         let tool_is_straight = r.straight == Straight::Tool;
         let subject =
@@ -340,14 +341,16 @@ fn convex_still(index: usize, body: &Convex) -> Still {
     Still { name: format!("obstacle {}", index + 1), solid: Solid::Convex(solid) }
 }
 
+/// A robot where a scene puts it, and what stands around it.
+struct Standing {
+    robot: Robot,
+    stills: Vec<Still>,
+    check: Option<Check>,
+}
+
 impl SceneFormat {
-    /// What stands in the scene at `path`, and how planners check the body called `body` of `robot` in it.
-    fn read(
-        self,
-        path: &Path,
-        robot: &Robot,
-        body: &str,
-    ) -> Result<(Vec<Still>, Option<Check>), SettingsError> {
+    /// What stands in the scene at `path` with `robot` in it, and how planners check the robot's body called `body` there.
+    fn read(self, path: &Path, robot: &Robot, body: &str) -> Result<Standing, SettingsError> {
         match self {
             Self::Cell => {
                 let scene = Scene::load(path)?;
@@ -355,18 +358,27 @@ impl SceneFormat {
                 let stills = scene.obstacles().iter().map(still).collect();
                 // Cells know a robot's first body only.
                 let is_first = robot.bodies().first().is_some_and(|first| first.name() == body);
+                let placed = robot.placed(scene.base());
                 let check = is_first.then(|| Check::Cell(Box::new(Cell::new(robot.clone(), scene, true))));
-                Ok((stills, check))
+                Ok(Standing { robot: placed, stills, check })
             }
             Self::Polyhedra => {
-                let bodies = read_scene(path)?.bodies;
-                let stills = bodies.iter().enumerate().map(|(index, body)| convex_still(index, body));
-                let stills = stills.collect();
-                // Planners among polyhedra know no part that obstacles cannot touch.
-                let arm = CarriedArm::new(robot, body).ok();
-                let arm = arm.filter(|arm| arm.parts().iter().all(|part| !part.is_self_only()));
-                Ok((stills, arm.map(|arm| Check::Rods(Box::new(arm), bodies))))
+                let (bodies, support) = armed(path)?;
+                let solids = bodies.iter().enumerate().map(|(index, body)| convex_still(index, body));
+                let floor = support.solids().unwrap_or_default().into_iter().filter_map(|(name, solid)| {
+                    matches!(solid, Solid::HalfSpace(_)).then(|| Still { name: name.to_owned(), solid })
+                });
+                let stills = solids.chain(floor).collect();
+                let arm = CarriedArm::new(robot, body, &support).ok();
+                let check = arm.map(|arm| Check::Rods(Box::new(arm), bodies));
+                Ok(Standing { robot: robot.placed(support.base()), stills, check })
             }
         }
     }
+}
+
+/// The bodies of the scene of polyhedra at `path` with an arm in it, and where the arm stands.
+pub(super) fn armed(path: &Path) -> Result<(Vec<Convex>, Support), SettingsError> {
+    let document = Document::open(path)?;
+    read_scene(path)?.with_arm().map_err(|message| document.error(0..0, message))
 }

@@ -57,6 +57,8 @@ pub struct Arm {
     pub tip: Point,
     /// The rods.
     pub rods: Vec<Rod>,
+    /// How high the floor is, if there is one.
+    pub floor: Option<f64>,
 }
 
 /// A query to be judged.
@@ -87,12 +89,15 @@ impl Arm {
         moved(&self.frames(q)[6], self.tip)
     }
 
-    /// The distance from the rods' surfaces to the solids; infinite without solids.
+    /// The distance from the rods' surfaces to the solids and the floor; infinite without either.
     fn clearance(&self, solids: &[Solid], q: &[f64; 6]) -> f64 {
         let frames = self.frames(q);
         let mut least = f64::INFINITY;
         for rod in &self.rods {
             let [a, b] = [rod.from, rod.to].map(|end| moved(&frames[rod.link], end));
+            if let Some(floor) = self.floor {
+                least = least.min(a[2].min(b[2]) - floor - rod.radius);
+            }
             let axis = Segment::new(Vector::new(a[0], a[1], a[2]), Vector::new(b[0], b[1], b[2]));
             for solid in solids {
                 let found = query::distance(&Pose::IDENTITY, &axis, &Pose::IDENTITY, solid.shape());

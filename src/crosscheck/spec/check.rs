@@ -1,13 +1,12 @@
 //! What is wrong with a cross-check, as far as that is known before anything is run or asked.
 
-use super::{SceneFormat, Spec};
+use super::{SceneFormat, Spec, armed};
 use crate::crosscheck::stored::StoredPaths;
 use crate::study::Inputs;
 use crate::study::paper::Paper;
 use base::settings::{Faults, none_called};
 use engine::kinematics::{Robot, robot::Body};
 use engine::space::cell::Scene;
-use engine::space::polyhedra::read_scene;
 
 impl Spec {
     /// Files, bodies, studies and problem groups that do not exist go to `faults`, with all other names that are wrong.
@@ -35,7 +34,7 @@ impl Spec {
             if let Some(file) = faults.keep(file) {
                 let read = match scene.format {
                     SceneFormat::Cell => Scene::load(&file).map(|_| ()),
-                    SceneFormat::Polyhedra => read_scene(&file).map(|_| ()),
+                    SceneFormat::Polyhedra => armed(&file).map(|_| ()),
                 };
                 faults.keep(read);
             }

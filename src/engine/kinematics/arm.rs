@@ -59,6 +59,12 @@ impl Arm {
         Self::assemble(self.chain.with_tool(tool), Arc::clone(&self.choice))
     }
 
+    /// The same arm with its base at `base`.
+    #[must_use]
+    pub fn placed(&self, base: &Frame) -> Self {
+        Self::assemble(self.chain.placed(base), Arc::clone(&self.choice))
+    }
+
     /// The chain: forward kinematics, Jacobian, limits and speeds.
     pub fn chain(&self) -> &Chain {
         &self.chain

@@ -177,6 +177,12 @@ impl Chain {
         Self { tool, ..self.clone() }
     }
 
+    /// The same chain, its world put at `base` of another world.
+    #[must_use]
+    pub fn placed(&self, base: &Frame) -> Self {
+        Self { base: *base * self.base, ..self.clone() }
+    }
+
     /// Whether every joint is within its limits.
     pub fn allows(&self, q: &Joints) -> bool {
         self.joints.iter().zip(q).all(|(joint, &angle)| joint.allows(angle))

@@ -46,6 +46,10 @@ neighbours = 12
                 format!("neighbours is {}; 12 (one joint) or 728 (any joints) is accepted", read.neighbours);
             return Err(settings.error_at("neighbours", message));
         }
+        if !(read.goal_steps > 0.0 && read.goal_steps <= 1.0) {
+            let message = format!("goal_steps is {}; more than 0 and at most 1 is accepted", read.goal_steps);
+            return Err(settings.error_at("goal_steps", message));
+        }
         Ok(Box::new(read))
     }),
 };
@@ -64,6 +68,27 @@ struct JointAstar {
     delta_deg: f64,
     /// 12: one joint, up or down; 728: any joints at once.
     neighbours: u32,
+    /// On which branch of the inverse kinematics start and goal are.
+    #[serde(default)]
+    branch: BranchSetting,
+    /// How near the goal a state is from which it is reached, in steps: 1 or a half.
+    #[serde(default = "one_step")]
+    goal_steps: f64,
+}
+
+/// A branch on which both ends are free.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum BranchSetting {
+    /// The one whose start is farthest from obstacles.
+    #[default]
+    Clearest,
+    /// The one with the least H from start to goal.
+    Nearest,
+}
+
+fn one_step() -> f64 {
+    1.0
 }
 
 type Cell = [i16; AXES];
@@ -169,18 +194,30 @@ fn steps(neighbours: u32) -> Vec<Cell> {
     all.filter(|cell| moved(cell) > 0 && (neighbours == 728 || moved(cell) == 1)).collect()
 }
 
-/// The configurations of the two ends on the branch that has most clearance at the start.
-fn ends(world: &PolyhedraWorld, arm: &CarriedArm, start: &Vec3, goal: &Vec3) -> Option<[Joints; 2]> {
+/// The configurations of the two ends on the best branch on which both are free.
+fn ends(
+    world: &PolyhedraWorld,
+    arm: &CarriedArm,
+    [start, goal]: [&Vec3; 2],
+    rule: BranchSetting,
+) -> Option<[Joints; 2]> {
     let solved = arm.arm().inverse(&CarriedArm::target(start, &DOWN), &[0.0; 6]);
     let mut best: Option<(f64, [Joints; 2])> = None;
     for (branch, from) in solved.iter() {
         let Some(to) = arm.arm().inverse_on(&CarriedArm::target(goal, &DOWN), branch, from) else { continue };
         let clearance = |q: &Joints| arm.clearance(q, world.bodies(), FAR_CM, false);
-        if clearance(&to) >= LEAST_CM && best.is_none_or(|(known, _)| clearance(from) > known) {
-            best = Some((clearance(from), [*from, to]));
+        if clearance(from).min(clearance(&to)) < LEAST_CM {
+            continue;
+        }
+        let merit = match rule {
+            BranchSetting::Clearest => clearance(from),
+            BranchSetting::Nearest => -greatest_difference(from, &to),
+        };
+        if best.is_none_or(|(known, _)| merit > known) {
+            best = Some((merit, [*from, to]));
         }
     }
-    best.filter(|(clearance, _)| *clearance >= LEAST_CM).map(|(_, ends)| ends)
+    best.map(|(_, ends)| ends)
 }
 
 impl Planner for JointAstar {
@@ -189,7 +226,7 @@ impl Planner for JointAstar {
         let arm = world.arm().expect("a checked study gives this planner an arm");
         let [start, goal] = [("start", request.start), ("goal", request.goal)]
             .map(|(what, end)| world.free_point(what, end).map_err(Invalid));
-        let [start, goal] = ends(world, arm, &start?, &goal?).ok_or_else(|| {
+        let [start, goal] = ends(world, arm, [&start?, &goal?], self.branch).ok_or_else(|| {
             Invalid("no branch of the arm is free at start and goal with its tool down".to_owned())
         })?;
         let delta = self.delta_deg.to_radians();
@@ -198,7 +235,7 @@ impl Planner for JointAstar {
         let probe = Space { world, arm, start, delta, steps: Vec::new(), states: &states };
         let at = |node: u32| angles(&start, &states.borrow().cells[node as usize], delta);
         let h = |node: u32| greatest_difference(&at(node), &goal);
-        let is_goal = |node: u32| h(node) <= delta && probe.is_clear(&at(node), &goal);
+        let is_goal = |node: u32| h(node) <= delta * self.goal_steps && probe.is_clear(&at(node), &goal);
         let terms = Terms {
             graph: &mut graph,
             estimate: &Combined { h, combine: sum },

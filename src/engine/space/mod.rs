@@ -8,6 +8,7 @@ mod joints;
 mod lattice;
 pub mod polyhedra;
 pub mod roadmap;
+mod support;
 
 #[cfg(test)]
 pub use arm::reproduced_rules;
@@ -16,6 +17,7 @@ pub use joints::JointSpace;
 pub use lattice::{JumpLines, JumpTable, Jumps, LatticeWorld, Pruning};
 pub use polyhedra::PolyhedraWorld;
 use roadmap::Roadmap;
+pub use support::{Support, SupportEntry};
 
 /// The kinds of world there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

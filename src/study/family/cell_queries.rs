@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 pub static ENTRY: Entry = Entry {
     name: "cell_queries",
     about: "queries of a six-axis arm in its cell, on roadmaps of free configurations drawn at random",
-    revision: 2,
+    revision: 3,
     prepared: nested_roadmap::ENTRY.name,
     columns: ARM_COLUMNS,
     settings: Accepted::of::<CellQueries>(),
@@ -63,7 +63,7 @@ struct CellQueries {
     robot: String,
     /// The scene file.
     scene: String,
-    /// Whether the scene's obstacles stand there; its floor goes with them.
+    /// Whether the scene's obstacles stand there; what the robot stands on always does.
     obstacles: bool,
     /// Whether the arm must not touch itself.
     self_collision: bool,
@@ -287,7 +287,7 @@ impl Posed {
         let (((robot_file, robot), (scene_file, scene)), (queries_file, (placed, document))) =
             faults.or(all)?;
         let files = [robot_file, scene_file, queries_file];
-        let scene = if read.obstacles { scene } else { Scene::empty() };
+        let scene = if read.obstacles { scene } else { scene.cleared() };
         let cell = Cell::new(robot, scene, read.self_collision);
         let ends = posed(&cell, &document, &placed);
         let (queries, _) = placed;

@@ -11,9 +11,11 @@ use base::problem::{Ended, Problem, parse_problem};
 use base::robot::read_urdf;
 use base::seed;
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
+use base::solid::{Form, Pose, Solid};
+use engine::geometry::Frame;
 use engine::planner::Invalid;
 use engine::space::roadmap::{Counted, Extent, Local, Sample};
-use engine::space::{JointSpace, WorldKind};
+use engine::space::{JointSpace, Support, SupportEntry, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -23,13 +25,14 @@ use std::path::PathBuf;
 pub static ENTRY: Entry = Entry {
     name: "joint_queries",
     about: "a robot of any number of axes (URDF) among solids (robometrics or MotionBenchMaker), on roadmaps in joint space",
-    revision: 1,
+    revision: 2,
     prepared: nested_roadmap::ENTRY.name,
     columns: JOINT_COLUMNS,
     settings: Accepted::of::<JointQueries>(),
     example: r#"
 robot = "data/robots/panda.urdf"
 problem = "data/scenes/shelf_panda.json"
+support = { under = "floor", base_mm = [0, 0, 0], yaw_deg = 0 }
 index = 0
 self_collision = true
 samples = 300
@@ -49,6 +52,8 @@ struct JointQueries {
     robot: String,
     /// The problem file, JSON or YAML in the form of robometrics or of `MotionBenchMaker` as VAMP ships it.
     problem: String,
+    /// What is under the robot: the problem file places everything from the robot's base and says nothing of a floor.
+    support: SupportEntry,
     /// The problem set in it; the only one if absent.
     set: Option<String>,
     /// The problem's number in the set, from 0.
@@ -70,6 +75,8 @@ struct JointQueries {
 struct Posed {
     read: JointQueries,
     space: JointSpace,
+    /// How high the floor is, if there is one.
+    floor_m: Option<f64>,
     queries: Vec<Query>,
     ends: Result<(), SettingsError>,
     inputs: Vec<PathBuf>,
@@ -94,16 +101,43 @@ impl Posed {
         }
         let inputs = files.into_iter().chain(robot.files.iter().cloned()).collect();
         let queries = queries(&problem);
-        let space =
-            JointSpace::new(robot, problem.obstacles, read.self_collision, read.step_deg.to_radians());
+        let support = support(settings, &read.support)?;
+        let obstacles = under(&support).into_iter().chain(problem.obstacles.iter().cloned()).collect();
+        let space = JointSpace::new(robot, obstacles, read.self_collision, read.step_deg.to_radians());
         let ends =
             std::iter::once(("start", &problem.start)).chain(problem.goals.iter().map(|goal| ("goal", goal)));
         let mut unposed = Faults::default();
         for (what, end) in ends {
             unposed.keep(posed(&space, &document, what, end));
         }
-        Ok(Self { read, space, queries, ends: unposed.done(), inputs })
+        let floor_m = support.floor_m();
+        Ok(Self { read, space, floor_m, queries, ends: unposed.done(), inputs })
     }
+}
+
+/// The support, checked: the problem's origin is the base.
+fn support(settings: &Settings, entry: &SupportEntry) -> Result<Support, SettingsError> {
+    let support = entry.support().map_err(|message| settings.error_at("support", message))?;
+    if *support.base() == Frame::IDENTITY {
+        return Ok(support);
+    }
+    let message = "the problem file places everything from the robot's base; base_mm = [0, 0, 0] and yaw_deg = 0 are accepted";
+    Err(settings.error_at("support", message))
+}
+
+/// The floor, first, and the pedestal as obstacles; the floor is a slab that no robot reaches an end of.
+fn under(support: &Support) -> Vec<Solid> {
+    const FAR_M: f64 = 100.0;
+    let solid = |name: &str, origin_m: [f64; 3], half_m: [f64; 3]| Solid {
+        name: name.to_owned(),
+        pose: Pose { origin_m, ..Pose::IDENTITY },
+        form: Form::Box(half_m),
+    };
+    let floor = support.floor_m().map(|height| solid("floor", [0.0, 0.0, height - FAR_M], [FAR_M; 3]));
+    let block = support
+        .pedestal()
+        .map(|block| solid("pedestal", block.frame().origin.into(), (*block.half()).into()));
+    floor.into_iter().chain(block).collect()
 }
 
 /// From the start to each goal; a single one needs no name.
@@ -154,7 +188,7 @@ impl Family for Posed {
         let local = Local::Joints(Box::new(self.space.clone()));
         let mut prepared =
             nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, Counted::Accepted);
-        prepared.exhibits = picture::exhibits(&self.space, &self.queries);
+        prepared.exhibits = picture::exhibits(&self.space, self.floor_m, &self.queries);
         Ok(prepared)
     }
 

@@ -9,20 +9,21 @@ use crate::study::{Inputs, StudyError};
 use base::seed;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::geometry::{Capsule, Vec3};
+use engine::kinematics::Robot;
 use engine::planner::Invalid;
-use engine::space::polyhedra::{CarriedArm, DOWN, PolyhedraError, read_scene};
+use engine::space::polyhedra::{CarriedArm, DOWN, PolyhedraError, Scene, read_scene};
 use engine::space::roadmap::joints;
 use engine::space::{PolyhedraWorld, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "polyhedra_scene",
     about: "one scene of polyhedra from a file, with written queries or ones drawn around them; an arm may carry the tip",
-    revision: 2,
+    revision: 3,
     prepared: polyhedra::ENTRY.name,
     columns: CARRIED_COLUMNS,
     settings: Accepted::of::<SceneSettings>(),
@@ -88,58 +89,55 @@ struct Posed {
 fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
     let read: SceneSettings = settings.read()?;
     let mut faults = Faults::default();
-    let world = faults.keep(input(settings, inputs, "scene", &read.scene, |file| read.world(settings, file)));
-    let arm = faults.keep(read.arm(settings, inputs)).flatten();
+    let scene = faults.keep(input(settings, inputs, "scene", &read.scene, read_scene));
+    let robot = faults.keep(read.robot(settings, inputs)).flatten();
     if let Some(radius) = read.scatter_cm
         && !(radius.is_finite() && radius > 0.0)
     {
         let message = format!("scatter_cm is {radius}; more than 0 is accepted");
         faults.add(settings.error_at("scatter_cm", message));
     }
-    let (file, mut world) = faults.or(world)?;
-    let mut files = vec![file];
-    if let Some((file, arm)) = arm {
-        world = world.with_arm(arm);
-        files.push(file);
-    }
+    let (file, scene) = faults.or(scene)?;
+    let world = read.world(settings, scene, robot.as_ref().map(|(_, robot)| robot))?;
+    let files = std::iter::once(file).chain(robot.map(|(file, _)| file)).collect();
     let queries: Vec<Query> = read.queries.iter().map(QuerySettings::query).collect();
     check(settings, &world, &queries)?;
     Ok(Posed { world, queries, scatter_cm: read.scatter_cm, inputs: files })
 }
 
 impl SceneSettings {
-    /// The obstacles in `file`.
-    fn world(&self, settings: &Settings, file: &Path) -> Result<PolyhedraWorld, SettingsError> {
-        let scene = read_scene(file)?;
-        PolyhedraWorld::new(scene.bodies, scene.domain, self.step_cm, self.growth_cm).map_err(|error| {
-            let key = match error {
-                PolyhedraError::Step { .. } => "step_cm",
-                PolyhedraError::Growth { .. } => "growth_cm",
-                _ => "scene",
-            };
-            settings.error_at(key, format!("{}: {error}", self.scene))
-        })
+    /// The world of `scene`; with an arm, if `robot` is one.
+    fn world(&self, settings: &Settings, scene: Scene, robot: Option<&Robot>) -> Result<PolyhedraWorld, SettingsError> {
+        let domain = scene.domain;
+        let world = |bodies| {
+            PolyhedraWorld::new(bodies, domain, self.step_cm, self.growth_cm).map_err(|error| {
+                let key = match error {
+                    PolyhedraError::Step { .. } => "step_cm",
+                    PolyhedraError::Growth { .. } => "growth_cm",
+                    _ => "scene",
+                };
+                settings.error_at(key, format!("{}: {error}", self.scene))
+            })
+        };
+        let (Some(robot), Some(body)) = (robot, &self.body) else { return world(scene.bodies) };
+        let (bodies, support) = scene
+            .with_arm()
+            .map_err(|message| settings.error_at("scene", format!("{}: {message}", self.scene)))?;
+        let arm = CarriedArm::new(robot, body, &support).map_err(|message| settings.error_at("body", message))?;
+        Ok(world(bodies)?.with_arm(arm))
     }
 
-    /// The arm, if there is one, with the file that it was read from.
-    fn arm(
-        &self,
-        settings: &Settings,
-        inputs: &Inputs,
-    ) -> Result<Option<(PathBuf, CarriedArm)>, SettingsError> {
-        let (robot, body) = match (&self.robot, &self.body) {
-            (Some(robot), Some(body)) => (robot, body),
+    /// The robot, if there is one, with the file that it was read from.
+    fn robot(&self, settings: &Settings, inputs: &Inputs) -> Result<Option<(PathBuf, Robot)>, SettingsError> {
+        let robot = match (&self.robot, &self.body) {
+            (Some(robot), Some(_)) => robot,
             (None, None) => return Ok(None),
             (robot, _) => {
                 let given = if robot.is_some() { "robot" } else { "body" };
                 return Err(settings.error_at(given, "robot and body are given together or not at all"));
             }
         };
-        let carried = input(settings, inputs, "robot", robot, |file| {
-            CarriedArm::new(&load_robot(settings, file)?, body)
-                .map_err(|message| settings.error_at("body", message))
-        });
-        carried.map(Some)
+        input(settings, inputs, "robot", robot, |file| load_robot(settings, file)).map(Some)
     }
 }
 
@@ -280,6 +278,10 @@ mod tests {
             ("body = 'bones'".to_owned(), ["no body `bones`", "it has paper, mesh"]),
             ("scene = 'data/scenes/none.toml'".to_owned(), ["`data/scenes/none.toml`", "does not exist"]),
             ("robot = 'data/robots/none.toml'".to_owned(), ["`data/robots/none.toml`", "does not exist"]),
+            (
+                "scene = 'data/scenes/tang_e1.toml'".to_owned(),
+                ["at `scene`", "data/scenes/tang_e1.toml: a scene of an arm says where its base stands"],
+            ),
             ("steps = 1".to_owned(), ["steps", "step_cm"]),
         ] {
             let refused = build(&changes, &[]).err().unwrap_or_else(|| panic!("{changes} was accepted"));

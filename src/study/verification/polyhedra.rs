@@ -127,6 +127,7 @@ fn arm(carried: &CarriedArm) -> rods::Arm {
         rows: chain.joints().each_ref().map(row),
         tip: (chain.tool().origin * 100.0).into(),
         rods: carried.parts().iter().map(rod).collect(),
+        floor: carried.floor_cm(),
     }
 }
 

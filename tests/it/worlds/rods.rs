@@ -4,11 +4,11 @@
 use super::polyhedra::{point, solids};
 use super::{Case, Posed, Truth, flood};
 use base::seed;
-use engine::geometry::{Aabb, Convex, Vec3};
+use engine::geometry::{Aabb, Convex, Frame, Vec3};
 use engine::kinematics::{Joints, Robot};
 use engine::planner::Plan;
 use engine::space::polyhedra::{CarriedArm, DOWN};
-use engine::space::{PolyhedraWorld, World};
+use engine::space::{PolyhedraWorld, Support, World};
 use rand::RngExt as _;
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -55,13 +55,15 @@ pub fn aubo() -> Arm {
             rod(4, [0.0; 3], [0.0, 0.0, 10.25], 5.0),
             rod(5, [0.0; 3], [0.0, 0.0, 9.4], 4.5),
         ],
+        floor: Some(0.0),
     }
 }
 
 /// The same arm as planners have it.
 pub fn carried() -> CarriedArm {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
-    CarriedArm::new(&Robot::load(&data.join("robots/aubo_i10.toml")).unwrap(), "paper").unwrap()
+    let robot = Robot::load(&data.join("robots/aubo_i10.toml")).unwrap();
+    CarriedArm::new(&robot, "paper", &Support::on_floor(Frame::IDENTITY)).unwrap()
 }
 
 pub fn rods(number: u64) -> Case {

@@ -26,8 +26,6 @@ struct RobotFile {
     /// Which Denavit–Hartenberg convention rows and frames follow.
     #[serde(default)]
     convention: Convention,
-    /// Where the base stands.
-    base: BaseEntry,
     /// The tool at the flange.
     tool: ToolEntry,
     /// The joints, from the base on, by Denavit-Hartenberg parameters in its convention.
@@ -44,15 +42,6 @@ enum Convention {
     Distal,
     /// Frames at the near ends: `alpha` and `a` lead from the axis before to the joint's own.
     Modified,
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct BaseEntry {
-    /// x, y and z of the base in the world.
-    position_mm: Spanned<[f64; 3]>,
-    /// How far the base is turned about the vertical.
-    yaw_deg: Spanned<f64>,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -142,11 +131,10 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
     let source = Source(&document);
     let file: RobotFile = document.read()?;
     let mut faults = Faults::default();
-    let base = faults.keep(base(&source, &file.base));
     let tool_length_m = faults.keep(tool_length_m(&source, &file.tool.length_mm));
     let joints = faults.keep(joints(&source, &file.joint));
-    let ((base, tool_length_m), joints) = faults.or(base.zip(tool_length_m).zip(joints))?;
-    let (chain, far) = chain(&source, &file, &joints, base, tool_frame(tool_length_m))?;
+    let (tool_length_m, joints) = faults.or(tool_length_m.zip(joints))?;
+    let (chain, far) = chain(&source, &file, &joints, tool_frame(tool_length_m))?;
     let solver = file.solver.as_ref();
     let arm = Arm::new(chain, solver.map(|name| name.get_ref().as_str())).map_err(|error| {
         let span = match &error {
@@ -185,17 +173,6 @@ fn tool_length_m(source: &Source, length_mm: &Spanned<f64>) -> Result<f64, Setti
     Ok(1e-3 * found)
 }
 
-fn base(source: &Source, entry: &BaseEntry) -> Result<Frame, SettingsError> {
-    let yaw_rad = source.finite("base.yaw_deg", &entry.yaw_deg)?.to_radians();
-    let position_m = Vec3::from(*entry.position_mm.get_ref()) * 1e-3;
-    if !position_m.iter().all(|v| v.is_finite()) {
-        let message =
-            format!("base.position_mm is {:?}; accepted: finite numbers", entry.position_mm.get_ref());
-        return Err(source.fault(&entry.position_mm.span(), message));
-    }
-    Ok(Frame::at(position_m) * Frame::turned(&Vec3::z(), yaw_rad))
-}
-
 fn joints(
     source: &Source,
     entries: &Spanned<Vec<Spanned<JointEntry>>>,
@@ -215,13 +192,14 @@ fn chain(
     source: &Source,
     file: &RobotFile,
     joints: &[Joint; AXES],
-    base: Frame,
     tool: Frame,
 ) -> Result<(Chain, Option<[Frame; AXES + 1]>), SettingsError> {
     let entries = &file.joint;
     let chain = match file.convention {
-        Convention::Distal => Chain::new(*joints, base, tool).map(|chain| (chain, None)),
-        Convention::Modified => Chain::modified(*joints, base, tool).map(|(chain, far)| (chain, Some(far))),
+        Convention::Distal => Chain::new(*joints, Frame::IDENTITY, tool).map(|chain| (chain, None)),
+        Convention::Modified => {
+            Chain::modified(*joints, Frame::IDENTITY, tool).map(|(chain, far)| (chain, Some(far)))
+        }
     };
     chain.map_err(|error| {
         let at = match &error {

@@ -1,7 +1,7 @@
 //! Robots from files: an arm, its tool, and the capsules that stand for its body.
 //!
 //! A robot file gives millimetres and degrees, as makers' sheets do (speeds also in radians a second); in
-//! memory everything is metres and radians. A file may hold several bodies, so that a study can ask what
+//! memory everything is metres and radians. The base is at the origin: where it stands is a scene's to say. A file may hold several bodies, so that a study can ask what
 //! the choice of one is worth.
 
 mod attached;
@@ -104,6 +104,12 @@ impl Robot {
         self.bodies.iter().find(|body| body.name == name)
     }
 
+    /// The same robot with its base at `base`; a file puts it at the origin.
+    #[must_use]
+    pub fn placed(&self, base: &Frame) -> Self {
+        Self { arm: self.arm.placed(base), ..self.clone() }
+    }
+
     /// The same robot with a tool of another length, which its tool's capsules follow.
     ///
     /// # Errors
@@ -150,6 +156,13 @@ impl Body {
     pub fn place(&self, frames: &[Frame; AXES + 1], placed: &mut Vec<Capsule>) {
         placed.clear();
         placed.extend(self.parts.iter().map(|part| part.placed(frames)));
+    }
+
+    /// The parts that a scene can touch, as a body of their own; which of them may hit each other is left out.
+    #[must_use]
+    pub fn exposed(&self) -> Self {
+        let parts = self.parts.iter().filter(|part| !part.self_only).cloned().collect();
+        Self { name: self.name.clone(), parts, self_pairs: Vec::new() }
     }
 
     fn with_tool_length(&self, tool_length_m: f64) -> Result<Self, KinematicsError> {

@@ -1,10 +1,10 @@
 //! Steps, ends and work of the joint-space search.
 
 use super::*;
-use crate::geometry::{Aabb, Convex};
+use crate::geometry::{Aabb, Convex, Frame};
 use crate::kinematics::Robot;
 use crate::planner::Value;
-use crate::space::World;
+use crate::space::{Support, World};
 use base::settings::Settings;
 use std::path::Path;
 
@@ -13,7 +13,9 @@ fn world(bodies: Vec<Convex>) -> World {
         Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/aubo_i10.toml")).unwrap();
     let domain = Aabb { min: Vec3::new(0.0, -90.0, 0.0), max: Vec3::new(100.0, 90.0, 120.0) };
     let world = PolyhedraWorld::new(bodies, domain, 5.0, 0.0).unwrap();
-    World::Polyhedra(Box::new(world.with_arm(CarriedArm::new(&robot, "paper").unwrap())))
+    World::Polyhedra(Box::new(
+        world.with_arm(CarriedArm::new(&robot, "paper", &Support::on_floor(Frame::IDENTITY)).unwrap()),
+    ))
 }
 
 fn planner(text: &str) -> Result<Box<dyn Planner>, String> {

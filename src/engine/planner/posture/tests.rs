@@ -4,10 +4,10 @@ use super::follow::Follower;
 use super::potential::{direction, field};
 use super::settings::Posture;
 use super::*;
-use crate::geometry::{Aabb, Convex};
+use crate::geometry::{Aabb, Convex, Frame};
 use crate::kinematics::Robot;
 use crate::planner::{Counts, Stage};
-use crate::space::World;
+use crate::space::{Support, World};
 use base::settings::Settings;
 use std::path::Path;
 
@@ -28,7 +28,9 @@ fn world(boxes: &[([f64; 3], [f64; 3])]) -> World {
     let bodies = boxes.iter().map(|(c, s)| Convex::cuboid((*c).into(), (*s).into()).unwrap()).collect();
     let domain = Aabb { min: Vec3::new(-100.0, -100.0, 0.0), max: Vec3::new(100.0, 100.0, 150.0) };
     let world = PolyhedraWorld::new(bodies, domain, 1.0, 0.0).unwrap();
-    World::Polyhedra(Box::new(world.with_arm(CarriedArm::new(&robot, "paper").unwrap())))
+    World::Polyhedra(Box::new(
+        world.with_arm(CarriedArm::new(&robot, "paper", &Support::on_floor(Frame::IDENTITY)).unwrap()),
+    ))
 }
 
 /// The stage along the straight line, tool down.

@@ -54,11 +54,12 @@ pub enum Standing {
 }
 
 impl Cell {
-    /// The cell of `robot` (with its first body) in `scene`; without self-collision if `checks_itself` is false.
+    /// The cell of `robot` (with its first body), which stands where `scene` says; without self-collision if `checks_itself` is false.
     ///
     /// # Panics
     /// If the robot has no body, which no robot file allows.
     pub fn new(robot: Robot, scene: Scene, checks_itself: bool) -> Self {
+        let robot = robot.placed(scene.base());
         let body = robot.bodies().first().expect("a robot file has a body").clone();
         let boxes = scene.obstacles().iter().map(|obstacle| obstacle.solid.aabb()).collect();
         let exposed = (0..body.parts().len()).rev().filter(|part| !body.parts()[*part].is_self_only());

@@ -1,6 +1,7 @@
-//! Scenes from files: still obstacles by name, in millimetres as drawings give them.
+//! Scenes from files: where the robot stands and still obstacles by name, in millimetres as drawings give them.
 
-use crate::geometry::{Capsule, Convex, Frame, GeometryError, HalfSpace, OrientedBox, Solid, Sphere, Vec3};
+use crate::geometry::{Capsule, Convex, Frame, GeometryError, OrientedBox, Solid, Sphere, Vec3};
+use crate::space::SupportEntry;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -10,7 +11,10 @@ use std::path::Path;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     name: String,
+    base: Frame,
     obstacles: Vec<Obstacle>,
+    /// How many of them, at the front, are what the robot stands on.
+    under: usize,
 }
 
 /// One obstacle of a scene, in metres.
@@ -30,8 +34,8 @@ pub const SCENE_FILE: Accepted = Accepted::of::<SceneFile>();
 struct SceneFile {
     /// Its name.
     name: String,
-    /// The floor: all below it is filled; absent if there is none.
-    floor: Option<Spanned<FloorEntry>>,
+    /// Where the arm's base stands and what is under it.
+    support: Spanned<SupportEntry>,
     /// Boxes along the axes, which may be turned about the vertical.
     #[serde(default, rename = "box")]
     boxes: Vec<Spanned<BoxEntry>>,
@@ -44,13 +48,6 @@ struct SceneFile {
     /// Convex solids by their corners.
     #[serde(default, rename = "convex")]
     convexes: Vec<Spanned<ConvexEntry>>,
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct FloorEntry {
-    /// How high its surface is.
-    height_mm: f64,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -149,10 +146,12 @@ impl Scene {
     /// encloses nothing, or a name that stands twice.
     pub fn parse(document: &Document) -> Result<Self, SettingsError> {
         let file: SceneFile = document.read()?;
-        let (mut scene, mut faults) = (Self { name: file.name, obstacles: Vec::new() }, Faults::default());
-        if let Some(floor) = &file.floor {
-            let solid = HalfSpace::below(floor.get_ref().height_mm * 1e-3).map(Solid::HalfSpace);
-            faults.keep(scene.add(document, "floor", floor, solid));
+        let (support, mut faults) = (&file.support, Faults::default());
+        let read = support.get_ref().support().map_err(|message| document.error(support.span(), message))?;
+        let mut scene = Self { name: file.name, base: *read.base(), obstacles: Vec::new(), under: 0 };
+        for (name, solid) in read.solids().map_err(|e| document.error(support.span(), e.to_string()))? {
+            faults.keep(scene.add(document, name, support, Ok(solid)));
+            scene.under += 1;
         }
         for entry in &file.boxes {
             faults.keep(scene.add(document, &entry.get_ref().name, entry, entry.get_ref().solid()));
@@ -185,9 +184,21 @@ impl Scene {
         Ok(())
     }
 
-    /// The scene without anything in it.
+    /// The scene without anything in it, not even a floor.
     pub fn empty() -> Self {
-        Self { name: "empty".to_owned(), obstacles: Vec::new() }
+        Self { name: "empty".to_owned(), base: Frame::IDENTITY, obstacles: Vec::new(), under: 0 }
+    }
+
+    /// The scene with nothing left in it but what the robot stands on.
+    #[must_use]
+    pub fn cleared(mut self) -> Self {
+        self.obstacles.truncate(self.under);
+        self
+    }
+
+    /// Where the robot's base stands.
+    pub fn base(&self) -> &Frame {
+        &self.base
     }
 
     /// Its name.
@@ -195,7 +206,7 @@ impl Scene {
         &self.name
     }
 
-    /// The obstacles, the floor first, in the order of the file within each kind.
+    /// The obstacles, what the robot stands on first, in the order of the file within each kind.
     pub fn obstacles(&self) -> &[Obstacle] {
         &self.obstacles
     }
@@ -205,22 +216,44 @@ impl Scene {
 mod tests {
     use super::*;
 
+    const FLOOR: &str = "[support]\nunder = 'floor'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\n";
+
     fn refusal(text: &str) -> String {
-        let document = Document::new(Path::new("s.toml"), format!("name = 's'\n{text}"));
+        let floor = if text.contains("[support]") { "" } else { FLOOR };
+        let document = Document::new(Path::new("s.toml"), format!("name = 's'\n{text}{floor}"));
         Scene::parse(&document).unwrap_err().to_string()
     }
 
     #[test]
     fn every_kind_of_obstacle_is_read_in_metres() {
-        let text = "name = 's'\n[floor]\nheight_mm = -5\n[[box]]\nname = 'b'\nmin_mm = [0, 0, 0]\nmax_mm = [100, 200, 300]\n\
+        let text = "name = 's'\n[support]\nunder = 'pedestal'\nbase_mm = [0, 0, 100]\nyaw_deg = 90\nfloor_mm = -5\n\
+                    sides_mm = [200, 300]\n[[box]]\nname = 'b'\nmin_mm = [0, 0, 0]\nmax_mm = [100, 200, 300]\n\
                     yaw_deg = 90\n[[sphere]]\nname = 'k'\ncenter_mm = [1, 2, 3]\nradius_mm = 50\n[[capsule]]\nname = 'c'\n\
                     from_mm = [0, 0, 0]\nto_mm = [0, 0, 10]\nradius_mm = 5\n[[convex]]\nname = 'p'\n\
                     vertices_mm = [[0, 0, 0], [10, 0, 0], [0, 10, 0], [0, 0, 10]]\n";
         let scene = Scene::parse(&Document::new(Path::new("s.toml"), text.to_owned())).unwrap();
         let names: Vec<&str> = scene.obstacles().iter().map(|o| o.name.as_str()).collect();
-        assert_eq!(names, ["floor", "b", "k", "c", "p"]);
-        let turned = scene.obstacles()[1].solid.aabb();
+        assert_eq!(names, ["floor", "pedestal", "b", "k", "c", "p"]);
+        assert!((scene.base().origin.z - 0.1).abs() < 1e-15 && (scene.base().axis(0).y - 1.0).abs() < 1e-12);
+        let turned = scene.obstacles()[2].solid.aabb();
         assert!((turned.max - Vec3::new(0.15, 0.15, 0.3)).norm() < 1e-12, "{turned:?}");
+    }
+
+    #[test]
+    fn a_scene_that_does_not_say_what_is_under_the_arm_is_refused() {
+        let document = Document::new(Path::new("s.toml"), "name = 's'\n".to_owned());
+        let refusal = Scene::parse(&document).unwrap_err().to_string();
+        let parts = ["s.toml:1:1", "missing key `support`", "what is under it"];
+        assert!(parts.iter().all(|part| refusal.contains(part)), "{refusal}");
+    }
+
+    #[test]
+    fn a_cleared_scene_keeps_what_the_robot_stands_on() {
+        let text =
+            format!("name = 's'\n{FLOOR}[[sphere]]\nname = 'k'\ncenter_mm = [1, 2, 3]\nradius_mm = 50\n");
+        let scene = Scene::parse(&Document::new(Path::new("s.toml"), text)).unwrap().cleared();
+        let names: Vec<&str> = scene.obstacles().iter().map(|o| o.name.as_str()).collect();
+        assert_eq!(names, ["floor"]);
     }
 
     #[test]
@@ -238,7 +271,14 @@ mod tests {
                 "[[sphere]]\nname = 'k'\ncenter_mm = [0, 0, 0]\nradius_mm = -1\n",
                 ["s.toml:2:1", "radius", "0"],
             ),
-            ("[floor]\nheight_mm = 0\nwidth_mm = 3\n", ["s.toml:4:1", "width_mm", "height_mm"]),
+            (
+                "[support]\nunder = 'floor'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nfloor_mm = 3\n",
+                ["s.toml:6:1", "floor_mm", "base_mm"],
+            ),
+            (
+                "[support]\nunder = 'pedestal'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nfloor_mm = 3\nsides_mm = [1, 1]\n",
+                ["s.toml:2:1", "at the base or above it", "a floor below it is accepted"],
+            ),
             (
                 "[[convex]]\nname = 'p'\nvertices_mm = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]\n",
                 ["`p`", "enclose nothing", "plane"],

@@ -58,7 +58,7 @@ fn the_six_poses_are_as_clear_as_another_program_found_them_to_three_millimetres
     // The other program measured against the boxes alone, with neither the floor nor the robot itself.
     let text = std::fs::read_to_string(file("scenes/fu2018_cell.toml"))
         .unwrap()
-        .replace("[floor]\nheight_mm = 0\n", "");
+        .replace("under = \"floor\"", "under = \"nothing\"\nwhy = \"a test\"");
     let boxes = Scene::parse(&base::settings::Document::new(FilePath::new("boxes.toml"), text)).unwrap();
     assert_eq!(boxes.obstacles().len(), 11);
     let cell = Cell::new(robot(), boxes, false);

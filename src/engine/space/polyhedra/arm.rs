@@ -1,16 +1,18 @@
-//! The arm whose tip is the point: rods among the bodies of a scene.
+//! The arm whose tip is the point: rods among the bodies of a scene, above its floor.
 //!
 //! Robot files are metres, scenes with an arm centimetres; everything given and returned here is in centimetres
-//! but joint angles. Rods meet obstacles only: the reproduced paper checks nothing else.
+//! but joint angles. Rods meet obstacles and the floor only: the reproduced paper checks nothing else. Parts that the robot's file
+//! marks as self-only are left out.
 
 use crate::geometry::{
-    Aabb, Capsule, Convex, Frame, Nearest, Segment, Vec3, nearest_segment_convex,
-    nearest_segment_convex_printed,
+    Aabb, Capsule, Convex, Frame, HalfSpace, Nearest, Segment, Vec3, nearest_segment_convex,
+    nearest_segment_convex_printed, nearest_segment_half_space,
 };
 use crate::kinematics::{
     Arm, Joints, Robot,
     robot::{Body, Part},
 };
+use crate::space::Support;
 use nalgebra::{Matrix3, Matrix6};
 
 const CM_PER_M: f64 = 100.0;
@@ -23,12 +25,14 @@ pub const DOWN: Matrix3<f64> = Matrix3::new(1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 
 pub struct CarriedArm {
     arm: Arm,
     body: Body,
+    floor: Option<HalfSpace>,
+    has_pedestal: bool,
 }
 
 /// How near a rod is to an obstacle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// The obstacle.
+    /// The obstacle; as many as there are for the floor.
     pub obstacle: usize,
     /// The rod, as listed in the body.
     pub rod: usize,
@@ -41,16 +45,23 @@ pub struct Contact {
 }
 
 impl CarriedArm {
-    /// The arm of `robot` with its body called `body`.
+    /// The arm of `robot` with its body called `body`, which stands on `support`; a pedestal is among the bodies of its world.
     ///
     /// # Errors
     /// A sentence with the bodies that there are.
-    pub fn new(robot: &Robot, body: &str) -> Result<Self, String> {
+    pub fn new(robot: &Robot, body: &str, support: &Support) -> Result<Self, String> {
         let found = robot.body(body).ok_or_else(|| {
             let known: Vec<&str> = robot.bodies().iter().map(Body::name).collect();
             format!("robot `{}` has no body `{body}`; it has {}", robot.name(), known.join(", "))
         })?;
-        Ok(Self { arm: robot.arm().clone(), body: found.clone() })
+        let floor = support.floor_m().map(|height| HalfSpace::below(height * CM_PER_M));
+        let floor = floor.transpose().map_err(|e| e.to_string())?;
+        Ok(Self {
+            arm: robot.arm().placed(support.base()),
+            body: found.exposed(),
+            floor,
+            has_pedestal: support.pedestal().is_some(),
+        })
     }
 
     /// Forward and inverse kinematics, in metres.
@@ -61,6 +72,11 @@ impl CarriedArm {
     /// The rods in the frames of their links, in metres.
     pub fn parts(&self) -> &[Part] {
         self.body.parts()
+    }
+
+    /// How high the floor is, if there is one.
+    pub fn floor_cm(&self) -> Option<f64> {
+        self.floor.map(|floor| -floor.height(&Vec3::zeros()))
     }
 
     /// The pose of the tip with the axes `rotation` at `point`, in metres as the kinematics take it.
@@ -85,14 +101,18 @@ impl CarriedArm {
         rods
     }
 
-    /// For every obstacle within `reach` of a rod's surface, the rod nearest to it, by the exact distance or by the
-    /// printed one.
+    /// For every obstacle within `reach` of a rod's surface, the floor last, the rod nearest to it, by the exact distance or by the
+    /// printed one. What the first joint alone moves keeps its distance to what the base stands on and is not held against it.
     pub fn contacts(&self, q: &Joints, bodies: &[Convex], reach: f64, printed: bool) -> Vec<Contact> {
         let rods = self.rods(q);
         let nearest = if printed { nearest_segment_convex_printed } else { nearest_segment_convex };
         let of = |obstacle: usize, body: &Convex| {
             let mut best: Option<Contact> = None;
             for (rod, capsule) in rods.iter().enumerate() {
+                let is_under = self.has_pedestal && obstacle + 1 == bodies.len();
+                if is_under && self.body.parts()[rod].link() <= 1 {
+                    continue;
+                }
                 if !Aabb::of_capsule(capsule).grown(reach).overlaps(body.aabb()) {
                     continue;
                 }
@@ -104,7 +124,18 @@ impl CarriedArm {
             }
             best
         };
-        bodies.iter().enumerate().filter_map(|(obstacle, body)| of(obstacle, body)).collect()
+        let above = |floor: &HalfSpace| {
+            let moving = rods.iter().enumerate().filter(|(rod, _)| self.body.parts()[*rod].link() > 1);
+            let all = moving.map(|(rod, capsule)| {
+                let Nearest { distance, on_a, on_b } = nearest_segment_half_space(&capsule.segment, floor);
+                let clearance = distance - capsule.radius;
+                Contact { obstacle: bodies.len(), rod, clearance, on_rod: on_a, on_obstacle: on_b }
+            });
+            let least = all.min_by(|a, b| a.clearance.total_cmp(&b.clearance));
+            least.filter(|contact| contact.clearance <= reach)
+        };
+        let among = bodies.iter().enumerate().filter_map(|(obstacle, body)| of(obstacle, body));
+        among.chain(self.floor.as_ref().and_then(above)).collect()
     }
 
     /// How far the rods' surfaces are from the obstacles, or `reach` if that is further.

@@ -1,6 +1,7 @@
-//! Scene files: obstacles by name of their shape, or by vertices or planes.
+//! Scene files: obstacles by name of their shape, or by vertices or planes; and where an arm stands among them, if one may.
 
 use crate::geometry::{Aabb, Axis, Convex, GeometryError, Vec3};
+use crate::space::{Support, SupportEntry};
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -16,6 +17,26 @@ pub struct Scene {
     pub bodies: Vec<Convex>,
     /// Where the point may be.
     pub domain: Aabb,
+    /// Where an arm stands, if the scene is one for an arm.
+    pub support: Option<Support>,
+}
+
+impl Scene {
+    /// What a scene with an arm is made of: the bodies, the block that the base stands on among them as the last one, and where
+    /// the arm stands.
+    ///
+    /// # Errors
+    /// A sentence if the scene does not say what is under an arm.
+    pub fn with_arm(self) -> Result<(Vec<Convex>, Support), String> {
+        const CM_PER_M: f64 = 100.0;
+        let support = Support::declared(self.support.as_ref())?.clone();
+        let mut bodies = self.bodies;
+        if let Some(block) = support.pedestal() {
+            let corners = block.corners().iter().map(|corner| corner * CM_PER_M).collect();
+            bodies.push(Convex::from_vertices(corners).map_err(|e| e.to_string())?);
+        }
+        Ok((bodies, support))
+    }
 }
 
 /// What a scene file may hold.
@@ -31,6 +52,8 @@ struct SceneFile {
     source: String,
     /// The box that the point may be in.
     domain: DomainEntry,
+    /// Where an arm's base stands and what is under it; without it the scene is one for points alone.
+    support: Option<Spanned<SupportEntry>>,
     /// The obstacles.
     #[serde(default)]
     obstacle: Vec<Spanned<Shape>>,
@@ -173,8 +196,12 @@ pub(super) fn scene(document: &Arc<Document>) -> Result<Scene, SettingsError> {
     let solid = |entry: &Spanned<Shape>| {
         entry.get_ref().solid().map_err(|e| document.error(entry.span(), e.to_string()))
     };
+    let support = |entry: &Spanned<SupportEntry>| {
+        entry.get_ref().support().map_err(|message| document.error(entry.span(), message))
+    };
     let mut faults = Faults::default();
     let bodies = faults.keep_each(file.obstacle.iter().map(solid));
+    let support = faults.keep(file.support.as_ref().map(support).transpose()).flatten();
     let domain = Aabb { min: file.domain.min.into(), max: file.domain.max.into() };
-    faults.or(Some(Scene { name: file.name, bodies, domain }))
+    faults.or(Some(Scene { support, name: file.name, bodies, domain }))
 }

@@ -1,7 +1,9 @@
 //! Scenes and their refusals; rods against solids.
 
 use super::*;
+use crate::geometry::Frame;
 use crate::kinematics::Robot;
+use crate::space::Support;
 use base::settings::Document;
 use std::path::Path;
 
@@ -137,7 +139,7 @@ fn aubo() -> Robot {
 
 #[test]
 fn a_box_pierced_by_a_rod_is_touched_and_one_beside_it_is_as_far_as_its_face() {
-    let arm = CarriedArm::new(&aubo(), "paper").unwrap();
+    let arm = CarriedArm::new(&aubo(), "paper", &Support::on_floor(Frame::IDENTITY)).unwrap();
     // Upright, the upper arm stands on z at y = -20.13 and is 8 thick.
     let beside = |y: f64| vec![Convex::cuboid(Vec3::new(0.0, y, 50.0), Vec3::new(6.0, 6.0, 6.0)).unwrap()];
     let pierced = arm.contacts(&[0.0; 6], &beside(-20.13), 5.0, false);
@@ -147,14 +149,14 @@ fn a_box_pierced_by_a_rod_is_touched_and_one_beside_it_is_as_far_as_its_face() {
     assert!((near[0].clearance - 3.0).abs() < 1e-9, "{near:?}");
     assert!(arm.contacts(&[0.0; 6], &beside(-40.13), 5.0, false).is_empty(), "9 cm is out of reach");
     assert_eq!(
-        CarriedArm::new(&aubo(), "bones").unwrap_err(),
+        CarriedArm::new(&aubo(), "bones", &Support::on_floor(Frame::IDENTITY)).unwrap_err(),
         "robot `aubo_i10` has no body `bones`; it has paper, mesh"
     );
 }
 
 #[test]
 fn rods_and_tip_move_as_their_jacobians_say() {
-    let arm = CarriedArm::new(&aubo(), "paper").unwrap();
+    let arm = CarriedArm::new(&aubo(), "paper", &Support::on_floor(Frame::IDENTITY)).unwrap();
     let q = [0.3, -0.7, 1.1, 0.4, 0.9, -0.2];
     for rod in 0..arm.parts().len() {
         let at = arm.rods(&q)[rod].segment.b;

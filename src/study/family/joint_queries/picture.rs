@@ -7,10 +7,10 @@ use engine::kinematics::robot::capsule_around;
 use engine::planner::Exhibit;
 use engine::space::JointSpace;
 
-/// Obstacles, that there is no floor, and the robot and its tip at each query's ends.
-pub(super) fn exhibits(space: &JointSpace, queries: &[Query]) -> Vec<Exhibit> {
+/// Obstacles, of which the first is the floor if there is one, and the robot and its tip at each query's ends.
+pub(super) fn exhibits(space: &JointSpace, floor_m: Option<f64>, queries: &[Query]) -> Vec<Exhibit> {
     let (mut boxes, mut rounds) = (Vec::new(), Vec::new());
-    for solid in space.obstacles() {
+    for solid in space.obstacles().iter().skip(usize::from(floor_m.is_some())) {
         match solid.form {
             Form::Box(_) => boxes.extend(corners(solid)),
             _ => rounds.extend(capsule_around(solid, &Frame::IDENTITY).ok().as_ref().map(round)),
@@ -19,7 +19,11 @@ pub(super) fn exhibits(space: &JointSpace, queries: &[Query]) -> Vec<Exhibit> {
     let mut exhibits = vec![
         Exhibit { name: "boxes".to_owned(), width: 24, values: boxes },
         Exhibit { name: "rounds".to_owned(), width: 7, values: rounds.concat() },
-        Exhibit { name: "floor".to_owned(), width: 1, values: Vec::new() },
+        Exhibit {
+            name: "floor".to_owned(),
+            width: 1,
+            values: floor_m.map(|height| height * 1e3).into_iter().collect(),
+        },
     ];
     for query in queries {
         for (end, q) in [("start", &query.start), ("goal", &query.goal)] {

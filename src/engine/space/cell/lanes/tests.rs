@@ -17,7 +17,7 @@ use std::path::Path as FilePath;
 
 /// A cell with every kind of obstacle, two of which have no lanes, and a turned box.
 fn mixed_cell(robot: &Robot) -> Cell {
-    let text = "name = 'mixed'\n[floor]\nheight_mm = 0\n[[box]]\nname = 'b'\nmin_mm = [600, -300, 0]\n\
+    let text = "name = 'mixed'\n[support]\nunder = 'floor'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\n[[box]]\nname = 'b'\nmin_mm = [600, -300, 0]\n\
                 max_mm = [900, 100, 700]\nyaw_deg = 30\n[[capsule]]\nname = 'c'\nfrom_mm = [-800, 500, 300]\n\
                 to_mm = [0, 900, 900]\nradius_mm = 60\n[[sphere]]\nname = 's'\ncenter_mm = [900, 900, 900]\n\
                 radius_mm = 100\n[[convex]]\nname = 'p'\nvertices_mm = [[-900, 0, 0], [-600, 0, 0], [-900, -300, 0], \
@@ -137,7 +137,8 @@ fn what_is_thin_for_the_size_of_the_cell_has_no_lanes() {
     let robot = fu_cell().robot().clone();
     let cell = |capsule_mm: f64| {
         let text = format!(
-            "name = 's'\n[[capsule]]\nname = 'c'\nfrom_mm = [0, 0, 900]\nto_mm = [0, 900, 900]\nradius_mm = {capsule_mm}\n"
+            "name = 's'\n[support]\nunder = 'nothing'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nwhy = 'a test'\n\
+             [[capsule]]\nname = 'c'\nfrom_mm = [0, 0, 900]\nto_mm = [0, 900, 900]\nradius_mm = {capsule_mm}\n"
         );
         let scene = Scene::parse(&Document::new(FilePath::new("s.toml"), text)).unwrap();
         Cell::new(robot.clone(), scene, true)

@@ -1,0 +1,176 @@
+//! Where an arm stands in a scene and what is under it, as every kind of scene file says it.
+//!
+//! A scene without this table is one for points. Lengths in files are millimetres, those in memory metres. The world's z points up.
+
+use crate::geometry::{Frame, GeometryError, HalfSpace, OrientedBox, Solid, Vec3};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// What is said where a scene of an arm has no such table.
+const MISSING: &str = "a scene of an arm says where its base stands and what is under it: a table `[support]` with \
+                       `under = \"floor\"`, `\"pedestal\"` or `\"nothing\"` is accepted";
+
+/// The table `[support]` of a scene file.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(tag = "under", rename_all = "snake_case", deny_unknown_fields)]
+pub enum SupportEntry {
+    /// The base stands on the floor, which is at its height.
+    Floor {
+        /// x, y and z of the base.
+        base_mm: [f64; 3],
+        /// How far the base is turned about the vertical.
+        yaw_deg: f64,
+    },
+    /// The base stands on a block, and that on the floor.
+    Pedestal {
+        /// x, y and z of the base, the middle of the block's top.
+        base_mm: [f64; 3],
+        /// How far base and block are turned about the vertical.
+        yaw_deg: f64,
+        /// How high the floor is.
+        floor_mm: f64,
+        /// The block's sides along the base's x and y.
+        sides_mm: [f64; 2],
+    },
+    /// Nothing that a rod could meet: the base hangs, or is held from behind.
+    Nothing {
+        /// x, y and z of the base.
+        base_mm: [f64; 3],
+        /// How far the base is turned about the vertical.
+        yaw_deg: f64,
+        /// How high the floor is; there is none if absent.
+        floor_mm: Option<f64>,
+        /// Why there is nothing: what the arm hangs from, or whose problem it is that has no floor.
+        why: String,
+    },
+}
+
+/// Where an arm stands and what is under it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Support {
+    base: Frame,
+    floor_m: Option<f64>,
+    pedestal: Option<OrientedBox>,
+}
+
+impl SupportEntry {
+    /// The entry, checked.
+    ///
+    /// # Errors
+    /// A sentence for a pedestal without height or sides, and where nothing is under the arm for no reason.
+    pub fn support(&self) -> Result<Support, String> {
+        match self {
+            Self::Floor { base_mm, yaw_deg } => {
+                let base = frame(*base_mm, *yaw_deg);
+                Ok(Support { base, floor_m: Some(base.origin.z), pedestal: None })
+            }
+            Self::Pedestal { base_mm, yaw_deg, floor_mm, sides_mm } => {
+                let (base, height_mm) = (frame(*base_mm, *yaw_deg), base_mm[2] - floor_mm);
+                if height_mm <= 0.0 {
+                    let message = "floor_mm is at the base or above it; a floor below it is accepted, or \
+                                   `under = \"floor\"`";
+                    return Err(message.to_owned());
+                }
+                let size = Vec3::new(sides_mm[0], sides_mm[1], height_mm) * 1e-3;
+                let middle = base * Frame::at(Vec3::z() * (-0.5 * size.z));
+                let block = OrientedBox::new(middle, size)
+                    .map_err(|e| format!("sides_mm: {e} (lengths in metres)"))?;
+                Ok(Support { base, floor_m: Some(floor_mm * 1e-3), pedestal: Some(block) })
+            }
+            Self::Nothing { why, .. } if why.trim().is_empty() => {
+                Err("why is empty; the reason for which nothing is under the arm is accepted".to_owned())
+            }
+            Self::Nothing { base_mm, yaw_deg, floor_mm, .. } => Ok(Support {
+                base: frame(*base_mm, *yaw_deg),
+                floor_m: floor_mm.map(|height| height * 1e-3),
+                pedestal: None,
+            }),
+        }
+    }
+}
+
+fn frame(base_mm: [f64; 3], yaw_deg: f64) -> Frame {
+    Frame::at(Vec3::from(base_mm) * 1e-3) * Frame::turned(&Vec3::z(), yaw_deg.to_radians())
+}
+
+impl Support {
+    /// What is said of a scene that an arm is put into and that has no support.
+    ///
+    /// # Errors
+    /// A sentence, if there is none.
+    pub fn declared(support: Option<&Self>) -> Result<&Self, String> {
+        support.ok_or_else(|| MISSING.to_owned())
+    }
+
+    /// On the floor at the height of `base`.
+    pub fn on_floor(base: Frame) -> Self {
+        Self { base, floor_m: Some(base.origin.z), pedestal: None }
+    }
+
+    /// The base in the world.
+    pub fn base(&self) -> &Frame {
+        &self.base
+    }
+
+    /// How high the floor is, if there is one.
+    pub fn floor_m(&self) -> Option<f64> {
+        self.floor_m
+    }
+
+    /// The block that the base stands on, if there is one.
+    pub fn pedestal(&self) -> Option<&OrientedBox> {
+        self.pedestal.as_ref()
+    }
+
+    /// Floor and pedestal, by name.
+    ///
+    /// # Errors
+    /// [`GeometryError`] if the floor's height is not finite.
+    pub fn solids(&self) -> Result<Vec<(&'static str, Solid)>, GeometryError> {
+        let floor =
+            self.floor_m.map(|height| HalfSpace::below(height).map(|half| ("floor", Solid::HalfSpace(half))));
+        let block = self.pedestal.map(|block| Ok(("pedestal", Solid::Box(block))));
+        floor.into_iter().chain(block).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Support, String> {
+        toml::from_str::<SupportEntry>(text).map_err(|e| e.to_string())?.support()
+    }
+
+    #[test]
+    fn what_is_under_a_base_is_where_the_base_ends() {
+        let floor = read("under = 'floor'\nbase_mm = [100, 0, -50]\nyaw_deg = 90\n").unwrap();
+        assert_eq!(floor.floor_m(), Some(-0.05));
+        assert!((floor.base().axis(0) - Vec3::y()).norm() < 1e-12, "{floor:?}");
+        let block = "under = 'pedestal'\nbase_mm = [0, 0, 300]\nyaw_deg = 0\nfloor_mm = -100\nsides_mm = [200, 400]\n";
+        let raised = read(block).unwrap();
+        let bounds = raised.pedestal().unwrap().aabb();
+        assert!((bounds.min - Vec3::new(-0.1, -0.2, -0.1)).norm() < 1e-12, "{bounds:?}");
+        assert!((bounds.max - Vec3::new(0.1, 0.2, 0.3)).norm() < 1e-12, "{bounds:?}");
+        let names: Vec<&str> = raised.solids().unwrap().iter().map(|(name, _)| *name).collect();
+        assert_eq!((names, raised.floor_m()), (vec!["floor", "pedestal"], Some(-0.1)));
+        let hung = read("under = 'nothing'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nwhy = 'hung'\n").unwrap();
+        assert!(hung.solids().unwrap().is_empty());
+        let above =
+            read("under = 'nothing'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nwhy = 'hung'\nfloor_mm = -2000\n")
+                .unwrap();
+        assert_eq!(above.floor_m(), Some(-2.0));
+    }
+
+    #[test]
+    fn a_support_that_is_none_is_refused() {
+        let block =
+            "under = 'pedestal'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nfloor_mm = 0\nsides_mm = [200, 400]\n";
+        assert!(read(block).unwrap_err().contains("a floor below it is accepted"));
+        let flat = block.replace("floor_mm = 0", "floor_mm = -9").replace("[200", "[0");
+        assert!(read(&flat).unwrap_err().contains("sides_mm"));
+        let empty = "under = 'nothing'\nbase_mm = [0, 0, 0]\nyaw_deg = 0\nwhy = ' '\n";
+        assert!(read(empty).unwrap_err().contains("why is empty"));
+        assert!(Support::declared(None).unwrap_err().contains("[support]"));
+    }
+}
