@@ -109,6 +109,7 @@ pub static COLUMNS: &[Column] = &[
     count("start_links", "samples that the start is joined with"),
     count("goal_links", "samples that the goal is joined with"),
     count("unjoined_legs", "nodes of the returned path that no edge joins with the one before"),
+    real("neighbour_mm", "how far apart neighbours may be on the roadmap: ρ"),
     count("sight_checks", "lines of sight between two cells that were looked at"),
     count("shots", "local paths to the goal that were tried before an expansion"),
     count("joins", "local paths that were tried to straighten the path"),

@@ -28,6 +28,7 @@ pub static ENTRY: Entry = Entry {
         "start_links",
         "goal_links",
         "unjoined_legs",
+        "neighbour_mm",
     ],
     settings: Accepted::of::<RoadmapAstar>(),
     example: r#"
@@ -38,7 +39,13 @@ blind = true
 goal_shot = "never"
 path = "parents"
 "#,
-    build: Build::Planner(|settings| Ok(Box::new(settings.read::<RoadmapAstar>()?))),
+    build: Build::Planner(|settings| {
+        let read: RoadmapAstar = settings.read()?;
+        if read.neighbour_mm.is_some() == read.neighbour_share.is_some() {
+            return Err(settings.error("exactly one of neighbour_mm and neighbour_share is accepted"));
+        }
+        Ok(Box::new(read))
+    }),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -47,9 +54,12 @@ struct RoadmapAstar {
     /// How many samples: N.
     #[schemars(range(min = 1))]
     samples: u32,
-    /// How far apart neighbours may be: ρ.
+    /// How far apart neighbours may be: ρ; given like this or as `neighbour_share`.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    neighbour_mm: f64,
+    neighbour_mm: Option<f64>,
+    /// The same as a share of the radius that the roadmap was built up to.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1.0))]
+    neighbour_share: Option<f64>,
     /// At most this many nearest samples are neighbours of a node.
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
@@ -95,7 +105,12 @@ enum PathSetting {
 
 impl RoadmapAstar {
     fn extent(&self) -> Extent {
-        Extent { samples: self.samples, radius_mm: self.neighbour_mm }
+        Extent { samples: self.samples, radius_mm: self.neighbour_mm.unwrap_or(0.0) }
+    }
+
+    /// How far apart neighbours may be on a roadmap that was built up to `radius_mm`.
+    fn neighbour_mm(&self, radius_mm: f64) -> f64 {
+        self.neighbour_mm.unwrap_or_else(|| self.neighbour_share.map_or(radius_mm, |share| share * radius_mm))
     }
 
     fn part<'a>(&self, posed: &Posed<'a>) -> Result<Part<'a>, Invalid> {
@@ -109,7 +124,7 @@ impl RoadmapAstar {
             CostSetting::Length => EdgeCost::Length,
         };
         let nearest = self.nearest.map(|count| count as usize);
-        Ok(Part::new(posed, prefix, self.neighbour_mm, nearest, cost))
+        Ok(Part::new(posed, prefix, self.neighbour_mm(built.radius_mm), nearest, cost))
     }
 
     fn counts(&self, part: &Part<'_>, counters: &Counters, shots: u64) -> Counts {
@@ -119,6 +134,7 @@ impl RoadmapAstar {
             ("closed", Value::Count(counters.closed)),
             ("expansions", Value::Count(counters.expansions)),
             ("generated", Value::Count(counters.generated)),
+            ("neighbour_mm", Value::Real(part.radius_mm)),
         ]);
         if self.goal_shot != ShotSetting::Never {
             counts.insert("shots", Value::Count(shots));

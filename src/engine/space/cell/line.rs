@@ -87,6 +87,19 @@ impl Lines {
         self.clear(way.as_ref(), from.branch, scratch)
     }
 
+    /// The least clearance at the steps of the local path between two configurations, 0 where it is in contact; `None` if the
+    /// joints cannot follow it or arrive in another configuration than the one asked for.
+    pub fn clearance_m(&self, from: &Pose, to: &Pose, scratch: &mut Scratch) -> Option<f64> {
+        if self.parts_branches(from, to) {
+            return None;
+        }
+        match self.join_singly(from, to, scratch) {
+            Ok(()) | Err(Rejection::Contact) => {}
+            Err(_) => return None,
+        }
+        scratch.states.iter().map(|q| self.cell.clearance_m(q)).reduce(f64::min)
+    }
+
     /// The configurations at even steps from `from` along `way`, both ends included.
     fn follow(&self, from: &Pose, way: &Way, states: &mut Vec<Joints>) -> Result<(), Rejection> {
         let rules = &self.rules;

@@ -190,6 +190,27 @@ impl Scene {
         Self { name: "empty".to_owned(), obstacles: Vec::new() }
     }
 
+    /// The same scene with the box called `name` as high as this, standing where it stood.
+    ///
+    /// # Errors
+    /// A sentence if there is no such box or the height is not above 0.
+    pub fn with_height(&self, name: &str, height_m: f64) -> Result<Self, String> {
+        let mut scene = self.clone();
+        let is_box = |o: &Obstacle| matches!(o.solid, Solid::Box(_));
+        let Some(obstacle) = scene.obstacles.iter_mut().find(|o| o.name == name && is_box(o)) else {
+            let boxes = self.obstacles.iter().filter(|o| is_box(o)).map(|o| o.name.as_str());
+            let known = boxes.collect::<Vec<_>>().join(", ");
+            return Err(format!("there is no box `{name}`; the boxes are {known}"));
+        };
+        if let Solid::Box(solid) = &obstacle.solid {
+            let (mut frame, half) = (*solid.frame(), *solid.half());
+            frame.origin.z += 0.5 * height_m - half.z;
+            let size = Vec3::new(2.0 * half.x, 2.0 * half.y, height_m);
+            obstacle.solid = Solid::Box(OrientedBox::new(frame, size).map_err(|e| e.to_string())?);
+        }
+        Ok(scene)
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         &self.name
