@@ -110,6 +110,8 @@ pub static COLUMNS: &[Column] = &[
     count("goal_links", "samples that the goal is joined with"),
     count("unjoined_legs", "nodes of the returned path that no edge joins with the one before"),
     real("neighbour_mm", "how far apart neighbours may be on the roadmap: ρ"),
+    count("used_samples", "samples of the part of the roadmap that was searched"),
+    real("straight_mm", "distance of the tool's or the particle's places at start and goal"),
     count("sight_checks", "lines of sight between two cells that were looked at"),
     count("shots", "local paths to the goal that were tried before an expansion"),
     count("joins", "local paths that were tried to straighten the path"),

@@ -15,7 +15,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "roadmap_astar",
     about: "A* on the first samples of a roadmap; f = depth or way so far + distance to the goal; perhaps a shot at the goal",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Roadmap,
     columns: &[
         "opened",
@@ -29,6 +29,8 @@ pub static ENTRY: Entry = Entry {
         "goal_links",
         "unjoined_legs",
         "neighbour_mm",
+        "used_samples",
+        "straight_mm",
     ],
     settings: Accepted::of::<RoadmapAstar>(),
     example: r#"
@@ -81,6 +83,8 @@ enum CostSetting {
     Hops,
     /// The length of the edges.
     Length,
+    /// Nothing: f is the distance to the goal alone.
+    Nothing,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
@@ -122,6 +126,7 @@ impl RoadmapAstar {
         let cost = match self.cost {
             CostSetting::Hops => EdgeCost::Hop,
             CostSetting::Length => EdgeCost::Length,
+            CostSetting::Nothing => EdgeCost::Nothing,
         };
         let nearest = self.nearest.map(|count| count as usize);
         Ok(Part::new(posed, prefix, self.neighbour_mm(built.radius_mm), nearest, cost))
@@ -135,6 +140,8 @@ impl RoadmapAstar {
             ("expansions", Value::Count(counters.expansions)),
             ("generated", Value::Count(counters.generated)),
             ("neighbour_mm", Value::Real(part.radius_mm)),
+            ("used_samples", Value::Count(u64::from(part.prefix))),
+            ("straight_mm", Value::Real(part.map.gap_mm(part.start, part.goal))),
         ]);
         if self.goal_shot != ShotSetting::Never {
             counts.insert("shots", Value::Count(shots));

@@ -85,9 +85,8 @@ const DRAWN: usize = 60;
 fn draws_between(curves: &[Vec<f64>]) -> Vec<[f64; 2]> {
     let width = curves.first().map_or(0, Vec::len);
     let at = |cell: usize| {
-        let mut values: Vec<f64> = curves.iter().map(|curve| curve[cell]).collect();
-        values.sort_by(f64::total_cmp);
-        [0.025, 0.975].map(|share| quantile_type7(&values, share))
+        let values: Vec<f64> = curves.iter().map(|curve| curve[cell]).collect();
+        [0.025, 0.975].map(|share| quantile_type7(&values, share).expect("there is a curve"))
     };
     (0..width).map(at).collect()
 }
@@ -188,7 +187,10 @@ impl SweepCurves {
         for (draw, curve) in curves.iter().take(DRAWN).enumerate() {
             // Equal rows are moved apart by up to a point and a half, so that they can be told.
             let shift = ((draw as f64 * 0.618_033_988_749_895).fract() - 0.5) * 3.0;
-            let line = Line::through(self.over(curve).map(|(x, y)| [x, (y + shift).clamp(0.0, 100.0)]).collect(), thin);
+            let line = Line::through(
+                self.over(curve).map(|(x, y)| [x, (y + shift).clamp(0.0, 100.0)]).collect(),
+                thin,
+            );
             panel.add(line.labelled(if draw == 0 { "one roadmap (first 60)" } else { "" }));
         }
         let cells = 0..self.points.len();

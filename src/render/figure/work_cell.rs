@@ -88,6 +88,15 @@ fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderErr
     Ok(solids)
 }
 
+/// The names of boxes at the middle of their upper sides.
+fn name_boxes(scene: &Scene<'_>, draw: &Arc<DrawKey>, solids: &mut Solids) {
+    for top in scene.run.exhibits(draw) {
+        if let (Some(name), [x, y, z]) = (top.name.strip_prefix("obstacle "), &top.values[..]) {
+            solids.tag([*x, *y, *z], name);
+        }
+    }
+}
+
 /// How high the floor is: at 0 unless the draw says otherwise; `None` if it says that there is none.
 fn floor_height(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Option<f64> {
     ask::exhibit(scene, draw, "floor").map_or(Some(0.0), |exhibit| exhibit.values.first().copied())
@@ -167,10 +176,13 @@ impl WorkCell {
             sheet = sheet.titled(said);
         }
         let named: Vec<(usize, &[String; 2])> = self.poses.iter().enumerate().collect();
-        for shown in named.chunks(self.at_once.max(1)) {
-            for (title, camera) in VIEWS {
+        for (row, shown) in named.chunks(self.at_once.max(1)).enumerate() {
+            for (view, (title, camera)) in VIEWS.into_iter().enumerate() {
                 let mut solids = furnished(scene, draw)?;
                 let mut keys = vec![cell_key("obstacles", OBSTACLE)];
+                if row + view == 0 {
+                    name_boxes(scene, draw, &mut solids);
+                }
                 for (place, (index, [pose, name])) in shown.iter().enumerate() {
                     let color = series_color(*index).mixed(WHITE, 0.35);
                     let body = ask::exhibit(scene, draw, &format!("body {pose}"))?;

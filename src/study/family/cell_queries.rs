@@ -25,7 +25,7 @@ use std::path::PathBuf;
 pub static ENTRY: Entry = Entry {
     name: "cell_queries",
     about: "queries of a six-axis arm in its cell, on roadmaps of free configurations drawn at random",
-    revision: 2,
+    revision: 3,
     prepared: nested_roadmap::ENTRY.name,
     columns: ARM_COLUMNS,
     settings: Accepted::of::<CellQueries>(),

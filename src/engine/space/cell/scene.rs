@@ -232,6 +232,21 @@ mod tests {
     }
 
     #[test]
+    fn a_box_of_another_height_stands_where_it_stood() {
+        let text =
+            "name = 's'\n[[box]]\nname = 'b'\nmin_mm = [0, 0, 100]\nmax_mm = [10, 20, 400]\nyaw_deg = 90\n";
+        let scene = Scene::parse(&Document::new(Path::new("s.toml"), text.to_owned())).unwrap();
+        let Solid::Box(higher) = &scene.with_height("b", 0.5).unwrap().obstacles()[0].solid else {
+            panic!("no box")
+        };
+        let z: Vec<f64> = higher.corners().iter().map(|corner| corner.z).collect();
+        let [low, high] = [f64::min, f64::max].map(|of| z.iter().copied().reduce(of).unwrap());
+        assert!((low - 0.1).abs() < 1e-12 && (high - 0.6).abs() < 1e-12, "{z:?}");
+        assert_eq!(scene.with_height("c", 0.5).unwrap_err(), "there is no box `c`; the boxes are b");
+        assert!(scene.with_height("b", 0.0).is_err());
+    }
+
+    #[test]
     fn every_kind_of_obstacle_is_read_in_metres() {
         let text = "name = 's'\n[floor]\nheight_mm = -5\n[[box]]\nname = 'b'\nmin_mm = [0, 0, 0]\nmax_mm = [100, 200, 300]\n\
                     yaw_deg = 90\n[[sphere]]\nname = 'k'\ncenter_mm = [1, 2, 3]\nradius_mm = 50\n[[capsule]]\nname = 'c'\n\
