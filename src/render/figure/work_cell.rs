@@ -88,15 +88,6 @@ fn furnished(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Result<Solids, RenderErr
     Ok(solids)
 }
 
-/// The names of boxes at the middle of their upper sides.
-fn name_boxes(scene: &Scene<'_>, draw: &Arc<DrawKey>, solids: &mut Solids) {
-    for top in scene.run.exhibits(draw) {
-        if let (Some(name), [x, y, z]) = (top.name.strip_prefix("obstacle "), &top.values[..]) {
-            solids.tag([*x, *y, *z], name);
-        }
-    }
-}
-
 /// How high the floor is: at 0 unless the draw says otherwise; `None` if it says that there is none.
 fn floor_height(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Option<f64> {
     ask::exhibit(scene, draw, "floor").map_or(Some(0.0), |exhibit| exhibit.values.first().copied())
@@ -176,13 +167,10 @@ impl WorkCell {
             sheet = sheet.titled(said);
         }
         let named: Vec<(usize, &[String; 2])> = self.poses.iter().enumerate().collect();
-        for (row, shown) in named.chunks(self.at_once.max(1)).enumerate() {
-            for (view, (title, camera)) in VIEWS.into_iter().enumerate() {
+        for shown in named.chunks(self.at_once.max(1)) {
+            for (title, camera) in VIEWS {
                 let mut solids = furnished(scene, draw)?;
                 let mut keys = vec![cell_key("obstacles", OBSTACLE)];
-                if row + view == 0 {
-                    name_boxes(scene, draw, &mut solids);
-                }
                 for (place, (index, [pose, name])) in shown.iter().enumerate() {
                     let color = series_color(*index).mixed(WHITE, 0.35);
                     let body = ask::exhibit(scene, draw, &format!("body {pose}"))?;
@@ -315,9 +303,8 @@ impl Kind for WorkCell {
             let cells = [(0, axes, 0), (axes, axes + 3, 1), (axes + 3, axes + 6, 1), (axes + 6, axes + 9, 3)];
             let cells = cells.map(|(from, to, decimals)| numbers(from, to, decimals));
             let line = if end == "start" { lines.next() } else { None };
-            let line = line.map_or_else(String::new, |line| match line[0] > 0.0 {
-                true => format!("free, {:.1} mm", line[1]),
-                false => "blocked".to_owned(),
+            let line = line.map_or_else(String::new, |line| {
+                if line[0] > 0.0 { format!("free, {:.1} mm", line[1]) } else { "blocked".to_owned() }
             });
             let row = [group.to_owned(), end.to_owned()].into_iter().chain(cells).chain([line]);
             table.row(row.map(Cell::from).collect());

@@ -46,19 +46,8 @@ pub(super) fn exhibits(lines: &Lines, queries: &[Query]) -> Vec<Exhibit> {
             exhibits.push(pose(cell, format!("pose {}/{end}", query.name), config));
         }
     }
-    exhibits.extend(tops(cell));
     exhibits.push(straight_lines(lines, queries));
     exhibits
-}
-
-/// Where the name of each box stands: the middle of its upper side.
-fn tops(cell: &Cell) -> Vec<Exhibit> {
-    let named = cell.scene().obstacles().iter().filter_map(|obstacle| {
-        let Solid::Box(solid) = &obstacle.solid else { return None };
-        let top = solid.frame().origin + Vec3::z() * solid.half().z;
-        Some(Exhibit { name: format!("obstacle {}", obstacle.name), width: 3, values: mm(&top).to_vec() })
-    });
-    named.collect()
 }
 
 /// Of each query in turn: whether the local path from start to goal is free, and how clear of everything it is; no number where
