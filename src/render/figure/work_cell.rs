@@ -287,8 +287,8 @@ impl Kind for WorkCell {
         let heads =
             ["group", "", "joint angles (°)", "flange (mm)", "tip (mm)", "direction", "straight line"];
         table.head(heads.map(Cell::from).to_vec());
-        let lines = ask::exhibit(scene, draw, "straight lines")?;
-        let mut lines = lines.values.chunks(lines.width);
+        let lines = ask::exhibit(scene, draw, "straight lines").ok();
+        let mut lines = lines.into_iter().flat_map(|lines| lines.values.chunks(lines.width));
         for exhibit in scene.run.exhibits(draw) {
             let Some((group, end)) = exhibit.name.strip_prefix("pose ").and_then(|name| name.split_once('/'))
             else {
