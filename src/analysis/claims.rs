@@ -234,9 +234,12 @@ fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
 fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: &Claim) -> Weighed {
     let found = of.find(evidence);
     let studies = of.studies();
+    let is_fitted = |id: &str| studies.iter().any(|study| study.fitted_to.iter().any(|other| other == id));
+    // A cell of a row that something was chosen to meet was met with it.
+    let row = evidence.paper.whole_of(&claim.id).filter(|whole| matches!(whole.parts, Parts::Cells(_)));
     let caps = Caps {
         searched: studies.iter().any(|study| study.searched),
-        fitted: studies.iter().any(|study| study.fitted_to.contains(&claim.id)),
+        fitted: is_fitted(&claim.id) || row.is_some_and(|row| is_fitted(&row.id)),
         existential: found.existential,
         powerless: found.powerless,
         censored: found.censored > 0,

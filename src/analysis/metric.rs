@@ -78,6 +78,7 @@ pub static METRICS: &[Metric] = &[
     metric("largest_turn_deg", "Largest turn", "°", Better::Lower),
     metric("list_operations", "Linear-scan operations", "", Better::Lower),
     metric("local_paths", "Local paths", "", Better::Lower),
+    metric("neighbour_mm", "Neighbour threshold ρ", "mm", Better::Neither),
     metric("opened", "Opened nodes", "", Better::Lower),
     metric("opened_distinct", "Opened nodes, each once", "", Better::Lower),
     metric("optimal_cost_cells", "Optimal cost", "cells", Better::Neither),

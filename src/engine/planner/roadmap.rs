@@ -50,6 +50,8 @@ pub(super) enum EdgeCost {
     Hop,
     /// The straight way of the tool.
     Length,
+    /// Nothing: the estimate alone leads.
+    Nothing,
 }
 
 /// The first samples of a roadmap with one start and one goal, under edges up to a radius.
@@ -128,6 +130,7 @@ impl<'a> Part<'a> {
         match self.cost {
             EdgeCost::Hop => 1.0,
             EdgeCost::Length => gap_mm,
+            EdgeCost::Nothing => 0.0,
         }
     }
 }

@@ -15,7 +15,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "roadmap_astar",
     about: "A* on the first samples of a roadmap; f = depth or way so far + distance to the goal; perhaps a shot at the goal",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Roadmap,
     columns: &[
         "opened",
@@ -28,6 +28,9 @@ pub static ENTRY: Entry = Entry {
         "start_links",
         "goal_links",
         "unjoined_legs",
+        "neighbour_mm",
+        "used_samples",
+        "straight_mm",
     ],
     settings: Accepted::of::<RoadmapAstar>(),
     example: r#"
@@ -38,7 +41,13 @@ blind = true
 goal_shot = "never"
 path = "parents"
 "#,
-    build: Build::Planner(|settings| Ok(Box::new(settings.read::<RoadmapAstar>()?))),
+    build: Build::Planner(|settings| {
+        let read: RoadmapAstar = settings.read()?;
+        if read.neighbour_mm.is_some() == read.neighbour_share.is_some() {
+            return Err(settings.error("exactly one of neighbour_mm and neighbour_share is accepted"));
+        }
+        Ok(Box::new(read))
+    }),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -47,9 +56,12 @@ struct RoadmapAstar {
     /// How many samples: N.
     #[schemars(range(min = 1))]
     samples: u32,
-    /// How far apart neighbours may be: ρ.
+    /// How far apart neighbours may be: ρ; given like this or as `neighbour_share`.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    neighbour_mm: f64,
+    neighbour_mm: Option<f64>,
+    /// The same as a share of the radius that the roadmap was built up to.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1.0))]
+    neighbour_share: Option<f64>,
     /// At most this many nearest samples are neighbours of a node.
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
@@ -71,6 +83,8 @@ enum CostSetting {
     Hops,
     /// The length of the edges.
     Length,
+    /// Nothing: f is the distance to the goal alone.
+    Nothing,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
@@ -95,7 +109,12 @@ enum PathSetting {
 
 impl RoadmapAstar {
     fn extent(&self) -> Extent {
-        Extent { samples: self.samples, radius_mm: self.neighbour_mm }
+        Extent { samples: self.samples, radius_mm: self.neighbour_mm.unwrap_or(0.0) }
+    }
+
+    /// How far apart neighbours may be on a roadmap that was built up to `radius_mm`.
+    fn neighbour_mm(&self, radius_mm: f64) -> f64 {
+        self.neighbour_mm.unwrap_or_else(|| self.neighbour_share.map_or(radius_mm, |share| share * radius_mm))
     }
 
     fn part<'a>(&self, posed: &Posed<'a>) -> Result<Part<'a>, Invalid> {
@@ -107,9 +126,10 @@ impl RoadmapAstar {
         let cost = match self.cost {
             CostSetting::Hops => EdgeCost::Hop,
             CostSetting::Length => EdgeCost::Length,
+            CostSetting::Nothing => EdgeCost::Nothing,
         };
         let nearest = self.nearest.map(|count| count as usize);
-        Ok(Part::new(posed, prefix, self.neighbour_mm, nearest, cost))
+        Ok(Part::new(posed, prefix, self.neighbour_mm(built.radius_mm), nearest, cost))
     }
 
     fn counts(&self, part: &Part<'_>, counters: &Counters, shots: u64) -> Counts {
@@ -119,6 +139,9 @@ impl RoadmapAstar {
             ("closed", Value::Count(counters.closed)),
             ("expansions", Value::Count(counters.expansions)),
             ("generated", Value::Count(counters.generated)),
+            ("neighbour_mm", Value::Real(part.radius_mm)),
+            ("used_samples", Value::Count(u64::from(part.prefix))),
+            ("straight_mm", Value::Real(part.map.gap_mm(part.start, part.goal))),
         ]);
         if self.goal_shot != ShotSetting::Never {
             counts.insert("shots", Value::Count(shots));

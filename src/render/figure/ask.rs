@@ -3,8 +3,8 @@
 use super::Scene;
 use crate::analysis::evidence::Run;
 use crate::analysis::metric::{self, Metric};
-use crate::analysis::selection::Selection;
-use crate::analysis::statistic::OfDraw;
+use crate::analysis::selection::{Selection, cases};
+use crate::analysis::statistic::{OfDraw, median};
 use crate::render::RenderError;
 use crate::render::chart::Panel;
 use crate::render::chart::marks::Points;
@@ -15,6 +15,7 @@ use crate::study::record::Row;
 use crate::study::{Study, labels_of};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 use engine::planner::Exhibit;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Refuses problem groups and contenders that `study` does not have.
@@ -206,7 +207,8 @@ pub(super) fn trial_at<'s>(
     rows.find(|row| at.is_none_or(|sweep| row.key.sweep == *sweep)).ok_or_else(missing)
 }
 
-/// The first draw on which every contender has a trial with the exhibit `name` for the query called `of_query`.
+/// Of the draws on which every contender has a trial with the exhibit `name` for the query called `of_query`, the one on which
+/// the last contender's saving of the first one's way is nearest to the median over all draws; the first if nothing is saved.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.
@@ -222,12 +224,34 @@ pub(super) fn shared_draw(
             .is_ok_and(|row| scene.run.exhibit(&row.key, name).is_some())
     };
     let group = scene.run.study.groups.iter().find(|group| group.label == problems);
-    let mut draws = 0..group.map_or(0, |group| group.replicates);
-    let found = draws.find(|draw| contenders.iter().all(|contender| has_it(*draw, contender)));
+    let draws = 0..group.map_or(0, |group| group.replicates);
+    let kept: Vec<u32> =
+        draws.filter(|draw| contenders.iter().all(|contender| has_it(*draw, contender))).collect();
+    let savings = savings(scene, problems, of_query, contenders);
+    let middle = median(&savings.values().copied().collect::<Vec<_>>());
+    let off = |draw: &u32| match (middle, savings.get(draw)) {
+        (Some(middle), Some(saving)) => (saving - middle).abs(),
+        _ => f64::INFINITY,
+    };
+    let found = kept.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
     found.ok_or_else(|| RenderError::NotStored {
         what: format!(
             "the exhibit `{name}` of {} for query {of_query} on one draw",
             contenders.join(" and ")
         ),
     })
+}
+
+/// By draw, what the last contender saves of the first one's way on a query, percent.
+pub(super) fn savings(
+    scene: &Scene<'_>,
+    problems: &str,
+    of_query: &str,
+    contenders: &[String],
+) -> BTreeMap<u32, f64> {
+    let [first, .., last] = contenders else { return BTreeMap::new() };
+    let all = trials(scene.run, problems, last);
+    let (metric, query) = (metric::find("path_length_mm"), Some(of_query.to_owned()));
+    let draws = Selection { against: Some(first.clone()), metric, query, ..all }.draws(scene.evidence);
+    cases(&draws).filter_map(|case| Some((case.row.draw(), case.saving_percent()?))).collect()
 }

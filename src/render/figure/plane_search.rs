@@ -103,7 +103,7 @@ impl PlaneSearch {
         let corners = ask::exhibit(scene, draw, "obstacles")?;
         let numbered: Vec<[f64; 3]> = corners.values.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
         for obstacle in numbered.chunk_by(|a, b| a[0] == b[0]) {
-            let fill = Some(Fill::solid(BLUE.mixed(BLACK, 0.45)));
+            let fill = Some(Fill::solid(BLUE.mixed(WHITE, 0.45)));
             let corners = obstacle.iter().map(|c| [c[1], c[2]]).collect();
             panel.add(Shape { corners, fill, stroke: None, label: "obstacle".to_owned() });
         }
@@ -169,10 +169,15 @@ fn straightened(
     let raw = ask::points(ask::exhibit(scene, &row.key, "raw_path")?);
     let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
     panel.add(Line::through(raw.clone(), stroke).labelled("path as searched"));
-    let inner = raw[1..raw.len() - 1].to_vec();
-    panel.add(Points::of(inner, Marker::Circle, 2.4, SKY).labelled("searched"));
     let shown = path[..kept.min(path.len())].to_vec();
+    let reached = shown.last().and_then(|last| raw.iter().position(|at| at == last)).unwrap_or(0);
+    let inner = raw.iter().enumerate().skip(1).take(raw.len() - 2);
+    let (gone, open): (Vec<_>, Vec<_>) = inner.partition(|(index, _)| *index < reached);
+    let places = |nodes: Vec<(usize, &[f64; 2])>| nodes.into_iter().map(|(_, at)| *at).collect::<Vec<_>>();
+    panel.add(Points::of(places(open), Marker::Circle, 2.4, SKY).labelled("searched"));
     if kept > 0 {
+        let abandoned = GREY.mixed(BLACK, 0.5);
+        panel.add(Points::of(places(gone), Marker::Circle, 2.4, abandoned).labelled("abandoned"));
         panel.add(Line::through(shown.clone(), Stroke::solid(BLACK, 1.5)).labelled("straightened"));
         panel.add(Points::of(shown, Marker::Diamond, 2.8, VERMILLION).labelled("retained"));
     }

@@ -16,7 +16,7 @@ use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bands::{curves_of, sup_t};
-use stats::summary::mean;
+use stats::summary::{mean, quantile_type7};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -80,6 +80,16 @@ struct RowOf {
 
 /// At most this many draws are drawn one by one, the first ones.
 const DRAWN: usize = 60;
+
+/// Between which values 95 of 100 draws lie at each point of the sweep: where one more would.
+fn draws_between(curves: &[Vec<f64>]) -> Vec<[f64; 2]> {
+    let width = curves.first().map_or(0, Vec::len);
+    let at = |cell: usize| {
+        let values: Vec<f64> = curves.iter().map(|curve| curve[cell]).collect();
+        [0.025, 0.975].map(|share| quantile_type7(&values, share).expect("there is a curve"))
+    };
+    (0..width).map(at).collect()
+}
 
 impl SweepCurves {
     fn new(settings: &Settings, study: &Study, paper: &Paper) -> Result<Self, SettingsError> {
@@ -152,21 +162,35 @@ impl SweepCurves {
         let points = self.over(&found.mean).map(|(x, y)| [x, *y]).collect();
         panel.add(Line::through(points, series_stroke(index)).labelled(label));
         if !row.printed.is_empty() {
-            let color = Stroke::solid(series_color(index), 1.0).color;
-            let printed = Points::of(row.printed.clone(), series_marker(index), 3.0, color);
-            panel.add(printed.labelled(format!("{}: printed", row.contender)));
+            let edges = self.over(draws_between(&curves)).map(|(x, [low, high])| [x, low, high]).collect();
+            let label = format!("{}: 95 of 100 draws", row.contender);
+            panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.1), label });
         }
         Ok(())
     }
 
-    fn single_draws(&self, scene: &Scene<'_>, row: &RowOf) -> Result<Panel, RenderError> {
+    /// The printed row; the first contender's lie on top, so that equal points of others stand out around them.
+    fn add_printed(&self, scene: &Scene<'_>, panel: &mut Panel, place: usize) {
+        let row = &self.rows[place];
+        let index = ask::series(scene, &row.contender, place);
+        let size = 2.4 + 1.4 * place as f64;
+        let printed = Points::of(row.printed.clone(), series_marker(index), size, series_color(index));
+        panel.add(printed.labelled(format!("{}: printed", row.contender)));
+    }
+
+    fn single_draws(&self, scene: &Scene<'_>, place: usize) -> Result<Panel, RenderError> {
+        let row = &self.rows[place];
+        let color = series_color(ask::series(scene, &row.contender, place));
         let curves = self.curves(scene, &row.contender);
         let mut panel = self.panel(&row.contender)?;
-        let thin = Stroke::solid(series_color(0).mixed(WHITE, 0.6), 0.35);
+        let thin = Stroke::solid(color.mixed(WHITE, 0.6), 0.35);
         for (draw, curve) in curves.iter().take(DRAWN).enumerate() {
             // Equal rows are moved apart by up to a point and a half, so that they can be told.
             let shift = ((draw as f64 * 0.618_033_988_749_895).fract() - 0.5) * 3.0;
-            let line = Line::through(self.over(curve).map(|(x, y)| [x, y + shift]).collect(), thin);
+            let line = Line::through(
+                self.over(curve).map(|(x, y)| [x, (y + shift).clamp(0.0, 100.0)]).collect(),
+                thin,
+            );
             panel.add(line.labelled(if draw == 0 { "one roadmap (first 60)" } else { "" }));
         }
         let cells = 0..self.points.len();
@@ -249,12 +273,15 @@ impl Kind for SweepCurves {
             return sheet.with(self.metrics.iter().map(|metric| self.metric(scene, metric)));
         }
         if self.read.single_draws {
-            let panels = self.rows.iter().map(|row| self.single_draws(scene, row));
+            let panels = (0..self.rows.len()).map(|place| self.single_draws(scene, place));
             return Sheet::new(Width::Double, self.rows.len(), 170.0).with(panels);
         }
         let mut panel = self.panel("")?;
         for (place, row) in self.rows.iter().enumerate() {
             self.add_band(scene, &mut panel, row, place)?;
+        }
+        for place in (0..self.rows.len()).rev().filter(|place| !self.rows[*place].printed.is_empty()) {
+            self.add_printed(scene, &mut panel, place);
         }
         Sheet::new(Width::Double, 1, 210.0).with([Ok(panel)])
     }

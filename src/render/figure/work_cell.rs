@@ -1,8 +1,6 @@
 //! A work cell from two sides: its robot at several poses, or the ways of its tool.
 
 use super::{Entry, Kind, Scene, Shown, ask};
-use crate::analysis::metric;
-use crate::analysis::selection::{Case, Selection, by_draw, cases};
 use crate::analysis::statistic::median;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
@@ -52,7 +50,7 @@ struct WorkCell {
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 1000))]
     at_once: usize,
-    /// Contenders whose ways on `query` are shown, on the first draw on which all of them find one.
+    /// Contenders whose ways on `query` are shown, on the kept draw whose saving is nearest to the median.
     #[serde(default)]
     contenders: Vec<String>,
     /// The query of the ways, by its name.
@@ -136,6 +134,26 @@ fn add_capsules(solids: &mut Solids, capsules: &Exhibit, paint: Paint) {
     }
 }
 
+/// Which straight lines between the ends of queries are free, and how clear of everything.
+fn straight_lines(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Option<String> {
+    let lines = ask::exhibit(scene, draw, "straight lines").ok()?;
+    let names = scene.run.exhibits(draw).filter_map(|e| e.name.strip_prefix("pose ")?.strip_suffix("/start"));
+    let (mut free, mut blocked) = (Vec::new(), Vec::new());
+    for (name, line) in names.zip(lines.values.chunks(lines.width)) {
+        if line[0] > 0.0 {
+            free.push(format!("{name}: {:.0}", line[1]));
+        } else {
+            blocked.push(name.to_owned());
+        }
+    }
+    let (free, all) = (free.join(", "), free.len() + blocked.len());
+    let count = all - blocked.len();
+    Some(format!(
+        "{count} of {all} straight lines are free, with mm of clearance: {free}; blocked: {}",
+        blocked.join(", ")
+    ))
+}
+
 /// A panel that shows `scene`.
 fn panel(title: &str, scene: Solids, camera: Camera, keys: Vec<Key>) -> Panel {
     let bar = Some(ScaleBar { length: 500.0, label: "500 mm".to_owned() });
@@ -167,6 +185,9 @@ impl WorkCell {
     fn poses(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let draw = ask::draw(scene, &self.problems, 0)?;
         let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);
+        if let Some(said) = straight_lines(scene, draw) {
+            sheet = sheet.titled(said);
+        }
         let named: Vec<(usize, &[String; 2])> = self.poses.iter().enumerate().collect();
         for shown in named.chunks(self.at_once.max(1)) {
             for (title, camera) in VIEWS {
@@ -246,12 +267,9 @@ impl WorkCell {
 
     /// What the picked draw's saving is among those of all draws, in words.
     fn rank(&self, scene: &Scene<'_>, draw: u32) -> Option<String> {
-        let metric = metric::find("path_length_mm");
-        let all = ask::trials(scene.run, &self.problems, self.contenders.last()?);
-        let (against, query) = (self.contenders.first().cloned(), Some(self.query.clone()));
-        let draws = Selection { against, metric, query, ..all }.draws(scene.evidence);
-        let own = cases(&draws).find(|case| case.row.draw() == draw)?.saving_percent()?;
-        let all = by_draw(&draws, Case::saving_percent).concat();
+        let by_draw = ask::savings(scene, &self.problems, &self.query, &self.contenders);
+        let own = *by_draw.get(&draw)?;
+        let all: Vec<f64> = by_draw.into_values().collect();
         let below = all.iter().filter(|saving| **saving < own).count();
         Some(format!(
             "saving {own:.1} %: {below} of {} roadmaps save less, the median saves {:.1} %",
@@ -278,10 +296,21 @@ impl Kind for WorkCell {
             return Ok(None);
         }
         let draw = ask::draw(scene, &self.problems, 0)?;
-        let kinds = [Column::Left, Column::Left, Column::Right, Column::Right, Column::Right, Column::Right];
+        let kinds = [
+            Column::Left,
+            Column::Left,
+            Column::Right,
+            Column::Right,
+            Column::Right,
+            Column::Right,
+            Column::Right,
+        ];
         let mut table = Table::new(label, caption, &kinds);
-        let heads = ["group", "", "joint angles (°)", "flange (mm)", "tip (mm)", "direction"];
+        let heads =
+            ["group", "", "joint angles (°)", "flange (mm)", "tip (mm)", "direction", "straight line"];
         table.head(heads.map(Cell::from).to_vec());
+        let lines = ask::exhibit(scene, draw, "straight lines").ok();
+        let mut lines = lines.into_iter().flat_map(|lines| lines.values.chunks(lines.width));
         for exhibit in scene.run.exhibits(draw) {
             let Some((group, end)) = exhibit.name.strip_prefix("pose ").and_then(|name| name.split_once('/'))
             else {
@@ -295,7 +324,11 @@ impl Kind for WorkCell {
             let axes = exhibit.width - 9;
             let cells = [(0, axes, 0), (axes, axes + 3, 1), (axes + 3, axes + 6, 1), (axes + 6, axes + 9, 3)];
             let cells = cells.map(|(from, to, decimals)| numbers(from, to, decimals));
-            let row = [group.to_owned(), end.to_owned()].into_iter().chain(cells);
+            let line = if end == "start" { lines.next() } else { None };
+            let line = line.map_or_else(String::new, |line| {
+                if line[0] > 0.0 { format!("free, {:.1} mm", line[1]) } else { "blocked".to_owned() }
+            });
+            let row = [group.to_owned(), end.to_owned()].into_iter().chain(cells).chain([line]);
             table.row(row.map(Cell::from).collect());
         }
         Ok(Some(table))

@@ -65,6 +65,9 @@ struct CellQueries {
     scene: String,
     /// Whether the scene's obstacles stand there; what the robot stands on always does.
     obstacles: bool,
+    /// How high boxes of the scene are, by name, instead of what its file says.
+    #[serde(default)]
+    heights_mm: BTreeMap<String, f64>,
     /// Whether the arm must not touch itself.
     self_collision: bool,
     /// Instead of the robot file's tool.
@@ -79,6 +82,9 @@ struct CellQueries {
     counted: CountedSetting,
     /// Where samples are drawn from.
     region: Region,
+    /// Over how much of its range a joint is drawn that turns by more than half a turn either way.
+    #[serde(default)]
+    turns: Turns,
     /// How far the tools of two samples may be apart to be tried as neighbours.
     #[schemars(extend("exclusiveMinimum" = 0))]
     radius_mm: f64,
@@ -115,7 +121,7 @@ enum CountedSetting {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Region {
-    /// All joint ranges, at most half a turn either way.
+    /// All joint ranges, as far as `turns` says.
     Full,
     /// The same with the first joint within a quarter turn.
     Front,
@@ -123,6 +129,16 @@ enum Region {
     OneBranch,
     /// The smallest ranges that hold the queries' poses, and 20° more on either side.
     AroundPoses,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Turns {
+    /// At most half a turn either way.
+    #[default]
+    Half,
+    /// The whole range.
+    Whole,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
@@ -157,6 +173,16 @@ struct SpeedSetting {
 }
 
 impl CellQueries {
+    /// `scene` with the heights that the settings give its boxes, or without its obstacles.
+    fn furnished(&self, settings: &Settings, scene: Scene) -> Result<Scene, SettingsError> {
+        if !self.obstacles {
+            return Ok(scene.cleared());
+        }
+        let raised = |scene: Scene, (name, height_mm): (&String, &f64)| scene.with_height(name, height_mm * 1e-3);
+        let scene = self.heights_mm.iter().try_fold(scene, raised);
+        scene.map_err(|message| settings.error_at("heights_mm", message))
+    }
+
     /// The robot in `file`, with the tool that is asked for.
     fn robot(&self, settings: &Settings, file: &Path) -> Result<Robot, SettingsError> {
         let robot = load_robot(settings, file)?;
@@ -287,11 +313,11 @@ impl Posed {
         let (((robot_file, robot), (scene_file, scene)), (queries_file, (placed, document))) =
             faults.or(all)?;
         let files = [robot_file, scene_file, queries_file];
-        let scene = if read.obstacles { scene } else { scene.cleared() };
+        let scene = read.furnished(settings, scene)?;
         let cell = Cell::new(robot, scene, read.self_collision);
         let ends = posed(&cell, &document, &placed);
         let (queries, _) = placed;
-        let bounds_rad = bounds_rad(&cell, read.region, &queries);
+        let bounds_rad = bounds_rad(&cell, &read, &queries);
         let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
         let branch = (read.region == Region::OneBranch).then(|| cell.robot().arm().branch_of(&home));
         let inputs = files.into_iter().chain(cell.robot().files().iter().cloned()).collect();
@@ -318,17 +344,21 @@ impl Posed {
     }
 }
 
-fn bounds_rad(cell: &Cell, region: Region, queries: &[Query]) -> [[f64; 2]; AXES] {
+fn bounds_rad(cell: &Cell, read: &CellQueries, queries: &[Query]) -> [[f64; 2]; AXES] {
     let joints = cell.robot().arm().chain().joints();
     let half_turn = std::f64::consts::PI;
     let whole = joints.map(|joint| [joint.lower_rad.max(-half_turn), joint.upper_rad.min(half_turn)]);
     // A joint that turns beyond half a turn on one side only keeps its own ends.
     let whole: [[f64; 2]; AXES] = std::array::from_fn(|i| {
         let span = joints[i].upper_rad - joints[i].lower_rad;
-        if span <= 2.0 * half_turn + 1e-9 { [joints[i].lower_rad, joints[i].upper_rad] } else { whole[i] }
+        if span <= 2.0 * half_turn + 1e-9 || read.turns == Turns::Whole {
+            [joints[i].lower_rad, joints[i].upper_rad]
+        } else {
+            whole[i]
+        }
     });
     let poses = || queries.iter().flat_map(|query| [&query.start, &query.goal]);
-    match region {
+    match read.region {
         Region::Full | Region::OneBranch => whole,
         Region::Front => {
             let quarter = half_turn / 2.0;
@@ -363,9 +393,9 @@ impl Family for Posed {
             )));
         }
         let lines = Lines::new(self.cell.clone(), self.read.rules());
-        let local = Local::Arm(Box::new(lines));
+        let local = Local::Arm(Box::new(lines.clone()));
         let mut prepared = nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, counted);
-        prepared.exhibits = picture::exhibits(&self.cell, &self.queries);
+        prepared.exhibits = picture::exhibits(&lines, &self.queries);
         Ok(prepared)
     }
 

@@ -1,3 +1,5 @@
+mod legs;
+
 use super::*;
 use base::grid::{CornerRule, Moves, independent_cells};
 use base::seed::{Stream, derive, stream};

@@ -37,7 +37,11 @@ fn built(text: &str) -> Result<Box<dyn Planner>, SettingsError> {
 
 fn plan(world: &World, settings: &str) -> Plan {
     let text = format!("samples = {SAMPLES}\nneighbour_mm = {RADIUS_MM}\ncost = \"hops\"\n{settings}");
-    let planner = built(&text).unwrap();
+    planned(world, &text)
+}
+
+fn planned(world: &World, text: &str) -> Plan {
+    let planner = built(text).unwrap();
     let [start, goal] = ENDS;
     let request = Request { world, start: &start, goal: &goal, expansions: 10_000, seed: 0, trace: true };
     planner.plan(&request).unwrap()
@@ -158,6 +162,40 @@ fn legs_of_the_closed_sequence_that_are_no_edges_are_counted() {
         broken += u32::from(wanted > 0);
     }
     assert!(whole >= 3 && broken >= 5, "one-sided sample: {whole} whole, {broken} broken");
+}
+
+#[test]
+fn a_share_of_the_radius_is_the_threshold_of_as_many_millimetres() {
+    let mut differ = 0;
+    for number in 0..30 {
+        let world = world(number);
+        let asked = |threshold: &str| {
+            let text = format!("samples = {SAMPLES}\n{threshold}\ncost = \"hops\"\n{NEVER}");
+            planned(&world, &text)
+        };
+        let half = asked("neighbour_share = 0.5");
+        assert_eq!(half.path, asked(&format!("neighbour_mm = {}", 0.5 * RADIUS_MM)).path, "roadmap {number}");
+        differ += u32::from(half.path != asked("neighbour_share = 1").path);
+    }
+    assert!(differ > 5, "{differ} of 30 differ");
+    let both = built(&format!("samples = 9\nneighbour_mm = 9\nneighbour_share = 1\ncost = 'hops'\n{NEVER}"));
+    assert!(both.err().unwrap().to_string().contains("exactly one of neighbour_mm and neighbour_share"));
+}
+
+#[test]
+fn without_a_cost_the_distance_to_the_goal_alone_leads() {
+    let mut more = 0;
+    for number in 0..60 {
+        let world = world(number);
+        let by = |cost: &str| {
+            let text = format!("samples = {SAMPLES}\nneighbour_mm = {RADIUS_MM}\ncost = \"{cost}\"\n{NEVER}");
+            planned(&world, &text)
+        };
+        let (greedy, length) = (by("nothing"), by("length"));
+        assert_eq!(greedy.ending, length.ending, "roadmap {number}");
+        more += u32::from(count(&greedy, "expansions") < count(&length, "expansions"));
+    }
+    assert!(more > 5, "{more} of 60 searches are shorter by the distance alone");
 }
 
 #[test]

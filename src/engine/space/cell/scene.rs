@@ -201,6 +201,27 @@ impl Scene {
         &self.base
     }
 
+    /// The same scene with the box called `name` as high as this, standing where it stood.
+    ///
+    /// # Errors
+    /// A sentence if there is no such box or the height is not above 0.
+    pub fn with_height(&self, name: &str, height_m: f64) -> Result<Self, String> {
+        let mut scene = self.clone();
+        let is_box = |o: &Obstacle| matches!(o.solid, Solid::Box(_));
+        let Some(obstacle) = scene.obstacles.iter_mut().find(|o| o.name == name && is_box(o)) else {
+            let boxes = self.obstacles.iter().filter(|o| is_box(o)).map(|o| o.name.as_str());
+            let known = boxes.collect::<Vec<_>>().join(", ");
+            return Err(format!("there is no box `{name}`; the boxes are {known}"));
+        };
+        if let Solid::Box(solid) = &obstacle.solid {
+            let (mut frame, half) = (*solid.frame(), *solid.half());
+            frame.origin.z += 0.5 * height_m - half.z;
+            let size = Vec3::new(2.0 * half.x, 2.0 * half.y, height_m);
+            obstacle.solid = Solid::Box(OrientedBox::new(frame, size).map_err(|e| e.to_string())?);
+        }
+        Ok(scene)
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         &self.name
@@ -222,6 +243,20 @@ mod tests {
         let floor = if text.contains("[support]") { "" } else { FLOOR };
         let document = Document::new(Path::new("s.toml"), format!("name = 's'\n{text}{floor}"));
         Scene::parse(&document).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_box_of_another_height_stands_where_it_stood() {
+        let text =
+            "name = 's'\n[[box]]\nname = 'b'\nmin_mm = [0, 0, 100]\nmax_mm = [10, 20, 400]\nyaw_deg = 90\n";
+        let scene = Scene::parse(&Document::new(Path::new("s.toml"), text.to_owned())).unwrap();
+        let changed = scene.with_height("b", 0.5).unwrap();
+        let Solid::Box(higher) = &changed.obstacles()[0].solid else { panic!("no box") };
+        let z: Vec<f64> = higher.corners().iter().map(|corner| corner.z).collect();
+        let [low, high] = [f64::min, f64::max].map(|of| z.iter().copied().reduce(of).unwrap());
+        assert!((low - 0.1).abs() < 1e-12 && (high - 0.6).abs() < 1e-12, "{z:?}");
+        assert_eq!(scene.with_height("c", 0.5).unwrap_err(), "there is no box `c`; the boxes are b");
+        assert!(scene.with_height("b", 0.0).is_err());
     }
 
     #[test]

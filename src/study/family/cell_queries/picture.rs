@@ -3,7 +3,7 @@
 use super::{Query, Stance};
 use engine::geometry::{Solid, Vec3};
 use engine::planner::Exhibit;
-use engine::space::cell::Cell;
+use engine::space::cell::{Cell, Lines, Scratch};
 use engine::space::roadmap::joints;
 
 fn mm(point: &Vec3) -> [f64; 3] {
@@ -11,8 +11,9 @@ fn mm(point: &Vec3) -> [f64; 3] {
 }
 
 /// Boxes by their eight corners, round obstacles by ends and radius, and the robot's capsules and pose at each query's
-/// ends.
-pub(super) fn exhibits(cell: &Cell, queries: &[Query]) -> Vec<Exhibit> {
+/// ends, and how clear the straight line between them is.
+pub(super) fn exhibits(lines: &Lines, queries: &[Query]) -> Vec<Exhibit> {
+    let cell = lines.cell();
     let (mut boxes, mut rounds) = (Vec::new(), Vec::new());
     for obstacle in cell.scene().obstacles() {
         match &obstacle.solid {
@@ -45,7 +46,23 @@ pub(super) fn exhibits(cell: &Cell, queries: &[Query]) -> Vec<Exhibit> {
             exhibits.push(pose(cell, format!("pose {}/{end}", query.name), config));
         }
     }
+    exhibits.push(straight_lines(lines, queries));
     exhibits
+}
+
+/// Of each query in turn: whether the local path from start to goal is free, and how clear of everything it is; no number where
+/// the joints cannot follow it.
+fn straight_lines(lines: &Lines, queries: &[Query]) -> Exhibit {
+    let mut scratch = Scratch::default();
+    let mut line = |query: &Query| {
+        let [start, goal] = [&query.start, &query.goal]
+            .map(|end| lines.pose(&joints(end).expect("a query of an arm has six angles")));
+        let clearance_m = lines.clearance_m(&start, &goal, &mut scratch);
+        let is_free = lines.join(&start, &goal, &mut scratch).is_ok();
+        [f64::from(u8::from(is_free)), clearance_m.map_or(f64::NAN, |m| m * 1e3)]
+    };
+    let values = queries.iter().flat_map(&mut line).collect();
+    Exhibit { name: "straight lines".to_owned(), width: 2, values }
 }
 
 /// Where the floor is, if it is not at 0: its height, or no number if there is none.

@@ -51,10 +51,22 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         ("scene = 'data/none.toml'", ["data/none.toml", "does not exist"]),
         ("radius = 3", ["radius", "radius_mm"]),
         ("region = 'half'", ["half", "around_poses"]),
+        ("heights_mm = { storage = 9 }", ["no box `storage`", "ground obstacle"]),
     ] {
         let message = Posed::new(&settings(over), &inputs(None)).err().expect(over).to_string();
         assert!(parts.iter().all(|part| message.contains(part)), "{over}: {message}");
     }
+}
+
+#[test]
+fn the_sixth_joint_is_drawn_over_half_a_turn_either_way_or_over_all_that_it_turns() {
+    let degrees = |over: &str| {
+        let posed = Posed::new(&settings(over), &inputs(None)).unwrap();
+        posed.bounds_rad.map(|ends| ends.map(|end| end.to_degrees().round()))
+    };
+    let (half, whole) = (degrees(""), degrees("turns = 'whole'"));
+    assert_eq!((half[5], whole[5]), ([-180.0, 180.0], [-360.0, 360.0]));
+    assert_eq!(half[..5], whole[..5]);
 }
 
 #[test]
