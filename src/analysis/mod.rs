@@ -24,3 +24,4 @@ pub mod statistic;
 pub mod tabulated;
 pub mod together;
 pub mod verdict;
+pub mod witness;
