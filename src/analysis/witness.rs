@@ -260,7 +260,7 @@ fn drawn(readings: &[Reading], stream: &mut Stream) -> ReadingChoice {
     let pick = |reading: &Reading, stream: &mut Stream| {
         let voting: Vec<&String> = reading.options.keys().filter(|option| reading.votes(option)).collect();
         let at = stream.random_range(0..voting.len().max(1));
-        (reading.id.clone(), voting.get(at).map_or(&reading.default, |option| option).to_string())
+        (reading.id.clone(), voting.get(at).copied().unwrap_or(&reading.default).clone())
     };
     let choices = readings.iter().map(|reading| pick(reading, stream)).collect();
     ReadingChoice::new(readings, &choices).expect("the options are the readings' own")

@@ -26,7 +26,7 @@ fn a_map_is_found_on_which_the_claim_holds_and_the_same_at_any_number_of_threads
     let map = parse_text_map(&String::from_utf8(text).unwrap()).unwrap();
     let room = parse_text_map(&fs::read_to_string(bench.at("mini/room.map.txt")).unwrap()).unwrap();
     assert_eq!((map.width(), map.height()), (room.width(), room.height()));
-    fs::copy(path, bench.at("mini/room.map.txt")).unwrap();
+    fs::copy(bench.at("one").join(path), bench.at("mini/room.map.txt")).unwrap();
     let judged = bench.done(&["repro", "./mini"]);
     assert!(judged.contains("cost") && judged.contains("attainable"), "{judged}");
 }
