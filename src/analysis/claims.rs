@@ -91,6 +91,17 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     // Gathered in order before any error is passed on, so that it is the first claim's.
     let alone: Vec<_> = paper.claims.par_iter().map(|claim| judge_alone(evidence, claim)).collect();
     let claims = with_parts(paper, alone.into_iter().collect::<Result<_, _>>()?);
+    let mut together = together(evidence)?;
+    // A number that no data can give is not met by a trial that prints alike.
+    let is_impossible = |id: &String| {
+        claims.iter().any(|judged| judged.claim == *id && judged.verdict == Verdict::Impossible)
+    };
+    for set in &mut together {
+        let (out, hold) = std::mem::take(&mut set.hold).into_iter().partition(is_impossible);
+        set.hold = hold;
+        set.fail.extend::<Vec<String>>(out);
+        set.fail.sort();
+    }
     let hash = claims_hash(paper);
     let changed = evidence.runs().filter(|run| run.manifest.claims != hash);
     Ok(Verdicts {
@@ -101,7 +112,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         explored: None,
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
         claims,
-        together: together(evidence)?,
+        together,
     })
 }
 

@@ -25,3 +25,4 @@ pub mod statistic;
 pub mod tabulated;
 pub mod together;
 pub mod verdict;
+pub mod witness;

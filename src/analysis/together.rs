@@ -53,7 +53,11 @@ fn asked<'a>(evidence: &'a Evidence<'_>) -> Result<Vec<Attained<'a>>, SettingsEr
 fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e str, Met<'e>> {
     let mut all: BTreeMap<&str, (Met<'e>, BTreeMap<_, (Contenders<'e>, &'e Row)>)> = BTreeMap::new();
     for attained in asked {
+        // A claim about the printed row of another contender is not met on a map without that row.
+        let eligible: BTreeSet<_> =
+            attained.eligible(view).iter().map(|seen| (seen.problem(), seen.contender)).collect();
         for seen in attained.seen(view) {
+            let is_met = attained.is_met(seen.value) && eligible.contains(&(seen.problem(), seen.contender));
             let (study, group, draw, query) = seen.problem();
             let (met, problems) = all.entry(study).or_default();
             if !met.readings.contains_key(seen.contender) {
@@ -62,7 +66,7 @@ fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e st
             let by_contender =
                 problems.entry((group, draw, query)).or_insert_with(|| (BTreeMap::new(), seen.row));
             let outcomes = by_contender.0.entry(seen.contender).or_default();
-            outcomes.insert(attained.claim(), attained.is_met(seen.value));
+            outcomes.insert(attained.claim(), is_met);
         }
     }
     // A problem's name is made once, however many claims are asked of it.

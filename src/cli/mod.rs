@@ -42,6 +42,7 @@ mod show;
 mod status;
 mod trial;
 mod verdicts;
+mod witness;
 
 use crate::study::StudyError;
 use base::settings::SettingsError;
@@ -101,6 +102,8 @@ enum Command {
     Export(export::Export),
     /// Show one claim with its evidence, or list every claim with its class
     Show(show::Show),
+    /// Search maps on which a set of claims holds together
+    Witness(witness::Witness),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
     /// Ask of a printed table, by arithmetic alone, whether any data could have given it
@@ -242,6 +245,7 @@ pub fn run() -> ExitCode {
         Command::Compare(command) => command.run(),
         Command::Export(command) => command.run(),
         Command::Show(command) => command.run(),
+        Command::Witness(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
         Command::Audit(command) => command.run(),
         Command::List(command) => command.run(),

@@ -6,13 +6,13 @@ use super::progress::{Bar, stop_flag};
 use super::sharded::Sharded;
 use super::{Failure, How, Which, command_line};
 use crate::analysis::claims;
-use crate::study::Study;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
 use crate::study::plan::Plan;
 use crate::study::session::{self, Options, Report, UnexpectedStatus};
 use crate::study::shard::{self, Portion};
+use crate::study::{ReadingChoice, Study};
 use clap::Args;
 use std::path::Path;
 
@@ -26,6 +26,9 @@ pub struct Run {
     /// Run every trial again, also those that are stored and unchanged
     #[arg(long)]
     fresh: bool,
+    /// Run nothing, but read the clock of every stored study that is timed once more, as a session of its own
+    #[arg(long, conflicts_with_all = ["fresh", "shard"])]
+    clock: bool,
     /// Say why stored trials were or were not reused
     #[arg(long)]
     why: bool,
@@ -45,6 +48,9 @@ impl Run {
         let paper = load(&places, &self.how)?;
         self.how.check_points(&paper)?;
         let lock = Lock::take(&places.runs)?;
+        if self.clock {
+            return read_clocks(&paper, &places, &self.how, &lock);
+        }
         for report in run_studies(&paper, &places, &self.how, &lock, self.fresh)? {
             say!("{}", summary(&report, self.why));
         }
@@ -93,20 +99,42 @@ fn run_study(
     fresh: bool,
     portion: Option<&Portion>,
 ) -> Result<Report, Failure> {
-    let options = Options {
+    let (points, bar) = (how.points(study)?, Bar::default());
+    let options = options(paper, (&points, &bar), places, how, lock);
+    Ok(session::run(study, &Options { portion, fresh, ..options })?)
+}
+
+/// How a whole run of a study of `paper` is to be done, reusing what is stored.
+fn options<'a>(
+    paper: &Paper,
+    (points, bar): (&'a [ReadingChoice], &'a Bar),
+    places: &'a Places,
+    how: &How,
+    lock: &'a Lock,
+) -> Options<'a> {
+    Options {
         lock,
-        points: &how.points(study)?,
+        points,
         inputs: &places.inputs,
         command: command_line(),
         claims: claims::claims_hash(paper),
-        portion,
+        portion: None,
         quick: how.quick,
-        fresh,
+        fresh: false,
         threads: how.threads.map(|threads| threads as usize),
         stop: stop_flag(),
-        progress: &Bar::default(),
-    };
-    Ok(session::run(study, &options)?)
+        progress: bar,
+    }
+}
+
+/// Reads the clock of every timed study once more.
+fn read_clocks(paper: &Paper, places: &Places, how: &How, lock: &Lock) -> Result<(), Failure> {
+    for study in paper.studies.iter().filter(|study| study.timing.is_some()) {
+        let (points, bar) = (how.points(study)?, Bar::default());
+        let number = session::read_clock(study, &options(paper, (&points, &bar), places, how, lock))?;
+        say!("{}: session {number} of the clock", study.name);
+    }
+    Ok(())
 }
 
 /// What a run did, in a few words.

@@ -277,7 +277,7 @@ fn listed(axes: &[String]) -> String {
 
 impl Session {
     /// The one session of a run, on this machine.
-    fn of(made_by: &MadeBy) -> Self {
+    pub(super) fn of(made_by: &MadeBy) -> Self {
         let MadeBy { git, rustc, cpu, .. } = made_by.clone();
         Self { number: SESSION, git, rustc, cpu }
     }

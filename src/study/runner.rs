@@ -49,7 +49,8 @@ impl Progress for Unwatched {
     fn end(&self) {}
 }
 
-/// The number of the session in which a run reads the clock: a run has one, and its readings replace all older ones.
+/// The number of the session in which a run reads the clock: its readings replace all older ones. Later sessions are read
+/// beside it.
 pub const SESSION: u32 = 1;
 
 /// How many times the clock's sample is gone through; each time takes its share of the repeats.
@@ -277,7 +278,12 @@ impl<'a> BuiltStudy<'a> {
     ///
     /// # Errors
     /// [`StudyError::Interrupted`] if `stop` was set: half a sample would favour the first groups.
-    pub fn time(&self, stop: &AtomicBool, progress: &dyn Progress) -> Result<Vec<Timing>, StudyError> {
+    pub fn time(
+        &self,
+        session: u32,
+        stop: &AtomicBool,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Timing>, StudyError> {
         let Some(timing) = self.study.timing else { return Ok(Vec::new()) };
         let units = self.units();
         let total = units.len();
@@ -298,7 +304,8 @@ impl<'a> BuiltStudy<'a> {
                     return Err(StudyError::Interrupted { study, kept: total, total });
                 }
                 let repeats: Vec<u32> = (pass..timing.repeats).step_by(passes as usize).collect();
-                self.time_unit(unit, prepared, timing, &repeats, &mut readings);
+                let of_unit = self.time_unit(unit, prepared, timing, &repeats);
+                readings.extend(of_unit.into_iter().map(|reading| Timing { session, ..reading }));
                 progress.step();
             }
         }
@@ -312,8 +319,8 @@ impl<'a> BuiltStudy<'a> {
         prepared: &Prepared,
         timing: TimingSpec,
         repeats: &[u32],
-        readings: &mut Vec<Timing>,
-    ) {
+    ) -> Vec<Timing> {
+        let mut readings = Vec::new();
         for query in &unit.queries() {
             let seeds = |entrant: &Entrant<'_>| entrant.contender.repeats.min(timing.seeds.unwrap_or(1));
             let of_entrant = |entrant| (0..seeds(entrant)).map(move |seed| (entrant, seed));
@@ -343,5 +350,6 @@ impl<'a> BuiltStudy<'a> {
                 }
             }
         }
+        readings
     }
 }

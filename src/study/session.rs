@@ -2,12 +2,12 @@
 
 use super::checked::Study;
 use super::lock::Lock;
-use super::manifest::Manifest;
+use super::manifest::{MadeBy, Manifest, Session};
 use super::name::Names;
 use super::reading::ReadingChoice;
 use super::record::{Batch, Row, Status, Timing};
 use super::reuse::{self, Before, Reusable, moved};
-use super::runner::{BuiltStudy, Progress};
+use super::runner::{BuiltStudy, Progress, SESSION};
 use super::shard::Portion;
 use super::store::{
     Columns, Exhibits, GROUP_VALUES, Journal, Records, Staged, remove_temporaries, stage_records,
@@ -154,7 +154,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
         Some(times) => times,
         None if only.is_some() => Vec::new(),
-        None => built.time(options.stop, options.progress)?,
+        None => built.time(SESSION, options.stop, options.progress)?,
     };
     let records = Records { batch, times };
     write(study, folder, &mut manifest, &records, Exhibits::held(&records.batch.kept))?;
@@ -164,6 +164,25 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
         moved(&report.manifest, before, &old.batch, &records.batch, built.names())
     });
     Ok(report)
+}
+
+/// Reads the clock of a stored run once more, in a session of its own beside those that are stored; the session's number.
+///
+/// # Errors
+/// [`StudyError::Stored`] if what is stored is not what the spec asks for; those of [`run`].
+pub fn read_clock(study: &Study, options: &Options<'_>) -> Result<u32, StudyError> {
+    let (built, folder) = (BuiltStudy::new(study, options.points, options.inputs)?, options.lock.folder());
+    let manifest = options.manifest(study, &built)?;
+    let stored = Before::read(folder, &manifest).stored.filter(|(before, _)| manifest.is_as(before));
+    let Some((mut manifest, mut records)) = stored else {
+        let reason = "not what the spec asks for now; run the study first, then read the clock once more";
+        return Err(StudyError::stored(Manifest::path(folder, &study.name), reason));
+    };
+    let number = manifest.sessions.len() as u32 + 1;
+    records.times.extend(built.time(number, options.stop, options.progress)?);
+    manifest.sessions.push(Session { number, ..Session::of(MadeBy::here()) });
+    write(study, folder, &mut manifest, &records, Exhibits::held(&records.batch.kept))?;
+    Ok(number)
 }
 
 /// The stored readings of the clock, with their sessions, if no trial ran again and they are as many as are asked for.

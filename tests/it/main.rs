@@ -15,6 +15,7 @@ mod cli_places;
 mod cli_run;
 mod cli_shards;
 mod cli_stop;
+mod cli_witness;
 mod committed;
 mod conformance;
 mod crosscheck;

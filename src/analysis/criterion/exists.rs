@@ -151,6 +151,36 @@ impl<'a> Attained<'a> {
         self.claim
     }
 
+    /// Whether it is looked for in this problem group of the study.
+    pub fn looks_at(&self, study: &str, group: &str) -> bool {
+        let is_there =
+            |place: &Place<'_>| place.study.name == study && place.groups.iter().any(|own| own == group);
+        self.places.iter().any(is_there)
+    }
+
+    /// The first of its contenders that the study has and that departs from no reading.
+    pub fn contender_of(&self, study: &Study) -> Option<&str> {
+        let is_plain = |label: &&String| {
+            study.contenders.iter().any(|own| own.label == **label && own.departs.is_empty())
+        };
+        self.contenders.iter().find(is_plain).map(String::as_str)
+    }
+
+    /// The contender that a reduction is relative to.
+    pub fn against(&self) -> Option<&str> {
+        self.against.as_deref()
+    }
+
+    /// What is measured.
+    pub fn metric(&self) -> &'static Metric {
+        self.metric
+    }
+
+    /// What is printed.
+    pub fn print(&self) -> Print {
+        self.print
+    }
+
     /// Whether the claim is met by a number.
     pub fn is_met(&self, value: f64) -> bool {
         self.print.agrees(value)
@@ -222,7 +252,7 @@ impl<'a> Attained<'a> {
     }
 
     /// Every trial on a problem where all given claims are met.
-    fn eligible<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
+    pub fn eligible<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
         let mut eligible = self.seen(evidence);
         for given in &self.given {
             let mut met: BTreeMap<Problem<'_>, bool> = BTreeMap::new();

@@ -34,7 +34,7 @@ pub use order::NeighbourOrder;
 pub use picture::read_map;
 pub use random::{bars, independent_cells, rectangles};
 pub use sight::Sight;
-pub use text::{parse_text_map, read_text_map};
+pub use text::{parse_text_map, read_text_map, to_text_map};
 
 /// The longest side that is accepted, in cells.
 pub const MAX_SIDE_CELLS: u32 = 65_535;

@@ -41,6 +41,13 @@ pub fn parse_text_map(text: &str) -> Result<Grid2, GridError> {
     Ok(grid)
 }
 
+/// The picture of `grid`, as [`parse_text_map`] reads it.
+pub fn to_text_map(grid: &Grid2) -> String {
+    let cell = |x, y| if grid.is_free_xy(x, y) { '.' } else { '#' };
+    let row = |y| (0..grid.width() as i32).map(|x| cell(x, y)).chain(['\n']).collect::<String>();
+    (0..grid.height() as i32).rev().map(row).collect()
+}
+
 /// The grid drawn in the file at `path`.
 ///
 /// # Errors
@@ -58,6 +65,7 @@ mod tests {
         let grid = parse_text_map("; where it is from\n#..\n\n..#\n").unwrap();
         assert_eq!((grid.width(), grid.height(), grid.free_count()), (3, 2, 4));
         assert!(!grid.is_free_xy(0, 1) && !grid.is_free_xy(2, 0));
+        assert_eq!(to_text_map(&grid), "#..\n..#\n");
     }
 
     #[test]

@@ -1,0 +1,406 @@
+//! Searches for maps on which a set of claims holds together.
+//!
+//! The maps of a paper may be lost. A search starts from a map drawn from its own seed and changes a few cells at a time, as
+//! simulated annealing does: a change is kept if the numbers come nearer to what is printed, and with a chance that falls
+//! if they do not. What holds on a map that was found so is attainable, never reproduced; where no search finds one,
+//! nothing is proved. Searches are numbered, each depends on the seed and its number alone, and of those that find a map
+//! the first counts, whatever the number of threads.
+
+use super::context::Context;
+use super::criterion::{Attained, EXISTS};
+use super::metric::Metric;
+use crate::study::contender::{Pipeline, SweepPoint};
+use crate::study::paper::Paper;
+use crate::study::record::Status;
+use crate::study::verification::{self, Guide};
+use crate::study::{Group, Inputs, Reading, ReadingChoice, Study, StudyError};
+use audit::exact::Print;
+use base::grid::{CornerRule, Grid2, independent_cells};
+use base::seed::{self, Stream};
+use engine::planner::{Counts, Ending, Request, Value};
+use engine::space::{LatticeWorld, World};
+use rand::RngExt as _;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Which reading maps are searched under.
+#[derive(Debug, Clone)]
+pub enum Under {
+    /// This one.
+    One(ReadingChoice),
+    /// One that each search draws from the options that vote.
+    Any,
+}
+
+/// A number that a map is to give: a claim's, or one that was asked for besides.
+#[derive(Debug, Clone)]
+pub struct Wanted {
+    /// What it is called: the claim's id, or the words that asked for it.
+    pub name: String,
+    /// Whose it is.
+    pub contender: String,
+    /// Whose it is reduced from, in per cent.
+    pub against: Option<String>,
+    /// What is measured.
+    pub metric: &'static Metric,
+    /// What is printed.
+    pub print: Print,
+}
+
+/// What is searched for.
+pub struct Hunt<'a> {
+    /// The paper.
+    pub paper: &'a Paper,
+    /// The claims that must hold together.
+    pub claims: Vec<String>,
+    /// Numbers besides those of claims.
+    pub besides: Vec<Wanted>,
+    /// The study whose contenders and ends are taken …
+    pub study: &'a Study,
+    /// … and its problem group.
+    pub group: &'a Group,
+    /// Where input files are.
+    pub inputs: &'a Inputs,
+    /// Which reading.
+    pub under: Under,
+    /// The root of every search's seed.
+    pub seed: u64,
+    /// Most maps that one search looks at.
+    pub maps: u32,
+}
+
+/// A map on which everything wanted holds.
+#[derive(Debug, Clone)]
+pub struct Witness {
+    /// The search that found it.
+    pub number: u32,
+    /// The reading.
+    pub reading: ReadingChoice,
+    /// The map.
+    pub grid: Grid2,
+    /// How many maps the search had looked at.
+    pub looked_at: u32,
+}
+
+/// What a claim's number is on a map.
+#[derive(Debug, Clone)]
+pub struct OnMap {
+    /// The claim, or the words that asked for a number besides.
+    pub name: String,
+    /// What is printed.
+    pub printed: String,
+    /// What the map gives, if both contenders found a path.
+    pub value: Option<f64>,
+    /// Whether they agree.
+    pub holds: bool,
+}
+
+impl<'a> Hunt<'a> {
+    /// The study and problem group with one map of cells of which all of `claims` speak.
+    ///
+    /// # Errors
+    /// A message: a claim is unknown, prints no number that some trial may meet, or speaks of other maps than the first.
+    pub fn place(paper: &'a Paper, claims: &[String]) -> Result<(&'a Study, &'a Group), String> {
+        let point = ReadingChoice::new(&paper.readings(), &BTreeMap::new())?;
+        let asked = asked(paper, &point, claims)?;
+        let on_map = |group: &&Group| group.family.name == "grid_map" && group.replicates == 1;
+        for study in paper.studies.iter().filter(|study| study.searched) {
+            let mut groups = study.groups.iter().filter(on_map);
+            let all = |group: &&Group| asked.iter().all(|one| one.looks_at(&study.name, &group.label));
+            if let Some(group) = groups.find(all) {
+                return Ok((study, group));
+            }
+        }
+        Err(format!(
+            "no study that is marked `searched` has one map that all of {} look at",
+            claims.join(", ")
+        ))
+    }
+
+    /// The first of the searches with these numbers that finds a map.
+    ///
+    /// # Errors
+    /// Those of contenders and families; [`StudyError::Interrupted`] never: a stopped search finds nothing.
+    pub fn search_all(&self, numbers: Range<u32>, stop: &AtomicBool) -> Result<Option<Witness>, StudyError> {
+        let found = numbers.into_par_iter().find_map_first(|number| self.search(number, stop).transpose());
+        found.transpose()
+    }
+
+    /// What search `number` finds.
+    ///
+    /// # Errors
+    /// As [`search_all`](Self::search_all).
+    pub fn search(&self, number: u32, stop: &AtomicBool) -> Result<Option<Witness>, StudyError> {
+        let names = [&self.paper.id, "witness", &self.claims.join(","), &number.to_string()];
+        let mut stream = seed::stream(seed::derive(self.seed, &names));
+        let reading = match &self.under {
+            Under::One(point) => point.clone(),
+            Under::Any => drawn(&self.paper.readings(), &mut stream),
+        };
+        let ground = Ground::new(self, &reading, false)?;
+        let share = stream.random_range(0.05..0.4);
+        let start = independent_cells(&mut stream, ground.size, share, &ground.cells);
+        let mut walk = Walk::new(&ground, start.expect("the size is that of a map"), &mut stream);
+        for looked_at in 0..self.maps {
+            if stop.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            if walk.distance == 0.0 && ground.is_verified(&walk.grid) {
+                return Ok(Some(Witness { number, reading, grid: walk.grid, looked_at }));
+            }
+            walk.step(f64::from(looked_at) / f64::from(self.maps));
+        }
+        Ok(None)
+    }
+
+    /// What every claim that looks at this map gives there, those that were asked for first.
+    ///
+    /// # Errors
+    /// As [`search_all`](Self::search_all).
+    pub fn holding(&self, witness: &Witness) -> Result<Vec<OnMap>, StudyError> {
+        let ground = Ground::new(self, &witness.reading, true)?;
+        let numbers = ground.numbers(&witness.grid);
+        let others: Vec<String> = self.others();
+        let wanted = ground.wanted.iter().cloned();
+        let rest = wanted_of(self.paper, &witness.reading, self.study, &others).unwrap_or_default();
+        let on_map = |wanted: Wanted| {
+            let value = wanted.value(&numbers);
+            let holds = value.is_some_and(|value| wanted.print.agrees(value));
+            OnMap { printed: wanted.print.printed.to_string(), name: wanted.name, value, holds }
+        };
+        Ok(wanted.chain(rest).map(on_map).collect())
+    }
+
+    /// The other claims whose numbers are looked for on this map.
+    fn others(&self) -> Vec<String> {
+        let ids = self
+            .paper
+            .claims
+            .iter()
+            .filter(|claim| claim.printed.is_some() && claim.check(EXISTS.name).is_some());
+        let ids = ids.map(|claim| claim.id.clone()).filter(|id| !self.claims.contains(id));
+        ids.filter(|id| {
+            Self::place(self.paper, std::slice::from_ref(id))
+                .is_ok_and(|(study, group)| study.name == self.study.name && group.label == self.group.label)
+        })
+        .collect()
+    }
+}
+
+/// The criterion `exists` of each claim.
+fn asked<'a>(
+    paper: &'a Paper,
+    point: &'a ReadingChoice,
+    claims: &[String],
+) -> Result<Vec<Attained<'a>>, String> {
+    let known = || paper.claims.iter().map(|claim| claim.id.as_str());
+    let of = |id: &String| {
+        let claim = paper.claim(id).ok_or_else(|| base::settings::none_called("claim", id, known()))?;
+        let settings = claim.check(EXISTS.name).filter(|_| claim.printed.is_some());
+        let settings =
+            settings.ok_or_else(|| format!("claim `{id}` asks for no number that a trial may meet"))?;
+        Attained::new(&Context { claim, settings, paper, point }).map_err(|error| error.to_string())
+    };
+    claims.iter().map(of).collect()
+}
+
+/// What `claims` want of contenders of `study` under the reading.
+fn wanted_of(
+    paper: &Paper,
+    point: &ReadingChoice,
+    study: &Study,
+    claims: &[String],
+) -> Result<Vec<Wanted>, String> {
+    let of = |one: &Attained<'_>| {
+        let contender = one.contender_of(study);
+        let contender = contender
+            .ok_or_else(|| format!("study `{}` lacks contenders of `{}`", study.name, one.claim()))?;
+        Ok(Wanted {
+            name: one.claim().to_owned(),
+            contender: contender.to_owned(),
+            against: one.against().map(str::to_owned),
+            metric: one.metric(),
+            print: one.print(),
+        })
+    };
+    asked(paper, point, claims)?.iter().map(of).collect()
+}
+
+impl Wanted {
+    fn value(&self, numbers: &BTreeMap<&str, Option<Counts>>) -> Option<f64> {
+        let of = |label: &str| {
+            let value = numbers.get(label)?.as_ref()?.get(self.metric.column)?;
+            Some(Value::as_f64(*value) * self.metric.scale)
+        };
+        let other = of(&self.contender)?;
+        match &self.against {
+            None => Some(other),
+            Some(base) => of(base).filter(|base| *base > 0.0).map(|base| 100.0 * (base - other) / base),
+        }
+    }
+
+    /// How far a map is from it: 0 where it holds, otherwise at least [`UNMET`].
+    fn distance(&self, numbers: &BTreeMap<&str, Option<Counts>>) -> f64 {
+        let Some(value) = self.value(numbers) else { return 3.0 };
+        if self.print.agrees(value) {
+            return 0.0;
+        }
+        let printed = self.print.printed.value();
+        UNMET + (value - printed).abs() / printed.abs().max(1.0)
+    }
+}
+
+/// What one number that is missed costs, however near it is.
+const UNMET: f64 = 0.05;
+
+/// An option of every reading that votes there, with equal chance.
+fn drawn(readings: &[Reading], stream: &mut Stream) -> ReadingChoice {
+    let pick = |reading: &Reading, stream: &mut Stream| {
+        let voting: Vec<&String> = reading.options.keys().filter(|option| reading.votes(option)).collect();
+        let at = stream.random_range(0..voting.len().max(1));
+        (reading.id.clone(), voting.get(at).copied().unwrap_or(&reading.default).clone())
+    };
+    let choices = readings.iter().map(|reading| pick(reading, stream)).collect();
+    ReadingChoice::new(readings, &choices).expect("the options are the readings' own")
+}
+
+/// What maps are tried on: contenders under one reading, ends and a corner rule.
+struct Ground {
+    wanted: Vec<Wanted>,
+    pipelines: Vec<(String, Pipeline)>,
+    corner_rule: CornerRule,
+    size: [u32; 2],
+    ends: [Vec<f64>; 2],
+    /// Start and goal.
+    cells: [u32; 2],
+    expansions: u64,
+}
+
+impl Ground {
+    /// With the contenders that are wanted, or all of the study's.
+    fn new(hunt: &Hunt<'_>, reading: &ReadingChoice, all: bool) -> Result<Self, StudyError> {
+        let refused = |message: String| StudyError::Settings(hunt.study.document.error_at("", message));
+        let mut wanted = wanted_of(hunt.paper, reading, hunt.study, &hunt.claims).map_err(refused)?;
+        wanted.extend(hunt.besides.iter().cloned());
+        let labels: Vec<&String> =
+            wanted.iter().flat_map(|one| std::iter::once(&one.contender).chain(&one.against)).collect();
+        let mut pipelines = Vec::new();
+        for contender in hunt.study.contenders.iter().filter(|own| all || labels.contains(&&own.label)) {
+            pipelines.push((contender.label.clone(), contender.pipeline(reading, &SweepPoint::default())?));
+        }
+        let family = hunt.group.family(reading, hunt.inputs)?;
+        let world = family.draw(0).map_err(|invalid| refused(invalid.0))?;
+        let lattice = world.as_lattice().expect("a map of cells is a lattice");
+        let (grid, query) = (lattice.grid(), &family.queries()[0]);
+        let ends = [query.start.clone(), query.goal.clone()];
+        let cell = |end: &Vec<f64>| grid.cell(end[0] as i32, end[1] as i32).expect("ends lie on their map");
+        Ok(Self {
+            cells: [cell(&ends[0]), cell(&ends[1])],
+            corner_rule: lattice.corner_rule(),
+            size: [grid.width(), grid.height()],
+            expansions: hunt.study.budget.expansions,
+            wanted,
+            pipelines,
+            ends,
+        })
+    }
+
+    fn world(&self, grid: &Grid2) -> World {
+        World::Lattice(LatticeWorld::new(grid.clone(), self.corner_rule))
+    }
+
+    fn request<'r>(&'r self, world: &'r World) -> Request<'r> {
+        let [start, goal] = &self.ends;
+        Request { world, start, goal, expansions: self.expansions, seed: 0, trace: false }
+    }
+
+    /// What every contender's trial would measure on a map; nothing where it finds no path.
+    fn numbers(&self, grid: &Grid2) -> BTreeMap<&str, Option<Counts>> {
+        let world = self.world(grid);
+        let request = self.request(&world);
+        let counts = |pipeline: &Pipeline| {
+            let mut plan = pipeline.plan(&request).ok().filter(|plan| plan.ending == Ending::Solved)?;
+            plan.counts.extend(verification::measured(&plan.path));
+            Some(plan.counts)
+        };
+        self.pipelines.iter().map(|(label, pipeline)| (label.as_str(), counts(pipeline))).collect()
+    }
+
+    /// Whether the verifier accepts what every contender returns on a map.
+    fn is_verified(&self, grid: &Grid2) -> bool {
+        let world = self.world(grid);
+        let [start, goal] = self.ends.clone();
+        let query = crate::study::family::Query { name: String::new(), start, goal };
+        let truth = verification::truth(&world, &query, &Guide::default());
+        let request = self.request(&world);
+        self.pipelines.iter().all(|(_, pipeline)| {
+            let verified = |plan| verification::verify(&request, &plan, pipeline, &truth);
+            pipeline.plan(&request).is_ok_and(|plan| verified(plan).outcome.0 == Status::Solved)
+        })
+    }
+
+    fn distance(&self, grid: &Grid2) -> f64 {
+        let numbers = self.numbers(grid);
+        self.wanted.iter().map(|one| one.distance(&numbers)).sum()
+    }
+
+    /// The columns and rows that searches between the ends are likely to look at.
+    fn near(&self) -> [Range<u32>; 2] {
+        [0, 1].map(|axis: usize| {
+            let [a, b] = [0, 1].map(|end: usize| self.ends[end][axis] as u32);
+            a.min(b).saturating_sub(MARGIN_CELLS)..(a.max(b) + MARGIN_CELLS + 1).min(self.size[axis])
+        })
+    }
+}
+
+/// How far from the ends cells are changed.
+const MARGIN_CELLS: u32 = 6;
+
+/// A map that changes by a few cells at a time.
+struct Walk<'g> {
+    ground: &'g Ground,
+    stream: &'g mut Stream,
+    near: [Range<u32>; 2],
+    grid: Grid2,
+    distance: f64,
+}
+
+impl<'g> Walk<'g> {
+    fn new(ground: &'g Ground, grid: Grid2, stream: &'g mut Stream) -> Self {
+        let distance = ground.distance(&grid);
+        Self { near: ground.near(), ground, stream, grid, distance }
+    }
+
+    /// Changes some cells, and takes that back unless it is kept; `done` is the share of the search that is over.
+    fn step(&mut self, done: f64) {
+        // One cell, or two or three at once, so that a blocked cell may move.
+        let count = [1, 1, 2, 3][self.stream.random_range(0..4)];
+        let cells: Vec<u32> = (0..count).map(|_| self.drawn_cell()).collect();
+        self.flip(&cells);
+        let distance = self.ground.distance(&self.grid);
+        let warmth = WARMTH * (1.0 - done) * (1.0 - done) + 1e-9;
+        let worse = distance - self.distance;
+        if worse <= 0.0 || self.stream.random_bool((-worse / warmth).exp()) {
+            self.distance = distance;
+        } else {
+            self.flip(&cells);
+        }
+    }
+
+    fn drawn_cell(&mut self) -> u32 {
+        let [x, y] = [0, 1].map(|axis: usize| self.stream.random_range(self.near[axis].clone()));
+        y * self.grid.width() + x
+    }
+
+    /// Blocks what is free and frees what is blocked, but for the ends.
+    fn flip(&mut self, cells: &[u32]) {
+        for cell in cells.iter().filter(|cell| !self.ground.cells.contains(cell)) {
+            self.grid.set_blocked(*cell, self.grid.is_free(*cell));
+        }
+    }
+}
+
+/// How much worse a map may become in one step at the start of a search.
+const WARMTH: f64 = 0.05;

@@ -1,0 +1,80 @@
+//! `replan witness` and `run --clock` from the outside.
+
+use crate::paper::Bench;
+use base::grid::parse_text_map;
+use std::fs;
+
+#[test]
+fn a_map_is_found_on_which_the_claim_holds_and_the_same_at_any_number_of_threads() {
+    let bench = Bench::new();
+    let ask = |out: &str, threads: &str| {
+        let mut command =
+            bench.command(&["witness", "./mini", "--claims", "cost", "--seed", "3", "--out", out]);
+        let said = bench.said(&command.env("RAYON_NUM_THREADS", threads).output().unwrap());
+        assert_eq!(said.code, Some(0), "{}{}", said.out, said.err);
+        said.out
+    };
+    let one = ask("one", "1");
+    assert!(one.contains("holds: cost, printed 7.83, here 7.8"), "{one}");
+    assert_eq!(ask("two", "2").replace("two/", "one/"), one);
+    assert_eq!(
+        bench.tree("one").into_values().collect::<Vec<_>>(),
+        bench.tree("two").into_values().collect::<Vec<_>>()
+    );
+    // The study run on that map gives what was said.
+    let (path, text) = bench.tree("one").into_iter().next().unwrap();
+    let map = parse_text_map(&String::from_utf8(text).unwrap()).unwrap();
+    let room = parse_text_map(&fs::read_to_string(bench.at("mini/room.map.txt")).unwrap()).unwrap();
+    assert_eq!((map.width(), map.height()), (room.width(), room.height()));
+    fs::copy(bench.at("one").join(path), bench.at("mini/room.map.txt")).unwrap();
+    let judged = bench.done(&["repro", "./mini"]);
+    assert!(judged.contains("cost") && judged.contains("attainable"), "{judged}");
+}
+
+#[test]
+fn what_no_search_finds_is_said_with_their_number_and_remembered() {
+    let bench = Bench::new();
+    bench.edit("mini/paper.toml", "7.83", "0.31");
+    let ask = |searches: &str| {
+        bench.done(&[
+            "witness",
+            "./mini",
+            "--claims",
+            "cost",
+            "--searches",
+            searches,
+            "--maps",
+            "20",
+            "--out",
+            "out",
+        ])
+    };
+    assert!(ask("3").starts_with("none found in 3 searches of 20 maps each, for cost"), "{}", ask("3"));
+    let more = ask("11");
+    assert!(more.starts_with("3 searches found none before\nnone found in 11 searches"), "{more}");
+}
+
+#[test]
+fn a_claim_that_asks_for_no_number_is_refused_with_its_name() {
+    let said = Bench::new().run(&["witness", "./mini", "--claims", "nodes"]);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("claim `nodes` asks for no number that a trial may meet"), "{}", said.err);
+}
+
+#[test]
+fn a_clock_that_is_read_again_adds_a_session_and_moves_no_trial() {
+    let bench = Bench::new();
+    bench.edit("mini/room.toml", "[quick]", "[timing]\nproblems = 1\nrepeats = 2\n\n[quick]");
+    let said = bench.run(&["run", "./mini", "--clock"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    bench.done(&["run", "./mini"]);
+    let before = bench.facts("target/replan/mini");
+    let out = bench.done(&["run", "./mini", "--clock"]);
+    assert!(out.contains("session 2 of the clock"), "{out}");
+    assert_eq!(bench.facts("target/replan/mini"), before);
+    let manifests = bench.tree("target/replan/mini");
+    let numbers = |text: &[u8]| String::from_utf8_lossy(text).matches("\nnumber = 2").count();
+    assert!(manifests.iter().any(|(path, text)| path.ends_with("room.manifest.toml") && numbers(text) == 1));
+    assert!(bench.done(&["run", "./mini", "--clock"]).contains("session 3"));
+    assert!(bench.done(&["run", "./mini"]).contains("reused"), "a session made the trials stale");
+}
