@@ -60,6 +60,7 @@ pub static METRICS: &[Metric] = &[
     metric("components", "Connected components", "", Better::Neither),
     metric("connected", "Start and goal connected", "", Better::Neither),
     metric("cut_in_cm", "Cut-in depth", "cm", Better::Lower),
+    metric("deepest_cm", "Deepest in an obstacle", "cm", Better::Lower),
     metric("expansions", "Expansions", "", Better::Lower),
     Metric { column: STATUS, ..metric("found", "Path found", "", Better::Higher) },
     metric("generated", "Generated successors", "", Better::Lower),

@@ -70,6 +70,7 @@ pub static COLUMNS: &[Column] = &[
     real("joint2_travel_deg", "sum of the turns of joint 2 along the path"),
     real("largest_joint_step_deg", "largest turn of a joint in one hop"),
     count("unsafe_hops", "hops during which the arm hits an obstacle, both links swept"),
+    real("deepest_cm", "how deep a link goes into an obstacle along the path, in cm; 0 if it enters none"),
     count("is_unsafe", "1 if the arm hits an obstacle anywhere along the path, else 0"),
     count("opened", "nodes ever put on an open list, both sides"),
     count("closed", "nodes ever put on a closed list, both sides"),

@@ -1,8 +1,9 @@
 //! A* over the tip positions of a planar arm, with a neighbourhood of any size.
 
-use super::lattice::TiesSetting;
 use super::pool::Pool;
-use super::tips::{self, COLUMNS, FreeHops, OpenSetting, Posed, RegionSetting, TipSearch};
+use super::tips::{
+    self, COLUMNS, FreeHops, Heuristic, Manner, OpenSetting, Posed, RegionSetting, TipSearch, TipTies,
+};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::space::WorldKind;
 use base::grid::Offsets;
@@ -22,6 +23,7 @@ pub static ENTRY: Entry = Entry {
 neighbourhood = { shape = "disc", radius_cells = 2 }
 open_node = "lowered"
 ties = "fifo"
+heuristic = "euclidean"
 "#,
     build: Build::Planner(|settings| {
         let read: LatticeAstar = settings.read()?;
@@ -39,7 +41,10 @@ struct LatticeAstar {
     open_node: OpenSetting,
     /// The order among equal f.
     #[serde(default)]
-    ties: TiesSetting,
+    ties: TipTies,
+    /// The distance to the goal that is added to g.
+    #[serde(default)]
+    heuristic: Heuristic,
 }
 
 struct Ready {
@@ -51,11 +56,10 @@ struct Ready {
 impl Planner for Ready {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let LatticeAstar { ties, open_node, .. } = self.read;
+        let LatticeAstar { ties, open_node, heuristic, .. } = self.read;
+        let manner = Manner { heuristic, open_node, expansions: request.expansions };
         let mut search = self.pool.any(|| TipSearch::new(&self.offsets, ties));
-        let mut hops = FreeHops(posed.world);
-        let (report, scans) =
-            posed.search(&mut search, &self.offsets, &mut hops, open_node, request.expansions);
+        let (report, scans) = posed.search(&mut search, &self.offsets, &mut FreeHops(posed.world), manner);
         self.pool.keep(search);
         let mut plan = posed.plan(&report, scans, request.trace);
         if request.trace {
@@ -65,7 +69,7 @@ impl Planner for Ready {
     }
 
     fn is_optimal(&self) -> bool {
-        self.read.open_node == OpenSetting::Lowered
+        self.read.open_node == OpenSetting::Lowered && self.read.heuristic.is_consistent(self.offsets.steps())
     }
 
     fn is_complete(&self) -> bool {

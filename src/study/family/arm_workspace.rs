@@ -2,7 +2,9 @@
 
 use super::{Entry, Family, Query};
 use crate::study::StudyError;
-use crate::study::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
+use crate::study::prepared::workspace_map::{
+    self, ElbowSetting, HopSetting, ShapeSetting, SizeSetting, TouchSetting,
+};
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::ARM_COLUMNS;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
@@ -56,6 +58,8 @@ struct ArmWorkspace {
     step_cm: f64,
     /// How far the tip must stay from the base.
     inner_radius_cm: f64,
+    /// How far joint 2 turns to either side; without stops if absent.
+    theta2_limit_deg: Option<f64>,
     /// On which side the elbow is.
     elbow: ElbowSetting,
     /// Whether touching an obstacle counts as a collision.
@@ -66,6 +70,9 @@ struct ArmWorkspace {
     corner_rule: lattice::CornerSetting,
     /// The diameter of every obstacle.
     obstacle_diameter_cm: f64,
+    /// What of a polygon that diameter is.
+    #[serde(default)]
+    obstacle_size: SizeSetting,
     /// One shape for all obstacles, or one for each.
     obstacle_shapes: Vec<ShapeSetting>,
     /// x and y of the middle of each obstacle.
@@ -74,6 +81,20 @@ struct ArmWorkspace {
     start_cm: Option<[f64; 2]>,
     /// x and y of the goal; absent where the study looks for it.
     goal_cm: Option<[f64; 2]>,
+    /// Which of the two ends a search begins at.
+    #[serde(default)]
+    direction: Direction,
+}
+
+/// Which way a path is searched.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Direction {
+    /// From the start to the goal.
+    #[default]
+    StartToGoal,
+    /// From the goal to the start.
+    GoalToStart,
 }
 
 impl ArmWorkspace {
@@ -83,9 +104,14 @@ impl ArmWorkspace {
             let message = format!("inner_radius_cm is {}; 0 or more is accepted", self.inner_radius_cm);
             return Err(refuse("inner_radius_cm")(message));
         }
+        if let Some(limit) = self.theta2_limit_deg.filter(|limit| !(*limit > 0.0 && *limit <= 180.0)) {
+            let message = format!("theta2_limit_deg is {limit}; above 0 and at most 180 is accepted");
+            return Err(refuse("theta2_limit_deg")(message));
+        }
         let rules = ArmRules {
             arm: Planar2r::new(self.links_cm[0], self.links_cm[1])
                 .map_err(|e| refuse("links_cm")(format!("links_cm: {e}")))?,
+            q2_limit_rad: self.theta2_limit_deg.map_or(f64::INFINITY, f64::to_radians),
             elbow: self.elbow.into(),
             lattice: TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
                 .map_err(|(key, message)| refuse(key)(message))?,
@@ -96,6 +122,10 @@ impl ArmWorkspace {
         };
         let queries = match (self.start_cm, self.goal_cm) {
             (Some(start), Some(goal)) => {
+                let [start, goal] = match self.direction {
+                    Direction::StartToGoal => [start, goal],
+                    Direction::GoalToStart => [goal, start],
+                };
                 vec![Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() }]
             }
             (None, None) => Vec::new(),
@@ -109,8 +139,17 @@ impl ArmWorkspace {
         };
         let obstacles = self.obstacles().map_err(|(key, message)| settings.error_at(&key, message))?;
         let world = ArmWorld::new(rules, obstacles.clone());
-        check_ends(&world, &queries, settings)?;
+        self.check_ends(&world, settings)?;
         Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
+    }
+
+    fn check_ends(&self, world: &ArmWorld, settings: &Settings) -> Result<(), SettingsError> {
+        let mut faults = Faults::default();
+        for (what, key, point) in [("start", "start_cm", self.start_cm), ("goal", "goal_cm", self.goal_cm)] {
+            let free = point.map_or(Ok(0), |point| world.free_cell(what, &point));
+            faults.keep(free.map_err(|message| settings.error_at(key, message)));
+        }
+        faults.done()
     }
 
     /// The obstacles, or the key at fault and what is wrong.
@@ -124,23 +163,13 @@ impl ArmWorkspace {
             return Err(("obstacle_shapes".to_owned(), message));
         }
         let shaped = self.obstacles_cm.iter().enumerate().map(|(index, center)| {
-            shapes[index.min(shapes.len() - 1)]
-                .obstacle(*center, self.obstacle_diameter_cm)
+            let shape = shapes[index.min(shapes.len() - 1)];
+            shape
+                .obstacle(*center, self.obstacle_size.named_cm(shape, self.obstacle_diameter_cm))
                 .map_err(|e| (format!("obstacles_cm.{index}"), format!("obstacle {}: {e}", index + 1)))
         });
         shaped.collect()
     }
-}
-
-fn check_ends(world: &ArmWorld, queries: &[Query], settings: &Settings) -> Result<(), SettingsError> {
-    let mut faults = Faults::default();
-    for query in queries {
-        for (what, key, point) in [("start", "start_cm", &query.start), ("goal", "goal_cm", &query.goal)] {
-            let free = world.free_cell(what, point);
-            faults.keep(free.map_err(|message| settings.error_at(key, message)));
-        }
-    }
-    faults.done()
 }
 
 struct Posed {
@@ -205,6 +234,12 @@ mod tests {
             ("obstacle_shapes = []", ["0 shapes for 2 obstacles", "one for all or one"]),
             ("obstacle_shapes = ['star']", ["star", "triangle"]),
             ("elbows = 'higher'", ["elbows", "elbow"]),
+            ("theta2_limit_deg = 0", ["theta2_limit_deg is 0", "above 0 and at most 180"]),
+            ("theta2_limit_deg = 30", ["the goal [0.0, 45.0]", "the arm may stand from 48.36"]),
+            (
+                "direction = 'goal_to_start'\ngoal_cm = [8, 36]",
+                ["the goal [8.0, 36.0]", "lies in obstacle 2"],
+            ),
         ] {
             let refused = build(changes).err().unwrap_or_else(|| panic!("{changes} was accepted"));
             assert!(parts.iter().all(|part| refused.contains(part)), "{changes}: {refused}");
