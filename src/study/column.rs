@@ -73,6 +73,7 @@ pub static COLUMNS: &[Column] = &[
     real("deepest_cm", "how deep a link goes into an obstacle along the path, in cm; 0 if it enters none"),
     count("is_unsafe", "1 if the arm hits an obstacle anywhere along the path, else 0"),
     count("opened", "nodes ever put on an open list, both sides"),
+    count("opened_distinct", "nodes ever put on an open list, those of both sides counted once"),
     count("closed", "nodes ever put on a closed list, both sides"),
     count("expansions", "nodes expanded"),
     count("generated", "successors generated, known ones included"),
