@@ -90,6 +90,12 @@ pub static COLUMNS: &[Column] = &[
     count("candidates", "pairs that had to be tried one by one"),
     count("targets", "targets of equal parity near the printed lengths"),
     count("targets_hit", "targets that some pair of points meets"),
+    count(
+        "targets_attainable",
+        "targets of which each length is that of some pair in its case, the same or not",
+    ),
+    real("attainable_hit_share_percent", "share of attainable targets that one pair of points meets"),
+    count("pairs_on_fives_tried", "pairs of points on multiples of 5 cm that are free in all cases"),
     real("hit_share_percent", "share of targets that some pair of points meets"),
     count("free_cells", "cells that are not blocked"),
     count("outer_cells", "lattice points farther away than the arm is long"),

@@ -2,9 +2,7 @@
 
 use super::{Entry, Family, Query};
 use crate::study::StudyError;
-use crate::study::prepared::workspace_map::{
-    self, ElbowSetting, HopSetting, ShapeSetting, SizeSetting, TouchSetting,
-};
+use crate::study::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use crate::study::prepared::{Prepared, lattice};
 use crate::study::verification::ARM_COLUMNS;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
@@ -70,9 +68,6 @@ struct ArmWorkspace {
     corner_rule: lattice::CornerSetting,
     /// The diameter of every obstacle.
     obstacle_diameter_cm: f64,
-    /// What of a polygon that diameter is.
-    #[serde(default)]
-    obstacle_size: SizeSetting,
     /// One shape for all obstacles, or one for each.
     obstacle_shapes: Vec<ShapeSetting>,
     /// x and y of the middle of each obstacle.
@@ -104,14 +99,10 @@ impl ArmWorkspace {
             let message = format!("inner_radius_cm is {}; 0 or more is accepted", self.inner_radius_cm);
             return Err(refuse("inner_radius_cm")(message));
         }
-        if let Some(limit) = self.theta2_limit_deg.filter(|limit| !(*limit > 0.0 && *limit <= 180.0)) {
-            let message = format!("theta2_limit_deg is {limit}; above 0 and at most 180 is accepted");
-            return Err(refuse("theta2_limit_deg")(message));
-        }
         let rules = ArmRules {
             arm: Planar2r::new(self.links_cm[0], self.links_cm[1])
                 .map_err(|e| refuse("links_cm")(format!("links_cm: {e}")))?,
-            q2_limit_rad: self.theta2_limit_deg.map_or(f64::INFINITY, f64::to_radians),
+            q2_limit_rad: self.q2_limit_rad().map_err(refuse("theta2_limit_deg"))?,
             elbow: self.elbow.into(),
             lattice: TipLattice::new(self.x_cm, self.y_cm, self.step_cm)
                 .map_err(|(key, message)| refuse(key)(message))?,
@@ -120,27 +111,39 @@ impl ArmWorkspace {
             corner_rule: self.corner_rule.into(),
             hop: self.hop_check.into(),
         };
-        let queries = match (self.start_cm, self.goal_cm) {
+        let queries = self.queries().map_err(|(key, message)| settings.error_at(key, message))?;
+        let obstacles = self.obstacles().map_err(|(key, message)| settings.error_at(&key, message))?;
+        let world = ArmWorld::new(rules, obstacles.clone());
+        self.check_ends(&world, settings)?;
+        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
+    }
+
+    /// The query if there is one, or the key at fault and what is wrong.
+    fn queries(&self) -> Result<Vec<Query>, (&'static str, String)> {
+        match (self.start_cm, self.goal_cm) {
             (Some(start), Some(goal)) => {
                 let [start, goal] = match self.direction {
                     Direction::StartToGoal => [start, goal],
                     Direction::GoalToStart => [goal, start],
                 };
-                vec![Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() }]
+                Ok(vec![Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() }])
             }
-            (None, None) => Vec::new(),
+            (None, None) => Ok(Vec::new()),
             (start, _) => {
                 let (given, missing) =
                     if start.is_some() { ("start_cm", "goal_cm") } else { ("goal_cm", "start_cm") };
                 let message =
                     format!("{missing} is missing; start and goal are given together or not at all");
-                return Err(refuse(given)(message));
+                Err((given, message))
             }
-        };
-        let obstacles = self.obstacles().map_err(|(key, message)| settings.error_at(&key, message))?;
-        let world = ArmWorld::new(rules, obstacles.clone());
-        self.check_ends(&world, settings)?;
-        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
+        }
+    }
+
+    fn q2_limit_rad(&self) -> Result<f64, String> {
+        let Some(limit) = self.theta2_limit_deg else { return Ok(f64::INFINITY) };
+        let is_right = limit > 0.0 && limit <= 180.0;
+        let message = || format!("theta2_limit_deg is {limit}; above 0 and at most 180 is accepted");
+        is_right.then(|| limit.to_radians()).ok_or_else(message)
     }
 
     fn check_ends(&self, world: &ArmWorld, settings: &Settings) -> Result<(), SettingsError> {
@@ -163,9 +166,8 @@ impl ArmWorkspace {
             return Err(("obstacle_shapes".to_owned(), message));
         }
         let shaped = self.obstacles_cm.iter().enumerate().map(|(index, center)| {
-            let shape = shapes[index.min(shapes.len() - 1)];
-            shape
-                .obstacle(*center, self.obstacle_size.named_cm(shape, self.obstacle_diameter_cm))
+            shapes[index.min(shapes.len() - 1)]
+                .obstacle(*center, self.obstacle_diameter_cm)
                 .map_err(|e| (format!("obstacles_cm.{index}"), format!("obstacle {}: {e}", index + 1)))
         });
         shaped.collect()

@@ -126,42 +126,6 @@ impl ShapeSetting {
     }
 }
 
-/// What the diameter of a polygon is, as settings write it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SizeSetting {
-    /// What the shape's own description says.
-    #[default]
-    AsNamed,
-    /// That of the disc whose area the polygon has.
-    EqualArea,
-    /// The least distance of two parallel lines between which the polygon fits: a disc's diameter.
-    EqualWidth,
-}
-
-impl SizeSetting {
-    /// The diameter to name so that `shape` has this size.
-    pub fn named_cm(self, shape: ShapeSetting, diameter_cm: f64) -> f64 {
-        use ShapeSetting::{
-            Circle, Hexagon, HexagonTurned, Square, SquareInscribed, Triangle, TriangleTurned,
-        };
-        let root3 = 3.0_f64.sqrt();
-        // Area and least width of the shape of diameter 1.
-        let (area, width) = match shape {
-            Circle => (PI / 4.0, 1.0),
-            Square => (1.0, 1.0),
-            SquareInscribed => (0.5, 0.5_f64.sqrt()),
-            Hexagon | HexagonTurned => (3.0 * root3 / 8.0, root3 / 2.0),
-            Triangle | TriangleTurned => (3.0 * root3 / 16.0, 0.75),
-        };
-        match self {
-            Self::EqualArea if shape != Circle => diameter_cm * (PI / 4.0 / area).sqrt(),
-            Self::EqualWidth => diameter_cm / width,
-            Self::AsNamed | Self::EqualArea => diameter_cm,
-        }
-    }
-}
-
 /// The analysed `world`; with `branches_at`, also both postures that reach this point.
 pub fn prepare(world: ArmWorld, branches_at: Option<[f64; 2]>) -> Prepared {
     let counted = |zone: Zone| {
@@ -214,42 +178,4 @@ fn branches(world: &ArmWorld, target: [f64; 2]) -> Option<Exhibit> {
     };
     let values = [both.negative, both.positive].into_iter().flat_map(station).collect();
     Some(Exhibit { name: "branches".to_owned(), width: 6, values })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Area and least width of a convex polygon, from its corners.
-    fn measured(corners: &[[f64; 2]]) -> (f64, f64) {
-        let next = |i: usize| corners[(i + 1) % corners.len()];
-        let cross = |i: usize| corners[i][0] * next(i)[1] - corners[i][1] * next(i)[0];
-        let area = (0..corners.len()).map(cross).sum::<f64>() / 2.0;
-        // A polygon is narrowest square to one of its sides.
-        let across = |i: usize| {
-            let ([ax, ay], [bx, by]) = (corners[i], next(i));
-            let off =
-                |[x, y]: &[f64; 2]| ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / (bx - ax).hypot(by - ay);
-            corners.iter().map(off).fold(0.0, f64::max)
-        };
-        (area, (0..corners.len()).map(across).fold(f64::INFINITY, f64::min))
-    }
-
-    #[test]
-    fn polygons_of_equal_area_and_width_have_the_disc_s() {
-        use ShapeSetting::{Hexagon, HexagonTurned, Square, SquareInscribed, Triangle, TriangleTurned};
-        for shape in [Square, SquareInscribed, Hexagon, HexagonTurned, Triangle, TriangleTurned] {
-            let sized = |size: SizeSetting| {
-                let made = shape.obstacle([7.0, -3.0], size.named_cm(shape, 10.0)).unwrap();
-                measured(&made.outline())
-            };
-            let ((area, _), (_, width)) = (sized(SizeSetting::EqualArea), sized(SizeSetting::EqualWidth));
-            assert!((area - 25.0 * PI).abs() < 1e-9, "{shape:?} has {area} cm²");
-            assert!((width - 10.0).abs() < 1e-9, "{shape:?} is {width} cm wide");
-            assert_eq!(SizeSetting::AsNamed.named_cm(shape, 10.0), 10.0, "{shape:?}");
-        }
-        for size in [SizeSetting::AsNamed, SizeSetting::EqualArea, SizeSetting::EqualWidth] {
-            assert_eq!(size.named_cm(ShapeSetting::Circle, 10.0), 10.0);
-        }
-    }
 }

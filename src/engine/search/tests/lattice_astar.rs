@@ -168,13 +168,12 @@ fn workspace(hop: HopRule, corner_rule: CornerRule) -> ArmWorld {
     ArmWorld::new(ArmRules { corner_rule, ..reproduced_rules(hop) }, obstacles.to_vec())
 }
 
+const HOP_RULES: [HopRule; 3] = [HopRule::EndPoints, HopRule::Continuous, HopRule::TipLine];
+
 #[test]
 fn an_arm_hops_a_column_at_a_time_as_it_does_one_by_one() {
     let (mut solved, mut refused) = (0, 0);
-    for (hop, rule) in [HopRule::EndPoints, HopRule::Continuous, HopRule::TipLine]
-        .into_iter()
-        .flat_map(|hop| RULES.map(|rule| (hop, rule)))
-    {
+    for (hop, rule) in HOP_RULES.into_iter().flat_map(|hop| RULES.map(|rule| (hop, rule))) {
         // Two worlds, so that what one learns of its hops does not serve the other.
         let [world, other] = [0, 1].map(|_| workspace(hop, rule));
         let (grid, seed) = (world.grid(), 7);
@@ -186,15 +185,9 @@ fn an_arm_hops_a_column_at_a_time_as_it_does_one_by_one() {
                 let mut general = Search::new(Heap::new(ties));
                 for (draw, lower_open) in [true, true, true, false].into_iter().enumerate() {
                     let ends = [0, 1].map(|_| free[stream.random_range(0..free.len())]);
-                    let query = Query {
-                        grid,
-                        offsets: &offsets,
-                        spacing: 1.0,
-                        ends,
-                        lower_open,
-                        max_expansions: u64::MAX,
-                        weights: HEURISTICS[draw % 3],
-                    };
+                    let (offsets, weights) = (&offsets, HEURISTICS[draw % 3]);
+                    let (spacing, max_expansions) = (1.0, u64::MAX);
+                    let query = Query { grid, offsets, spacing, ends, lower_open, max_expansions, weights };
                     let truth = query.general(&mut general, |from, by| other.may_step(from, by));
                     let got = query.special(&mut special, world.columns(), &mut ArmHops(&world));
                     assert_eq!(
