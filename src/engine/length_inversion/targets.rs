@@ -55,7 +55,7 @@ impl Targets {
                     |all: &[GridSet]| all.iter().map(|met| met >> place & 1 == 1).collect::<Vec<bool>>();
                 Met {
                     hits: in_it(&hits),
-                    attainable: self.attainable(attained.each_ref().map(|all| in_it(all))),
+                    attainable: self.attainable(&attained.each_ref().map(|all| in_it(all))),
                 }
             })
         });
@@ -63,7 +63,7 @@ impl Targets {
     }
 
     /// The targets of which each length is that of some pair in its case.
-    fn attainable(&self, attained: [Vec<bool>; 2]) -> Vec<bool> {
+    fn attainable(&self, attained: &[Vec<bool>; 2]) -> Vec<bool> {
         let mut all = self.none();
         for (one, first) in self.lengths[0].iter().enumerate() {
             for (two, second) in self.lengths[1].iter().enumerate() {
