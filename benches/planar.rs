@@ -67,6 +67,7 @@ fn workspace(hop: HopRule) -> ArmWorld {
         elbow: ElbowRule::NegativeQ2,
         lattice: TipLattice::new([-50.0, 50.0], [0.0, 50.0], 1.0).expect("1 divides 100 and 50"),
         inner_radius_cm: 20.0,
+        q2_limit_rad: f64::INFINITY,
         touch: Touch::Contact,
         corner_rule: CornerRule::Allow,
         hop,

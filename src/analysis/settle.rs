@@ -4,6 +4,10 @@ use super::class::{Caps, SESSIONS, Sessions};
 use super::found::Found;
 use stats::proportion::units_for_margin;
 
+/// A hundred times as many draws tell apart what differs by a tenth of what now can be told; a larger number is an estimate of
+/// noise.
+const MANY: f64 = 100.0;
+
 /// What would settle what was found, in a sentence.
 pub fn settles(found: &Found, caps: Caps) -> String {
     match caps.clock {
@@ -44,6 +48,12 @@ fn more_draws(found: &Found) -> Option<String> {
         return None;
     }
     let needed = units_for_margin((high - low) / 2.0, ours.n, margin);
+    if needed as f64 > MANY * ours.n as f64 {
+        return Some(format!(
+            "no number of {} within reach: ours is too close to the limit to be told from it",
+            found.units
+        ));
+    }
     Some(format!("about {needed} {}, not {}, if our number is what it seems to be", found.units, ours.n))
 }
 
@@ -67,6 +77,8 @@ mod tests {
             "{}",
             said([0.25, 0.375, 0.75])
         );
+        // A distance of 1/400: ten thousand times as many.
+        assert!(said([0.25, 0.4975, 0.75]).starts_with("no number of trials within reach"));
         for no_number in [[0.4, 0.5, 0.6], [0.6, 0.7, 0.8]] {
             assert!(said(no_number).starts_with("the paper's own inputs"), "{no_number:?}");
         }

@@ -5,7 +5,7 @@ use super::subject::Subject;
 use engine::geometry::planar::{Circle, ConvexPolygon, Segment2, Touch, distance_point_segment};
 use engine::geometry::{Capsule, Convex, Frame, GeometryError, Solid, Sphere, Vec2, Vec3};
 use engine::kinematics::planar_2r::{Planar2r, continued};
-use engine::space::{ArmWorld, Obstacle};
+use engine::space::{ArmWorld, HopRule, Obstacle};
 use std::f64::consts::PI;
 
 /// The radius of a link for the judge, a tenth of the tolerance: our links have no width.
@@ -20,6 +20,7 @@ pub struct PlanarArm {
     arm: Planar2r,
     obstacles: Vec<Obstacle>,
     touch: Touch,
+    hop: HopRule,
     model: Model,
     pairs: Vec<Pair>,
 }
@@ -62,7 +63,7 @@ impl PlanarArm {
             stills: obstacles.iter().enumerate().map(still).collect::<Result<_, _>>()?,
         };
         let pairs = model.pairs();
-        Ok(Self { arm, obstacles, touch: world.rules().touch, model, pairs })
+        Ok(Self { arm, obstacles, touch: world.rules().touch, hop: world.rules().hop, model, pairs })
     }
 
     fn links(&self, q_rad: &[f64]) -> [Segment2; 2] {
@@ -154,7 +155,14 @@ impl Subject for PlanarArm {
         let mut obstacles = self.obstacles.clone();
         obstacles[still] = moved(&obstacles[still], &by_cm);
         let model = self.model.shifted(still, by_m);
-        Box::new(Self { arm: self.arm, obstacles, touch: self.touch, model, pairs: self.pairs.clone() })
+        Box::new(Self {
+            arm: self.arm,
+            obstacles,
+            touch: self.touch,
+            hop: self.hop,
+            model,
+            pairs: self.pairs.clone(),
+        })
     }
 
     fn pierces(&self, q_rad: &[f64]) -> bool {
@@ -172,6 +180,14 @@ impl Subject for PlanarArm {
 
     fn between(&self, from_rad: &[f64], to_rad: &[f64], share: f64) -> Option<Vec<f64>> {
         let (from, to) = (two(from_rad), continued(two(from_rad), two(to_rad)));
+        if self.hop == HopRule::TipLine {
+            let [one, other] = [from, to].map(|q| self.arm.forward(q));
+            let tip = one + (other - one) * share;
+            // A chord of the reach stays within it but for rounding at its ends.
+            let both = self.arm.inverse(&tip).or_else(|_| self.arm.inverse(&(tip * (1.0 - 1e-12)))).ok()?;
+            let q = if from[1] + to[1] > 0.0 { both.positive } else { both.negative };
+            return Some(continued(from, q).to_vec());
+        }
         Some(vec![from[0] + (to[0] - from[0]) * share, from[1] + (to[1] - from[1]) * share])
     }
 }

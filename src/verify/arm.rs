@@ -2,10 +2,11 @@
 //!
 //! Kinematics is written here once more, as products of rotation matrices, and the inverse by intersecting the
 //! circles that the elbow lies on; distances are parry2d's. A hop is judged by the joints moving evenly between its
-//! postures: an interval of the motion is clear if no point of a link can reach what it is nearest to; otherwise it
-//! is halved, down to `RESOLUTION_CM`, below which contact is assumed.
+//! postures, or by the tip moving along the straight line ([`Hops`]): an interval of the motion is clear if no point of a
+//! link can reach what it is nearest to; otherwise it is halved, down to `RESOLUTION_CM`, below which contact is assumed.
 
 mod body;
+mod motion;
 mod optimum;
 #[cfg(test)]
 mod tests;
@@ -39,14 +40,28 @@ pub struct Case<'a> {
     pub touching_is_contact: bool,
     /// Which diagonal hops of one cell are refused.
     pub corner_rule: CornerRule,
-    /// Whether every hop must be clear all the way.
-    pub hops_are_swept: bool,
+    /// How far joint 2 turns to either side; infinite without stops.
+    pub q2_limit_rad: f64,
+    /// What decides whether a hop may be made.
+    pub hops: Hops,
     /// The obstacles.
     pub bodies: Vec<Body>,
     /// The start.
     pub start: &'a [f64],
     /// The goal.
     pub goal: &'a [f64],
+}
+
+/// What decides whether a hop between two points where the arm may stand may be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hops {
+    /// Nothing; audits still tell which are unsafe, by joints that move evenly.
+    EndPoints,
+    /// The joints move evenly and the arm must be clear all the way.
+    EvenJoints,
+    /// The tip moves along the straight line, the arm bent to one side; it must be clear all the way, and no nearer to the
+    /// base than points may be.
+    TipLine,
 }
 
 /// What a planner claims.
@@ -69,6 +84,8 @@ pub struct Audit {
     pub length_cm: f64,
     /// Hops during which the arm hits an obstacle.
     pub unsafe_hops: u64,
+    /// How deep a link goes into an obstacle during them, to a micrometre; 0 without any.
+    pub deepest_cm: f64,
     /// How far each joint turns in all.
     pub joint_travel_deg: [f64; 2],
     /// The farthest that a joint turns in one hop.
@@ -94,7 +111,8 @@ impl Case<'_> {
             let free = self.free_posture(*point);
             postures.push(free.ok_or_else(|| format!("the arm may not stand at {:?}", self.at(*point)))?);
         }
-        let (mut joint_travel_deg, mut largest_joint_step_deg, mut unsafe_hops) = ([0.0; 2], 0.0_f64, 0);
+        let (mut joint_travel_deg, mut largest_joint_step_deg) = ([0.0; 2], 0.0_f64);
+        let (mut unsafe_hops, mut deepest_cm) = (0, 0.0_f64);
         for (pair, postures) in points.windows(2).zip(postures.windows(2)) {
             self.refuse_step(pair, answer.steps).map_or(Ok(()), Err)?;
             let by = turned(postures[0], postures[1]);
@@ -102,15 +120,26 @@ impl Case<'_> {
                 *travel += turn.abs().to_degrees();
                 largest_joint_step_deg = largest_joint_step_deg.max(turn.abs().to_degrees());
             }
-            let is_clear = self.is_clear(postures[0], postures[1]);
-            if !is_clear && self.hops_are_swept {
-                let [from, to] = [self.at(pair[0]), self.at(pair[1])];
-                return Err(format!("the arm hits an obstacle between {from:?} and {to:?}"));
+            if let Some(depth_cm) = self.hit(pair, postures)? {
+                unsafe_hops += 1;
+                deepest_cm = deepest_cm.max(depth_cm);
             }
-            unsafe_hops += u64::from(!is_clear);
         }
         let (length_cm, optimal_cm) = self.judged_length(answer, &points)?;
-        Ok(Audit { length_cm, unsafe_hops, joint_travel_deg, largest_joint_step_deg, optimal_cm })
+        Ok(Audit { length_cm, unsafe_hops, deepest_cm, joint_travel_deg, largest_joint_step_deg, optimal_cm })
+    }
+
+    /// How deep the arm hits an obstacle during a hop, if it does.
+    fn hit(&self, pair: &[[i32; 2]], postures: &[[f64; 2]]) -> Result<Option<f64>, String> {
+        let [from, to] = [self.at(pair[0]), self.at(pair[1])];
+        let motion = self.motion([pair[0], pair[1]], [postures[0], postures[1]]).ok_or_else(|| {
+            format!("the tip cannot go straight from {from:?} to {to:?}: the arm jumps or comes too near to its base")
+        })?;
+        match self.is_clear(&motion) {
+            true => Ok(None),
+            false if self.hops == Hops::EndPoints => Ok(Some(self.depth_cm(&motion))),
+            false => Err(format!("the arm hits an obstacle between {from:?} and {to:?}")),
+        }
     }
 
     /// Why a claim that there is no path with `steps` is wrong; `None` if it is right.

@@ -1,12 +1,13 @@
 //! The planar arm from outside: planners against the verifier, whose kinematics, distances and search are its own.
 
-use crate::shapes::{Placed, body, obstacle, shaped};
+use crate::shapes::{HOPS, Placed, body, hops_of, obstacle, shaped};
 use base::grid::CornerRule;
 use base::seed;
 use base::settings::Settings;
 use engine::geometry::planar::Touch;
 use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
 use engine::planner::{self, Build, Ending, Plan, Planner, Request, Value};
+use engine::shorten::{TurnAngle, turn_sum_deg};
 use engine::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
 use rand::RngExt as _;
 use std::collections::BTreeSet;
@@ -29,10 +30,11 @@ fn sample(count: u64) -> Vec<Posed> {
             elbow: [ElbowRule::NegativeQ2, ElbowRule::HigherElbow][(number / 2 % 2) as usize],
             lattice: TipLattice::new([-50.0, 50.0], [0.0, 50.0], 2.0).unwrap(),
             inner_radius_cm: 14.0,
+            q2_limit_rad: f64::INFINITY,
             touch: Touch::Contact,
             corner_rule: [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny]
                 [(number % 3) as usize],
-            hop: [HopRule::EndPoints, HopRule::Continuous][(number % 2) as usize],
+            hop: HOPS[(number % 8) as usize],
         };
         let places: Vec<[f64; 2]> = (0..stream.random_range(2..6))
             .map(|_| {
@@ -77,7 +79,8 @@ impl Posed {
             inner_radius_cm: 14.0,
             touching_is_contact: true,
             corner_rule: rules.corner_rule,
-            hops_are_swept: rules.hop == HopRule::Continuous,
+            q2_limit_rad: rules.q2_limit_rad,
+            hops: hops_of(rules.hop),
             bodies: self.solids.iter().map(body).collect(),
             start: &self.ends[0],
             goal: &self.ends[1],
@@ -94,6 +97,12 @@ fn lattice(shape: &str, radius: u8) -> Box<dyn Planner> {
     let region = format!("{{ shape = '{shape}', radius_cells = {radius} }}");
     build("lattice_astar", &format!("neighbourhood = {region}\nopen_node = 'lowered'\nties = 'fifo'"))
         .unwrap()
+}
+
+/// A* with a square of this radius and these further settings.
+fn squares(radius: u8, more: &str) -> Box<dyn Planner> {
+    let region = format!("{{ shape = 'square', radius_cells = {radius} }}");
+    build("lattice_astar", &format!("neighbourhood = {region}\nopen_node = 'lowered'\n{more}")).unwrap()
 }
 
 fn chaos(changes: &str) -> Result<Box<dyn Planner>, String> {
@@ -244,6 +253,7 @@ fn what_plain_lists_would_compare_is_what_counting_by_hand_gives() {
         elbow: ElbowRule::NegativeQ2,
         lattice: TipLattice::new([30.0, 32.0], [10.0, 11.0], 1.0).unwrap(),
         inner_radius_cm: 0.0,
+        q2_limit_rad: f64::INFINITY,
         touch: Touch::Contact,
         corner_rule: CornerRule::Allow,
         hop: HopRule::EndPoints,
@@ -264,4 +274,72 @@ fn what_plain_lists_would_compare_is_what_counting_by_hand_gives() {
     assert_eq!(count("minimum_comparisons"), Value::Count(1));
     assert_eq!(count("membership_comparisons"), Value::Count(1 + 2 + 3));
     assert_eq!(count("list_operations"), Value::Count(7));
+}
+
+#[test]
+fn a_heuristic_above_a_step_s_length_may_lengthen_paths_and_promises_nothing() {
+    let longer = |radius: u8, heuristic: &str| {
+        let planner = squares(radius, &format!("heuristic = '{heuristic}'"));
+        let plain = squares(radius, "");
+        let (mut solved, mut longer) = (0, 0);
+        for posed in sample(60) {
+            let (plan, truth) = (posed.plan(planner.as_ref(), 0), posed.plan(plain.as_ref(), 0));
+            assert_eq!(plan.cost.is_some(), truth.cost.is_some(), "{}", posed.name);
+            let (Some(cost), Some(least)) = (plan.cost, truth.cost) else { continue };
+            assert!(cost >= least - 1e-9, "{}: {cost} below {least}", posed.name);
+            let audit = posed.case().audit(&answer(&plan, planner.as_ref()));
+            audit.unwrap_or_else(|refusal| panic!("{}: {refusal}", posed.name));
+            (solved, longer) = (solved + 1, longer + u32::from(cost > least + 1e-9));
+        }
+        assert!(solved > 20, "{solved} solved");
+        (planner.is_optimal(), longer)
+    };
+    assert_eq!([longer(1, "euclidean"), longer(1, "octile"), longer(3, "euclidean")], [(true, 0); 3]);
+    let promising_nothing = [longer(3, "octile"), longer(1, "manhattan"), longer(3, "manhattan")];
+    assert!(promising_nothing.iter().all(|(is_optimal, _)| !is_optimal));
+    assert!(promising_nothing.iter().any(|(_, longer)| *longer > 0), "{promising_nothing:?}");
+}
+
+#[test]
+fn straight_ties_keep_the_length_and_turn_less() {
+    let [straight, fifo] = ["straight", "fifo"].map(|ties| squares(1, &format!("ties = '{ties}'")));
+    let turns = |plan: &Plan| turn_sum_deg(&plan.path, TurnAngle::Exterior);
+    let (mut less, mut more, mut sums) = (0, 0, [0.0, 0.0]);
+    for posed in sample(60) {
+        let [one, other] = [&straight, &fifo].map(|planner| posed.plan(planner.as_ref(), 0));
+        let (Some(cost), Some(least)) = (one.cost, other.cost) else { continue };
+        assert!((cost - least).abs() < 1e-9, "{}: {cost} and {least}", posed.name);
+        let turned = [turns(&one), turns(&other)];
+        (less, more) = (less + u32::from(turned[0] < turned[1]), more + u32::from(turned[0] > turned[1]));
+        sums = [sums[0] + turned[0], sums[1] + turned[1]];
+    }
+    assert!(less > 10 && more * 4 < less && sums[0] < 0.7 * sums[1], "{less} less, {more} more, {sums:?}");
+}
+
+#[test]
+fn the_rim_of_a_free_square_stands_for_all_of_it_and_paths_end_at_the_goal_all_the_same() {
+    let [rim, all] = ["outer_where_free", "all"].map(|sets| squares(2, &format!("sets = '{sets}'")));
+    assert!(!rim.is_optimal() && !rim.is_complete() && all.is_optimal());
+    let (mut solved, mut fewer, mut inner) = (0, 0, 0);
+    for posed in sample(60) {
+        let [plan, truth] = [&rim, &all].map(|planner| posed.plan(planner.as_ref(), 0));
+        let (Some(cost), Some(least)) = (plan.cost, truth.cost) else { continue };
+        assert!(cost >= least - 1e-9, "{}: {cost} below {least}", posed.name);
+        let audit = posed.case().audit(&answer(&plan, rim.as_ref()));
+        audit.unwrap_or_else(|refusal| panic!("{}: {refusal}", posed.name));
+        solved += 1;
+        fewer += u32::from(plan.counts["generated"] != truth.counts["generated"]);
+        // Before the last hop, a hop shorter than the rim starts where something is near.
+        let grid = posed.world.as_arm().unwrap().grid();
+        let cell = |at: &[f64]| [0, 1].map(|axis| ((at[axis] - [-50.0, 0.0][axis]) / 2.0).round() as i32);
+        for hop in plan.path.windows(2).rev().skip(1) {
+            let ([x, y], to) = (cell(&hop[0]), cell(&hop[1]));
+            if (to[0] - x).abs().max((to[1] - y).abs()) < 2 {
+                let is_free = (-2..=2).all(|dx| (-2..=2).all(|dy| grid.is_free_xy(x + dx, y + dy)));
+                assert!(!is_free, "{}: a short hop from ({x}, {y})", posed.name);
+                inner += 1;
+            }
+        }
+    }
+    assert!(solved > 20 && fewer > 5 && inner > 5, "{solved} solved, {fewer} otherwise, {inner} short hops");
 }

@@ -1,8 +1,8 @@
 //! Obstacles of the planar arm in the planner's terms and in the verifier's.
 
-use engine::space::Obstacle;
+use engine::space::{HopRule, Obstacle};
 use replan::study::prepared::workspace_map::ShapeSetting;
-use verify::arm::Body;
+use verify::arm::{Body, Hops};
 
 /// An obstacle: its shape, and where its centre is.
 pub type Placed = (ShapeSetting, [f64; 2]);
@@ -44,4 +44,25 @@ pub fn body(&(shape, [x, y]): &Placed) -> Body {
         other => panic!("{other:?} is not drawn"),
     };
     Body::polygon(corners.into_iter().map(|[dx, dy]| [x + dx, y + dy]).collect())
+}
+
+/// What decides about hops, in turn; every one meets both elbow rules that change with every second number.
+pub const HOPS: [HopRule; 8] = [
+    HopRule::EndPoints,
+    HopRule::Continuous,
+    HopRule::EndPoints,
+    HopRule::TipLine,
+    HopRule::EndPoints,
+    HopRule::TipLine,
+    HopRule::EndPoints,
+    HopRule::Continuous,
+];
+
+/// The same in the verifier's terms.
+pub fn hops_of(rule: HopRule) -> Hops {
+    match rule {
+        HopRule::EndPoints => Hops::EndPoints,
+        HopRule::Continuous => Hops::EvenJoints,
+        HopRule::TipLine => Hops::TipLine,
+    }
 }

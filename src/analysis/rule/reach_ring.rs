@@ -1,4 +1,5 @@
-//! Whether the points that a two-link arm cannot take, or takes only stretched or folded, reach as far as stated.
+//! Whether the points that a two-link arm cannot take, takes only stretched or folded, or is kept from by a stop of joint 2 reach
+//! as far as stated.
 
 use super::{Entry, decided, rule};
 use audit::proof;
@@ -9,7 +10,7 @@ use serde::Deserialize;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "reach_ring",
-    about: "do reach and singularity of a planar two-link arm forbid an inner disc of the radius stated?",
+    about: "can reach, singularity or a stop of joint 2 of a planar two-link arm forbid an inner disc of the radius stated?",
     settings: Accepted::of::<Settings>(),
     example: "
 links_cm = [30.0, 20.0]

@@ -49,9 +49,16 @@ pub fn reach_ring([l1, l2]: [f64; 2], radius_cm: f64) -> Proof {
     let is_right = (inner - radius_cm).abs() < 1e-9;
     let compared = if is_right { "are" } else { "are not" };
     because.push(format!("the stated {radius_cm} cm {compared} that radius"));
-    let premise = "what singularity and different link lengths forbid is what the arm cannot reach or reaches only \
-                   stretched or folded";
-    Proof { is_possible: is_right, because, premises: vec![premise.to_owned()] }
+    // A stop of joint 2 forbids all that is nearer to the base than the tip at the stop.
+    let cos_stop = (radius_cm * radius_cm - l1 * l1 - l2 * l2) / (2.0 * l1 * l2);
+    let is_stopped = cos_stop.abs() <= 1.0 && !is_right;
+    because.extend(is_stopped.then(|| {
+        let stop = libm::acos(cos_stop).to_degrees();
+        format!("a stop of joint 2 at |θ2| = {stop:.2}° would forbid exactly the disc of {radius_cm} cm")
+    }));
+    let premise = "the disc is forbidden by what the arm cannot reach, reaches only stretched or folded, or by a stop of \
+                   joint 2";
+    Proof { is_possible: is_right || is_stopped, because, premises: vec![premise.to_owned()] }
 }
 
 /// The repulsive potential of range `d0` at the distance `d`, with the gain left out.
@@ -112,9 +119,12 @@ mod tests {
     }
 
     #[test]
-    fn an_inner_disc_has_the_radius_of_the_links_difference() {
-        assert!(reach_ring([30.0, 20.0], 10.0).is_possible);
+    fn an_inner_disc_has_the_radius_of_the_links_difference_unless_joint_2_has_a_stop() {
+        let proof = reach_ring([30.0, 20.0], 10.0);
+        assert!(proof.is_possible && !proof.because.concat().contains("stop"), "{proof:?}");
         let proof = reach_ring([30.0, 20.0], 20.0);
-        assert!(!proof.is_possible && proof.because[1].contains("θ2 is -153.6°"), "{proof:?}");
+        assert!(proof.is_possible && proof.because[1].contains("θ2 is -153.6°"), "{proof:?}");
+        assert!(proof.because[3].contains("|θ2| = 138.59°"), "{proof:?}");
+        assert!(!reach_ring([30.0, 20.0], 9.0).is_possible && !reach_ring([30.0, 20.0], 51.0).is_possible);
     }
 }

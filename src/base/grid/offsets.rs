@@ -71,6 +71,18 @@ mod tests {
     }
 
     #[test]
+    fn the_octagons_of_48_and_80_steps_are_the_discs_of_radius_4_and_5() {
+        assert_eq!(Offsets::octagon_on_corners(4), Offsets::disc(4));
+        // No whole radius gives 80; one of 5.25 does.
+        let in_it = |dx: i32, dy: i32| {
+            let (long, short) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+            f64::from(long) + (2.0_f64.sqrt() - 1.0) * f64::from(short) <= 5.25
+        };
+        assert_eq!(Offsets::within(9, in_it), Offsets::disc(5));
+        assert_ne!(Offsets::octagon_on_corners(5), Offsets::disc(5));
+    }
+
+    #[test]
     fn every_step_has_its_reverse_at_the_mirrored_place() {
         for offsets in [Offsets::square(3), Offsets::disc(5)] {
             let steps = offsets.steps();

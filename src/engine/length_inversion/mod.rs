@@ -20,7 +20,7 @@ use rayon::prelude::*;
 
 pub use choices::Match;
 pub use never_lowered::NeverLowered;
-pub use targets::Targets;
+pub use targets::{Met, Targets};
 
 /// Two cells: start and goal, or the smaller number first where both ways are as long.
 pub type Pair = [u32; 2];

@@ -43,41 +43,66 @@ impl Targets {
         odds[0] * odds[1] + (all[0] - odds[0]) * (all[1] - odds[1])
     }
 
-    /// For each alternative, as in [`pairs`](super::pairs), which targets some pair meets, by number.
+    /// For each alternative, as in [`pairs`](super::pairs), what is met.
     ///
     /// # Panics
     /// As [`pairs`](super::pairs) does.
-    pub fn hits(&self, cases: &[Vec<Moves>; 2], rule: Match) -> Vec<Vec<bool>> {
-        let hits = choices::batches(cases, rule).into_iter().flat_map(|(alternatives, cases)| {
-            let hits = self.hits_of(&cases);
-            (0..alternatives).map(move |place| hits.iter().map(|met| met >> place & 1 == 1).collect())
+    pub fn met(&self, cases: &[Vec<Moves>; 2], rule: Match) -> Vec<Met> {
+        let met = choices::batches(cases, rule).into_iter().flat_map(|(alternatives, cases)| {
+            let (hits, attained) = self.met_by(&cases);
+            (0..alternatives).map(move |place| {
+                let in_it =
+                    |all: &[GridSet]| all.iter().map(|met| met >> place & 1 == 1).collect::<Vec<bool>>();
+                Met {
+                    hits: in_it(&hits),
+                    attainable: self.attainable(&attained.each_ref().map(|all| in_it(all))),
+                }
+            })
         });
-        hits.collect()
+        met.collect()
     }
 
-    /// For each target the alternatives for which some pair meets it.
-    fn hits_of(&self, cases: &[Choices]) -> Vec<GridSet> {
+    /// The targets of which each length is that of some pair in its case.
+    fn attainable(&self, attained: &[Vec<bool>; 2]) -> Vec<bool> {
+        let mut all = self.none();
+        for (one, first) in self.lengths[0].iter().enumerate() {
+            for (two, second) in self.lengths[1].iter().enumerate() {
+                let is_target = first.straight % 2 == second.straight % 2;
+                all[self.number(one as u32, two as u32)] = is_target && attained[0][one] && attained[1][two];
+            }
+        }
+        all
+    }
+
+    /// For each target the alternatives for which some pair meets it, and for each length of a case those for which some pair has
+    /// it there.
+    fn met_by(&self, cases: &[Choices]) -> (Vec<GridSet>, [Vec<GridSet>; 2]) {
         let cells = cases[0].cell_count();
         let none = || vec![0; self.lengths[0].len() * self.lengths[1].len()];
-        let begun = || (cases.to_vec(), vec![Vec::new(); cells as usize], none());
-        let mark = |(mut cases, mut first, mut hits): (Vec<Choices>, Vec<Lengths>, Vec<GridSet>), start| {
+        let unmet = || (none(), self.lengths.each_ref().map(|lengths| vec![0; lengths.len()]));
+        let begun = || (cases.to_vec(), vec![Vec::new(); cells as usize], unmet());
+        let mark = |(mut cases, mut first, (mut hits, mut attained)): Marking, start| {
             first[start as usize + 1..].iter_mut().for_each(Vec::clear);
             cases[0].flood(start, self.highest(0), |cell, cost, met| {
                 if let Some(place) = self.place(0, cost).filter(|_| cell > start) {
                     note(&mut first[cell as usize], place, met);
+                    attained[0][place as usize] |= met;
                 }
             });
             cases[1].flood(start, self.highest(1), |cell, cost, met| {
                 if let Some(place) = self.place(1, cost).filter(|_| cell > start) {
+                    attained[1][place as usize] |= met;
                     for (before, met_before) in &first[cell as usize] {
                         hits[self.number(*before, place)] |= met & met_before;
                     }
                 }
             });
-            (cases, first, hits)
+            (cases, first, (hits, attained))
         };
-        let hits = (0..cells).into_par_iter().fold(begun, mark).map(|(_, _, hits)| hits);
-        hits.reduce(none, union)
+        let met = (0..cells).into_par_iter().fold(begun, mark).map(|(_, _, met)| met);
+        met.reduce(unmet, |(hits, [one, two]), (more, [other_one, other_two])| {
+            (union(hits, more), [union(one, other_one), union(two, other_two)])
+        })
     }
 
     /// No target is hit.
@@ -111,6 +136,18 @@ impl Targets {
         one as usize * self.lengths[1].len() + two as usize
     }
 }
+
+/// Which targets are met.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Met {
+    /// By number: some pair has both lengths.
+    pub hits: Vec<bool>,
+    /// By number: some pair has one length in the first case and some pair, the same or another, the other in the second.
+    pub attainable: Vec<bool>,
+}
+
+/// The searches, the lengths that cells have in the first case, and what is met so far.
+type Marking = (Vec<Choices>, Vec<Lengths>, (Vec<GridSet>, [Vec<GridSet>; 2]));
 
 /// The places of the lengths of a cell, and for which alternatives it has them.
 type Lengths = Vec<(u32, GridSet)>;

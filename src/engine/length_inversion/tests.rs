@@ -31,6 +31,10 @@ fn grids() -> [Vec<Moves>; 2] {
     worlds().map(|world| vec![world.eight_moves()])
 }
 
+fn hits_of(targets: &Targets, grids: &[Vec<Moves>; 2], rule: Match) -> Vec<Vec<bool>> {
+    targets.met(grids, rule).into_iter().map(|met| met.hits).collect()
+}
+
 fn points(pairs: &[Pair]) -> Vec<[[f64; 2]; 2]> {
     let point = |cell: &u32| -> [f64; 2] { rules(HopRule::EndPoints).lattice.point(*cell).into() };
     pairs.iter().map(|[a, b]| [point(a), point(b)]).collect()
@@ -47,17 +51,24 @@ fn circles_with_contact_forbidden_leave_the_two_pairs_that_two_other_programs_fo
 fn every_target_that_is_hit_has_a_pair_and_the_printed_one_is_among_them() {
     let grids = grids();
     let targets = Targets::new(LENGTHS, 1.0);
-    let hits = &targets.hits(&grids, Match::ByPlace)[0];
-    let (mut checked, mut met) = (0, 0);
+    let Met { hits, attainable } = &targets.met(&grids, Match::ByPlace)[0];
+    let (mut checked, mut met, mut attained) = (0, 0, 0);
     for (a, first) in (0..).zip(&targets.lengths[0]).step_by(7) {
         for (b, second) in (0..).zip(&targets.lengths[1]).step_by(11) {
             let found = pairs(&grids, &scaled([*first, *second]), Match::ByPlace);
             let is_hit = hits[targets.number(a, b)];
             assert_eq!(!found[0].is_empty(), is_hit, "{first:?} and {second:?}");
             (checked, met) = (checked + 1, met + usize::from(is_hit));
+            let has = |case: usize, length: &Octile| {
+                let alone = [grids[case].clone()];
+                !pairs(&alone, &[ScaledOctile::scaled(*length)], Match::ByPlace)[0].is_empty()
+            };
+            let is_attainable = first.straight % 2 == second.straight % 2 && has(0, first) && has(1, second);
+            assert_eq!(attainable[targets.number(a, b)], is_attainable, "{first:?} and {second:?}");
+            attained += usize::from(is_attainable);
         }
     }
-    assert!(checked > 20 && met < checked, "{met} of {checked}");
+    assert!(checked > 20 && met < attained && attained < checked, "{met} of {attained} of {checked}");
     let [one, two] = [0, 1].map(|case| targets.place(case, scaled(LENGTHS)[case]).unwrap());
     assert!(hits[targets.number(one, two)]);
     assert!(hits.iter().filter(|hit| **hit).count() < targets.count());
@@ -95,7 +106,7 @@ fn many() -> [Vec<Moves>; 2] {
 #[test]
 fn grids_matched_by_place_are_those_asked_one_at_a_time() {
     let (grids, targets) = (many(), Targets::new(Small::LENGTHS, 0.75));
-    let hits = targets.hits(&grids, Match::ByPlace);
+    let hits = hits_of(&targets, &grids, Match::ByPlace);
     let asked = [[10, 14], [9, 13], [12, 10]];
     let asked = asked.map(|[straight, diagonal]| scaled([Octile { straight, diagonal }; 2]));
     let found = asked.map(|lengths| pairs(&grids, &lengths, Match::ByPlace));
@@ -108,7 +119,7 @@ fn grids_matched_by_place_are_those_asked_one_at_a_time() {
             assert!(found[place].is_sorted());
             different.insert(found[place].clone());
         }
-        assert!(hits[place] == targets.hits(&grids, Match::ByPlace)[0], "grid {place}: other targets");
+        assert!(hits[place] == hits_of(&targets, &grids, Match::ByPlace)[0], "grid {place}: other targets");
     }
     assert!(hits.len() == 70 && different.len() > 8, "only {} answers differ", different.len());
 }
@@ -118,19 +129,19 @@ fn grids_matched_freely_give_what_any_two_of_them_give() {
     let (many, targets, lengths) = (many(), Targets::new(Small::LENGTHS, 0.75), scaled(Small::LENGTHS));
     // All grids of one case and three of the other, so that every two can be asked alone.
     let grids = [many[0].clone(), [3, 32, 66].map(|place| many[1][place].clone()).to_vec()];
-    let (found, hits) = (pairs(&grids, &lengths, Match::Freely), targets.hits(&grids, Match::Freely));
+    let (found, hits) = (pairs(&grids, &lengths, Match::Freely), hits_of(&targets, &grids, Match::Freely));
     assert_eq!([found.len(), hits.len()], [1, 1]);
     let (mut pairs_of_any, mut hits_of_any) = (std::collections::BTreeSet::new(), targets.none());
     for one in 0..6 {
         for two in 0..3 {
             let grids = alone(&grids, [one, two]);
             pairs_of_any.extend(pairs(&grids, &lengths, Match::ByPlace).concat());
-            hits_of_any = union(hits_of_any, targets.hits(&grids, Match::ByPlace).concat());
+            hits_of_any = union(hits_of_any, hits_of(&targets, &grids, Match::ByPlace).concat());
         }
     }
     assert_eq!(found[0], pairs_of_any.into_iter().collect::<Vec<_>>());
     assert!(hits[0] == hits_of_any, "other targets");
-    let first = targets.hits(&alone(&grids, [0, 0]), Match::ByPlace).concat();
+    let first = hits_of(&targets, &alone(&grids, [0, 0]), Match::ByPlace).concat();
     assert!(hits[0] != first, "one choice meets as many targets as all");
 }
 
@@ -284,6 +295,6 @@ fn where_open_nodes_are_never_lowered_pairs_and_targets_are_those_of_the_kernels
         of_orders.push(hits);
     }
     assert!(of_orders[0] != of_orders[1], "the order among equals does not matter here");
-    let shortest = targets.hits(&moves.each_ref().map(|moves| vec![moves.clone()]), Match::ByPlace);
+    let shortest = hits_of(targets, &moves.each_ref().map(|moves| vec![moves.clone()]), Match::ByPlace);
     assert!(of_orders[0] != shortest[0], "shortest lengths meet the same targets");
 }

@@ -1,8 +1,9 @@
 //! A* over the tip positions of a planar arm that looks at a random part of a neighbourhood.
 
-use super::lattice::TiesSetting;
 use super::pool::Pool;
-use super::tips::{self, COLUMNS, OpenSetting, Posed, RegionSetting, RegionShape, TipSearch};
+use super::tips::{
+    self, COLUMNS, Heuristic, Manner, OpenSetting, Posed, RegionSetting, RegionShape, TipSearch, TipTies,
+};
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::Successors;
 use crate::space::{ArmWorld, WorldKind};
@@ -30,6 +31,7 @@ source = "uniform"
 goal_in_region = "included"
 open_node = "lowered"
 ties = "fifo"
+heuristic = "euclidean"
 "#,
     build: Build::Planner(|settings| {
         let read: ChaosAstar = settings.read()?;
@@ -66,7 +68,10 @@ struct ChaosAstar {
     open_node: OpenSetting,
     /// The order among equal f.
     #[serde(default)]
-    ties: TiesSetting,
+    ties: TipTies,
+    /// The distance to the goal that is added to g.
+    #[serde(default)]
+    heuristic: Heuristic,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
@@ -218,8 +223,9 @@ impl Planner for Ready {
             first: Vec::new(),
         };
         let mut search = self.pool.any(|| TipSearch::new(&self.offsets, self.read.ties));
-        let (report, scans) =
-            posed.search(&mut search, &self.offsets, &mut part, self.read.open_node, request.expansions);
+        let ChaosAstar { heuristic, open_node, .. } = self.read;
+        let manner = Manner { heuristic, open_node, expansions: request.expansions };
+        let (report, scans) = posed.search(&mut search, &self.offsets, &mut part, manner);
         self.pool.keep(search);
         let mut plan = posed.plan(&report, scans, request.trace);
         if request.trace {
@@ -257,7 +263,8 @@ mod tests {
             source,
             goal_in_region,
             open_node: OpenSetting::Lowered,
-            ties: TiesSetting::Fifo,
+            ties: TipTies::Fifo,
+            heuristic: Heuristic::Euclidean,
         }
     }
 

@@ -1,16 +1,17 @@
 //! What the planners share that move an arm's tip over its lattice: their ends, their settings' words, their plans.
 
-use super::lattice::TiesSetting;
 use super::{Counts, Ending, Exhibit, Invalid, Plan, Request, Value};
+use crate::geometry::Vec2;
 use crate::search::{
-    ColumnGraph, Combined, Heap, LatticeAstar, LatticeQuery, ListScans, Outcome, Report, Rules, Search, Stop,
-    Successors, Terms, Update, sum,
+    Bent, BentGraph, ColumnGraph, Combined, Cost as _, Graph, Heap, LatticeAstar, LatticeQuery, ListScans,
+    Outcome, Report, Route, Rules, Search, Stop, Successors, Terms, Ties, Update, sum,
 };
 use crate::space::ArmWorld;
 use base::grid::{MAX_REACH_CELLS, Offsets};
 use base::settings::{Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::f64::consts::SQRT_2;
 
 /// The columns that every search over tip positions fills.
 pub(super) const COLUMNS: &[&str] = &[
@@ -82,23 +83,95 @@ impl From<OpenSetting> for Update {
     }
 }
 
+/// The order among equal f, as settings write it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum TipTies {
+    /// The node that was put in first.
+    #[default]
+    Fifo,
+    /// The node that was put in last.
+    Lifo,
+    /// The node with the larger g; among those the one that was put in first.
+    LargerG,
+    /// The node whose way has turned least, then the one that was put in first; of equally long ways to an open node the one
+    /// that turns less is kept.
+    Straight,
+}
+
+impl From<TipTies> for Ties {
+    fn from(setting: TipTies) -> Self {
+        match setting {
+            TipTies::Fifo => Self::Fifo,
+            TipTies::Lifo => Self::Lifo,
+            TipTies::LargerG => Self::LargerG,
+            TipTies::Straight => Self::Smaller,
+        }
+    }
+}
+
+/// The distance to the goal that is added to g, as settings write it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Heuristic {
+    /// The length of the straight line.
+    #[default]
+    Euclidean,
+    /// The way along x added to the way along y.
+    Manhattan,
+    /// The length of a shortest way by eight neighbours.
+    Octile,
+}
+
+impl Heuristic {
+    fn over(self, way: Vec2) -> f64 {
+        let (x, y) = (way.x.abs(), way.y.abs());
+        match self {
+            Self::Euclidean => way.norm(),
+            Self::Manhattan => x + y,
+            Self::Octile => (x - y).abs() + SQRT_2 * x.min(y),
+        }
+    }
+
+    /// Whether no step is shorter than it, so that A* with these steps finds shortest paths: every heuristic here is a norm.
+    pub(super) fn is_consistent(self, steps: &[[i32; 2]]) -> bool {
+        steps.iter().all(|step| {
+            let way = Vec2::from(step.map(f64::from));
+            self.over(way) <= way.norm() * (1.0 + 1e-12)
+        })
+    }
+}
+
 /// A search over tip positions; its memory serves one query after another.
 pub(super) enum TipSearch {
     /// With neighbours looked up a column at a time.
     Columns(Box<LatticeAstar>),
     /// For the orders among equal f that the other does not know.
     General(Search<f64, Heap>),
+    /// For the order by how far ways turn.
+    Straight(Search<Bent, Heap>),
 }
 
 impl TipSearch {
     /// A search of the neighbourhood `offsets` that takes open nodes of equal f in the order of `ties`.
-    pub(super) fn new(offsets: &Offsets, ties: TiesSetting) -> Self {
+    pub(super) fn new(offsets: &Offsets, ties: TipTies) -> Self {
+        if ties == TipTies::Straight {
+            return Self::Straight(Search::new(Heap::new(ties.into())));
+        }
         let fast = LatticeAstar::new(offsets, ties.into());
         fast.map_or_else(
             || Self::General(Search::new(Heap::new(ties.into()))),
             |fast| Self::Columns(Box::new(fast)),
         )
     }
+}
+
+/// What an A* over tip positions does beside choosing neighbours.
+#[derive(Clone, Copy)]
+pub(super) struct Manner {
+    pub(super) heuristic: Heuristic,
+    pub(super) open_node: OpenSetting,
+    pub(super) expansions: u64,
 }
 
 /// The free hops of a workspace as successors.
@@ -127,18 +200,17 @@ impl<'a> Posed<'a> {
         Ok(Self { world, start, goal })
     }
 
-    /// A* with f = g + Euclidean distance, both in centimetres; ends when the goal is popped.
+    /// A* with f = g + heuristic, both in centimetres; ends when the goal is popped.
     pub(super) fn search(
         &self,
         search: &mut TipSearch,
         offsets: &Offsets,
         successors: &mut impl Successors,
-        open_node: OpenSetting,
-        expansions: u64,
+        manner: Manner,
     ) -> (Report<f64>, ListScans) {
         let lattice = self.world.rules().lattice;
-        let goal = lattice.point(self.goal);
-        let h = move |cell: u32| (lattice.point(cell) - goal).norm();
+        let (goal, heuristic) = (lattice.point(self.goal), manner.heuristic);
+        let h = move |cell: u32| heuristic.over(lattice.point(cell) - goal);
         let (columns, spacing) = (self.world.columns(), lattice.step_cm());
         match search {
             TipSearch::Columns(search) => search.run(LatticeQuery {
@@ -147,21 +219,38 @@ impl<'a> Posed<'a> {
                 successors,
                 h,
                 ends: [self.start, self.goal],
-                lower_open: open_node == OpenSetting::Lowered,
-                max_expansions: expansions,
+                lower_open: manner.open_node == OpenSetting::Lowered,
+                max_expansions: manner.expansions,
             }),
             TipSearch::General(search) => {
-                let mut scans = ListScans::default();
-                let terms = Terms {
-                    graph: &mut ColumnGraph::new(columns, offsets, spacing, successors),
-                    estimate: &Combined { h, combine: sum },
-                    observer: &mut scans,
-                    update: open_node.into(),
-                };
-                let rules = Rules { stop: Stop::GoalPopped, max_expansions: expansions };
-                (search.run(terms, self.start, |cell| cell == self.goal, rules, &mut ()), scans)
+                self.general(search, &mut ColumnGraph::new(columns, offsets, spacing, successors), h, manner)
+            }
+            TipSearch::Straight(search) => {
+                let plain = ColumnGraph::new(columns, offsets, spacing, successors);
+                self.general(search, &mut BentGraph::new(plain, columns.width()), h, manner)
             }
         }
+    }
+
+    /// The same by the general search.
+    fn general<G: Graph>(
+        &self,
+        search: &mut Search<G::Cost, Heap>,
+        graph: &mut G,
+        h: impl Fn(u32) -> f64,
+        manner: Manner,
+    ) -> (Report<f64>, ListScans) {
+        let mut scans = ListScans::default();
+        let estimate = &Combined { h, combine: sum };
+        let terms = Terms { graph, estimate, observer: &mut scans, update: manner.open_node.into() };
+        let rules = Rules { stop: Stop::GoalPopped, max_expansions: manner.expansions };
+        let report = search.run(terms, self.start, |cell| cell == self.goal, rules, &mut ());
+        let outcome = match report.outcome {
+            Outcome::NoPath => Outcome::NoPath,
+            Outcome::BudgetSpent => Outcome::BudgetSpent,
+            Outcome::Solved(Route { nodes, cost }) => Outcome::Solved(Route { nodes, cost: cost.value() }),
+        };
+        (Report { outcome, counters: report.counters }, scans)
     }
 
     /// The plan that a search's report amounts to; with `trace`, the arm's stations along its path.

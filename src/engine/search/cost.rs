@@ -23,6 +23,11 @@ pub trait Cost: Copy + Debug {
 
     /// The cost as a number.
     fn value(self) -> f64;
+
+    /// What tells costs of one value apart, the smaller first; nothing for most.
+    fn tie(self) -> u64 {
+        0
+    }
 }
 
 impl Cost for f64 {

@@ -218,7 +218,8 @@ fn comes_after(one: &Open, other: &Open, ties: Ties) -> bool {
         return one.f > other.f;
     }
     match ties {
-        Ties::Fifo => one.rank > other.rank,
+        // Costs of lattice moves have nothing more to tell equals apart by.
+        Ties::Fifo | Ties::Smaller => one.rank > other.rank,
         Ties::Lifo => one.rank < other.rank,
         Ties::LargerG => {
             let key = |open: &Open| (Reverse(quantised(open.g.value())), open.rank);

@@ -11,6 +11,8 @@ pub struct Offer {
     pub f: u64,
     /// The cost of the way to the node.
     pub g: f64,
+    /// What tells costs of one value apart ([`Cost::tie`](super::Cost::tie)).
+    pub tie: u64,
     /// How many nodes had been opened before this one was first opened.
     pub rank: u32,
     /// How many offers were made before in this search.
@@ -58,6 +60,8 @@ pub enum Ties {
     Lifo,
     /// The node with the larger g (to 1e-9), then the one first opened earlier.
     LargerG,
+    /// The node whose cost has the smaller [`tie`](super::Cost::tie), then the one first opened earlier.
+    Smaller,
 }
 
 /// A binary heap in the total order (f, tie rule, offer).
@@ -74,7 +78,7 @@ pub struct Heap {
 enum Keys {
     /// f, place, stamp.
     Flat(BinaryHeap<Reverse<u128>>),
-    /// f, then depth, then place and stamp.
+    /// f, then depth or tie, then place and stamp.
     Deep(BinaryHeap<Reverse<[u64; 3]>>),
 }
 
@@ -89,7 +93,7 @@ impl Heap {
     pub fn new(ties: Ties) -> Self {
         let keys = match ties {
             Ties::Fifo | Ties::Lifo => Keys::default(),
-            Ties::LargerG => Keys::Deep(BinaryHeap::new()),
+            Ties::LargerG | Ties::Smaller => Keys::Deep(BinaryHeap::new()),
         };
         Self { ties, keys, nodes: Vec::new() }
     }
@@ -107,7 +111,7 @@ impl Frontier for Heap {
         }
     }
 
-    fn push(&mut self, Offer { f, g, rank, stamp, node }: Offer) {
+    fn push(&mut self, Offer { f, g, tie, rank, stamp, node }: Offer) {
         let at = stamp as usize;
         if self.nodes.len() <= at {
             self.nodes.resize(at + 1, 0);
@@ -117,7 +121,10 @@ impl Frontier for Heap {
         let last = u64::from(place) << 32 | u64::from(stamp);
         match &mut self.keys {
             Keys::Flat(keys) => keys.push(Reverse(u128::from(f) << 64 | u128::from(last))),
-            Keys::Deep(keys) => keys.push(Reverse([f, !quantised(g), last])),
+            Keys::Deep(keys) => {
+                let depth = if self.ties == Ties::LargerG { !quantised(g) } else { tie };
+                keys.push(Reverse([f, depth, last]));
+            }
         }
     }
 
@@ -144,20 +151,21 @@ mod tests {
 
     #[test]
     fn equals_leave_in_the_order_of_the_tie_rule() {
-        // (f, g) by rank.
-        let offers = [(5, 1.0), (4, 2.0), (4, 3.0), (4, 3.0), (4, 1.0), (3, 0.0)];
+        // (f, g, tie) by rank.
+        let offers = [(5, 1.0, 0), (4, 2.0, 9), (4, 3.0, 7), (4, 3.0, 7), (4, 1.0, 8), (3, 0.0, 9)];
         for (ties, ranks) in [
             (Ties::Fifo, [5, 1, 2, 3, 4, 0]),
             (Ties::Lifo, [5, 4, 3, 2, 1, 0]),
             (Ties::LargerG, [5, 2, 3, 1, 4, 0]),
+            (Ties::Smaller, [5, 2, 3, 4, 1, 0]),
         ] {
             let mut heap = Heap::new(ties);
-            for (rank, (f, g)) in (0..).zip(offers) {
-                heap.push(Offer { f, g, rank, stamp: rank + 10, node: rank + 20 });
+            for (rank, (f, g, tie)) in (0..).zip(offers) {
+                heap.push(Offer { f, g, tie, rank, stamp: rank + 10, node: rank + 20 });
             }
             for rank in ranks {
                 let first = heap.first();
-                let (f, _) = offers[rank as usize];
+                let (f, ..) = offers[rank as usize];
                 assert_eq!(first, Some(Best { f, stamp: rank + 10, node: rank + 20 }), "{ties:?}");
                 assert_eq!(heap.pop(), first);
             }

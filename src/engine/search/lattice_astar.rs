@@ -109,7 +109,7 @@ impl LatticeAstar {
         let flip = match ties {
             Ties::Fifo => 0,
             Ties::Lifo => u32::MAX,
-            Ties::LargerG => return None,
+            Ties::LargerG | Ties::Smaller => return None,
         };
         (reach(offsets) <= MAX_REACH_CELLS as i32).then(|| Self {
             offsets: offsets.clone(),

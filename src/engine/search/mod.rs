@@ -48,6 +48,7 @@ mod one_way;
 mod radix;
 mod side;
 mod sorted_buckets;
+mod straight;
 #[cfg(test)]
 mod tests;
 
@@ -67,6 +68,7 @@ pub use observe::{ListScans, Lists, Observer, Place, Trace};
 pub use octile::{OctileAstar, SearchError};
 pub use one_way::{BeforeExpansion, Rules, Search, Shot, Stop};
 pub use side::{Terms, Update};
+pub use straight::{Bent, BentGraph};
 
 /// A path and what it costs.
 #[derive(Clone, Debug, PartialEq)]

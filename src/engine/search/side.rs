@@ -203,7 +203,8 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
                 self.records[node as usize].h = estimate.h(node);
             }
             let Record { h, rank, stamp, .. } = self.take(node, place, parent, g, observer);
-            self.frontier.push(Offer { f: estimate.key(g, h), g: g.value(), rank, stamp, node });
+            let (f, tie) = (estimate.key(g, h), g.tie());
+            self.frontier.push(Offer { f, g: g.value(), tie, rank, stamp, node });
         }
     }
 

@@ -69,6 +69,11 @@ struct ArmPlane {
 struct PanelSetting {
     /// The problem group; its first draw is shown.
     problem: String,
+    /// What stands above it; the problem group if absent.
+    title: Option<String>,
+    /// Whether its points are coloured by what they are, if not those of all panels.
+    #[serde(default)]
+    zones: bool,
     /// Whose paths, of the first seed.
     #[serde(default)]
     contenders: Vec<String>,
@@ -116,17 +121,22 @@ impl ArmPlane {
             None => [low[axis] - step, low[axis] + step * size[axis]],
         };
         let axis = |label: &str, axis: usize| Axis::linear(label, ends(axis)[0], ends(axis)[1]);
-        let title = if self.paths { title(&setting.problem, &rows) } else { setting.problem.clone() };
+        let title = match &setting.title {
+            Some(title) => title.clone(),
+            None if self.paths => title(&setting.problem, &rows),
+            None => setting.problem.clone(),
+        };
         let mut panel = Panel::new(title, axis("x (cm)", 0)?, axis("y (cm)", 1)?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
-        if self.zones {
+        let has_zones = self.zones || setting.zones;
+        if has_zones {
             let zones = ask::exhibit(scene, map, "zones")?;
             panel.add(zone_cells(zones, [low[0] - step / 2.0, low[1] - step / 2.0], step, size[0] as usize));
         }
         for index in 1.. {
             let Some(outline) = scene.run.exhibit(map, &format!("obstacle_{index}")) else { break };
-            panel.add(obstacle(outline, !self.zones));
+            panel.add(obstacle(outline, !has_zones));
         }
         for (index, row) in rows.iter().enumerate() {
             self.add_path(scene, row, index, &mut panel);

@@ -4,7 +4,7 @@ use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
-use crate::render::style::{Stroke, WHITE, Width, series_color, series_marker};
+use crate::render::style::{Marker, Stroke, WHITE, Width, series_color};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -96,11 +96,13 @@ fn panel(title: &str, first: usize, series: &[(&String, Pairs)]) -> Result<Panel
     }
     for (place, (label, pairs)) in series.iter().enumerate() {
         let index = first + place;
-        let points = pairs.iter().flatten().copied().collect();
         // Series may share points: the first ones are larger and show behind the last.
         let radius_pt = 2.0 + 0.9 * (series.len() - 1 - place) as f64;
-        let points = Points::of(points, series_marker(index), radius_pt, series_color(index));
-        panel.add(points.labelled(format!("{label} ({})", pairs.len())));
+        let of_end = |end: usize| pairs.iter().map(|pair| pair[end]).collect::<Vec<_>>();
+        let one = Points::of(of_end(0), Marker::Circle, radius_pt, series_color(index));
+        panel.add(one.labelled(format!("{label} ({}), one end", pairs.len())));
+        let other = Points::of(of_end(1), Marker::Diamond, radius_pt, series_color(index));
+        panel.add(other.labelled("the other end".to_owned()));
     }
     Ok(panel)
 }

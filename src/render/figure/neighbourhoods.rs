@@ -38,6 +38,8 @@ struct Neighbourhoods {
     problem: String,
     /// One panel each.
     contenders: Vec<String>,
+    /// The distance from the node to the corners of a regular octagon, on the axes, that is drawn in each panel.
+    octagon_radius: Option<f64>,
 }
 
 impl Kind for Neighbourhoods {
@@ -50,10 +52,24 @@ impl Kind for Neighbourhoods {
         let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
         let width = if rows.len() == 1 { Width::Single } else { Width::Double };
         let panels = rows.iter().map(|row| {
-            panel(row, ask::exhibit(scene, &row.key, "region")?, scene.run.exhibit(&row.key, "drawn"))
+            let drawn = scene.run.exhibit(&row.key, "drawn");
+            let mut panel = panel(row, ask::exhibit(scene, &row.key, "region")?, drawn)?;
+            if let Some(radius) = self.octagon_radius {
+                panel.add(octagon(radius).labelled("octagon"));
+            }
+            Ok(panel)
         });
         Sheet::new(width, rows.len().min(4), PLOT_PT).with(panels)
     }
+}
+
+/// A regular octagon with corners on the axes.
+fn octagon(radius: f64) -> Line {
+    let corner = |k: u32| {
+        let (s, c) = libm::sincos(std::f64::consts::FRAC_PI_4 * f64::from(k));
+        [radius * c, radius * s]
+    };
+    Line::through((0..=8).map(corner).collect(), Stroke::solid(VERMILLION, 0.8))
 }
 
 fn panel(row: &Row, region: &Exhibit, drawn: Option<&Exhibit>) -> Result<Panel, RenderError> {

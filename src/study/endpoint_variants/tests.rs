@@ -12,6 +12,7 @@ fn base() -> ArmRules {
         elbow: ElbowRule::NegativeQ2,
         lattice: TipLattice::new([-50.0, 50.0], [0.0, 50.0], 1.0).unwrap(),
         inner_radius_cm: 20.0,
+        q2_limit_rad: f64::INFINITY,
         touch: Touch::Contact,
         corner_rule: CornerRule::Allow,
         hop: HopRule::EndPoints,

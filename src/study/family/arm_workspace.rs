@@ -56,6 +56,8 @@ struct ArmWorkspace {
     step_cm: f64,
     /// How far the tip must stay from the base.
     inner_radius_cm: f64,
+    /// How far joint 2 turns to either side; without stops if absent.
+    theta2_limit_deg: Option<f64>,
     /// On which side the elbow is.
     elbow: ElbowSetting,
     /// Whether touching an obstacle counts as a collision.
@@ -74,6 +76,20 @@ struct ArmWorkspace {
     start_cm: Option<[f64; 2]>,
     /// x and y of the goal; absent where the study looks for it.
     goal_cm: Option<[f64; 2]>,
+    /// Which of the two ends a search begins at.
+    #[serde(default)]
+    direction: Direction,
+}
+
+/// Which way a path is searched.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Direction {
+    /// From the start to the goal.
+    #[default]
+    StartToGoal,
+    /// From the goal to the start.
+    GoalToStart,
 }
 
 impl ArmWorkspace {
@@ -91,10 +107,12 @@ impl ArmWorkspace {
         let queries = faults.keep(self.queries(settings));
         let obstacles =
             faults.keep(self.obstacles().map_err(|(key, message)| settings.error_at(&key, message)));
-        let (((arm, lattice), queries), obstacles) =
-            faults.or(arm.zip(lattice).zip(queries).zip(obstacles))?;
+        let limit = self.q2_limit_rad().map_err(|message| settings.error_at("theta2_limit_deg", message));
+        let (limit, posed) = (faults.keep(limit), arm.zip(lattice).zip(queries).zip(obstacles));
+        let ((((arm, lattice), queries), obstacles), q2_limit_rad) = faults.or(posed.zip(limit))?;
         let rules = ArmRules {
             arm,
+            q2_limit_rad,
             elbow: self.elbow.into(),
             lattice,
             inner_radius_cm: self.inner_radius_cm,
@@ -103,7 +121,7 @@ impl ArmWorkspace {
             hop: self.hop_check.into(),
         };
         let world = ArmWorld::new(rules, obstacles.clone());
-        check_ends(&world, &queries, settings)?;
+        self.check_ends(&world, settings)?;
         Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
     }
 
@@ -111,6 +129,10 @@ impl ArmWorkspace {
     fn queries(&self, settings: &Settings) -> Result<Vec<Query>, SettingsError> {
         match (self.start_cm, self.goal_cm) {
             (Some(start), Some(goal)) => {
+                let [start, goal] = match self.direction {
+                    Direction::StartToGoal => [start, goal],
+                    Direction::GoalToStart => [goal, start],
+                };
                 Ok(vec![Query { name: String::new(), start: start.to_vec(), goal: goal.to_vec() }])
             }
             (None, None) => Ok(Vec::new()),
@@ -122,6 +144,22 @@ impl ArmWorkspace {
                 Err(settings.error_at(given, message))
             }
         }
+    }
+
+    fn q2_limit_rad(&self) -> Result<f64, String> {
+        let Some(limit) = self.theta2_limit_deg else { return Ok(f64::INFINITY) };
+        let is_right = limit > 0.0 && limit <= 180.0;
+        let message = || format!("theta2_limit_deg is {limit}; above 0 and at most 180 is accepted");
+        is_right.then(|| limit.to_radians()).ok_or_else(message)
+    }
+
+    fn check_ends(&self, world: &ArmWorld, settings: &Settings) -> Result<(), SettingsError> {
+        let mut faults = Faults::default();
+        for (what, key, point) in [("start", "start_cm", self.start_cm), ("goal", "goal_cm", self.goal_cm)] {
+            let free = point.map_or(Ok(0), |point| world.free_cell(what, &point));
+            faults.keep(free.map_err(|message| settings.error_at(key, message)));
+        }
+        faults.done()
     }
 
     /// The obstacles, or the key at fault and what is wrong.
@@ -141,17 +179,6 @@ impl ArmWorkspace {
         });
         shaped.collect()
     }
-}
-
-fn check_ends(world: &ArmWorld, queries: &[Query], settings: &Settings) -> Result<(), SettingsError> {
-    let mut faults = Faults::default();
-    for query in queries {
-        for (what, key, point) in [("start", "start_cm", &query.start), ("goal", "goal_cm", &query.goal)] {
-            let free = world.free_cell(what, point);
-            faults.keep(free.map_err(|message| settings.error_at(key, message)));
-        }
-    }
-    faults.done()
 }
 
 struct Posed {
@@ -216,6 +243,12 @@ mod tests {
             ("obstacle_shapes = []", ["0 shapes for 2 obstacles", "one for all or one"]),
             ("obstacle_shapes = ['star']", ["star", "triangle"]),
             ("elbows = 'higher'", ["elbows", "elbow"]),
+            ("theta2_limit_deg = 0", ["theta2_limit_deg is 0", "above 0 and at most 180"]),
+            ("theta2_limit_deg = 30", ["the goal [0.0, 45.0]", "the arm may stand from 48.36"]),
+            (
+                "direction = 'goal_to_start'\ngoal_cm = [8, 36]",
+                ["the goal [8.0, 36.0]", "lies in obstacle 2"],
+            ),
         ] {
             let refused = build(changes).err().unwrap_or_else(|| panic!("{changes} was accepted"));
             assert!(parts.iter().all(|part| refused.contains(part)), "{changes}: {refused}");

@@ -63,6 +63,8 @@ pub enum HopSetting {
     EndPoints,
     /// Both links are swept, the joints moving evenly.
     Continuous,
+    /// Both links are swept, the tip moving along the straight line.
+    TipLine,
 }
 
 impl From<HopSetting> for HopRule {
@@ -70,6 +72,7 @@ impl From<HopSetting> for HopRule {
         match setting {
             HopSetting::EndPoints => Self::EndPoints,
             HopSetting::Continuous => Self::Continuous,
+            HopSetting::TipLine => Self::TipLine,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Looks for the pairs of lattice points that have printed lengths in all cases, under every variant asked for.
 
 use super::{Entry, Task};
-use crate::study::endpoint_variants::{self as open, Case, Question, Variant};
+use crate::study::endpoint_variants::{self as open, Case, Question, ShapeChoice, Variant};
 use crate::study::key::{Owner, TrialKey};
 use crate::study::record::{Batch, Kept, Row, Status, Values};
 use crate::study::unit::Unit;
@@ -10,7 +10,7 @@ use base::settings::Accepted;
 use engine::length_inversion::{self, Match, NeverLowered, Pair};
 use engine::planner::{Exhibit, Value};
 use engine::search::Ties;
-use engine::space::TipLattice;
+use engine::space::{ArmRules, ArmWorld, TipLattice};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -18,8 +18,17 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "identify_endpoints",
     about: "which pairs of lattice points have the printed lengths in all cases, by exact single-source searches",
-    revision: 3,
-    columns: &["start_x_cm", "start_y_cm", "goal_x_cm", "goal_y_cm", "pairs", "pairs_on_fives", "candidates"],
+    revision: 4,
+    columns: &[
+        "start_x_cm",
+        "start_y_cm",
+        "goal_x_cm",
+        "goal_y_cm",
+        "pairs",
+        "pairs_on_fives",
+        "pairs_on_fives_tried",
+        "candidates",
+    ],
     settings: Accepted::of::<Identify>(),
     example: r#"
 excess_steps = 3.0
@@ -135,7 +144,11 @@ impl Task for Identify {
             match answer {
                 Ok(found) => {
                     let points = points(&base.lattice, &found.pairs);
-                    batch.rows.extend(rows(unit, variant, &points, found.candidates));
+                    let tried = self.pairs_on_fives(&base, variant);
+                    let mut of_variant = rows(unit, variant, &points, found.candidates);
+                    let tried = tried.map(|count| ("pairs_on_fives_tried", Value::Count(count)));
+                    of_variant[0].values.extend(tried);
+                    batch.rows.extend(of_variant);
                     if keeps {
                         let of = Owner::Trial(super::variant_key(unit, &variant.label, 0));
                         let exhibit = Exhibit { name: "pairs".to_owned(), width: 4, values: points.concat() };
@@ -150,6 +163,21 @@ impl Task for Identify {
 }
 
 impl Identify {
+    /// How many pairs of points on multiples of 5 cm are free in all cases; unknown where shapes are left open.
+    fn pairs_on_fives(&self, base: &ArmRules, variant: &Variant) -> Option<u64> {
+        let ShapeChoice::Uniform(shape) = variant.shape else { return None };
+        let worlds: Vec<ArmWorld> =
+            self.cases.iter().map(|case| variant.world(base, case, shape).ok()).collect::<Option<_>>()?;
+        let cells = 0..worlds.first()?.grid().cell_count();
+        let is_round = |cell: &u32| {
+            let at: [f64; 2] = base.lattice.point(*cell).into();
+            at.iter().all(|value| value % 5.0 == 0.0)
+        };
+        let is_free = |cell: &u32| worlds.iter().all(|world| world.grid().is_free(*cell));
+        let count = cells.filter(|cell| is_round(cell) && is_free(cell)).count() as u64;
+        Some(count * count.saturating_sub(1) / 2)
+    }
+
     /// The printed lengths.
     fn lengths(&self) -> Vec<u32> {
         self.cases.iter().map(Case::target).collect()

@@ -8,7 +8,7 @@ use crate::study::record::{Batch, Row, Status, Values};
 use crate::study::unit::Unit;
 use base::grid::Moves;
 use base::settings::Accepted;
-use engine::length_inversion::{Match, NeverLowered, Targets, union};
+use engine::length_inversion::{Match, Met, NeverLowered, Targets, union};
 use engine::planner::Value;
 use engine::search::Ties;
 use engine::space::ArmRules;
@@ -19,8 +19,14 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "null_rate",
     about: "the share of targets of equal parity near two printed lengths that some pair of points meets",
-    revision: 5,
-    columns: &["targets", "targets_hit", "hit_share_percent"],
+    revision: 6,
+    columns: &[
+        "targets",
+        "targets_hit",
+        "hit_share_percent",
+        "targets_attainable",
+        "attainable_hit_share_percent",
+    ],
     settings: Accepted::of::<NullRate>(),
     example: r#"
 window_cm = 5.0
@@ -121,6 +127,13 @@ impl NullRate {
     }
 }
 
+/// What a variant meets.
+struct Hits {
+    hits: Vec<bool>,
+    /// Not known where only some pairs are tried.
+    attainable: Option<Vec<bool>>,
+}
+
 /// The settings with what they ask of grids.
 struct Asked<'a> {
     null: &'a NullRate,
@@ -128,18 +141,19 @@ struct Asked<'a> {
 }
 
 impl Question for Asked<'_> {
-    /// Which targets are met, by number.
-    type Answer = Vec<bool>;
+    /// Which targets are met, by number, and which are attainable where that is known.
+    type Answer = Hits;
 
-    fn shortest(&self, cases: &[Vec<Moves>], rule: Match) -> Vec<Vec<bool>> {
+    fn shortest(&self, cases: &[Vec<Moves>], rule: Match) -> Vec<Hits> {
         let cases = cases.first_chunk().expect("there are two cases");
-        self.targets.hits(cases, rule)
+        let met = self.targets.met(cases, rule).into_iter();
+        met.map(|Met { hits, attainable }| Hits { hits, attainable: Some(attainable) }).collect()
     }
 
-    fn never_lowered(&self, cases: &[Moves], ties: Ties) -> Vec<bool> {
+    fn never_lowered(&self, cases: &[Moves], ties: Ties) -> Hits {
         let cases = cases.first_chunk().expect("there are two cases");
         let excess = self.null.excess_steps.expect("a study without it has no such variant");
-        NeverLowered::hits(&self.targets, cases, excess, ties)
+        Hits { hits: NeverLowered::hits(&self.targets, cases, excess, ties), attainable: None }
     }
 }
 
@@ -187,7 +201,8 @@ impl NullRate {
         variants: &[&Variant],
         wants_any: bool,
     ) -> Vec<Row> {
-        let mut any: Result<Vec<bool>, String> = Ok(asked.targets.none());
+        let none = || asked.targets.none();
+        let mut any: Result<[Vec<bool>; 2], String> = Ok([none(), none()]);
         let mut rows = Vec::new();
         for (variant, answer) in variants.iter().zip(endpoints::answers(asked, base, &self.cases, variants)) {
             let label = &variant.label;
@@ -195,11 +210,17 @@ impl NullRate {
                 Ok(hits) => row(unit, label, &asked.targets, hits),
                 Err(reason) => super::invalid_variant(unit, label, reason),
             });
-            any = any.and_then(|any| Ok(union(any, answer?)));
+            any = any.and_then(|[hits, attainable]| {
+                let answer = answer?;
+                let more = answer.attainable.unwrap_or_else(none);
+                Ok([union(hits, answer.hits), union(attainable, more)])
+            });
         }
         if wants_any {
             rows.push(match any {
-                Ok(any) => row(unit, ANY, &asked.targets, &any),
+                Ok([hits, attainable]) => {
+                    row(unit, ANY, &asked.targets, &Hits { hits, attainable: Some(attainable) })
+                }
                 Err(reason) => super::invalid_variant(unit, ANY, &reason),
             });
         }
@@ -207,14 +228,25 @@ impl NullRate {
     }
 }
 
-fn row(unit: &Unit<'_>, label: &str, targets: &Targets, hits: &[bool]) -> Row {
+fn row(unit: &Unit<'_>, label: &str, targets: &Targets, met: &Hits) -> Row {
     let mut row = super::variant_row(unit, label);
-    let (count, hit) = (targets.count(), hits.iter().filter(|hit| **hit).count());
+    let counted = |all: &[bool]| all.iter().filter(|is_set| **is_set).count();
+    let (count, hit) = (targets.count(), counted(&met.hits));
     row.status = Status::Solved;
     row.values = Values::from_iter([
         ("targets", Value::Count(count as u64)),
         ("targets_hit", Value::Count(hit as u64)),
         ("hit_share_percent", Value::Real(100.0 * hit as f64 / count as f64)),
     ]);
+    if let Some(attainable) = &met.attainable {
+        // A target that is met has two lengths that are attained; those of an A* that lowers nothing are not among these.
+        let hit = met.hits.iter().zip(attainable).filter(|(hit, attainable)| **hit && **attainable).count();
+        let count = counted(attainable);
+        row.values.extend([("targets_attainable", Value::Count(count as u64))]);
+        if count > 0 {
+            let share = 100.0 * hit as f64 / count as f64;
+            row.values.extend([("attainable_hit_share_percent", Value::Real(share))]);
+        }
+    }
     row
 }

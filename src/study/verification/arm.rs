@@ -7,7 +7,7 @@ use engine::kinematics::planar_2r::ElbowRule;
 use engine::planner::{Counts, Ending, Plan, Request, Value};
 use engine::shorten::{TurnAngle, bends, turn_sum_deg};
 use engine::space::{ArmWorld, HopRule, Obstacle};
-use verify::arm::{Answer, Audit, Body, Case};
+use verify::arm::{Answer, Audit, Body, Case, Hops};
 
 /// The columns of every trial of an arm.
 pub const ARM_COLUMNS: &[&str] = &[
@@ -23,6 +23,7 @@ pub const ARM_COLUMNS: &[&str] = &[
     "largest_joint_step_deg",
     "unsafe_hops",
     "is_unsafe",
+    "deepest_cm",
 ];
 
 /// A bend of at least this much is a sharp edge: the least that an 8-connected path can make.
@@ -63,6 +64,7 @@ fn measure(plan: &Plan, audit: &Audit, values: &mut Counts) {
     real("joint1_travel_deg", audit.joint_travel_deg[0]);
     real("joint2_travel_deg", audit.joint_travel_deg[1]);
     real("largest_joint_step_deg", audit.largest_joint_step_deg);
+    real("deepest_cm", audit.deepest_cm);
     if let Some(optimal) = audit.optimal_cm {
         real("optimal_length_cm", optimal);
     }
@@ -86,7 +88,12 @@ fn case<'a>(world: &ArmWorld, start: &'a [f64], goal: &'a [f64]) -> Case<'a> {
         inner_radius_cm: rules.inner_radius_cm,
         touching_is_contact: rules.touch == Touch::Contact,
         corner_rule: rules.corner_rule,
-        hops_are_swept: rules.hop == HopRule::Continuous,
+        q2_limit_rad: rules.q2_limit_rad,
+        hops: match rules.hop {
+            HopRule::EndPoints => Hops::EndPoints,
+            HopRule::Continuous => Hops::EvenJoints,
+            HopRule::TipLine => Hops::TipLine,
+        },
         bodies: world.obstacles().iter().map(body).collect(),
         start,
         goal,

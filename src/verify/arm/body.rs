@@ -1,6 +1,6 @@
 //! Postures and obstacles as the verifier sees them.
 
-use super::{Case, RESOLUTION_CM, turned};
+use super::{Case, turned};
 use parry2d::math::{Pose, Vector};
 use parry2d::query;
 use parry2d::shape::{Ball, ConvexPolygon, Segment, Shape};
@@ -16,7 +16,7 @@ enum Outline {
 }
 
 /// Base, elbow and tip.
-type Joints = [[f64; 2]; 3];
+pub(super) type Joints = [[f64; 2]; 3];
 
 impl Body {
     /// A disc.
@@ -44,6 +44,37 @@ impl Body {
         query::distance(&at, shape, &Pose::IDENTITY, &link)
             .expect("parry2d measures segments against balls and polygons")
             .distance
+    }
+
+    /// The least shift that takes a segment in contact out of the body.
+    fn depth(&self, [a, b]: [[f64; 2]; 2]) -> f64 {
+        let way = [b[0] - a[0], b[1] - a[1]];
+        match &self.0 {
+            Outline::Disc { center_cm: c, shape } => {
+                let square = way[0] * way[0] + way[1] * way[1];
+                let foot = ((c[0] - a[0]) * way[0] + (c[1] - a[1]) * way[1]) / square;
+                let foot = foot.clamp(0.0, 1.0);
+                let off = [0, 1].map(|i| a[i] + foot * way[i] - c[i]);
+                (shape.radius - (off[0] * off[0] + off[1] * off[1]).sqrt()).max(0.0)
+            }
+            // The sides of the sum of the polygon and the mirrored segment are square to these ways.
+            Outline::Polygon { corners_cm, .. } => {
+                let count = corners_cm.len();
+                let sides = (0..count).map(|i| {
+                    let ([ax, ay], [bx, by]) = (corners_cm[i], corners_cm[(i + 1) % count]);
+                    [by - ay, ax - bx]
+                });
+                let outward = sides.chain([[-way[1], way[0]], [way[1], -way[0]]]);
+                let shift = |[nx, ny]: [f64; 2]| {
+                    let norm = (nx * nx + ny * ny).sqrt();
+                    let on = |[x, y]: [f64; 2]| (nx * x + ny * y) / norm;
+                    let farthest =
+                        corners_cm.iter().map(|corner| on(*corner)).fold(f64::NEG_INFINITY, f64::max);
+                    farthest - on(a).min(on(b))
+                };
+                outward.map(shift).fold(f64::INFINITY, f64::min).max(0.0)
+            }
+        }
     }
 
     /// How far outside of the body a point is: negative inside, exactly 0 on the rim of a body with whole numbers.
@@ -75,15 +106,31 @@ impl Case<'_> {
         if self.bodies.iter().any(|body| contact(body.outside([x, y]))) {
             return None;
         }
-        (self.gap(posture) > 0.0 || self.grazes(posture)).then_some(posture)
+        if turned([0.0; 2], posture)[1].abs() > self.q2_limit_rad {
+            return None;
+        }
+        let joints = self.joints(posture);
+        (self.gap(&joints) > 0.0 || self.grazes(&joints)).then_some(posture)
+    }
+
+    /// How near to the base the tip may come.
+    pub(super) fn nearest_cm(&self) -> f64 {
+        let [l1, l2] = self.links_cm;
+        let folded = if self.q2_limit_rad < std::f64::consts::PI {
+            // The third side of the triangle of both links and the way from base to tip.
+            let opposite = std::f64::consts::PI - self.q2_limit_rad;
+            (l1 * l1 + l2 * l2 - 2.0 * l1 * l2 * libm::cos(opposite)).max(0.0).sqrt()
+        } else {
+            (l1 - l2).abs()
+        };
+        self.inner_radius_cm.max(folded)
     }
 
     /// Whether the arm only touches: with touching allowed, its links shortened by a hair are clear.
-    fn grazes(&self, posture: [f64; 2]) -> bool {
-        let [base, elbow, tip] = self.joints(posture);
+    pub(super) fn grazes(&self, [base, elbow, tip]: &Joints) -> bool {
         let shorter = |a: [f64; 2], b: [f64; 2]| [a, [0, 1].map(|axis| b[axis] - 1e-9 * (b[axis] - a[axis]))];
         let clear = |link| self.bodies.iter().all(|body| body.distance(link) > 0.0);
-        !self.touching_is_contact && clear(shorter(base, elbow)) && clear(shorter(elbow, tip))
+        !self.touching_is_contact && clear(shorter(*base, *elbow)) && clear(shorter(*elbow, *tip))
     }
 
     /// Joint angles that put the tip at `target`: the elbow lies on a circle about the base and on one about the tip.
@@ -93,50 +140,37 @@ impl Case<'_> {
         if d2 < least || d2 > most || d2 == 0.0 {
             return None;
         }
-        // The foot of the elbow on the way to the tip, and how far beside it the elbow is.
-        let along = (d2 + l1 * l1 - l2 * l2) / (2.0 * d2);
-        let beside = (l1 * l1 / d2 - along * along).max(0.0).sqrt();
-        let elbow = |side: f64| [x * along - side * beside * y, y * along + side * beside * x];
-        let (left, right) = (elbow(1.0), elbow(-1.0));
+        let (left, right) = (self.elbow_beside([x, y], 1.0), self.elbow_beside([x, y], -1.0));
         let [ex, ey] = if self.higher_elbow && right[1] > left[1] { right } else { left };
         let q1 = libm::atan2(ey, ex);
         Some([q1, libm::atan2(y - ey, x - ex) - q1])
     }
 
-    /// Whether both links stay clear while the joints move evenly from one posture to the other.
-    pub(super) fn is_clear(&self, from: [f64; 2], to: [f64; 2]) -> bool {
-        let by = turned(from, to);
-        let [l1, l2] = self.links_cm;
-        let most = l1 * by[0].abs() + l2 * (by[0] + by[1]).abs();
-        // An explicit stack: intervals [low, high] of the motion that are still to be proved.
-        let mut open = vec![[0.0_f64, 1.0]];
-        while let Some([low, high]) = open.pop() {
-            let (middle, half_cm) = (low.midpoint(high), (high - low) / 2.0 * most);
-            let posture = [from[0] + middle * by[0], from[1] + middle * by[1]];
-            let least = self.gap(posture);
-            if least > half_cm {
-                continue;
-            }
-            let resolved = half_cm < RESOLUTION_CM;
-            let is_touching = least <= 0.0 || resolved;
-            if is_touching && (self.touching_is_contact || (least <= 0.0 && !self.grazes(posture))) {
-                return false;
-            }
-            if resolved {
-                continue;
-            }
-            open.push([low, middle]);
-            open.push([middle, high]);
-        }
-        true
+    /// The elbow to the left (1) or right (−1) of the way to a tip within reach.
+    pub(super) fn elbow_beside(&self, [x, y]: [f64; 2], side: f64) -> [f64; 2] {
+        let ([l1, l2], d2) = (self.links_cm, x * x + y * y);
+        // The foot of the elbow on the way to the tip, and how far beside it the elbow is, as shares of that way.
+        let along = (d2 + l1 * l1 - l2 * l2) / (2.0 * d2);
+        let beside = (l1 * l1 / d2 - along * along).max(0.0).sqrt();
+        [x * along - side * beside * y, y * along + side * beside * x]
     }
 
     /// The distance of either link from the nearest obstacle.
-    fn gap(&self, posture: [f64; 2]) -> f64 {
-        let [base, elbow, tip] = self.joints(posture);
-        let gaps =
-            self.bodies.iter().flat_map(|body| [[base, elbow], [elbow, tip]].map(|link| body.distance(link)));
+    pub(super) fn gap(&self, joints: &Joints) -> f64 {
+        let links = links(joints);
+        let gaps = self.bodies.iter().flat_map(|body| links.map(|link| body.distance(link)));
         gaps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// How deep a link is in an obstacle; minus the distance of what is clear.
+    pub(super) fn signed_depth(&self, joints: &Joints) -> f64 {
+        let links = links(joints);
+        let signed = |body: &Body, link: [[f64; 2]; 2]| match body.distance(link) {
+            gap if gap > 0.0 => -gap,
+            _ => body.depth(link),
+        };
+        let depths = self.bodies.iter().flat_map(|body| links.map(|link| signed(body, link)));
+        depths.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Base, elbow and tip, by products of homogeneous matrices.
@@ -145,6 +179,10 @@ impl Case<'_> {
         let two = product(&one, &link(posture[1], self.links_cm[1]));
         [[0.0, 0.0], [one[0][2], one[1][2]], [two[0][2], two[1][2]]]
     }
+}
+
+fn links([base, elbow, tip]: &Joints) -> [[[f64; 2]; 2]; 2] {
+    [[*base, *elbow], [*elbow, *tip]]
 }
 
 type Matrix = [[f64; 3]; 3];

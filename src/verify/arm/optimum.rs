@@ -1,6 +1,6 @@
 //! The least length there is, by Dijkstra's algorithm over postures that the verifier judges itself.
 
-use super::Case;
+use super::{Case, Hops};
 use base::grid::CornerRule;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -32,8 +32,11 @@ impl Case<'_> {
                 }
                 let Some(to) = postures[index(next)] else { continue };
                 let cost = reached + self.length(*step);
-                let is_legal =
-                    || self.corner_is_free(at, *step) && (!self.hops_are_swept || self.is_clear(from, to));
+                let is_legal = || {
+                    let sweeps =
+                        || self.motion([at, next], [from, to]).is_some_and(|motion| self.is_clear(&motion));
+                    self.corner_is_free(at, *step) && (self.hops == Hops::EndPoints || sweeps())
+                };
                 if cost < best[index(next)] && is_legal() {
                     best[index(next)] = cost;
                     queue.push(Reverse((cost.to_bits(), next)));

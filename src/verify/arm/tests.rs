@@ -11,7 +11,8 @@ fn case(ends: [&[f64]; 2], swept: bool) -> Case<'_> {
         inner_radius_cm: 20.0,
         touching_is_contact: true,
         corner_rule: CornerRule::Allow,
-        hops_are_swept: swept,
+        q2_limit_rad: f64::INFINITY,
+        hops: if swept { Hops::EvenJoints } else { Hops::EndPoints },
         bodies: [[35.0, 18.0], [7.0, 35.0], [-13.0, 35.0], [-30.0, 20.0]]
             .into_iter()
             .map(|center| Body::disc(center, 5.0))

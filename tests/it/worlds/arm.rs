@@ -1,13 +1,13 @@
 //! Workspaces of a planar arm among discs, squares, hexagons and triangles, some with the goal out of reach of any hops.
 
 use super::{Case, Posed, Subject, Truth, flood};
-use crate::shapes::{Placed, body, obstacle, shaped};
+use crate::shapes::{HOPS, Placed, body, hops_of, obstacle, shaped};
 use base::grid::CornerRule;
 use base::seed;
 use engine::geometry::planar::Touch;
 use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
 use engine::planner::Plan;
-use engine::space::{ArmRules, ArmWorld, HopRule, TipLattice, World};
+use engine::space::{ArmRules, ArmWorld, TipLattice, World};
 use rand::RngExt as _;
 use replan::study::prepared::workspace_map::ShapeSetting;
 use verify::arm::{Answer, Case as Query};
@@ -32,10 +32,11 @@ fn drawn(number: u64, mut stream: seed::Stream) -> Option<Case> {
         elbow: [ElbowRule::NegativeQ2, ElbowRule::HigherElbow][(number / 2 % 2) as usize],
         lattice: TipLattice::new([-48.0, 48.0], [0.0, 48.0], STEP_CM).unwrap(),
         inner_radius_cm: 14.0,
+        q2_limit_rad: f64::INFINITY,
         touch: Touch::Contact,
         corner_rule: [CornerRule::Allow, CornerRule::ForbidBoth, CornerRule::ForbidAny]
             [(number % 3) as usize],
-        hop: [HopRule::EndPoints, HopRule::Continuous][(number % 2) as usize],
+        hop: HOPS[(number % 8) as usize],
     };
     let places: Vec<[f64; 2]> = (0..stream.random_range(2..7))
         .map(|_| [0, 1].map(|axis| f64::from(stream.random_range([-40, 8][axis]..44_i32))))
@@ -93,7 +94,8 @@ pub fn refusal(
         inner_radius_cm: 14.0,
         touching_is_contact: true,
         corner_rule: rules.corner_rule,
-        hops_are_swept: rules.hop == HopRule::Continuous,
+        q2_limit_rad: rules.q2_limit_rad,
+        hops: hops_of(rules.hop),
         bodies: solids.iter().map(body).collect(),
         start: &case.start,
         goal: &case.goal,

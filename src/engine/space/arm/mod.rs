@@ -3,8 +3,8 @@
 //! The base is the origin; lengths are centimetres, angles radians. A state is a lattice point at which the tip
 //! stands, with the one posture that the elbow rule names. It is free if the arm reaches it outside of the inner
 //! radius and if both links (without width) and the tip are clear of every obstacle; what touching is, the world
-//! says ([`Touch`]). A motion is a hop between two free states: its end points alone are looked at, or the joints
-//! are moved evenly from one posture to the other and both links swept ([`HopRule`]).
+//! says ([`Touch`]). A motion is a hop between two free states: its end points alone are looked at, or both links are swept
+//! while the joints move evenly from one posture to the other or the tip moves along the straight line ([`HopRule`]).
 
 mod hops;
 mod lattice;
@@ -12,6 +12,7 @@ mod obstacle;
 mod sweep;
 #[cfg(test)]
 mod tests;
+mod tip_line;
 
 pub use lattice::TipLattice;
 pub use obstacle::Obstacle;
@@ -24,6 +25,7 @@ use crate::kinematics::planar_2r::{ElbowRule, Planar2r};
 use base::grid::{Columns, CornerRule, DIRECTIONS, Grid2, Moves};
 use hops::Hops;
 use sweep::Sweep;
+use tip_line::TipLine;
 
 /// What decides whether a hop between free states is free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +34,9 @@ pub enum HopRule {
     EndPoints,
     /// The joints move evenly from one posture to the other and both links must stay clear all the way.
     Continuous,
+    /// The tip moves along the straight line between its points, the arm bent to one side; both links must stay clear, and
+    /// the tip may come no nearer to the base than points may lie.
+    TipLine,
 }
 
 /// Everything about a workspace but its obstacles.
@@ -45,12 +50,24 @@ pub struct ArmRules {
     pub lattice: TipLattice,
     /// Points nearer to the base than this are forbidden.
     pub inner_radius_cm: f64,
+    /// How far joint 2 turns to either side; infinite without stops.
+    pub q2_limit_rad: f64,
     /// Whether touching an obstacle is contact.
     pub touch: Touch,
     /// Which diagonal hops of one cell are refused for the cells that flank them.
     pub corner_rule: CornerRule,
     /// Which hops are free.
     pub hop: HopRule,
+}
+
+impl ArmRules {
+    /// How near to the base the tip may come.
+    pub fn nearest_cm(&self) -> f64 {
+        let ([l1, l2], [inner, _]) = (self.arm.links(), self.arm.reach());
+        let squared = l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * libm::cos(self.q2_limit_rad);
+        let is_stopped = self.q2_limit_rad < std::f64::consts::PI;
+        self.inner_radius_cm.max(if is_stopped { squared.max(0.0).sqrt() } else { inner })
+    }
 }
 
 /// What a lattice point is.
@@ -60,7 +77,7 @@ pub enum Zone {
     Free,
     /// Farther away than the arm is long.
     OuterReach,
-    /// Within the inner radius, or nearer to the base than the arm can fold.
+    /// Within the inner radius, or nearer to the base than the arm can fold or its stops let it.
     InnerReach,
     /// Inside an obstacle.
     Obstacle,
@@ -97,7 +114,7 @@ impl ArmWorld {
         let sweep = Sweep { arm: &rules.arm, obstacles: &obstacles, touch: rules.touch };
         let clearance = |cell: u32| match rules.hop {
             HopRule::Continuous if grid.is_free(cell) => sweep.clearance(postures[cell as usize]),
-            HopRule::Continuous | HopRule::EndPoints => 0.0,
+            HopRule::Continuous | HopRule::EndPoints | HopRule::TipLine => 0.0,
         };
         let clearances_cm = (0..grid.cell_count()).map(clearance).collect();
         let any_hop = rules.hop == HopRule::EndPoints && rules.corner_rule == CornerRule::Allow;
@@ -173,6 +190,11 @@ impl ArmWorld {
     fn is_swept_free(&self, from: u32, to: u32) -> bool {
         let Self { rules, obstacles, .. } = self;
         let sweep = Sweep { arm: &rules.arm, obstacles, touch: rules.touch };
+        if rules.hop == HopRule::TipLine {
+            let tips = [from, to].map(|cell| rules.lattice.point(cell));
+            let line = TipLine::new(tips, [self.posture(from), self.posture(to)]);
+            return line.is_some_and(|line| !line.dips_below(rules.nearest_cm()) && sweep.is_line_free(line));
+        }
         let clearances_cm = [from, to].map(|cell| self.clearances_cm[cell as usize]);
         sweep.is_free(self.posture(from), self.posture(to), clearances_cm)
     }
@@ -202,13 +224,13 @@ impl ArmWorld {
             format!("the {what} {point:?} is not a point of the workspace; {}", self.rules.lattice)
         })?;
         let at = self.rules.lattice.point(cell);
-        let [inner, outer] = self.rules.arm.reach();
+        let [_, outer] = self.rules.arm.reach();
         match self.zones[cell as usize] {
             Zone::Free => Ok(cell),
             Zone::OuterReach | Zone::InnerReach => Err(format!(
                 "the {what} {point:?} is {:.4} cm from the base; the arm may stand from {} to {outer} cm",
                 at.norm(),
-                inner.max(self.rules.inner_radius_cm)
+                self.rules.nearest_cm()
             )),
             Zone::Obstacle => Err(format!("the {what} {point:?} lies in {}", self.culprit(&at))),
             Zone::Link => Err(format!("with the tip on the {what} {point:?} a link hits an obstacle")),
@@ -228,7 +250,8 @@ fn analysed(rules: &ArmRules, obstacles: &[Obstacle], tip: &Vec2) -> (Zone, Opti
         return (if is_outer { Zone::OuterReach } else { Zone::InnerReach }, None);
     };
     let posture = rules.arm.pick(&branches, rules.elbow);
-    let zone = if tip.norm_squared() < rules.inner_radius_cm * rules.inner_radius_cm {
+    let is_too_near = tip.norm_squared() < rules.inner_radius_cm * rules.inner_radius_cm;
+    let zone = if is_too_near || posture[1].abs() > rules.q2_limit_rad {
         Zone::InnerReach
     } else if obstacles.iter().any(|obstacle| obstacle.holds(tip, rules.touch)) {
         Zone::Obstacle

@@ -47,8 +47,7 @@ impl Sweep<'_> {
         if (0..2).all(|link| distances[link] > half * travel_cm[link] + RESOLUTION_CM) {
             return true;
         }
-        let is_hit = |link: &Segment2| self.obstacles.iter().any(|o| o.meets(link, self.touch));
-        if distances.contains(&0.0) && links.iter().any(is_hit) {
+        if distances.contains(&0.0) && links.iter().any(|link| self.meets(link)) {
             return false;
         }
         if half * travel_cm[1] < RESOLUTION_CM {
@@ -57,12 +56,17 @@ impl Sweep<'_> {
         [[low, middle], [middle, high]].into_iter().all(|part| self.is_part_free(from, by, travel_cm, part))
     }
 
-    fn links(&self, posture: [f64; 2]) -> [Segment2; 2] {
+    /// Whether `link` is in contact with any obstacle.
+    pub(super) fn meets(&self, link: &Segment2) -> bool {
+        self.obstacles.iter().any(|obstacle| obstacle.meets(link, self.touch))
+    }
+
+    pub(super) fn links(&self, posture: [f64; 2]) -> [Segment2; 2] {
         let (elbow, tip) = (self.arm.elbow(posture), self.arm.forward(posture));
         [Segment2::new(Vec2::zeros(), elbow), Segment2::new(elbow, tip)]
     }
 
-    fn distances(&self, links: &[Segment2; 2]) -> [f64; 2] {
+    pub(super) fn distances(&self, links: &[Segment2; 2]) -> [f64; 2] {
         let distance =
             |link: &Segment2| self.obstacles.iter().map(|o| o.distance(link)).fold(f64::INFINITY, f64::min);
         [distance(&links[0]), distance(&links[1])]

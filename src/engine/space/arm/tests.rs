@@ -10,6 +10,7 @@ pub fn rules(hop: HopRule) -> ArmRules {
         elbow: ElbowRule::NegativeQ2,
         lattice: TipLattice::new([-50.0, 50.0], [0.0, 50.0], 1.0).unwrap(),
         inner_radius_cm: 20.0,
+        q2_limit_rad: f64::INFINITY,
         touch: Touch::Contact,
         corner_rule: CornerRule::Allow,
         hop,
@@ -130,9 +131,35 @@ fn squares_hexagons_and_triangles_block_the_postures_whose_sampled_link_points_t
     }
 }
 
+/// The posture at a share of the way from one cell to another, as the hop rule moves the arm.
+fn under_way(world: &ArmWorld, [from, to]: [u32; 2], share: f64) -> [f64; 2] {
+    let (arm, lattice) = (world.rules().arm, world.rules().lattice);
+    let (a, b) = (world.posture(from), world.posture(to));
+    if world.rules().hop == HopRule::TipLine {
+        let (from, to) = (lattice.point(from), lattice.point(to));
+        // Rounding may put a tip that the arm reaches stretched a hair too far.
+        let tip = (from + (to - from) * share) * (1.0 - 1e-12);
+        return arm.pick(&arm.inverse(&tip).unwrap(), world.rules().elbow);
+    }
+    [0, 1].map(|joint| a[joint] + share * (b[joint] - a[joint]))
+}
+
 #[test]
-fn a_swept_hop_is_free_iff_postures_sampled_along_it_are() {
-    let world = case_1(HopRule::Continuous);
+fn a_hop_with_even_joints_is_free_iff_postures_sampled_along_it_are() {
+    // Every posture bends to one side here, so that no joint jumps.
+    let [clear, jumped, undecided] = sampled_against(&case_1(HopRule::Continuous), 0.1);
+    assert!(clear > 3_000 && jumped > 20 && undecided < 10, "{clear} {jumped} {undecided}");
+}
+
+#[test]
+fn a_hop_with_a_straight_tip_is_free_iff_postures_sampled_along_it_are() {
+    // Near full stretch the elbow moves faster than the tip.
+    let [clear, jumped, undecided] = sampled_against(&case_1(HopRule::TipLine), 0.6);
+    assert!(clear > 3_000 && jumped > 20 && undecided < 10, "{clear} {jumped} {undecided}");
+}
+
+/// How many random hops were free, hit an obstacle at a sample, and are refused with all samples less than `spare` cm clear.
+fn sampled_against(world: &ArmWorld, spare: f64) -> [u32; 3] {
     let grid = world.grid();
     let free: Vec<u32> = (0..grid.cell_count()).filter(|&cell| grid.is_free(cell)).collect();
     let seed = 41;
@@ -143,13 +170,16 @@ fn a_swept_hop_is_free_iff_postures_sampled_along_it_are() {
         let [x, y] = grid.xy(from);
         let to = grid.cell(x + stream.random_range(-6..=6), y + stream.random_range(-6..=6));
         let Some(to) = to.filter(|&to| to != from && grid.is_free(to)) else { continue };
-        let (a, b) = (world.posture(from), world.posture(to));
         let links = |share: f64| {
-            let posture = [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
-            let arm = world.rules().arm;
+            let (posture, arm) = (under_way(world, [from, to], share), world.rules().arm);
             let (elbow, tip) = (arm.elbow(posture), arm.forward(posture));
             [Segment2::new(Vec2::zeros(), elbow), Segment2::new(elbow, tip)]
         };
+        let tips = (0..=300).map(|k| links(f64::from(k) / 300.0)[1].b.norm());
+        if tips.fold(f64::INFINITY, f64::min) < world.rules().nearest_cm() - 1e-6 {
+            assert!(!world.may_hop(from, to), "seed {seed} draw {draw}: the tip comes too near to the base");
+            continue;
+        }
         let least = (0..=300)
             .flat_map(|k| links(f64::from(k) / 300.0))
             .flat_map(|link| world.obstacles().iter().map(move |o| o.distance(&link)))
@@ -160,14 +190,43 @@ fn a_swept_hop_is_free_iff_postures_sampled_along_it_are() {
                 clear += 1;
             }
             (false, 0.0) => jumped += 1,
-            // Between two samples no point moves 0.1 cm: a hit may hide there, and nothing else may.
+            // Between two samples no point moves farther: a hit may hide there, and nothing else may.
             (false, least) => {
-                assert!(least < 0.1, "seed {seed} draw {draw}: refused with {least} cm to spare");
+                assert!(least < spare, "seed {seed} draw {draw}: refused with {least} cm to spare");
                 undecided += 1;
             }
         }
     }
-    assert!(clear > 3_000 && jumped > 20 && undecided < 10, "{clear} {jumped} {undecided}");
+    [clear, jumped, undecided]
+}
+
+#[test]
+fn a_straight_tip_goes_nowhere_nearer_to_the_base_than_points_may_lie_and_changes_no_side() {
+    let world = ArmWorld::new(rules(HopRule::TipLine), Vec::new());
+    let cell = |x: f64, y: f64| world.rules().lattice.cell(&[x, y]).unwrap();
+    // The chords at height 20 touch the forbidden disc, those below enter it.
+    assert!(world.may_hop(cell(-1.0, 20.0), cell(1.0, 20.0)));
+    assert!(!world.may_hop(cell(-12.0, 16.0), cell(12.0, 16.0)));
+    let even = ArmWorld::new(rules(HopRule::Continuous), Vec::new());
+    assert!(even.may_hop(cell(-12.0, 16.0), cell(12.0, 16.0)), "the joints know another way");
+    let higher = ArmRules { elbow: ElbowRule::HigherElbow, ..rules(HopRule::TipLine) };
+    let higher = ArmWorld::new(higher, Vec::new());
+    assert!(!higher.may_hop(cell(-1.0, 30.0), cell(1.0, 30.0)), "the elbow would jump");
+    assert!(higher.may_hop(cell(1.0, 30.0), cell(4.0, 31.0)));
+}
+
+#[test]
+fn a_stop_of_joint_2_forbids_the_disc_that_the_text_gives_the_inner_region() {
+    // cos 138.59° = −3/4: 30² + 20² − 3/4 · 2 · 30 · 20 = 20².
+    let stopped =
+        ArmRules { inner_radius_cm: 0.0, q2_limit_rad: 138.6_f64.to_radians(), ..rules(HopRule::EndPoints) };
+    let obstacles: Vec<Obstacle> = CASE_1.into_iter().map(|[x, y]| circle(x, y)).collect();
+    let (world, truth) = (ArmWorld::new(stopped, obstacles), case_1(HopRule::EndPoints));
+    assert_eq!(world.zones(), truth.zones());
+    assert!((world.rules().nearest_cm() - 20.0).abs() < 0.01);
+    let free = ArmRules { q2_limit_rad: f64::INFINITY, ..stopped };
+    assert_eq!(free.nearest_cm(), 10.0);
+    assert_ne!(ArmWorld::new(free, Vec::new()).zones(), ArmWorld::new(stopped, Vec::new()).zones());
 }
 
 #[test]
@@ -203,7 +262,7 @@ fn a_corner_rule_binds_diagonal_hops_of_one_cell_only() {
 
 #[test]
 fn eight_moves_are_the_hops_to_the_nearest_points() {
-    for hop in [HopRule::EndPoints, HopRule::Continuous] {
+    for hop in [HopRule::EndPoints, HopRule::Continuous, HopRule::TipLine] {
         let world = case_1(hop);
         let (moves, grid) = (world.eight_moves(), world.grid());
         let plain = Moves::new(grid, CornerRule::Allow);
@@ -211,7 +270,7 @@ fn eight_moves_are_the_hops_to_the_nearest_points() {
             |moves: &Moves| -> u32 { (0..grid.cell_count()).map(|c| moves.mask(c).count_ones()).sum() };
         match hop {
             HopRule::EndPoints => assert_eq!(count(&moves), count(&plain)),
-            HopRule::Continuous => assert!(count(&moves) < count(&plain)),
+            HopRule::Continuous | HopRule::TipLine => assert!(count(&moves) < count(&plain)),
         }
     }
 }
