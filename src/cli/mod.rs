@@ -2,7 +2,7 @@
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
 //! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
-//! disagrees; 4 `crosscheck` lacks Python or the network; 130 interrupted, and what was done is kept.
+//! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, a planner from outside; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
 macro_rules! say {
@@ -128,6 +128,17 @@ struct How {
     threads: Option<u32>,
 }
 
+/// What of the stored trials runs again although nothing it depends on has changed.
+#[derive(Args, Clone, Copy)]
+struct Again {
+    /// Run every trial again that can be repeated, also those that are stored and unchanged
+    #[arg(long)]
+    fresh: bool,
+    /// Run the trials of planners from outside again, which are recorded and not repeated
+    #[arg(long)]
+    record: bool,
+}
+
 /// Why a command ended without success.
 #[derive(Debug)]
 struct Failure {
@@ -161,6 +172,7 @@ impl From<StudyError> for Failure {
         let code = match &error {
             StudyError::Interrupted { .. } => 130,
             StudyError::Io { .. } | StudyError::Busy { .. } => 1,
+            StudyError::Lacks { .. } => 4,
             _ => 2,
         };
         Self { is_touched: matches!(error, StudyError::Touched(_)), ..Self::new(code, error.to_string()) }

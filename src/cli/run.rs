@@ -4,7 +4,7 @@ use super::load::load;
 use super::places::Places;
 use super::progress::{Bar, stop_flag};
 use super::sharded::Sharded;
-use super::{Failure, How, Which, command_line};
+use super::{Again, Failure, How, Which, command_line};
 use crate::analysis::claims;
 use crate::study::Study;
 use crate::study::lock::Lock;
@@ -23,9 +23,8 @@ pub struct Run {
     which: Which,
     #[command(flatten)]
     how: How,
-    /// Run every trial again, also those that are stored and unchanged
-    #[arg(long)]
-    fresh: bool,
+    #[command(flatten)]
+    again: Again,
     /// Say why stored trials were or were not reused
     #[arg(long)]
     why: bool,
@@ -45,7 +44,7 @@ impl Run {
         let paper = load(&places, &self.how)?;
         self.how.check_points(&paper)?;
         let lock = Lock::take(&places.runs)?;
-        for report in run_studies(&paper, &places, &self.how, &lock, self.fresh)? {
+        for report in run_studies(&paper, &places, &self.how, &lock, self.again)? {
             say!("{}", summary(&report, self.why));
         }
         say!("records are in {}", places.runs.display());
@@ -64,7 +63,7 @@ impl Run {
         let lock = Lock::take(&plan.part(folder, number))?;
         let Sharded { paper, places, how, .. } = &sharded;
         for (study, portion) in paper.studies.iter().zip(&portions) {
-            let report = run_study(paper, study, places, how, &lock, self.fresh, Some(portion))?;
+            let report = run_study(paper, study, places, how, &lock, self.again, Some(portion))?;
             say!("{}", summary(&report, self.why));
         }
         say!("shard {number}/{of} is in {}", lock.folder().display());
@@ -72,15 +71,15 @@ impl Run {
     }
 }
 
-/// Runs what is stale of every study of `paper`; everything with `fresh`.
+/// Runs what is stale of every study of `paper`; and what `again` names.
 pub fn run_studies(
     paper: &Paper,
     places: &Places,
     how: &How,
     lock: &Lock,
-    fresh: bool,
+    again: Again,
 ) -> Result<Vec<Report>, Failure> {
-    paper.studies.iter().map(|study| run_study(paper, study, places, how, lock, fresh, None)).collect()
+    paper.studies.iter().map(|study| run_study(paper, study, places, how, lock, again, None)).collect()
 }
 
 /// Runs what is stale of one study, or of a portion of it.
@@ -90,7 +89,7 @@ fn run_study(
     places: &Places,
     how: &How,
     lock: &Lock,
-    fresh: bool,
+    again: Again,
     portion: Option<&Portion>,
 ) -> Result<Report, Failure> {
     let options = Options {
@@ -101,7 +100,8 @@ fn run_study(
         claims: claims::claims_hash(paper),
         portion,
         quick: how.quick,
-        fresh,
+        fresh: again.fresh,
+        record: again.record,
         threads: how.threads.map(|threads| threads as usize),
         stop: stop_flag(),
         progress: &Bar::default(),

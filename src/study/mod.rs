@@ -17,6 +17,8 @@ pub mod spec;
 mod reading;
 pub mod record;
 
+pub mod planner;
+
 pub mod contender;
 pub mod prepared;
 

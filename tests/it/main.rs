@@ -18,6 +18,7 @@ mod committed;
 mod conformance;
 mod crosscheck;
 mod documented;
+mod external;
 mod floors;
 mod guards;
 mod jump_points;

@@ -103,7 +103,7 @@ pub(super) fn plan<C: Cost>(
         Outcome::NoPath => (Ending::NoPath, Vec::new(), None),
         Outcome::BudgetSpent => (Ending::BudgetSpent, Vec::new(), None),
     };
-    Plan { ending, path, cost, counts, exhibits }
+    Plan { ending, path, cost, counts, exhibits, reason: None }
 }
 
 /// The cells as an exhibit, in the order given.

@@ -20,6 +20,8 @@ use roadmap::Roadmap;
 /// The kinds of world there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WorldKind {
+    /// Any: what planners from outside need.
+    Any,
     /// A planar arm whose tip moves over a lattice, among obstacles.
     Arm,
     /// A point and the arm that carries it, among convex polyhedra.
@@ -36,6 +38,7 @@ impl WorldKind {
     /// Its name in messages and listings.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Any => "any",
             Self::Arm => "arm",
             Self::ArmAmongPolyhedra => "arm among polyhedra",
             Self::Lattice => "lattice",
@@ -46,7 +49,7 @@ impl WorldKind {
 
     /// Whether what needs a world of the kind `needed` can plan in one of this kind.
     pub fn serves(self, needed: Self) -> bool {
-        self == needed || (self, needed) == (Self::ArmAmongPolyhedra, Self::Polyhedra)
+        needed == Self::Any || self == needed || (self, needed) == (Self::ArmAmongPolyhedra, Self::Polyhedra)
     }
 }
 
