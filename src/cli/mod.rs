@@ -17,6 +17,7 @@ mod audit_file;
 pub mod catalogue;
 mod check;
 mod compare;
+mod conformance;
 mod crosscheck;
 mod example;
 mod explain;
@@ -91,6 +92,8 @@ enum Command {
     Export(export::Export),
     /// Show one claim with its evidence, or list every claim with its class
     Show(show::Show),
+    /// Try a planner from outside on small worlds, and say what of the protocol it breaks
+    Conformance(conformance::Conformance),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
     /// Ask of a printed table, by arithmetic alone, whether any data could have given it
@@ -227,6 +230,7 @@ pub fn run() -> ExitCode {
         Command::Compare(command) => command.run(),
         Command::Export(command) => command.run(),
         Command::Show(command) => command.run(),
+        Command::Conformance(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
         Command::Audit(command) => command.run(),
         Command::List(command) => command.run(),

@@ -1,11 +1,11 @@
 //! Answers to a planner's questions, by the collision checks that our own planners use.
 //!
-//! **What `motion` accepts, the verifier accepts**: on grids and for planar arms exactly, elsewhere but for contacts thinner
-//! than the engine's own checks can see (`space::cell::line` says how thin). A motion is answered as a leg of a path by itself:
+//! **What `motion` accepts, the verifier accepts**: exactly, but in an arm's cell for contacts thinner than the engine's own checks
+//! can see (`space::cell::line` says how thin). A motion is answered as a leg of a path by itself:
 //! it ends in the configuration asked for, whatever a study's paths may end in.
 
 use super::clear;
-use super::describe::pose;
+use super::describe::{RASTER_MM, pose};
 use super::message::{Answer, Ask};
 use super::world::Pose;
 use base::grid::CornerRule;
@@ -106,7 +106,10 @@ impl<'a> Space<'a> {
             World::Polyhedra(polyhedra) => polyhedra.free_point("", at).is_ok(),
             World::Roadmap(roadmap) => match roadmap.local() {
                 Local::Arm(lines) => joints(at).is_some_and(|q| lines.cell().is_free(&q)),
-                Local::Joints(_) | Local::Plane(_) => roadmap.local().refusal(at).is_none(),
+                Local::Joints(_) => roadmap.local().refusal(at).is_none(),
+                Local::Plane(_) => {
+                    at.iter().all(|x| (x / RASTER_MM).fract() == 0.0) && roadmap.local().refusal(at).is_none()
+                }
             },
         })
     }
@@ -158,10 +161,15 @@ impl<'a> Space<'a> {
         if is_lattice || is_tool || self.is_valid(from) != Ok(true) {
             return 0.0;
         }
+        let is_plane =
+            matches!(self.world, World::Roadmap(roadmap) if matches!(roadmap.local(), Local::Plane(_)));
         let (mut free, mut not) = (0.0, 1.0);
         while not - free > FRACTION {
             let middle = f64::midpoint(free, not);
-            let at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + (b - a) * middle).collect();
+            let mut at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + (b - a) * middle).collect();
+            if is_plane {
+                at.iter_mut().for_each(|x| *x = (*x / RASTER_MM).round() * RASTER_MM);
+            }
             if self.is_free(from, &at) == Ok(true) { free = middle } else { not = middle }
         }
         free

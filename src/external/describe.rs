@@ -11,6 +11,9 @@ use engine::space::cell::{Lines, Path};
 use engine::space::roadmap::{Local, PlaneMap};
 use engine::space::{ArmWorld, HopRule, LatticeWorld, Obstacle, PolyhedraWorld, World as EngineWorld};
 
+/// In the plane, coordinates are multiples of this: the verifier decides contact there in whole numbers.
+pub(super) const RASTER_MM: f64 = 0.0625;
+
 /// `world` as data; on a grid, whether steps may go at any angle is the caller's word.
 ///
 /// # Errors
@@ -96,7 +99,11 @@ fn plane(map: &PlaneMap) -> Plane {
     let polygon = |p: &engine::geometry::planar::ConvexPolygon| {
         p.vertices().iter().map(|corner| (*corner).into()).collect()
     };
-    Plane { size_mm: map.size_mm(), obstacles: map.polygons().iter().map(polygon).collect() }
+    Plane {
+        size_mm: map.size_mm(),
+        raster_mm: RASTER_MM,
+        obstacles: map.polygons().iter().map(polygon).collect(),
+    }
 }
 
 fn cell(lines: &Lines) -> Cell {

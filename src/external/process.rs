@@ -170,17 +170,18 @@ impl Process {
         None
     }
 
-    /// Ends it as a planner expects: `quit`, a moment, then SIGTERM and SIGKILL to all that is left.
-    pub fn quit(mut self) {
+    /// Ends it as a planner expects: `quit`, a moment, then SIGTERM and SIGKILL to all that is left. Whether it ended by itself.
+    pub fn quit(mut self) -> bool {
         self.send(&ToPlanner::Quit);
         self.to = None;
         let step = Duration::from_millis(5);
         for _ in 0..QUIT.as_millis() / step.as_millis() {
             if matches!(self.child.try_wait(), Ok(Some(_)) | Err(_)) {
-                break;
+                return true;
             }
             thread::sleep(step);
         }
+        false
     }
 }
 

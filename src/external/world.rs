@@ -281,6 +281,8 @@ pub struct Polyhedron {
 pub struct Plane {
     /// Width and height of the rectangle, with a corner at the origin, that the particle keeps to.
     pub size_mm: [f64; 2],
+    /// Coordinates of configurations are whole multiples of this, so that contact is decided exactly.
+    pub raster_mm: f64,
     /// What it must not touch: corners, counter-clockwise.
     pub obstacles: Vec<Vec<[f64; 2]>>,
 }

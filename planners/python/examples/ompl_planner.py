@@ -39,6 +39,12 @@ def bounds(world: dict) -> list[tuple[float, float]]:
     return [(joint["lower_rad"], joint["upper_rad"]) for joint in world["joints"]]
 
 
+def numbers(state: ob.State, width: int, world: dict) -> list[float]:
+    """A state as replan takes it: in the plane on its raster, on which a path's states and those asked about are the same."""
+    raster = world.get("raster_mm")
+    return [round(state[i] / raster) * raster if raster else state[i] for i in range(width)]
+
+
 class Motions(ob.MotionValidator):
     """Asks replan whether a motion is free."""
 
@@ -48,7 +54,7 @@ class Motions(ob.MotionValidator):
 
     def checkMotion(self, a: ob.State, b: ob.State, lastValid: object = None) -> bool:
         """Whether the motion is free; the last valid state is not worked out, since none of these planners uses it."""
-        ends = [[state[i] for i in range(self.width)] for state in (a, b)]
+        ends = [numbers(state, self.width, self.query.world) for state in (a, b)]
         return ends[0] == ends[1] or self.query.motion([(ends[0], ends[1])])[0]
 
 
@@ -65,7 +71,7 @@ def plan(query: Query, name: str, shortcut: bool) -> Result:
     space.setBounds(box)
     setup = og.SimpleSetup(space)
     information = setup.getSpaceInformation()
-    setup.setStateValidityChecker(lambda state: query.valid([[state[i] for i in range(width)]])[0])
+    setup.setStateValidityChecker(lambda state: query.valid([numbers(state, width, query.world)])[0])
     information.setMotionValidator(Motions(information, query, width))
     states = []
     for at in (query.start, query.goal):
@@ -79,7 +85,7 @@ def plan(query: Query, name: str, shortcut: bool) -> Result:
 
     def path() -> list[list[float]]:
         found = setup.getSolutionPath()
-        states = [[found.getState(k)[i] for i in range(width)] for k in range(found.getStateCount())]
+        states = [numbers(found.getState(k), width, query.world) for k in range(found.getStateCount())]
         # What OMPL rounds at the ends is put right: the ends are the query's.
         return [query.start, *states[1:-1], query.goal]
 

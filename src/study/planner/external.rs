@@ -149,7 +149,9 @@ impl External {
             Seeding::Query if is_sound => {
                 self.idle.lock().expect("no thread panics with the list").push(process);
             }
-            Seeding::Process if is_sound => process.quit(),
+            Seeding::Process if is_sound => {
+                process.quit();
+            }
             Seeding::Query | Seeding::Process => drop(process),
         }
         Ok((talk, hello.deterministic))

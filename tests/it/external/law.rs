@@ -133,7 +133,10 @@ fn motion(world: &World, draw: &mut Draw<'_>) -> [Vec<f64>; 2] {
             pair(low, high, by, draw)
         }
         World::Roadmap(roadmap) => match roadmap.local() {
-            Local::Plane(map) => pair(vec![0.0; 2], map.size_mm().to_vec(), map.size_mm()[0] / 4.0, draw),
+            Local::Plane(map) => {
+                let pair = pair(vec![0.0; 2], map.size_mm().to_vec(), map.size_mm()[0] / 4.0, draw);
+                pair.map(|at| at.into_iter().map(|x| (x * 16.0).round() / 16.0).collect())
+            }
             Local::Arm(lines) => {
                 let joints = lines.cell().robot().arm().chain().joints();
                 let (low, high) =
