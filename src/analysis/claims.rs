@@ -8,12 +8,11 @@ use super::found::Found;
 use super::metric;
 use super::rule;
 use super::settle::settles;
-use super::together::{Explored, together};
+use super::together::together;
 use super::verdict::{Finding, Judged, Verdicts};
-use crate::study::ReadingChoice;
 use crate::study::paper::{Asked, Claim, Paper, Parts};
 use base::hash::sha256;
-use base::settings::{Faults, Settings, SettingsError, none_called};
+use base::settings::{Faults, SettingsError, none_called};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -83,9 +82,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     let paper = evidence.paper;
     // Gathered in order before any error is passed on, so that it is the first claim's.
     let alone: Vec<_> = paper.claims.par_iter().map(|claim| judge_alone(evidence, claim)).collect();
-    let alone: Vec<(Judged, Vec<Explored>)> = alone.into_iter().collect::<Result<_, _>>()?;
-    let (judged, explored): (Vec<Judged>, Vec<Vec<Explored>>) = alone.into_iter().unzip();
-    let claims = with_parts(paper, judged);
+    let claims = with_parts(paper, alone.into_iter().collect::<Result<_, _>>()?);
     let hash = claims_hash(paper);
     let changed = evidence.runs().filter(|run| run.manifest.claims != hash);
     Ok(Verdicts {
@@ -95,7 +92,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         reading: evidence.point.choices().clone(),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
         claims,
-        together: together(evidence, &explored.concat())?,
+        together: together(evidence)?,
     })
 }
 
@@ -120,29 +117,18 @@ impl<'a> Built<'a> {
         let entry = criterion::find(name).ok_or_else(|| {
             unknown("criterion", criterion::REGISTRY.iter().map(|entry| entry.name).collect())
         })?;
-        criterion::explored(entry, context)?;
         Ok(Self::Criterion((entry.build)(context)?, entry))
     }
 }
 
-/// One claim by its own criteria and rules, and what readings make of it where they are explored.
-fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<(Judged, Vec<Explored>), SettingsError> {
-    let (mut findings, mut all_explored) = (Vec::new(), Vec::new());
+/// One claim by its own criteria and rules.
+fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<Judged, SettingsError> {
+    let mut findings = Vec::new();
     for (asked, name, settings) in claim.asked() {
         let context = Context { claim, settings, paper: evidence.paper, point: &evidence.point };
         let mut finding = match Built::new(asked, name, &context)? {
             Built::Rule(rule) => of_rule(name, rule.find(evidence)),
-            Built::Criterion(criterion, entry) => {
-                let mut finding = of_criterion(entry.name, &*criterion, evidence, claim);
-                if let Some((study, settings)) = criterion::explored(entry, &context)? {
-                    let readings =
-                        explore(entry, evidence, claim, &settings, study.explored().unwrap_or_default())?;
-                    let explored = Explored { claim: claim.id.clone(), study: study.name.clone(), readings };
-                    finding.because.extend(explored.said());
-                    all_explored.push(explored);
-                }
-                finding
-            }
+            Built::Criterion(criterion, entry) => of_criterion(entry.name, &*criterion, evidence, claim),
         };
         if asked == Asked::Shown {
             (finding.verdict, finding.settles) = (None, None);
@@ -151,7 +137,7 @@ fn judge_alone(evidence: &Evidence<'_>, claim: &Claim) -> Result<(Judged, Vec<Ex
     }
     let verdicts = findings.iter().filter_map(|finding| finding.verdict);
     let verdict = class::combined(verdicts, claim.untestable.is_some());
-    Ok((judged(evidence, claim, verdict, findings), all_explored))
+    Ok(judged(evidence, claim, verdict, findings))
 }
 
 fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings: Vec<Finding>) -> Judged {
@@ -229,26 +215,6 @@ fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> Sessions {
     let outcome = |session: usize| of.find(&evidence.in_session(session as u32)).outcome;
     let first = outcome(1);
     if (2..=count).all(|session| outcome(session) == first) { Sessions::Agree } else { Sessions::Disagree }
-}
-
-/// The class of a criterion under every reading that a study explores.
-fn explore(
-    entry: &'static criterion::Entry,
-    evidence: &Evidence<'_>,
-    claim: &Claim,
-    settings: &Settings,
-    points: Vec<ReadingChoice>,
-) -> Result<Vec<(ReadingChoice, Option<Verdict>)>, SettingsError> {
-    let under = |point: ReadingChoice| {
-        let view = evidence.under(point.clone());
-        let context = Context { claim, settings, paper: evidence.paper, point: &view.point };
-        let criterion = (entry.build)(&context)?;
-        let finding = of_criterion(entry.name, &*criterion, &view, claim);
-        let was_run = finding.ours.is_some();
-        Ok((point, finding.verdict.filter(|_| was_run)))
-    };
-    let found: Vec<Result<_, SettingsError>> = points.into_par_iter().map(under).collect();
-    found.into_iter().collect()
 }
 
 /// What would settle a sentence whose parts leave it open.

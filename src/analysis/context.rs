@@ -23,7 +23,7 @@ pub struct Context<'a> {
 }
 
 /// How the keys start that name studies.
-const STUDY_KEYS: [&str; 2] = ["stud", "explored"];
+const STUDY_KEYS: [&str; 1] = ["stud"];
 /// How the keys start that name problem groups.
 const PROBLEM_KEYS: [&str; 2] = ["problem", "differ"];
 /// How the keys start that name contenders.

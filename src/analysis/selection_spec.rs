@@ -25,8 +25,6 @@ pub struct SelectionSpec {
     /// Only draws count of which everyone who is compared solves every query.
     #[serde(default)]
     pub whole_draws: bool,
-    /// A study that explores readings: the same is asked of it under each of them, and shown.
-    pub explored: Option<Explored>,
 }
 
 /// One label, or several.
@@ -53,24 +51,4 @@ impl Labels {
             Self::Several(labels) => labels.clone(),
         }
     }
-}
-
-/// Where readings are explored.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "the name of a study, or a table with `study` and `problems`, is accepted")]
-pub enum Explored {
-    /// A study with the same problem groups.
-    Study(String),
-    /// A study with other ones.
-    Elsewhere(ExploredIn),
-}
-
-/// A study that explores readings on problem groups of its own.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ExploredIn {
-    /// The study.
-    pub study: String,
-    /// Its problem groups.
-    pub problems: Labels,
 }

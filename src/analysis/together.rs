@@ -4,16 +4,12 @@
 //! of contenders: claims that are asked of the same problems share a problem, and each such group of claims takes one
 //! of its problems. Every choice of problems is looked at.
 
-use super::class::{Polarity, Verdict};
 use super::context::Context;
 use super::criterion::{Attained, EXISTS};
 use super::evidence::Evidence;
 use super::verdict::Together;
-use crate::study::paper::{Digits, Paper};
 use crate::study::record::Row;
-use crate::study::{ReadingChoice, StudyError};
 use base::settings::SettingsError;
-use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -26,44 +22,6 @@ type Contenders<'a> = BTreeMap<&'a str, Outcomes<'a>>;
 /// Outcomes of one study: by problem, then contender.
 type Problems<'a> = BTreeMap<String, Contenders<'a>>;
 
-/// What a criterion says of a claim under each reading that a study explores.
-#[derive(Debug, Clone)]
-pub struct Explored {
-    /// The claim.
-    pub claim: String,
-    /// The study.
-    pub study: String,
-    /// Each reading with the class there; none if it was not run.
-    pub readings: Vec<(ReadingChoice, Option<Verdict>)>,
-}
-
-impl Explored {
-    /// Under how many readings it holds, in a sentence.
-    pub fn said(&self) -> Option<String> {
-        let known: Vec<(&ReadingChoice, Polarity)> = self
-            .readings
-            .iter()
-            .filter_map(|(point, verdict)| Some((point, (*verdict)?.polarity())))
-            .collect();
-        let count = |wanted| known.iter().filter(|(_, polarity)| *polarity == wanted).count();
-        let (held, open) = (count(Polarity::For), count(Polarity::Open));
-        let rarer = if held * 2 > known.len() { Polarity::Against } else { Polarity::For };
-        let single =
-            known.iter().filter(|(point, polarity)| *polarity == rarer && !point.name().contains(','));
-        let named = single.map(|(point, _)| point.name()).collect::<Vec<_>>().join(", ");
-        let verb = if rarer == Polarity::For { "under" } else { "not under" };
-        let tail =
-            if named.is_empty() { String::new() } else { format!("; of the single options {verb} {named}") };
-        (!known.is_empty()).then(|| {
-            format!(
-                "it holds under {held} of {} readings explored in {} and is open under {open}{tail}",
-                known.len(),
-                self.study
-            )
-        })
-    }
-}
-
 /// What one study shows under one reading.
 #[derive(Default)]
 struct Met<'a> {
@@ -72,75 +30,24 @@ struct Met<'a> {
     readings: BTreeMap<&'a str, Arc<str>>,
 }
 
-/// What names mean to the criteria `exists`: the metric that each asks for, and how printed digits end.
-#[derive(PartialEq)]
-struct Meaning<'a> {
-    metrics: Vec<&'a str>,
-    digits: Option<Digits>,
-}
-
-/// The sets of claims that are met exactly together, none within another, over every reading that any study explores; the
-/// largest first.
+/// The sets of claims that are met exactly together, none within another, under the evidence's reading; the largest first.
 ///
 /// # Errors
 /// A settings error of a criterion.
-pub fn together(evidence: &Evidence<'_>, explored: &[Explored]) -> Result<Vec<Together>, SettingsError> {
-    let points = points(evidence);
-    let (asked, meanings) = asked(evidence.paper, &points)?;
-    let under = |(point, meaning): (&ReadingChoice, usize)| {
-        let view = evidence.under(point.clone());
-        let mut sets = held(view.point.name(), explored);
-        let met = met(&view, &asked[meaning]);
-        sets.extend(met.iter().flat_map(|(study, met)| sets_of(study, met, view.point.name())));
-        Ok(sets)
-    };
-    // Gathered in order before any error is passed on, so that it is the first reading's.
-    let found: Vec<Result<Vec<Together>, SettingsError>> =
-        points.par_iter().zip(meanings).map(under).collect();
-    Ok(greatest(found.into_iter().collect::<Result<Vec<_>, _>>()?.concat()))
+pub fn together(evidence: &Evidence<'_>) -> Result<Vec<Together>, SettingsError> {
+    let asked = asked(evidence)?;
+    let met = met(evidence, &asked);
+    Ok(greatest(met.iter().flat_map(|(study, met)| sets_of(study, met, evidence.point.name())).collect()))
 }
 
-/// The criteria `exists` of all claims, built once for each meaning that names have under `points`, and which of these each
-/// point gives them.
-fn asked<'a>(
-    paper: &'a Paper,
-    points: &'a [ReadingChoice],
-) -> Result<(Vec<Vec<Attained<'a>>>, Vec<usize>), SettingsError> {
-    let mut meanings: Vec<Meaning<'a>> = Vec::new();
-    let (mut asked, mut of_points) = (Vec::new(), Vec::new());
-    for point in points {
-        let contexts = paper.claims.iter().filter_map(|claim| {
-            let settings = claim.check(EXISTS.name).filter(|_| claim.printed.is_some())?;
-            Some(Context { claim, settings, paper, point })
-        });
-        let built = contexts.clone().map(|context| Attained::new(&context));
-        let metric = |context: Context<'a>| {
-            let name = context.settings.table().get("metric").and_then(toml::Value::as_str);
-            name.map_or("", |name| point.metric(name))
-        };
-        let meaning = Meaning { metrics: contexts.clone().map(metric).collect(), digits: point.digits() };
-        let known = meanings.iter().position(|known| *known == meaning);
-        of_points.push(known.unwrap_or(meanings.len()));
-        if known.is_none() {
-            meanings.push(meaning);
-            asked.push(built.collect::<Result<_, _>>()?);
-        }
-    }
-    Ok((asked, of_points))
-}
-
-/// The reading in hand, and those that studies explore.
-fn points(evidence: &Evidence<'_>) -> Vec<ReadingChoice> {
-    let readings = evidence.paper.readings();
-    let mut points = vec![evidence.point.clone()];
-    let explored = evidence.paper.studies.iter().filter(|study| study.explore.is_some());
-    for point in explored.flat_map(|study| study.explored().unwrap_or_else(|_: StudyError| Vec::new())) {
-        let point = point.within(&readings);
-        if !points.contains(&point) {
-            points.push(point);
-        }
-    }
-    points
+/// The criteria `exists` of all claims that print a number.
+fn asked<'a>(evidence: &'a Evidence<'_>) -> Result<Vec<Attained<'a>>, SettingsError> {
+    let (paper, point) = (evidence.paper, &evidence.point);
+    let contexts = paper.claims.iter().filter_map(|claim| {
+        let settings = claim.check(EXISTS.name).filter(|_| claim.printed.is_some())?;
+        Some(Context { claim, settings, paper, point })
+    });
+    contexts.map(|context| Attained::new(&context)).collect()
 }
 
 fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e str, Met<'e>> {
@@ -165,27 +72,6 @@ fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e st
         (study, met)
     };
     all.into_iter().map(named).collect()
-}
-
-/// One set per study that explores readings: the claims that hold there under the reading, each by the contenders and on the
-/// problems that it names.
-fn held(reading: &str, explored: &[Explored]) -> Vec<Together> {
-    let mut studies: BTreeMap<&str, [BTreeSet<String>; 2]> = BTreeMap::new();
-    for one in explored {
-        let found = one.readings.iter().find(|(point, _)| point.name() == reading);
-        let Some(verdict) = found.and_then(|(_, verdict)| *verdict) else { continue };
-        let [hold, fail] = studies.entry(&one.study).or_default();
-        if verdict.polarity() == Polarity::For { hold } else { fail }.insert(one.claim.clone());
-    }
-    let set = |(study, [hold, fail]): (&str, [BTreeSet<String>; 2])| Together {
-        study: study.to_owned(),
-        problem: "those that each claim names".to_owned(),
-        reading: reading.to_owned(),
-        under: "those that each claim names".to_owned(),
-        hold: hold.difference(&fail).cloned().collect(),
-        fail: fail.into_iter().collect(),
-    };
-    studies.into_iter().map(set).collect()
 }
 
 /// The sets of every contender that is an alternative for another; contenders without alternative belong to all.
@@ -276,7 +162,7 @@ fn greatest_problems<'a>(of_group: Vec<(&'a str, Outcomes<'a>)>) -> Vec<(&'a str
 }
 
 /// The sets of more than one claim that lie within no other, the largest first and of equals the first.
-fn greatest(mut sets: Vec<Together>) -> Vec<Together> {
+pub fn greatest(mut sets: Vec<Together>) -> Vec<Together> {
     sets.sort_by_key(|set| std::cmp::Reverse(set.hold.len()));
     let mut kept: Vec<Together> = Vec::new();
     for set in sets {

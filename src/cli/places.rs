@@ -230,8 +230,8 @@ impl How {
     /// An unknown reading or option.
     pub fn points(&self, study: &Study) -> Result<Vec<ReadingChoice>, Failure> {
         match self.readings.as_deref() {
-            None if study.explore.is_none() => Ok(vec![self.point(&study.readings)?]),
-            None | Some("all") => Ok(study.trial_points()?),
+            None => Ok(vec![self.point(&study.readings)?]),
+            Some("all") => Ok(study.trial_points()?),
             Some(_) => Ok(vec![self.point(&study.readings)?.for_trials(&study.readings)]),
         }
     }

@@ -13,7 +13,6 @@ use super::name::{self, Names};
 use super::reading::{self, Reading, ReadingChoice};
 use super::spec::{BudgetSpec, ExploreSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::task;
-use base::seed;
 use base::settings::{Document, Settings};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -29,6 +28,8 @@ pub struct Study {
     pub question: String,
     /// The root of every seed.
     pub seed: u64,
+    /// The root of every seed when `replan confirm` runs it once more.
+    pub second_seed: Option<u64>,
     /// What is done with the problems.
     pub task: &'static task::Entry,
     /// The task's settings.
@@ -45,7 +46,7 @@ pub struct Study {
     pub sweeps: Vec<Sweep>,
     /// The readings.
     pub readings: Vec<Reading>,
-    /// Makes a plain run cover other readings than the defaults.
+    /// What `replan explore` runs of it under every reading.
     pub explore: Option<ExploreSpec>,
     /// Limits on each trial.
     pub budget: BudgetSpec,
@@ -72,37 +73,43 @@ impl Study {
     /// # Errors
     /// A reading whose default is not among its options.
     pub fn single_options(&self) -> Result<Vec<ReadingChoice>, StudyError> {
-        self.points(0)
+        reading::single_options(&self.readings)
+            .map_err(|message| StudyError::from(self.document.error_at("reading", message)))
     }
 
-    /// Every point that the study explores if it is asked to: [`single_options`](Self::single_options) and the
-    /// sample of their product that the spec asks for.
-    ///
-    /// # Errors
-    /// As [`single_options`](Self::single_options).
-    pub fn explored(&self) -> Result<Vec<ReadingChoice>, StudyError> {
-        self.points(self.explore.map_or(0, |explore| explore.sample))
-    }
-
-    /// The points of [`explored`](Self::explored) as trials see them: those that run the same trials appear once.
+    /// The points of [`single_options`](Self::single_options) as trials see them: those that run the same trials appear once.
     ///
     /// # Errors
     /// As [`single_options`](Self::single_options).
     pub fn trial_points(&self) -> Result<Vec<ReadingChoice>, StudyError> {
-        let mut points: Vec<ReadingChoice> = Vec::new();
-        for point in self.explored()? {
-            let point = point.for_trials(&self.readings);
-            if !points.contains(&point) {
-                points.push(point);
-            }
-        }
-        Ok(points)
+        Ok(self.as_trials_see(&self.single_options()?))
     }
 
-    fn points(&self, sample: u32) -> Result<Vec<ReadingChoice>, StudyError> {
-        let seed = seed::derive(self.seed, &[&self.paper, &self.name, "explore"]);
-        reading::explored(&self.readings, sample, seed)
-            .map_err(|message| StudyError::from(self.document.error_at("reading", message)))
+    /// `points` of the paper's readings as trials of the study see them: those that run the same trials appear once.
+    pub fn as_trials_see(&self, points: &[ReadingChoice]) -> Vec<ReadingChoice> {
+        let mut seen: Vec<ReadingChoice> = Vec::new();
+        for point in points {
+            let point = point.for_trials(&self.readings);
+            if !seen.contains(&point) {
+                seen.push(point);
+            }
+        }
+        seen
+    }
+
+    /// The study cut down to what is explored of it under each reading: no clock is read, and nothing is kept for figures.
+    #[must_use]
+    pub fn explored(mut self, explore: &ExploreSpec, draws: u32) -> Self {
+        for group in &mut self.groups {
+            group.replicates = group.replicates.min(draws);
+        }
+        for contender in &mut self.contenders {
+            contender.repeats = contender.repeats.min(explore.repeats.unwrap_or(u32::MAX));
+        }
+        self.timing = None;
+        self.keeps.clear();
+        self.figures.clear();
+        self
     }
 
     /// Every combination of the sweeps' values, the first sweep varying slowest; one empty point without sweeps.

@@ -14,6 +14,7 @@ pub mod key;
 pub mod name;
 pub mod spec;
 
+pub mod explore;
 mod reading;
 pub mod record;
 

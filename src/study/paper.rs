@@ -16,6 +16,7 @@ pub use report::{CLAIMS, FIGURES, ReportSpec, filled};
 
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};
+use super::explore::ExplorePaper;
 pub use super::spec::Digits;
 use super::{Inputs, Reading, Study, StudyError, files};
 use base::settings::{Accepted, Document, Faults};
@@ -42,6 +43,8 @@ struct PaperSpec {
     /// How many numbered things the paper has, each of which then needs a row in the ledger; none if absent.
     #[serde(default)]
     prints: Prints,
+    /// How far its readings are explored; needed where a study is.
+    explore: Option<ExplorePaper>,
     /// Everything that it prints, and what answers it.
     #[serde(default)]
     ledger: Vec<LedgerRow>,
@@ -107,6 +110,8 @@ pub struct Paper {
     pub report: ReportSpec,
     /// How many numbered things it has.
     pub prints: Prints,
+    /// How far its readings are explored; not at all if absent.
+    pub explore: Option<ExplorePaper>,
     /// Everything it prints.
     pub ledger: Vec<LedgerRow>,
     /// What it says.
@@ -213,6 +218,7 @@ impl Paper {
             source: spec.source,
             report: spec.report,
             prints: spec.prints,
+            explore: spec.explore,
             ledger: spec.ledger,
             claims,
             tables: spec.tables,
@@ -233,12 +239,14 @@ impl Paper {
 
     /// The readings of all studies.
     ///
-    /// Studies may share a reading's name; they then mean the same by it, and the first one speaks for it.
+    /// Studies may share a reading's name; they then mean the same by it, and the first one speaks for it. Sources and changes
+    /// may stand in any of them.
     pub fn readings(&self) -> Vec<Reading> {
         let mut readings: Vec<Reading> = Vec::new();
         for reading in self.studies.iter().flat_map(|study| &study.readings) {
-            if !readings.iter().any(|known| known.id == reading.id) {
-                readings.push(reading.clone());
+            match readings.iter_mut().find(|known| known.id == reading.id) {
+                Some(known) => known.complete(reading),
+                None => readings.push(reading.clone()),
             }
         }
         readings

@@ -2,10 +2,8 @@
 
 use super::key::ReadingKey;
 use super::name;
-use super::spec::{Digits, OptionSpec};
-use base::seed::{self, Stream};
-use rand::RngExt as _;
-use std::collections::{BTreeMap, BTreeSet};
+use super::spec::{BoundsSpec, Digits, OptionSpec};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use toml::Table;
 
@@ -18,11 +16,50 @@ pub struct Reading {
     pub why: String,
     /// The option taken unless asked otherwise.
     pub default: String,
+    /// Its default was chosen so that claims hold, and is chosen again for each setting of the others.
+    pub fitted: bool,
+    /// Of options that are numbers: which of them vote.
+    pub bounds: Option<BoundsSpec>,
     /// What each option changes.
     pub options: BTreeMap<String, Arc<OptionSpec>>,
 }
 
 impl Reading {
+    /// Whether the option called `name` is a way in which the paper may be meant, and not a probe: it cites the paper or a
+    /// practice, or is a number within sourced bounds. Of a reading none of whose options is cited, the default alone is.
+    pub fn votes(&self, name: &str) -> bool {
+        let is_cited = |option: &OptionSpec| {
+            let is_within =
+                |(bounds, value): (&BoundsSpec, f64)| (bounds.least..=bounds.greatest).contains(&value);
+            option.paper.is_some()
+                || option.practice.is_some()
+                || self.bounds.as_ref().zip(option.value).is_some_and(is_within)
+        };
+        let option = self.options.get(name);
+        option.is_some_and(|option| is_cited(option))
+            || (*name == *self.default && !self.options.values().any(|option| is_cited(option)))
+    }
+
+    /// Takes from another study's table of the same reading what this one leaves out.
+    pub fn complete(&mut self, other: &Self) {
+        self.fitted |= other.fitted;
+        self.bounds = self.bounds.take().or_else(|| other.bounds.clone());
+        for (name, option) in &mut self.options {
+            let Some(theirs) = other.options.get(name).filter(|theirs| *theirs != option) else { continue };
+            let own = Arc::make_mut(option);
+            let first = |own: &mut Option<String>, theirs: &Option<String>| {
+                *own = own.take().or_else(|| theirs.clone());
+            };
+            first(&mut own.paper, &theirs.paper);
+            first(&mut own.practice, &theirs.practice);
+            own.value = own.value.or(theirs.value);
+            own.digits = own.digits.or(theirs.digits);
+            for (name, metric) in &theirs.metric {
+                own.metric.entry(name.clone()).or_insert_with(|| metric.clone());
+            }
+        }
+    }
+
     /// Whether any option changes a problem or a contender; otherwise no trial depends on it.
     pub fn touches_trials(&self) -> bool {
         self.options.values().any(|option| !option.problem.is_empty() || !option.stage.is_empty())
@@ -132,88 +169,23 @@ impl ReadingChoice {
     }
 }
 
-/// The default point, every point that differs from it in one option, and `sample` further points of the product.
-///
-/// The further points are drawn from `seed`, every reading's option with equal chance, without repetition; there are
-/// fewer if the product is exhausted.
+/// The default point, and every point that differs from it in one option.
 ///
 /// # Errors
 /// A reading whose default is not among its options.
-pub fn explored(readings: &[Reading], sample: u32, seed: u64) -> Result<Vec<ReadingChoice>, String> {
+pub fn single_options(readings: &[Reading]) -> Result<Vec<ReadingChoice>, String> {
     let mut points = vec![ReadingChoice::new(readings, &BTreeMap::new())?];
     for reading in readings {
         for option in reading.options.keys().filter(|option| **option != reading.default) {
             points.push(ReadingChoice::new(readings, &[(reading.id.clone(), option.clone())].into())?);
         }
     }
-    let product = readings.iter().fold(1_usize, |all, reading| all.saturating_mul(reading.options.len()));
-    let wanted = points.len().saturating_add(sample as usize).min(product);
-    let mut known: BTreeSet<String> = points.iter().map(|point| point.name.clone()).collect();
-    let mut stream = seed::stream(seed);
-    while points.len() < wanted {
-        let point = drawn(readings, &mut stream)?;
-        if known.insert(point.name.clone()) {
-            points.push(point);
-        }
-    }
     Ok(points)
-}
-
-fn drawn(readings: &[Reading], stream: &mut Stream) -> Result<ReadingChoice, String> {
-    let pick = |reading: &Reading, stream: &mut Stream| {
-        let index = stream.random_range(0..reading.options.len());
-        (
-            reading.id.clone(),
-            reading.options.keys().nth(index).expect("the index is below the length").clone(),
-        )
-    };
-    let choices = readings.iter().map(|reading| pick(reading, stream)).collect();
-    ReadingChoice::new(readings, &choices)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_sample_of_the_product_repeats_nothing_and_stops_where_the_product_does() {
-        let reading = |id: &str, count: usize, moves: bool| Reading {
-            id: id.to_owned(),
-            why: String::new(),
-            default: "0".to_owned(),
-            options: (0..count)
-                .map(|i| {
-                    let problem = if moves {
-                        toml::toml! { key = 1 }
-                    } else {
-                        Table::new()
-                    };
-                    (i.to_string(), Arc::new(OptionSpec { problem, ..OptionSpec::default() }))
-                })
-                .collect(),
-        };
-        let readings = [reading("a", 3, true), reading("b", 4, false), reading("c", 2, true)];
-        let names = |sample, seed| {
-            let points = explored(&readings, sample, seed).unwrap();
-            points.iter().map(|point| point.name().to_owned()).collect::<Vec<_>>()
-        };
-        let seven = names(0, 9);
-        assert_eq!(seven, ["default", "a=1", "a=2", "b=1", "b=2", "b=3", "c=1"]);
-        for seed in 0..20 {
-            let some = names(5, seed);
-            assert_eq!((&some[..7], some.len()), (&seven[..], 12), "seed {seed}");
-            assert_eq!(some.iter().collect::<BTreeSet<_>>().len(), 12, "seed {seed}: {some:?}");
-            assert_eq!(names(1000, seed).len(), 24, "seed {seed}");
-        }
-        assert_ne!(names(5, 1), names(5, 2));
-        let point = ReadingChoice::new(
-            &readings,
-            &[("b", "2"), ("c", "1")].map(|(a, b)| (a.into(), b.into())).into(),
-        );
-        let point = point.unwrap();
-        assert_eq!(point.for_trials(&readings).name(), "c=1");
-        assert_eq!(point.within(&readings[..2]).name(), "b=2");
-    }
 
     fn readings() -> Vec<Reading> {
         let option = |metric: &str| OptionSpec {
@@ -224,6 +196,8 @@ mod tests {
             id: "nodes".to_owned(),
             why: "not stated".to_owned(),
             default: "opened".to_owned(),
+            fitted: false,
+            bounds: None,
             options: [("opened", option("opened")), ("closed", option("closed"))]
                 .map(|(name, option)| (name.to_owned(), Arc::new(option)))
                 .into(),

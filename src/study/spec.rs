@@ -18,6 +18,8 @@ pub struct StudySpec {
     pub question: String,
     /// The root of every seed.
     pub seed: u64,
+    /// The root of every seed when `replan confirm` runs it once more.
+    pub second_seed: Option<u64>,
     /// What is done with the problems; `plan` unless said otherwise.
     pub task: Option<Spanned<String>>,
     /// Settings of the task.
@@ -26,7 +28,8 @@ pub struct StudySpec {
     /// Inputs were searched for so that claims would hold: at best *attainable*.
     #[serde(default)]
     pub searched: bool,
-    /// Claims that something in the study was chosen to meet: at best *fitted*.
+    /// Claims that something in the study was chosen to meet: at best *fitted*. The study was calibrated to them, so that a
+    /// reading under which one of them is contradicted is not what the paper means.
     #[serde(default)]
     pub fitted_to: Vec<Spanned<String>>,
     /// Groups of problems.
@@ -41,7 +44,7 @@ pub struct StudySpec {
     /// Ways to fill in what the paper leaves open.
     #[serde(default, rename = "reading")]
     pub readings: Vec<ReadingSpec>,
-    /// Makes a plain run cover other readings than the defaults.
+    /// What `replan explore` runs of it under every reading; it is not explored if absent.
     pub explore: Option<ExploreSpec>,
     /// Limits on each trial.
     pub budget: BudgetSpec,
@@ -142,14 +145,39 @@ pub struct ReadingSpec {
     pub why: String,
     /// The option taken unless asked otherwise.
     pub default: Spanned<String>,
+    /// The default was chosen so that the claims in `fitted_to` hold: for each setting of the other readings the options
+    /// count with which most of them do.
+    #[serde(default)]
+    pub fitted: bool,
+    /// Of options that are numbers: which of them vote, and who says so.
+    pub bounds: Option<BoundsSpec>,
     /// The options.
     pub option: Spanned<BTreeMap<String, OptionSpec>>,
 }
 
-/// What one option of a reading changes.
+/// The numbers of a reading that vote.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoundsSpec {
+    /// The least.
+    pub least: f64,
+    /// The greatest.
+    pub greatest: f64,
+    /// The paper's text, or the practice, that says so.
+    pub source: String,
+}
+
+/// What one option of a reading changes, and who might mean it. An option that cites neither the paper nor a practice, nor is a
+/// number within sourced bounds, is a probe: what it does is printed and never counted.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptionSpec {
+    /// Where the paper's text says so, with its words: `section 2.2: "meet at a certain point"`.
+    pub paper: Option<String>,
+    /// The practice that does so, with its source.
+    pub practice: Option<String>,
+    /// The number that it stands for, where the reading has `bounds`.
+    pub value: Option<f64>,
     /// Settings laid over every problem's.
     #[serde(default)]
     #[schemars(with = "AnyTable")]
@@ -177,13 +205,22 @@ pub enum Digits {
     Unknown,
 }
 
-/// Which readings a study explores: the defaults, every other option by itself, and a sample of their product.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+/// What is run of a study under every reading that its paper explores.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExploreSpec {
-    /// How many points of the product are drawn, without repetition, besides those that differ in one option.
-    #[schemars(range(max = 10_000))]
-    pub sample: u32,
+    /// Draws kept of each problem group.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub draws: u32,
+    /// Draws kept of each group under readings that leave a claim open or turn it; `draws` if absent.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub more_draws: Option<u32>,
+    /// Seeds kept of each contender; all of them if absent.
+    #[schemars(range(min = 1, max = 100_000))]
+    pub repeats: Option<u32>,
+    /// The study whose claims it answers under other readings than the defaults, by groups and contenders of the same labels;
+    /// its own if absent.
+    pub stands_for: Option<String>,
 }
 
 /// Limits on each trial.

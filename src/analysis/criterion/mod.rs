@@ -22,9 +22,8 @@ use super::context::Context;
 use super::evidence::Evidence;
 use super::found::Found;
 use super::selection::Selection;
-use super::selection_spec::Explored;
 use crate::study::Study;
-use base::settings::{Accepted, Settings, SettingsError};
+use base::settings::{Accepted, SettingsError};
 
 /// A criterion with its settings, every name looked up.
 pub trait Criterion {
@@ -79,40 +78,4 @@ pub static REGISTRY: &[&Entry] = &[
 /// The criterion called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
     REGISTRY.iter().copied().find(|entry| entry.name == name)
-}
-
-/// A criterion with a study that explores readings in the place of its own, and that study; none if it names none.
-///
-/// # Errors
-/// What the criterion refuses of that study.
-pub fn explored<'a>(
-    entry: &Entry,
-    context: &Context<'a>,
-) -> Result<Option<(&'a Study, Settings)>, SettingsError> {
-    let Some(of) = context.settings.table().get("of").and_then(toml::Value::as_table) else {
-        return Ok(None);
-    };
-    let read = |value: &toml::Value| value.clone().try_into::<Explored>().ok();
-    let Some(wanted) = of.get("explored").and_then(read) else { return Ok(None) };
-    let (name, problems) = match wanted {
-        Explored::Study(name) => (name, None),
-        Explored::Elsewhere(place) => (place.study, Some(place.problems.listed())),
-    };
-    let study = context.study("of.explored", &name, &[])?;
-    if study.explore.is_none() {
-        let message = format!("study `{name}` explores no readings; it needs a table `explore`");
-        return Err(context.settings.error_at("of.explored", message));
-    }
-    let mut elsewhere = of.clone();
-    elsewhere.remove("explored");
-    elsewhere.insert("study".to_owned(), name.into());
-    if let Some(problems) = problems {
-        elsewhere.insert("problems".to_owned(), problems.into());
-    }
-    let mut table = context.settings.table().clone();
-    table.insert("of".to_owned(), elsewhere.into());
-    let settings = Settings::composed(format!("claim `{}`, explored", context.claim.id), table);
-    (entry.build)(&Context { settings: &settings, ..*context })
-        .map_err(|error| context.settings.error_at("of.explored", error.to_string()))?;
-    Ok(Some((study, settings)))
 }

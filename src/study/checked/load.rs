@@ -63,6 +63,7 @@ impl Study {
             paper: spec.paper.into_inner(),
             question: spec.question,
             seed: spec.seed,
+            second_seed: spec.second_seed,
             task: named.and_then(|named| faults.keep(named)).unwrap_or_else(task::default),
             task_settings: optional(
                 document,
@@ -171,6 +172,8 @@ fn reading(spec: ReadingSpec) -> Reading {
         id: spec.id.into_inner(),
         why: spec.why,
         default: spec.default.into_inner(),
+        fitted: spec.fitted,
+        bounds: spec.bounds,
         options: spec
             .option
             .into_inner()

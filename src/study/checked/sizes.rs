@@ -38,12 +38,10 @@ impl Study {
 
     fn check_trials(&self, families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
         let swept = self.sweep_points().len();
-        let points =
-            if self.explore.is_some() { self.trial_points().map_or(1, |points| points.len()) } else { 1 };
         let each = families
             .iter()
             .map(|(group, family)| f64::from(group.replicates) * family.queries().len().max(1) as f64);
-        let problems = each.sum::<f64>() * points as f64;
+        let problems = each.sum::<f64>();
         let of = |contender: &Contender| problems * f64::from(contender.repeats) * swept as f64;
         let trials: f64 = self.contenders.iter().map(of).sum();
         let largest = self.contenders.iter().max_by_key(|contender| contender.repeats);

@@ -33,6 +33,8 @@ impl Paper {
         self.check_tables(faults);
         self.check_results(faults);
         self.check_readings(faults);
+        self.check_votes(faults);
+        self.check_explored(faults);
     }
 
     /// A part exists, belongs to one sentence or row, and is no sentence of parts itself.
@@ -96,6 +98,87 @@ impl Paper {
                     reading.id
                 );
                 faults.add(study.document.error_at(&format!("reading.{index}.id"), message));
+            }
+        }
+    }
+
+    /// What a reading votes by is whole: numbers have sourced bounds, and a default that decides classes has a source.
+    fn check_votes(&self, faults: &mut Faults) {
+        let all = self.readings();
+        let each = self.studies.iter().flat_map(|s| s.readings.iter().enumerate().map(move |r| (s, r)));
+        for (study, (index, own)) in each {
+            let mut wrong = |key: &str, message: String| {
+                let place = format!("reading.{index}.{key}");
+                faults.add(study.document.error_at(&place, format!("reading `{}`: {message}", own.id)));
+            };
+            let reading = all.iter().find(|known| known.id == own.id).expect("every reading is listed");
+            if let Some(bounds) = own.bounds.as_ref().filter(|bounds| bounds.least > bounds.greatest) {
+                let message = format!(
+                    "least {} is above greatest {}; rising bounds are accepted",
+                    bounds.least, bounds.greatest
+                );
+                wrong("bounds", message);
+            }
+            for (name, option) in &own.options {
+                let place = format!("option.{name}");
+                if let Some(bounds) =
+                    reading.bounds.as_ref().filter(|_| reading.options[name].value.is_none())
+                {
+                    let range = format!("{} to {}", bounds.least, bounds.greatest);
+                    wrong(
+                        &place,
+                        format!("option `{name}` needs `value`: the number held against the bounds, {range}"),
+                    );
+                } else if option.value.is_some() && reading.bounds.is_none() {
+                    wrong(
+                        &place,
+                        format!("option `{name}` has a `value`, which needs `bounds` to be held against"),
+                    );
+                }
+                if [&option.paper, &option.practice].into_iter().flatten().any(|text| text.trim().is_empty())
+                {
+                    wrong(
+                        &place,
+                        format!("option `{name}` cites nothing; the source and its words are accepted"),
+                    );
+                }
+            }
+            if !reading.votes(&own.default) {
+                let message = format!(
+                    "the default `{}` needs `paper` or `practice` as other options have: what it is judged by votes",
+                    own.default
+                );
+                wrong("default", message);
+            }
+            if own.fitted && self.studies.iter().all(|study| study.fitted_to.is_empty()) {
+                wrong(
+                    "fitted",
+                    "is fitted, but no study of the paper says what to; `fitted_to` is needed".to_owned(),
+                );
+            }
+        }
+    }
+
+    /// A study that is explored needs the paper's budget; a second seed is another one.
+    fn check_explored(&self, faults: &mut Faults) {
+        for study in &self.studies {
+            if study.explore.is_some() && self.explore.is_none() {
+                let message = format!(
+                    "study `{}` is explored; paper.toml then needs `[explore]` with `sample` and `trials`",
+                    study.name
+                );
+                faults.add(study.document.error_at("explore", message));
+            }
+            let other = study.explore.as_ref().and_then(|explore| explore.stands_for.as_ref());
+            if let Some(other) = other.filter(|other| self.study(other).is_none()) {
+                let known = self.studies.iter().map(|study| study.name.as_str());
+                let message = none_called("study", other, known);
+                faults.add(study.document.error_at("explore.stands_for", message).about(other));
+            }
+            if study.second_seed == Some(study.seed) {
+                let message =
+                    format!("the second seed is the first, {}; another one is accepted", study.seed);
+                faults.add(study.document.error_at("second_seed", message));
             }
         }
     }

@@ -20,8 +20,6 @@ seed = 4
 expansions = 10_000
 [quick]
 replicates = 1
-[explore]
-sample = 0
 [[keep]]
 problems = 'maps'
 replicates = 2

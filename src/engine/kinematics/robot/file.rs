@@ -105,7 +105,8 @@ struct CapsuleEntry {
     from_mm: Option<[f64; 3]>,
     /// x, y and z of the other end, in the link's frame.
     to_mm: Option<[f64; 3]>,
-    /// Instead of link and ends: where it begins and ends along the tool.
+    /// Instead of link and ends: where its axis begins and ends along the tool; the axis is cut so far that the round end
+    /// does not reach beyond the tool's tip.
     tool_share: Option<[f64; 2]>,
     /// Whether it counts for collisions of the arm with itself alone.
     #[serde(default)]

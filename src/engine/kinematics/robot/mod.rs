@@ -163,7 +163,7 @@ impl Body {
 }
 
 impl Part {
-    /// A capsule along the tool, from and to a share of its length.
+    /// A capsule along the tool, from and to a share of its length; its round end stops at the tip.
     fn of_tool(
         name: &str,
         [from, to]: [f64; 2],
@@ -173,8 +173,9 @@ impl Part {
         if tool_length_m <= 0.0 {
             return Err(KinematicsError::NoTool { capsule: name.to_owned() });
         }
-        let at = |share: f64| Vec3::z() * (share * tool_length_m);
-        let capsule = Capsule::new(at(from), at(to), radius_m)?;
+        let end_m = (to * tool_length_m).min(tool_length_m - radius_m);
+        let [start, end] = [end_m.min(from * tool_length_m), end_m].map(|along_m| Vec3::z() * along_m);
+        let capsule = Capsule::new(start, end, radius_m)?;
         Ok(Self {
             name: name.to_owned(),
             link: AXES,

@@ -79,14 +79,14 @@ fn the_six_poses_are_as_clear_as_another_program_found_them_to_three_millimetres
 }
 
 #[test]
-fn seven_of_the_ten_lines_are_free_and_all_are_without_obstacles() {
+fn eight_of_the_ten_lines_are_free_and_all_are_without_obstacles() {
     let empty = Cell::new(robot(), Scene::empty(), true);
     let (full, empty) = (Lines::new(fu_cell(), rules()), Lines::new(empty, rules()));
     let mut scratch = Scratch::default();
     for (index, [from, to]) in GROUPS.iter().enumerate() {
         let group = index + 1;
         let [a, b] = [from, to].map(|degrees| full.pose(&pose(*degrees)));
-        let expected = if [1, 3, 8].contains(&group) { Err(Rejection::Contact) } else { Ok(()) };
+        let expected = if [1, 3].contains(&group) { Err(Rejection::Contact) } else { Ok(()) };
         assert_eq!(full.join(&a, &b, &mut scratch), expected, "group {group}");
         assert_eq!(empty.join(&a, &b, &mut scratch), Ok(()), "group {group}, empty");
     }
