@@ -168,7 +168,9 @@ impl<'a> Space<'a> {
             let middle = f64::midpoint(free, not);
             let mut at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + (b - a) * middle).collect();
             if is_plane {
-                at.iter_mut().for_each(|x| *x = (*x / RASTER_MM).round() * RASTER_MM);
+                for x in &mut at {
+                    *x = (*x / RASTER_MM).round() * RASTER_MM;
+                }
             }
             if self.is_free(from, &at) == Ok(true) { free = middle } else { not = middle }
         }

@@ -97,22 +97,22 @@ pub fn greet(process: &mut Process, program: &Program) -> Result<Hello, String> 
             let spoken = hello.protocol;
             return Err(with_log(
                 process,
-                format!("the planner speaks protocol {spoken}; {PROTOCOL} is accepted"),
+                &format!("the planner speaks protocol {spoken}; {PROTOCOL} is accepted"),
             ));
         }
-        Ok(Some(_)) => return Err(with_log(process, "the planner's first line is no `hello`".to_owned())),
+        Ok(Some(_)) => return Err(with_log(process, "the planner's first line is no `hello`")),
         Ok(None) => {
             let seconds = program.hello_s;
-            return Err(with_log(process, format!("the planner said no `hello` within {seconds} s")));
+            return Err(with_log(process, &format!("the planner said no `hello` within {seconds} s")));
         }
-        Err(why) => return Err(with_log(process, why)),
+        Err(why) => return Err(with_log(process, &why)),
     };
     process.hello = Some(hello.clone());
     Ok(hello)
 }
 
 /// `why` with how the planner ended, if it has, and the end of its log.
-fn with_log(process: &mut Process, why: String) -> String {
+fn with_log(process: &mut Process, why: &str) -> String {
     let ended = process.ended().map(|status| format!(" ({status})")).unwrap_or_default();
     let log = process.log();
     if log.is_empty() { format!("{why}{ended}") } else { format!("{why}{ended}; its log ends: {log}") }
@@ -144,9 +144,9 @@ pub fn solve(
             Ok(Some(message)) => match held.take(process, message) {
                 Ok(None) => {}
                 Ok(Some(end)) => break end,
-                Err(why) => break End::Broken(with_log(process, why)),
+                Err(why) => break End::Broken(with_log(process, &why)),
             },
-            Err(why) => break End::Broken(with_log(process, why)),
+            Err(why) => break End::Broken(with_log(process, &why)),
         }
     };
     held.finish(end)

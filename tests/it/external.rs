@@ -90,7 +90,7 @@ fn every_way_to_misbehave_is_the_status_of_one_row_and_costs_no_other_trial() {
         check(&rows[case.name], case);
     }
     assert!(rows["A*"].is_solved());
-    let straight = 299_f64.hypot(199.0);
+    let straight = libm::hypot(299.0, 199.0);
     for name in ["good", "one-query-each", "loud-log", "cut-off", "good-after-all"] {
         let length = rows[name].value("path_cost_cells").unwrap();
         assert!((length - straight).abs() < 1e-9, "{name}: {length}");
@@ -150,4 +150,24 @@ fn without_its_program_a_run_says_what_to_install_and_stored_trials_stay_readabl
     bench.done(&["run", "./outside"]);
     bench.done(&["judge", "./outside"]);
     assert!(rows(&bench)["theirs"].is_solved());
+}
+
+#[test]
+fn conformance_keeps_count_of_what_is_broken_and_its_exit_code_says_so() {
+    let cases = ["crash", "other-id", "rubbish-first"];
+    let bench = bench(&CASES.iter().filter(|case| cases.contains(&case.name)).collect::<Vec<_>>());
+    for (name, broken) in [
+        ("crash", "BROKEN  query 1 ends with a result: the planner ended before its result"),
+        ("other-id", "BROKEN  query 1 ends with a result: the planner answers query 77"),
+        ("rubbish-first", "BROKEN  it says `hello` within ten seconds: the planner wrote `Welcome!`"),
+    ] {
+        let said = bench.run(&["conformance", "--", "sh", &format!("outside/{name}.sh")]);
+        assert!(said.out.contains(broken), "{name}: should say {broken}\nsays {}{}", said.out, said.err);
+        assert_eq!(said.code, Some(3), "{name}: {}", said.err);
+    }
+    let honest = r#"hello; query; printf '{"type":"result","id":%s,"status":"no_path"}\n' "$id"; query"#;
+    bench.write("outside/honest.sh", format!("{PRELUDE}{honest}\n").as_bytes());
+    let said = bench.run(&["conformance", "--", "sh", "outside/honest.sh"]);
+    assert!(said.out.contains("BROKEN  some query is solved: none was"), "{}", said.out);
+    assert_eq!(bench.run(&["conformance", "--", "./no/such/planner"]).code, Some(4));
 }
