@@ -75,7 +75,8 @@ impl Case<'_> {
 
     /// Whether some side did not come to an end: what it would have given is not known.
     pub fn is_unended(&self) -> bool {
-        let is_cut = |row: &Row| matches!(row.status, Status::BudgetSpent | Status::Crashed);
+        let is_cut =
+            |row: &Row| matches!(row.status, Status::BudgetSpent | Status::TimeSpent | Status::Crashed);
         is_cut(self.row) || self.base.is_some_and(is_cut)
     }
 

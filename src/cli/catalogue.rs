@@ -61,7 +61,7 @@ fn planners_or_stages(first: bool) -> Vec<Item> {
         frame: if first { PLANNER } else { STAGE },
         columns: e.columns,
     };
-    planner::REGISTRY.iter().copied().filter(fits).map(item).collect()
+    crate::study::planner::all().filter(fits).map(item).collect()
 }
 
 /// Planners: the first in a contender's pipeline.
@@ -169,6 +169,11 @@ pub fn files() -> Vec<Item> {
             name: "paper",
             about: "a paper's source, ledger, claims and tables: paper.toml in its folder",
             accepted: paper::FILE,
+        },
+        FileKind {
+            name: "planner_protocol",
+            about: "lines of JSON that planners from outside and replan write: docs/PLANNER_PROTOCOL.md",
+            accepted: Accepted::of::<external::message::Messages>(),
         },
     ];
     let item = |kind: &FileKind| Item {

@@ -287,6 +287,7 @@ impl<'p> Explorer<'p> {
                 claims: claims::claims_hash(self.paper),
                 portion: None,
                 quick: false,
+                record: false,
                 fresh: false,
                 threads: self.threads,
                 stop: stop_flag(),

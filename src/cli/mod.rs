@@ -2,7 +2,7 @@
 //!
 //! Exit codes: 0 done; 1 the system refused (disk, permissions, a busy folder); 2 wrong words on the command line or
 //! wrong input files; 3 a check said no: something is not as stored, is worse than a gate allows, is judged otherwise, is impossible, or an independent judge
-//! disagrees; 4 `crosscheck` lacks Python or the network; 130 interrupted, and what was done is kept.
+//! disagrees; 4 a tool is missing: Python or the network for `crosscheck`, a planner from outside; 130 interrupted, and what was done is kept.
 
 /// Prints a line; a reader that closed the pipe early (`head`) is no failure of ours.
 macro_rules! say {
@@ -18,6 +18,7 @@ pub mod catalogue;
 mod check;
 mod compare;
 mod confirm;
+mod conformance;
 mod crosscheck;
 mod example;
 mod explain;
@@ -104,6 +105,8 @@ enum Command {
     Show(show::Show),
     /// Search maps on which a set of claims holds together
     Witness(witness::Witness),
+    /// Try a planner from outside on small worlds, and say what of the protocol it breaks
+    Conformance(conformance::Conformance),
     /// Have MuJoCo judge robots, scenes and stored paths independently; needs Python
     Crosscheck(crosscheck::Crosscheck),
     /// Ask of a printed table, by arithmetic alone, whether any data could have given it
@@ -139,6 +142,17 @@ struct How {
     /// Threads for the trials; the machine's number if absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
+}
+
+/// What of the stored trials runs again although nothing it depends on has changed.
+#[derive(Args, Clone, Copy)]
+struct Again {
+    /// Run every trial again that can be repeated, also those that are stored and unchanged
+    #[arg(long)]
+    fresh: bool,
+    /// Run the trials of planners from outside again, which are recorded and not repeated
+    #[arg(long)]
+    record: bool,
 }
 
 /// Why a command ended without success.
@@ -178,6 +192,7 @@ impl From<StudyError> for Failure {
         let code = match &error {
             StudyError::Interrupted { .. } => 130,
             StudyError::Io { .. } | StudyError::Busy { .. } => 1,
+            StudyError::Lacks { .. } => 4,
             _ => 2,
         };
         Self { is_touched: matches!(error, StudyError::Touched(_)), ..Self::new(code, error.to_string()) }
@@ -246,6 +261,7 @@ pub fn run() -> ExitCode {
         Command::Export(command) => command.run(),
         Command::Show(command) => command.run(),
         Command::Witness(command) => command.run(),
+        Command::Conformance(command) => command.run(),
         Command::Crosscheck(command) => command.run(),
         Command::Audit(command) => command.run(),
         Command::List(command) => command.run(),

@@ -4,7 +4,7 @@ use super::load::load;
 use super::places::Places;
 use super::progress::{safe_point, stop_flag};
 use super::run::{run_studies, summary};
-use super::{Failure, How, Which, trial, verdicts};
+use super::{Again, Failure, How, Which, trial, verdicts};
 use super::{judge, render};
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
@@ -17,9 +17,8 @@ pub struct Repro {
     which: Which,
     #[command(flatten)]
     how: How,
-    /// Run every trial again, also those that are stored and unchanged
-    #[arg(long)]
-    fresh: bool,
+    #[command(flatten)]
+    again: Again,
     /// Run one trial alone, print it, and say whether it equals the stored row
     #[arg(long, value_name = "STUDY/TRIAL")]
     trial: Option<String>,
@@ -37,7 +36,7 @@ impl Repro {
         render::check_report(&paper, &places)?;
         self.how.check_points(&paper)?;
         let (lock, stop) = (Lock::take(&places.runs)?, stop_flag());
-        for report in run_studies(&paper, &places, &self.how, &lock, self.fresh)? {
+        for report in run_studies(&paper, &places, &self.how, &lock, self.again)? {
             say!("{}", summary(&report, false));
         }
         safe_point(stop, "the records are kept")?;

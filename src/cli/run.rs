@@ -4,7 +4,7 @@ use super::load::load;
 use super::places::Places;
 use super::progress::{Bar, stop_flag};
 use super::sharded::Sharded;
-use super::{Failure, How, Which, command_line};
+use super::{Again, Failure, How, Which, command_line};
 use crate::analysis::claims;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
@@ -23,9 +23,8 @@ pub struct Run {
     which: Which,
     #[command(flatten)]
     how: How,
-    /// Run every trial again, also those that are stored and unchanged
-    #[arg(long)]
-    fresh: bool,
+    #[command(flatten)]
+    again: Again,
     /// Run nothing, but read the clock of every stored study that is timed once more, as a session of its own
     #[arg(long, conflicts_with_all = ["fresh", "shard"])]
     clock: bool,
@@ -51,7 +50,7 @@ impl Run {
         if self.clock {
             return read_clocks(&paper, &places, &self.how, &lock);
         }
-        for report in run_studies(&paper, &places, &self.how, &lock, self.fresh)? {
+        for report in run_studies(&paper, &places, &self.how, &lock, self.again)? {
             say!("{}", summary(&report, self.why));
         }
         say!("records are in {}", places.runs.display());
@@ -70,7 +69,7 @@ impl Run {
         let lock = Lock::take(&plan.part(folder, number))?;
         let Sharded { paper, places, how, .. } = &sharded;
         for (study, portion) in paper.studies.iter().zip(&portions) {
-            let report = run_study(paper, study, places, how, &lock, self.fresh, Some(portion))?;
+            let report = run_study(paper, study, places, how, &lock, self.again, Some(portion))?;
             say!("{}", summary(&report, self.why));
         }
         say!("shard {number}/{of} is in {}", lock.folder().display());
@@ -78,15 +77,15 @@ impl Run {
     }
 }
 
-/// Runs what is stale of every study of `paper`; everything with `fresh`.
+/// Runs what is stale of every study of `paper`; and what `again` names.
 pub fn run_studies(
     paper: &Paper,
     places: &Places,
     how: &How,
     lock: &Lock,
-    fresh: bool,
+    again: Again,
 ) -> Result<Vec<Report>, Failure> {
-    paper.studies.iter().map(|study| run_study(paper, study, places, how, lock, fresh, None)).collect()
+    paper.studies.iter().map(|study| run_study(paper, study, places, how, lock, again, None)).collect()
 }
 
 /// Runs what is stale of one study, or of a portion of it.
@@ -96,12 +95,12 @@ fn run_study(
     places: &Places,
     how: &How,
     lock: &Lock,
-    fresh: bool,
+    again: Again,
     portion: Option<&Portion>,
 ) -> Result<Report, Failure> {
     let (points, bar) = (how.points(study)?, Bar::default());
     let options = options(paper, (&points, &bar), places, how, lock);
-    Ok(session::run(study, &Options { portion, fresh, ..options })?)
+    Ok(session::run(study, &Options { portion, fresh: again.fresh, record: again.record, ..options })?)
 }
 
 /// How a whole run of a study of `paper` is to be done, reusing what is stored.
@@ -121,6 +120,7 @@ fn options<'a>(
         portion: None,
         quick: how.quick,
         fresh: false,
+        record: false,
         threads: how.threads.map(|threads| threads as usize),
         stop: stop_flag(),
         progress: bar,

@@ -81,6 +81,18 @@ pub static COLUMNS: &[Column] = &[
     count("minimum_comparisons", "comparisons that finding the least f would take in a plain list"),
     count("membership_comparisons", "comparisons that looking successors up would take in plain lists"),
     count("list_operations", "minimum and membership comparisons together"),
+    count("iterations", "iterations by the planner's own count"),
+    count("question_batches", "batches of questions that a planner from outside asked"),
+    count("questions_valid", "configurations that it asked about"),
+    count("questions_motion", "motions that it asked about"),
+    count("questions_fk", "postures whose tip it asked for"),
+    count("questions_ik", "poses whose postures it asked for"),
+    count("incumbents", "paths that it handed over before its result"),
+    count("is_cut_off", "1 if its time ran out and its last incumbent was taken, else 0"),
+    count("promises_determinism", "1 if it promised equal results for equal queries and seeds, else 0"),
+    real("solve_wall_ns", "from the query to its end by replan's clock, answers to questions included"),
+    real("answer_wall_ns", "of it, what replan took to answer questions"),
+    real("own_wall_ns", "planning time by the planner's own clock"),
     real("start_x_cm", "x of a start that fits the printed lengths"),
     real("start_y_cm", "y of a start that fits the printed lengths"),
     real("goal_x_cm", "x of the goal that belongs to it"),
@@ -224,7 +236,7 @@ mod tests {
 
     #[test]
     fn every_column_that_an_entry_declares_is_listed_once() {
-        let planners = engine::planner::REGISTRY.iter().flat_map(|entry| entry.columns);
+        let planners = crate::study::planner::all().flat_map(|entry| entry.columns);
         let families = crate::study::family::REGISTRY.iter().flat_map(|entry| entry.columns);
         let prepared = crate::study::prepared::REGISTRY.iter().flat_map(|entry| entry.columns);
         let tasks = crate::study::task::REGISTRY.iter().flat_map(|entry| entry.columns);

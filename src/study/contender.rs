@@ -1,10 +1,10 @@
 //! Contenders: pipelines of a planner and stages under a label, at one point of the sweeps.
 
 use super::key::{SweepKey, SweepValue};
-use super::name;
 use super::reading::ReadingChoice;
+use super::{name, planner};
 use base::settings::{Faults, Settings, SettingsError};
-use engine::planner::{self, Build, Invalid, Plan, Planner, Request, Stage};
+use engine::planner::{Build, Entry, Invalid, Plan, Planner, Request, Stage};
 use std::collections::BTreeMap;
 use std::mem::discriminant;
 use std::ops::Range;
@@ -31,7 +31,7 @@ pub struct Contender {
 #[derive(Debug, Clone)]
 pub struct StageUse {
     /// The entry.
-    pub entry: &'static planner::Entry,
+    pub entry: &'static Entry,
     /// Where the study names it.
     pub named: Range<usize>,
     /// Its settings.
@@ -47,6 +47,11 @@ pub struct Pipeline {
 }
 
 impl Contender {
+    /// Whether its trials are recorded and not repeated.
+    pub fn is_recorded(&self) -> bool {
+        self.stages.iter().any(|stage| planner::is_recorded(stage.entry))
+    }
+
     /// The pipeline under the reading `point` with the sweep's settings laid on top.
     ///
     /// # Errors

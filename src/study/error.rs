@@ -56,6 +56,18 @@ pub enum StudyError {
         /// Units in all.
         total: usize,
     },
+    /// A contender needs a program that is not there.
+    #[error(
+        "study `{study}`: contender `{contender}` cannot run: {lacks}; stored trials stay readable without it"
+    )]
+    Lacks {
+        /// The study.
+        study: String,
+        /// The contender.
+        contender: String,
+        /// What is missing, and what helps.
+        lacks: String,
+    },
     /// A trial was asked for that the study does not have.
     #[error("study `{study}` has no trial `{trial}`; {hint}")]
     UnknownTrial {

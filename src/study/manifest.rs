@@ -115,7 +115,7 @@ impl Manifest {
         let option = |(_, option): &(Text, Text)| option.to_string();
         let readings = readings.map(|key| key.options().iter().map(option).collect()).collect();
         let problems = problem_hashes(study, points, built)?;
-        let contenders = contender_hashes(study, points);
+        let contenders = contender_hashes(study, points, built)?;
         let depends = sha256(format!("{quick}\n{problems:?}\n{contenders:?}").as_bytes());
         let made_by = MadeBy::here().clone();
         Ok(Self {
@@ -351,7 +351,11 @@ fn problem_hashes(
     Ok(hashes)
 }
 
-fn contender_hashes(study: &Study, points: &[ReadingChoice]) -> Hashes {
+fn contender_hashes(
+    study: &Study,
+    points: &[ReadingChoice],
+    built: &BuiltStudy<'_>,
+) -> Result<Hashes, StudyError> {
     let mut hashes = Hashes::new();
     let sweeps: Vec<SweepPoint> = study.sweep_points();
     for (reading, point) in points.iter().enumerate() {
@@ -369,10 +373,14 @@ fn contender_hashes(study: &Study, points: &[ReadingChoice]) -> Hashes {
             for trials in study.kept().filter(|trials| is_own(&trials.contender)) {
                 text += &format!("\n{} {} {:?}", trials.problems, trials.replicates, trials.repeats);
             }
+            let files = built.files_of(reading, &contender.label)?;
+            if !files.is_empty() {
+                text += &format!("\n{files:?}");
+            }
             note(&mut hashes, &contender.label, &text, reading);
         }
     }
-    hashes
+    Ok(hashes)
 }
 
 /// How many digits of a hash tell what trials depend on apart.

@@ -18,6 +18,8 @@ pub mod explore;
 mod reading;
 pub mod record;
 
+pub mod planner;
+
 pub mod contender;
 pub mod prepared;
 

@@ -19,18 +19,27 @@ pub enum Status {
     NoPath,
     /// The budget ran out.
     BudgetSpent,
+    /// The time ran out, for a planner that is given one.
+    TimeSpent,
     /// A result came back and the verifier refused it.
     Rejected,
     /// The problem cannot be posed.
     InvalidProblem,
-    /// The planner panicked.
+    /// The planner panicked or, if it is from outside, broke down or broke its rules.
     Crashed,
 }
 
 impl Status {
     /// Every status.
-    pub const ALL: [Self; 6] =
-        [Self::Solved, Self::NoPath, Self::BudgetSpent, Self::Rejected, Self::InvalidProblem, Self::Crashed];
+    pub const ALL: [Self; 7] = [
+        Self::Solved,
+        Self::NoPath,
+        Self::BudgetSpent,
+        Self::TimeSpent,
+        Self::Rejected,
+        Self::InvalidProblem,
+        Self::Crashed,
+    ];
 
     /// Its name in records.
     pub fn name(self) -> &'static str {
@@ -38,6 +47,7 @@ impl Status {
             Self::Solved => "solved",
             Self::NoPath => "no_path",
             Self::BudgetSpent => "budget_spent",
+            Self::TimeSpent => "time_spent",
             Self::Rejected => "rejected",
             Self::InvalidProblem => "invalid_problem",
             Self::Crashed => "crashed",

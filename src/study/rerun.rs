@@ -23,7 +23,7 @@ pub struct Rerun {
     pub differ: Vec<String>,
 }
 
-/// Runs `count` stored trials of `study`, drawn from the study's seed, on `threads` threads, and compares them, and whatever
+/// Runs `count` stored trials of `study` that can be repeated, drawn from the study's seed, on `threads` threads, and compares them, and whatever
 /// their units run besides, with the stored rows.
 ///
 /// # Errors
@@ -43,10 +43,15 @@ pub fn rerun(
         .filter(|point| manifest.covers(&point.key(&study.readings)))
         .collect();
     let built = BuiltStudy::new(study, &points, inputs)?;
-    let wanted = sample(study, &records.batch.rows, count);
+    let recorded: BTreeSet<&str> =
+        study.contenders.iter().filter(|c| c.is_recorded()).map(|c| c.label.as_str()).collect();
+    let mut rows = records.batch.rows.clone();
+    rows.retain(|row| !recorded.contains(&*row.key.contender));
+    let wanted = sample(study, &rows, count);
     let mut units = built.units();
     for unit in &mut units {
         unit.wanted = wanted.get(&unit.key).cloned();
+        unit.entrants.retain(|entrant| !entrant.contender.is_recorded());
     }
     units.retain(|unit| unit.wanted.is_some());
     let pool = super::session::pool(Some(threads));

@@ -2,6 +2,7 @@
 //!
 //! A problem group that has changed takes all its trials with it; a contender that has changed takes its own.
 
+use super::contender::Contender;
 use super::error::StudyError;
 use super::key::{DrawKey, Owner, Text, TrialKey};
 use super::manifest::Manifest;
@@ -9,7 +10,7 @@ use super::name::Names;
 use super::record::{Batch, Row};
 use super::runner::{BuiltStudy, Part};
 use super::store::{Records, read_records};
-use super::unit::Unit;
+use super::unit::{Entrant, Unit};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
@@ -48,6 +49,21 @@ pub fn stored(folder: &Path, study: &str) -> Result<(Manifest, Records), StudyEr
     Ok((manifest, records))
 }
 
+/// Which stored trials may stand where nothing that they depend on has changed.
+#[derive(Debug, Clone, Copy)]
+pub struct Keeps {
+    /// Those that can be repeated.
+    pub repeated: bool,
+    /// Those that are recorded.
+    pub recorded: bool,
+}
+
+impl Keeps {
+    fn keeps(self, contender: &Contender) -> bool {
+        if contender.is_recorded() { self.recorded } else { self.repeated }
+    }
+}
+
 /// What of a run is stored, by the number of the unit.
 #[derive(Default)]
 pub struct Reusable {
@@ -59,7 +75,13 @@ pub struct Reusable {
 
 impl Reusable {
     /// What of the run that `manifest` describes stands in `records`, which `before` describes.
-    pub fn new(built: &BuiltStudy<'_>, manifest: &Manifest, before: &Manifest, records: &Records) -> Self {
+    pub fn new(
+        built: &BuiltStudy<'_>,
+        manifest: &Manifest,
+        before: &Manifest,
+        records: &Records,
+        keeps: Keeps,
+    ) -> Self {
         let mut found = Self::default();
         if manifest.quick != before.quick {
             return found;
@@ -73,9 +95,15 @@ impl Reusable {
                 continue;
             }
             let labels: BTreeSet<Text> = unit.entrants.iter().map(|entrant| entrant.label.clone()).collect();
-            let is_same =
-                |label: &&Text| manifest.contender(reading, label) == before.contender(reading, label);
-            let same: BTreeSet<Text> = labels.iter().filter(is_same).cloned().collect();
+            if labels.is_empty() && !keeps.repeated {
+                continue;
+            }
+            let is_same = |entrant: &&&Entrant<'_>| {
+                let label = &entrant.label;
+                manifest.contender(reading, label) == before.contender(reading, label)
+                    && keeps.keeps(entrant.contender)
+            };
+            let same = unit.entrants.iter().filter(is_same).map(|entrant| entrant.label.clone()).collect();
             found.put(built, index, unit, batch, labels.len(), same);
         }
         found

@@ -179,6 +179,48 @@ impl<'a> BuiltStudy<'a> {
         self.families[reading][group].inputs().iter().map(hash).collect()
     }
 
+    /// The SHA-256 of every file that the contender called `label` depends on under the reading at this place.
+    ///
+    /// # Errors
+    /// As [`inputs`](Self::inputs).
+    pub fn files_of(&self, reading: usize, label: &str) -> Result<BTreeMap<String, String>, StudyError> {
+        let own = self.entrants[reading].iter().filter(|entrant| *entrant.label == *label);
+        let files = own.flat_map(|entrant| entrant.pipeline.planner.files());
+        let hash = |path: &PathBuf| {
+            let bytes = fs::read(path).map_err(StudyError::io(path, "reading a planner's file"))?;
+            Ok((path.display().to_string(), sha256(&bytes)))
+        };
+        files.map(hash).collect()
+    }
+
+    /// That every program is there whose trials are not `done` and not in `parts`.
+    ///
+    /// # Errors
+    /// [`StudyError::Lacks`] for the first that is not.
+    pub fn check_programs(
+        &self,
+        only: Option<&BTreeSet<usize>>,
+        done: &BTreeMap<usize, Batch>,
+        parts: &BTreeMap<usize, Part>,
+    ) -> Result<(), StudyError> {
+        let units = self.units();
+        let is_left = |(index, _): &(usize, &Unit<'_>)| {
+            !done.contains_key(index) && only.is_none_or(|only| only.contains(index))
+        };
+        for (index, unit) in units.iter().enumerate().filter(is_left) {
+            let stored = |entrant: &Entrant<'_>| {
+                parts.get(&index).is_some_and(|part| part.contenders.contains(&entrant.label))
+            };
+            for entrant in unit.entrants.iter().filter(|entrant| !stored(entrant)) {
+                if let Some(lacks) = entrant.pipeline.planner.lacks() {
+                    let (study, contender) = (self.study.name.clone(), entrant.contender.label.clone());
+                    return Err(StudyError::Lacks { study, contender, lacks });
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// How the study's records are named.
     pub fn names(&self) -> &Names {
         &self.terms.names
@@ -323,8 +365,10 @@ impl<'a> BuiltStudy<'a> {
         let mut readings = Vec::new();
         for query in &unit.queries() {
             let seeds = |entrant: &Entrant<'_>| entrant.contender.repeats.min(timing.seeds.unwrap_or(1));
+            // What is recorded has clocks of its own.
+            let repeated = unit.entrants.iter().copied().filter(|entrant| !entrant.contender.is_recorded());
             let of_entrant = |entrant| (0..seeds(entrant)).map(move |seed| (entrant, seed));
-            let runs = unit.entrants.iter().copied().flat_map(of_entrant);
+            let runs = repeated.flat_map(of_entrant);
             let request = |(entrant, seed): &(&Entrant<'_>, u32)| Request {
                 world: &prepared.world,
                 start: &query.start,

@@ -6,7 +6,7 @@ use super::manifest::{MadeBy, Manifest, Session};
 use super::name::Names;
 use super::reading::ReadingChoice;
 use super::record::{Batch, Row, Status, Timing};
-use super::reuse::{self, Before, Reusable, moved};
+use super::reuse::{self, Before, Keeps, Reusable, moved};
 use super::runner::{BuiltStudy, Progress, SESSION};
 use super::shard::Portion;
 use super::store::{
@@ -36,8 +36,10 @@ pub struct Options<'a> {
     pub portion: Option<&'a Portion>,
     /// Cut down by `--quick`.
     pub quick: bool,
-    /// Run everything again, even what is stored and unchanged.
+    /// Run everything again that can be repeated, even what is stored and unchanged.
     pub fresh: bool,
+    /// Run again what is recorded, even where it is stored and unchanged.
+    pub record: bool,
     /// How many threads; the machine's number if absent.
     pub threads: Option<usize>,
     /// Set to stop after the units at work.
@@ -47,6 +49,19 @@ pub struct Options<'a> {
 }
 
 impl Options<'_> {
+    /// What of the run that `manifest` describes is stored and need not run again.
+    fn reusable(
+        &self,
+        built: &BuiltStudy<'_>,
+        manifest: &Manifest,
+        stored: Option<&(Manifest, Records)>,
+    ) -> Reusable {
+        let keeps = Keeps { repeated: !self.fresh, recorded: !self.record };
+        stored.map_or_else(Reusable::default, |(before, old)| {
+            Reusable::new(built, manifest, before, old, keeps)
+        })
+    }
+
     /// The manifest of the run, without record files yet.
     fn manifest(&self, study: &Study, built: &BuiltStudy<'_>) -> Result<Manifest, StudyError> {
         let (claims, command) = (self.claims.clone(), self.command.clone());
@@ -133,21 +148,21 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
     let (resumed, units) = (done.len(), only.map_or_else(|| built.units().len(), BTreeSet::len));
     let Before { stored, why } = Before::read(folder, &manifest);
-    let is_current = |(before, _): &&(Manifest, Records)| !options.fresh && manifest.is_as(before);
+    let is_current =
+        |(before, _): &&(Manifest, Records)| !options.fresh && !options.record && manifest.is_as(before);
     if let Some((before, records)) = stored.as_ref().filter(is_current) {
         journal.remove()?;
         let counts = Counts { resumed, units, reused: units, kept: 0 };
         return Ok(Report::new(before.clone(), &counts, &records.batch, built.names(), why));
     }
-    let usable = stored.as_ref().filter(|_| !options.fresh);
-    let found =
-        usable.map_or_else(Reusable::default, |(before, old)| Reusable::new(&built, &manifest, before, old));
+    let found = options.reusable(&built, &manifest, stored.as_ref());
     let counts = Counts { resumed, units, reused: found.units.len(), kept: found.kept() };
     if let Some((before, _)) = stored.as_ref().filter(|_| counts.reused + counts.kept > 0) {
         // These trials were seen under the former claims, so that a margin which has moved since stays marked.
         manifest.claims.clone_from(&before.claims);
     }
     done = found.units.into_iter().chain(done).collect();
+    built.check_programs(only, &done, &found.parts)?;
     let (journal, pool) = (Mutex::new(journal), pool(options.threads));
     let batch =
         pool.install(|| built.run(only, done, &found.parts, &journal, options.stop, options.progress))?;

@@ -127,7 +127,7 @@ fn verify_lattice(
     let refusal = refuse_ending(request, plan).or_else(|| match plan.ending {
         Ending::Solved => case.refuse_path(&answer, optimal),
         Ending::NoPath if pipeline.planner.is_complete() => case.refuse_no_path(optimal),
-        Ending::NoPath | Ending::BudgetSpent => None,
+        _ => None,
     });
     if plan.ending == Ending::Solved && refusal.is_none() {
         values.extend(measured(&plan.path));
@@ -137,13 +137,16 @@ fn verify_lattice(
 
 /// The status of a trial that ended as `plan` did and was refused for `refusal`, if it was, and the reason.
 fn outcome(request: &Request<'_>, plan: &Plan, refusal: Option<String>) -> (Status, Option<String>) {
+    let why = |usual: &str| Some(plan.reason.clone().unwrap_or_else(|| usual.to_owned()));
     match (refusal, plan.ending) {
         (Some(refusal), _) => (Status::Rejected, Some(refusal)),
         (None, Ending::Solved) => (Status::Solved, None),
-        (None, Ending::NoPath) => (Status::NoPath, Some("the planner found no path".to_owned())),
+        (None, Ending::NoPath) => (Status::NoPath, why("the planner found no path")),
         (None, Ending::BudgetSpent) => {
-            (Status::BudgetSpent, Some(format!("budget of {} expansions spent", request.expansions)))
+            (Status::BudgetSpent, why(&format!("budget of {} expansions spent", request.expansions)))
         }
+        (None, Ending::TimeSpent) => (Status::TimeSpent, why("the time ran out")),
+        (None, Ending::Crashed) => (Status::Crashed, why("the planner broke down")),
     }
 }
 

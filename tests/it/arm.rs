@@ -138,7 +138,7 @@ fn lattice_astar_costs_what_the_verifier_finds_and_says_no_path_where_there_is_n
                     assert_eq!(refusal, None, "{}", posed.name);
                     shut += 1;
                 }
-                Ending::BudgetSpent => panic!("{}: the budget is ample", posed.name),
+                other => panic!("{}: {other:?}, and the budget is ample", posed.name),
             }
         }
     }

@@ -70,6 +70,7 @@ fn records(home: &Path, threads: usize) -> Vec<(String, Vec<u8>)> {
         claims: String::new(),
         quick: false,
         fresh: true,
+        record: false,
         portion: None,
         threads: Some(threads),
         stop: &AtomicBool::new(false),

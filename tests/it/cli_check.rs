@@ -253,7 +253,7 @@ fn a_check_of_schemas_says_what_it_checked_and_refuses_what_is_left_over() {
     let said = bench.done(&["schema", "--check"]);
     assert_eq!(
         said,
-        "9 schemas in docs/schema are current: audit_tables, cell_groups, cell_scene, crosscheck, paper, plane_map, \
+        "10 schemas in docs/schema are current: audit_tables, cell_groups, cell_scene, crosscheck, paper, plane_map, planner_protocol, \
         polyhedra_scene, robot, study\n"
     );
     bench.write("docs/schema/spec.schema.json", b"{}");

@@ -65,7 +65,7 @@ fn every_key_of_everything_registered_has_a_meaning() {
 fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
     let inputs = Inputs { roots: vec![root().to_owned(), root().join("experiments/zhang")] };
     for item in catalogue::planners().iter().chain(&catalogue::stages()) {
-        let entry = engine::planner::find(item.name).unwrap();
+        let entry = replan::study::planner::find(item.name).unwrap();
         let built = match entry.build {
             engine::planner::Build::Planner(build) => build(&example(item)).map(|_| ()),
             engine::planner::Build::Stage(build) => build(&example(item)).map(|_| ()),

@@ -35,7 +35,7 @@ fn is_solved(planner: &dyn Planner, world: &World, [start, goal]: [u32; 2], what
             case.refuse_path(&answer, optimum)
         }
         Ending::NoPath => case.refuse_no_path(optimum),
-        Ending::BudgetSpent => Some("the budget was spent".to_owned()),
+        other => Some(format!("it ended as {other:?}")),
     };
     assert_eq!(refusal, None, "{what}, {:?}: {start:?} to {goal:?}", lattice.corner_rule());
     plan.ending == Ending::Solved

@@ -20,6 +20,7 @@ mod committed;
 mod conformance;
 mod crosscheck;
 mod documented;
+mod external;
 mod floors;
 mod guards;
 mod hidden_faults;

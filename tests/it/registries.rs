@@ -5,7 +5,7 @@ use audit::checks;
 use engine::planner;
 use replan::analysis::{criterion, metric, rule};
 use replan::render::figure;
-use replan::study::{column, family, prepared, task};
+use replan::study::{column, family, planner as outside, prepared, task};
 use std::collections::BTreeSet;
 
 /// A registry as tests see it: its folder, the names it lists, and the names that its `find` gives back.
@@ -28,6 +28,7 @@ fn registries() -> Vec<Registry> {
     vec![
         registry!("planner", planner),
         registry!("study/family", family),
+        registry!("study/planner", outside),
         registry!("study/prepared", prepared),
         registry!("study/task", task),
         registry!("analysis/criterion", criterion),

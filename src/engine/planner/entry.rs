@@ -6,6 +6,7 @@ use base::grid::CornerRule;
 use base::settings::{Accepted, Settings, SettingsError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// One query, posed to a planner.
 #[derive(Debug, Clone, Copy)]
@@ -65,8 +66,12 @@ pub enum Ending {
     Solved,
     /// It was shown that there is none, or the planner has nothing left to try.
     NoPath,
-    /// The budget of expansions ran out.
+    /// The budget of expansions, or another limit of the planner's own, ran out.
     BudgetSpent,
+    /// The time ran out, for a planner that is given one.
+    TimeSpent,
+    /// The planner broke down, which only one from outside can do and go on to tell.
+    Crashed,
 }
 
 /// What a planner returns.
@@ -82,6 +87,8 @@ pub struct Plan {
     pub counts: Counts,
     /// What figures need, if the request asked for it.
     pub exhibits: Vec<Exhibit>,
+    /// Why it ended so, where the ending alone does not say it.
+    pub reason: Option<String>,
 }
 
 /// Why a query cannot be posed in this world (a start in collision, say).
@@ -117,6 +124,16 @@ pub trait Planner: Send + Sync {
     /// The steps, in columns and rows, that its graph may have, if it moves over a lattice by steps of its own; the
     /// verifier holds its path to them.
     fn steps(&self) -> Option<&[[i32; 2]]> {
+        None
+    }
+
+    /// The files that its trials depend on besides its settings.
+    fn files(&self) -> &[PathBuf] {
+        &[]
+    }
+
+    /// What must be installed before it can plan here; `None` if nothing must.
+    fn lacks(&self) -> Option<String> {
         None
     }
 

@@ -283,6 +283,7 @@ fn joint_plan(
         cost: (ending == Ending::Solved).then(|| path_length(&tips)),
         counts,
         exhibits,
+        reason: None,
     }
 }
 

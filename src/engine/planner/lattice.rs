@@ -134,7 +134,7 @@ pub(super) fn plan<C: Cost>(
         Outcome::NoPath => (Ending::NoPath, Vec::new(), None),
         Outcome::BudgetSpent => (Ending::BudgetSpent, Vec::new(), None),
     };
-    Plan { ending, path, cost, counts, exhibits }
+    Plan { ending, path, cost, counts, exhibits, reason: None }
 }
 
 /// The same plan, with how many different nodes were opened: those of [`COLUMNS_DISTINCT`].

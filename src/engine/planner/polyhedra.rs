@@ -30,10 +30,10 @@ pub(super) fn polyhedra(world: &World) -> &PolyhedraWorld {
 pub(super) fn plan(ending: Ending, points: &[Vec3], counts: Counts) -> Plan {
     let path: Vec<Vec<f64>> = match ending {
         Ending::Solved => points.iter().map(|point| point.as_slice().to_vec()).collect(),
-        Ending::NoPath | Ending::BudgetSpent => Vec::new(),
+        _ => Vec::new(),
     };
     let cost = (ending == Ending::Solved).then(|| path_length(&path));
-    Plan { ending, path, cost, counts, exhibits: Vec::new() }
+    Plan { ending, path, cost, counts, exhibits: Vec::new(), reason: None }
 }
 
 /// The points of a plan's path.

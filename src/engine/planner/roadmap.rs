@@ -35,12 +35,13 @@ pub(super) fn solved(map: &Roadmap, nodes: &[u32], counts: Counts) -> Plan {
         cost: map.local().is_straight().then_some(length_mm),
         counts,
         exhibits: Vec::new(),
+        reason: None,
     }
 }
 
 /// A plan without a path.
 pub(super) fn unsolved(ending: Ending, counts: Counts) -> Plan {
-    Plan { ending, path: Vec::new(), cost: None, counts, exhibits: Vec::new() }
+    Plan { ending, path: Vec::new(), cost: None, counts, exhibits: Vec::new(), reason: None }
 }
 
 /// What an edge costs.

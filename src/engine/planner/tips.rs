@@ -265,8 +265,14 @@ impl<'a> Posed<'a> {
             ("membership_comparisons", Value::Count(membership_comparisons)),
             ("list_operations", Value::Count(minimum_comparisons + membership_comparisons)),
         ]);
-        let mut plan =
-            Plan { ending: Ending::NoPath, path: Vec::new(), cost: None, counts, exhibits: Vec::new() };
+        let mut plan = Plan {
+            ending: Ending::NoPath,
+            path: Vec::new(),
+            cost: None,
+            counts,
+            exhibits: Vec::new(),
+            reason: None,
+        };
         match &report.outcome {
             Outcome::NoPath => {}
             Outcome::BudgetSpent => plan.ending = Ending::BudgetSpent,

@@ -22,6 +22,8 @@ pub use support::{Support, SupportEntry};
 /// The kinds of world there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WorldKind {
+    /// Any: what planners from outside need.
+    Any,
     /// A planar arm whose tip moves over a lattice, among obstacles.
     Arm,
     /// A point and the arm that carries it, among convex polyhedra.
@@ -38,6 +40,7 @@ impl WorldKind {
     /// Its name in messages and listings.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Any => "any",
             Self::Arm => "arm",
             Self::ArmAmongPolyhedra => "arm among polyhedra",
             Self::Lattice => "lattice",
@@ -48,7 +51,7 @@ impl WorldKind {
 
     /// Whether what needs a world of the kind `needed` can plan in one of this kind.
     pub fn serves(self, needed: Self) -> bool {
-        self == needed || (self, needed) == (Self::ArmAmongPolyhedra, Self::Polyhedra)
+        needed == Self::Any || self == needed || (self, needed) == (Self::ArmAmongPolyhedra, Self::Polyhedra)
     }
 }
 

@@ -4,12 +4,11 @@ use super::super::error::StudyError;
 use super::super::family::Family;
 use super::super::group::Families;
 use super::super::inputs::Inputs;
-use super::super::name;
 use super::super::spec::StudySpec;
+use super::super::{name, planner};
 use super::sizes::SWEPT;
 use super::{Contender, Group, ReadingChoice, Study, SweepPoint, labels_of};
 use base::settings::{Document, Faults, SettingsError, did_you_mean, none_called};
-use engine::planner;
 use engine::space::WorldKind;
 use engine::space::roadmap::Extent;
 use std::collections::{BTreeMap, BTreeSet};
@@ -78,7 +77,7 @@ impl Study {
             let stages =
                 reading.options.iter().flat_map(|(o, change)| change.stage.keys().map(move |s| (o, s)));
             for (option, stage) in stages.filter(|(_, stage)| planner::find(stage).is_none()) {
-                let known = planner::REGISTRY.iter().map(|entry| entry.name);
+                let known = planner::all().map(|entry| entry.name);
                 let message = none_called("planner or stage", stage, known);
                 let place = format!("reading.{index}.option.{option}.stage.{stage}");
                 faults.add(self.document.error_at(&place, message));

@@ -5,11 +5,11 @@ use super::super::error::StudyError;
 use super::super::inputs::Inputs;
 use super::super::name::slug;
 use super::super::spec::{ContenderSpec, ProblemsSpec, ReadingSpec, StudySpec, SweepSpec};
-use super::super::{family, task};
+use super::super::{family, planner, task};
 use super::check::check_selections;
 use super::{Contender, Group, Reading, Settings, Study, Sweep, columns_of, each, labels_of};
 use base::settings::{Document, Faults, Place, SettingsError, Spanned, did_you_mean, none_called};
-use engine::planner::{self, Build};
+use engine::planner::{Build, Entry};
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
@@ -250,8 +250,8 @@ fn stage(
     first: bool,
 ) -> Result<StageUse, SettingsError> {
     let what = if first { "planner" } else { "stage" };
-    let fits = |entry: &planner::Entry| matches!(entry.build, Build::Planner(_)) == first;
-    let known: Vec<&str> = planner::REGISTRY.iter().filter(|e| fits(e)).map(|e| e.name).collect();
+    let fits = |entry: &Entry| matches!(entry.build, Build::Planner(_)) == first;
+    let known: Vec<&str> = planner::all().filter(|e| fits(e)).map(|e| e.name).collect();
     let entry = planner::find(name.get_ref()).filter(|entry| fits(entry)).ok_or_else(|| {
         let message = format!(
             "contender `{label}` asks for {what} `{}`, which does not exist{}; the {what}s are {}",

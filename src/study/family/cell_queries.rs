@@ -178,7 +178,8 @@ impl CellQueries {
         if !self.obstacles {
             return Ok(scene.cleared());
         }
-        let raised = |scene: Scene, (name, height_mm): (&String, &f64)| scene.with_height(name, height_mm * 1e-3);
+        let raised =
+            |scene: Scene, (name, height_mm): (&String, &f64)| scene.with_height(name, height_mm * 1e-3);
         let scene = self.heights_mm.iter().try_fold(scene, raised);
         scene.map_err(|message| settings.error_at("heights_mm", message))
     }

@@ -107,7 +107,12 @@ fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
 
 impl SceneSettings {
     /// The world of `scene`; with an arm, if `robot` is one.
-    fn world(&self, settings: &Settings, scene: Scene, robot: Option<&Robot>) -> Result<PolyhedraWorld, SettingsError> {
+    fn world(
+        &self,
+        settings: &Settings,
+        scene: Scene,
+        robot: Option<&Robot>,
+    ) -> Result<PolyhedraWorld, SettingsError> {
         let domain = scene.domain;
         let world = |bodies| {
             PolyhedraWorld::new(bodies, domain, self.step_cm, self.growth_cm).map_err(|error| {
@@ -123,7 +128,8 @@ impl SceneSettings {
         let (bodies, support) = scene
             .with_arm()
             .map_err(|message| settings.error_at("scene", format!("{}: {message}", self.scene)))?;
-        let arm = CarriedArm::new(robot, body, &support).map_err(|message| settings.error_at("body", message))?;
+        let arm =
+            CarriedArm::new(robot, body, &support).map_err(|message| settings.error_at("body", message))?;
         Ok(world(bodies)?.with_arm(arm))
     }
 

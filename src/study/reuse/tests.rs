@@ -82,6 +82,7 @@ impl House {
             claims: String::new(),
             quick: false,
             fresh: false,
+            record: false,
             portion: None,
             threads: Some(1),
             stop: &AtomicBool::new(false),

@@ -62,6 +62,7 @@ fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
         claims: String::new(),
         quick: false,
         fresh: false,
+        record: false,
         portion: None,
         threads: Some(threads),
         stop: &AtomicBool::new(false),

@@ -49,7 +49,7 @@ pub(super) fn verify(world: &ArmWorld, request: &Request<'_>, plan: &Plan, pipel
             Err(refusal) => Some(refusal),
         },
         (Ending::NoPath, Some(steps)) if pipeline.planner.is_complete() => case.refuse_no_path(steps),
-        (Ending::NoPath | Ending::BudgetSpent, _) => None,
+        _ => None,
     };
     Verified { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
 }

@@ -68,7 +68,7 @@ pub fn verify(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth:
             let case = Case { solids: &truth.solids, growth: truth.growth, domain, start, goal };
             case.refuse_path(&plan.path, plan.cost)
         }
-        (Ending::NoPath | Ending::BudgetSpent, _) => None,
+        _ => None,
     });
     let straight = (Vec3::from(start) - Vec3::from(goal)).norm();
     let mut values = Counts::from([

@@ -57,10 +57,6 @@ impl Case {
     pub fn verify(&self, request: &Request<'_>, plan: &Plan) -> Verified {
         let (mut values, mut exhibits) = (Counts::new(), Vec::new());
         let outcome = match plan.ending {
-            Ending::NoPath => (Status::NoPath, Some("the planner found no path".to_owned())),
-            Ending::BudgetSpent => {
-                (Status::BudgetSpent, Some(format!("budget of {} expansions spent", request.expansions)))
-            }
             Ending::Solved => {
                 let measured = match self {
                     Self::Arm(case) => measure_arm(case, request, plan, &mut exhibits),
@@ -77,6 +73,7 @@ impl Case {
                     Err(refusal) => (Status::Rejected, Some(refusal)),
                 }
             }
+            _ => super::outcome(request, plan, None),
         };
         if !request.trace {
             exhibits.clear();

@@ -15,7 +15,14 @@ fn smoothed(settings: &str) -> (World, Plan) {
             .to_vec();
     let (start, goal) = (path[0].clone(), path[3].clone());
     let request = Request { world: &world, start: &start, goal: &goal, expansions: 1, seed: 0, trace: false };
-    let plan = Plan { ending: Ending::Solved, path, cost: None, counts: Counts::new(), exhibits: Vec::new() };
+    let plan = Plan {
+        ending: Ending::Solved,
+        path,
+        cost: None,
+        counts: Counts::new(),
+        exhibits: Vec::new(),
+        reason: None,
+    };
     let Build::Stage(build) = ENTRY.build else { panic!("it is a stage") };
     let stage = build(&Settings::composed("test", toml::from_str(settings).unwrap())).unwrap();
     let plan = stage.refine(&request, plan);

@@ -37,7 +37,14 @@ fn world(boxes: &[([f64; 3], [f64; 3])]) -> World {
 fn along(settings: &Posture, world: &World, start: [f64; 3], goal: [f64; 3]) -> Plan {
     let request = Request { world, start: &start, goal: &goal, expansions: 1, seed: 0, trace: false };
     let path = vec![start.to_vec(), goal.to_vec()];
-    let plan = Plan { ending: Ending::Solved, path, cost: None, counts: Counts::new(), exhibits: Vec::new() };
+    let plan = Plan {
+        ending: Ending::Solved,
+        path,
+        cost: None,
+        counts: Counts::new(),
+        exhibits: Vec::new(),
+        reason: None,
+    };
     settings.refine(&request, plan)
 }
 

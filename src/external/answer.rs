@@ -1,0 +1,242 @@
+//! Answers to a planner's questions, by the collision checks that our own planners use.
+//!
+//! **What `motion` accepts, the verifier accepts**: exactly, but in an arm's cell for contacts thinner than the engine's own checks
+//! can see (`space::cell::line` says how thin). A motion is answered as a leg of a path by itself:
+//! it ends in the configuration asked for, whatever a study's paths may end in.
+
+use super::clear;
+use super::describe::{RASTER_MM, pose};
+use super::message::{Answer, Ask};
+use super::world::Pose;
+use base::grid::CornerRule;
+use engine::geometry::{Frame, Segment, Vec2, Vec3};
+use engine::kinematics::{Arm, Joints};
+use engine::space::cell::{EdgeEnd, LineRules, Lines, Path, Scratch};
+use engine::space::roadmap::{Local, joints};
+use engine::space::{LatticeWorld, World};
+use nalgebra::Matrix3;
+
+const CM_PER_M: f64 = 100.0;
+
+/// A share of a motion that is known no better than this is not looked at more closely.
+const FRACTION: f64 = 1e-3;
+
+/// How many questions were answered.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Asked {
+    /// Batches.
+    pub batches: u64,
+    /// Configurations.
+    pub valid: u64,
+    /// Motions.
+    pub motion: u64,
+    /// Postures.
+    pub fk: u64,
+    /// Poses.
+    pub ik: u64,
+}
+
+/// A world that is asked about.
+pub struct Space<'a> {
+    world: &'a World,
+    any_angle: bool,
+    /// The local paths of a cell with the end that was asked for.
+    lines: Option<Lines>,
+    scratch: Scratch,
+    asked: Asked,
+}
+
+impl<'a> Space<'a> {
+    /// `world`; on a grid, whether steps may go at any angle is the caller's word.
+    pub fn new(world: &'a World, any_angle: bool) -> Self {
+        let lines = world.as_roadmap().and_then(|roadmap| match roadmap.local() {
+            Local::Arm(lines) => {
+                let rules = LineRules { end: EdgeEnd::Own, ..*lines.rules() };
+                Some(Lines::new(lines.cell().clone(), rules))
+            }
+            Local::Joints(_) | Local::Plane(_) => None,
+        });
+        Self { world, any_angle, lines, scratch: Scratch::default(), asked: Asked::default() }
+    }
+
+    /// How many questions were answered.
+    pub fn asked(&self) -> Asked {
+        self.asked
+    }
+
+    /// How many numbers make a configuration.
+    pub fn width(&self) -> usize {
+        match self.world {
+            World::Lattice(_) | World::Arm(_) => 2,
+            World::Polyhedra(_) => 3,
+            World::Roadmap(roadmap) => roadmap.local().width(),
+        }
+    }
+
+    /// The answers to a batch.
+    ///
+    /// # Errors
+    /// A sentence about the first question that cannot be answered.
+    pub fn answer(&mut self, ask: &Ask) -> Result<Answer, String> {
+        self.asked.batches += 1;
+        self.asked.valid += ask.valid.len() as u64;
+        self.asked.motion += ask.motion.len() as u64;
+        self.asked.fk += ask.fk.len() as u64;
+        self.asked.ik += ask.ik.len() as u64;
+        let valid = ask.valid.iter().map(|at| self.is_valid(at)).collect::<Result<_, _>>()?;
+        let motion: Vec<bool> =
+            ask.motion.iter().map(|[from, to]| self.is_free(from, to)).collect::<Result<_, _>>()?;
+        let ends = ask.motion.iter().zip(&motion).filter(|_| ask.fractions);
+        let free_until =
+            ends.map(|([from, to], free)| if *free { 1.0 } else { self.free_until(from, to) }).collect();
+        let fk = ask.fk.iter().map(|q| self.forward(q)).collect::<Result<_, _>>()?;
+        let ik = ask.ik.iter().map(|pose| self.inverse(pose)).collect::<Result<_, _>>()?;
+        Ok(Answer { id: ask.id, valid, motion, free_until, fk, ik })
+    }
+
+    /// Whether the configuration is free.
+    ///
+    /// # Errors
+    /// It has not as many numbers as configurations of this world.
+    pub fn is_valid(&self, at: &[f64]) -> Result<bool, String> {
+        self.check(at)?;
+        Ok(match self.world {
+            World::Lattice(lattice) => lattice.free_cell("", at).is_ok(),
+            World::Arm(arm) => arm.free_cell("", at).is_ok(),
+            World::Polyhedra(polyhedra) => polyhedra.free_point("", at).is_ok(),
+            World::Roadmap(roadmap) => match roadmap.local() {
+                Local::Arm(lines) => joints(at).is_some_and(|q| lines.cell().is_free(&q)),
+                Local::Joints(_) => roadmap.local().refusal(at).is_none(),
+                Local::Plane(_) => {
+                    at.iter().all(|x| (x / RASTER_MM).fract() == 0.0) && roadmap.local().refusal(at).is_none()
+                }
+            },
+        })
+    }
+
+    /// Whether the motion between two configurations is free, both ends included.
+    ///
+    /// # Errors
+    /// As [`is_valid`](Self::is_valid).
+    pub fn is_free(&mut self, from: &[f64], to: &[f64]) -> Result<bool, String> {
+        Ok(self.is_valid(from)? && self.is_valid(to)? && self.joins(from, to))
+    }
+
+    fn check(&self, at: &[f64]) -> Result<(), String> {
+        let (found, width) = (at.len(), self.width());
+        let wrong = || format!("a question has a configuration of {found} numbers; {width} are accepted");
+        if found == width { Ok(()) } else { Err(wrong()) }
+    }
+
+    /// Whether the motion between two free configurations is.
+    fn joins(&mut self, from: &[f64], to: &[f64]) -> bool {
+        match self.world {
+            World::Lattice(lattice) => joins_cells(lattice, from, to, self.any_angle),
+            World::Arm(arm) => match (arm.free_cell("", from), arm.free_cell("", to)) {
+                (Ok(from), Ok(to)) => from != to && arm.may_hop(from, to),
+                _ => false,
+            },
+            World::Polyhedra(polyhedra) => {
+                let [a, b] = [from, to].map(|p| Vec3::new(p[0], p[1], p[2]));
+                polyhedra.is_clear(&Segment::new(a, b))
+            }
+            World::Roadmap(roadmap) => match (roadmap.local(), &self.lines, joints(from), joints(to)) {
+                (_, Some(lines), Some(from), Some(to)) => {
+                    lines.join(&lines.pose(&from), &lines.pose(&to), &mut self.scratch).is_ok()
+                }
+                (Local::Joints(space), ..) => space.joins(from, to, self.scratch.count()),
+                (Local::Plane(map), ..) => map.sees([from[0], from[1]], [to[0], to[1]]),
+                (Local::Arm(_), ..) => {
+                    unreachable!("its local paths and the width of its configurations are known")
+                }
+            },
+        }
+    }
+
+    /// A share up to which the motion is free by itself, found by halving; 0 where states between two are none (on lattices)
+    /// or are not known beforehand (where the tool goes straight).
+    fn free_until(&mut self, from: &[f64], to: &[f64]) -> f64 {
+        let is_lattice = matches!(self.world, World::Lattice(_) | World::Arm(_));
+        let is_tool = self.lines.as_ref().is_some_and(|lines| lines.rules().path == Path::Tool);
+        if is_lattice || is_tool || self.is_valid(from) != Ok(true) {
+            return 0.0;
+        }
+        let is_plane =
+            matches!(self.world, World::Roadmap(roadmap) if matches!(roadmap.local(), Local::Plane(_)));
+        let (mut free, mut not) = (0.0, 1.0);
+        while not - free > FRACTION {
+            let middle = f64::midpoint(free, not);
+            let mut at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + (b - a) * middle).collect();
+            if is_plane {
+                for x in &mut at {
+                    *x = (*x / RASTER_MM).round() * RASTER_MM;
+                }
+            }
+            if self.is_free(from, &at) == Ok(true) { free = middle } else { not = middle }
+        }
+        free
+    }
+
+    /// Forward and inverse kinematics, and how many units of the world make a metre.
+    fn arm(&self) -> Option<(&Arm, f64)> {
+        match (self.world, &self.lines) {
+            (_, Some(lines)) => Some((lines.cell().robot().arm(), 1.0)),
+            (World::Polyhedra(polyhedra), _) => polyhedra.arm().map(|arm| (arm.arm(), CM_PER_M)),
+            _ => None,
+        }
+    }
+
+    /// Where the tip is at joint angles `q`.
+    fn forward(&self, q: &[f64]) -> Result<Pose, String> {
+        if let (World::Arm(world), [q1, q2]) = (self.world, q) {
+            let tip = world.rules().arm.forward([*q1, *q2]);
+            return Ok(Pose { position: vec![tip.x, tip.y], rotation: None });
+        }
+        let (arm, scale) = self.arm().ok_or("fk is asked for, and this world has no arm")?;
+        let q = joints(q).ok_or_else(|| format!("fk is asked for {} angles; 6 are accepted", q.len()))?;
+        Ok(pose(&arm.chain().forward(&q), scale))
+    }
+
+    /// Every posture with the tip in `pose`.
+    fn inverse(&self, pose: &Pose) -> Result<Vec<Vec<f64>>, String> {
+        if let (World::Arm(world), [x, y]) = (self.world, pose.position.as_slice()) {
+            let found = world.rules().arm.inverse(&Vec2::new(*x, *y));
+            return Ok(found
+                .map_or_else(|_| Vec::new(), |both| vec![both.negative.to_vec(), both.positive.to_vec()]));
+        }
+        let (arm, scale) = self.arm().ok_or("ik is asked for, and this world has no arm")?;
+        let ([x, y, z], Some(rows)) = (pose.position.as_slice(), pose.rotation) else {
+            return Err("ik is asked for a pose without three coordinates and a rotation".to_owned());
+        };
+        let rotation = Matrix3::from_fn(|i, j| rows[i][j]);
+        let target = Frame { origin: Vec3::new(*x, *y, *z) / scale, rotation };
+        let home: Joints = [0.0; 6];
+        Ok(arm.inverse(&target, &home).iter().map(|(_, q)| q.to_vec()).collect())
+    }
+
+    /// The cost of `path` in the world's unit; none where a path's length is not that of a polyline.
+    pub fn cost(&self, path: &[Vec<f64>]) -> Option<f64> {
+        let places: Vec<[f64; 3]> = match self.world {
+            World::Roadmap(roadmap) if !roadmap.local().is_straight() => return None,
+            World::Roadmap(roadmap) => path.iter().map(|at| roadmap.local().place_mm(at)).collect(),
+            _ => path.iter().map(|at| [at[0], at[1], at.get(2).copied().unwrap_or(0.0)]).collect(),
+        };
+        let gap = |two: &[[f64; 3]]| (Vec3::from(two[0]) - Vec3::from(two[1])).norm();
+        Some(places.windows(2).map(gap).sum())
+    }
+}
+
+fn joins_cells(lattice: &LatticeWorld, from: &[f64], to: &[f64], any_angle: bool) -> bool {
+    let (grid, rule) = (lattice.grid(), lattice.corner_rule());
+    let (Ok(from), Ok(to)) = (lattice.free_cell("", from), lattice.free_cell("", to)) else { return false };
+    let [[x, y], [to_x, to_y]] = [from, to].map(|cell| grid.xy(cell));
+    let [dx, dy] = [to_x - x, to_y - y];
+    if [dx, dy] == [0, 0] {
+        return false;
+    }
+    if any_angle {
+        return clear::is_clear(grid, rule, from, to);
+    }
+    let permits = |rule: CornerRule| rule.permits([grid.is_free_xy(to_x, y), grid.is_free_xy(x, to_y)]);
+    dx.abs() <= 1 && dy.abs() <= 1 && (dx == 0 || dy == 0 || permits(rule))
+}

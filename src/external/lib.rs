@@ -1,0 +1,20 @@
+//! Planners from outside: programs in any language that speak lines of JSON on standard input and output.
+//!
+//! [`message`] is the protocol and [`world`] the worlds as data, both documented in `docs/PLANNER_PROTOCOL.md`. [`describe`] makes
+//! data of the engine's worlds, [`Space`] answers questions about them, [`Process`] is a running program under limits, and
+//! [`solve`] is one conversation: a query, questions, a result. Nothing here knows studies or records; the clock is the
+//! caller's.
+
+mod answer;
+mod clear;
+mod describe;
+mod end;
+pub mod message;
+mod process;
+mod talk;
+pub mod world;
+
+pub use answer::{Asked, Space};
+pub use describe::describe;
+pub use process::{Clock, Process, Program, Start};
+pub use talk::{End, Query, Talk, greet, solve};

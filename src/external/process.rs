@@ -1,0 +1,237 @@
+//! A running planner: its program, its pipes, and the limits that hold for it.
+
+use super::end::{MARK, end_all};
+use super::message::{FromPlanner, Hello, Limits, ToPlanner};
+use rustix::process::{Pid, Resource, Rlimit, prlimit};
+use std::collections::VecDeque;
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
+use std::os::unix::process::CommandExt as _;
+use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+/// Reads a clock: nanoseconds since some moment.
+pub type Clock = fn() -> u64;
+
+/// How much of a planner's log is kept.
+const LOG_BYTES: usize = 2000;
+/// Lines that wait to be read; a planner that writes more waits.
+const WAITING_LINES: usize = 64;
+/// How often it is looked whether a planner that says nothing has ended.
+const LOOK: Duration = Duration::from_millis(50);
+/// How long a planner may take to end after `quit`.
+const QUIT: Duration = Duration::from_millis(500);
+
+/// A program that plans.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Program {
+    /// The program and its arguments.
+    pub command: Vec<String>,
+    /// Limits on each query.
+    pub limits: Limits,
+    /// How long it may take to say `hello`, in seconds.
+    pub hello_s: f64,
+}
+
+/// Why a program did not start.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Start {
+    /// There is no such program.
+    #[error("there is no program `{0}`")]
+    Missing(String),
+    /// The system refused.
+    #[error("`{0}` does not start: {1}")]
+    Refused(String, String),
+}
+
+/// What came from a planner.
+#[derive(Debug)]
+pub(super) enum Said {
+    /// A line.
+    Line(String),
+    /// More than it may write for one query.
+    Flood,
+    /// Its output ended.
+    End,
+}
+
+/// A planner that runs; ended, with all that it started, when it is dropped.
+pub struct Process {
+    child: Child,
+    mark: String,
+    to: Option<Sender<String>>,
+    from: Receiver<Said>,
+    written: Arc<AtomicU64>,
+    log: Arc<Mutex<VecDeque<u8>>>,
+    /// What it said of itself, once it has.
+    pub hello: Option<Hello>,
+}
+
+impl Process {
+    /// Starts `program` under its limits, in a process group of its own.
+    ///
+    /// # Errors
+    /// [`Start::Missing`] if there is no such program, [`Start::Refused`] if it cannot be run.
+    pub fn start(program: &Program) -> Result<Self, Start> {
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        let mark = format!("{}.{}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed));
+        let Some((name, arguments)) = program.command.split_first() else {
+            return Err(Start::Missing(String::new()));
+        };
+        let mut command = Command::new(name);
+        command.args(arguments).env(MARK, &mark).process_group(0);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().map_err(|error| match error.kind() {
+            ErrorKind::NotFound => Start::Missing(name.clone()),
+            _ => Start::Refused(name.clone(), error.to_string()),
+        })?;
+        let bytes = Some(program.limits.memory_mb << 20);
+        let limit = Rlimit { current: bytes, maximum: bytes };
+        // A process that has ended already is noticed when it says nothing.
+        let _ = prlimit(Pid::from_raw(child.id() as i32), Resource::As, limit);
+        let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let (to, lines) = channel();
+        let (said, from) = sync_channel(WAITING_LINES);
+        let (written, log) = (Arc::new(AtomicU64::new(0)), Arc::default());
+        let (count, tail, most) = (written.clone(), Arc::clone(&log), program.limits.output_mb << 20);
+        let piped = "its pipes were asked for";
+        thread::spawn(move || write_lines(stdin.expect(piped), &lines));
+        thread::spawn(move || read_lines(stdout.expect(piped), &said, &count, most));
+        thread::spawn(move || read_log(stderr.expect(piped), &tail));
+        Ok(Self { child, mark, to: Some(to), from, written, log, hello: None })
+    }
+
+    /// Hands a message over; a planner that does not read it keeps nobody waiting.
+    pub(super) fn send(&self, message: &ToPlanner) {
+        let line = serde_json::to_string(message).expect("messages are numbers, words and lists of them");
+        if let Some(to) = &self.to {
+            // A planner that is gone is noticed by the end of its output.
+            let _ = to.send(line);
+        }
+    }
+
+    /// From now on its output counts from 0.
+    pub(super) fn begin(&self) {
+        self.written.store(0, Ordering::Relaxed);
+    }
+
+    /// The next message; none if there is none in time.
+    ///
+    /// # Errors
+    /// A sentence: it wrote too much, ended, or wrote something that is no message.
+    pub(super) fn next(&mut self, within: Duration) -> Result<Option<FromPlanner>, String> {
+        let line = match self.said(within) {
+            Ok(Said::Line(line)) => line,
+            Ok(Said::Flood) => return Err("the planner wrote more than its limit of output".to_owned()),
+            Ok(Said::End) | Err(RecvTimeoutError::Disconnected) => {
+                return Err("the planner ended before its result".to_owned());
+            }
+            Err(RecvTimeoutError::Timeout) => return Ok(None),
+        };
+        serde_json::from_str(&line).map(Some).map_err(|error| {
+            let start: String = line.chars().take(80).collect();
+            format!("the planner wrote `{start}`, which is no message: {error}")
+        })
+    }
+
+    /// What comes next from the planner. One that has ended may have left others who hold its output open.
+    fn said(&mut self, within: Duration) -> Result<Said, RecvTimeoutError> {
+        let mut left = within;
+        loop {
+            let slice = left.min(LOOK);
+            let has_ended = matches!(self.child.try_wait(), Ok(Some(_)));
+            match self.from.recv_timeout(slice) {
+                Err(RecvTimeoutError::Timeout) if has_ended => return Ok(Said::End),
+                Err(RecvTimeoutError::Timeout) if left > slice => left -= slice,
+                other => return other,
+            }
+        }
+    }
+
+    /// The end of its log.
+    pub fn log(&self) -> String {
+        let log = self.log.lock().expect("no thread panics while it keeps the log");
+        let (a, b) = log.as_slices();
+        String::from_utf8_lossy(&[a, b].concat()).trim().to_owned()
+    }
+
+    /// How it ended, once it has, after a moment in which its log arrives.
+    pub(super) fn ended(&mut self) -> Option<String> {
+        for _ in 0..20 {
+            if let Ok(Some(status)) = self.child.try_wait() {
+                thread::sleep(Duration::from_millis(10));
+                return Some(status.to_string());
+            }
+            thread::sleep(Duration::from_millis(5));
+        }
+        None
+    }
+
+    /// Ends it as a planner expects: `quit`, a moment, then SIGTERM and SIGKILL to all that is left. Whether it ended by itself.
+    pub fn quit(mut self) -> bool {
+        self.send(&ToPlanner::Quit);
+        self.to = None;
+        let step = Duration::from_millis(5);
+        for _ in 0..QUIT.as_millis() / step.as_millis() {
+            if matches!(self.child.try_wait(), Ok(Some(_)) | Err(_)) {
+                return true;
+            }
+            thread::sleep(step);
+        }
+        false
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        end_all(&mut self.child, &self.mark);
+    }
+}
+
+fn write_lines(mut stdin: ChildStdin, lines: &Receiver<String>) {
+    for line in lines {
+        if stdin.write_all(line.as_bytes()).and_then(|()| stdin.write_all(b"\n")).is_err() {
+            return;
+        }
+    }
+}
+
+fn read_lines(stdout: ChildStdout, said: &SyncSender<Said>, written: &AtomicU64, most: u64) {
+    let mut reader = BufReader::new(stdout);
+    let mut line = Vec::new();
+    loop {
+        let chunk = match reader.fill_buf() {
+            Ok(chunk) if !chunk.is_empty() => chunk,
+            _ => break,
+        };
+        let end = chunk.iter().position(|byte| *byte == b'\n');
+        let used = end.map_or(chunk.len(), |end| end + 1);
+        line.extend_from_slice(&chunk[..used]);
+        reader.consume(used);
+        if written.fetch_add(used as u64, Ordering::Relaxed) + used as u64 > most {
+            let _ = said.send(Said::Flood);
+            return;
+        }
+        if end.is_some() {
+            let text = String::from_utf8_lossy(&line).trim().to_owned();
+            line.clear();
+            if !text.is_empty() && said.send(Said::Line(text)).is_err() {
+                return;
+            }
+        }
+    }
+    let _ = said.send(Said::End);
+}
+
+fn read_log(mut stderr: ChildStderr, log: &Mutex<VecDeque<u8>>) {
+    let mut chunk = [0; 4096];
+    while let Ok(count @ 1..) = stderr.read(&mut chunk) {
+        let mut log = log.lock().expect("no thread panics while it keeps the log");
+        log.extend(&chunk[..count]);
+        let over = log.len().saturating_sub(LOG_BYTES);
+        log.drain(..over);
+    }
+}

@@ -1,0 +1,242 @@
+//! One conversation: a query is handed over, questions are answered, a result comes back or does not.
+
+use super::answer::{Asked, Space};
+use super::message::{Found, FromPlanner, Hello, Limits, PROTOCOL, Solve, Status, ToPlanner};
+use super::process::{Clock, Process, Program};
+use super::world::World;
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// A result is waited for this much longer than a planner is given, so that one that looks at the clock itself is not cut off
+/// while it writes.
+const GRACE_S: f64 = 0.25;
+
+/// How a conversation ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum End {
+    /// With a path.
+    Solved,
+    /// There is none, the planner says.
+    NoPath,
+    /// A limit of the planner's own was reached.
+    BudgetSpent,
+    /// Its time ran out.
+    TimeSpent,
+    /// It did what no planner should: why, and the end of its log.
+    Broken(String),
+}
+
+/// What was said.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Talk {
+    /// How it ended.
+    pub end: End,
+    /// The path; the last incumbent where the time ran out. Empty unless solved.
+    pub path: Vec<Vec<f64>>,
+    /// The cost that the planner claims.
+    pub cost: Option<f64>,
+    /// What it counted.
+    pub counters: BTreeMap<String, f64>,
+    /// Incumbents that its own questions would have been answered for: seconds since the query, and the path.
+    pub incumbents: Vec<(f64, Vec<Vec<f64>>)>,
+    /// Questions.
+    pub asked: Asked,
+    /// From the query to its end by replan's clock.
+    pub wall_ns: u64,
+    /// Of it, what replan took to answer questions.
+    pub answering_ns: u64,
+    /// Whether the planner was cut off while it had an incumbent.
+    pub is_cut_off: bool,
+}
+
+impl Talk {
+    fn new(end: End) -> Self {
+        Self {
+            end,
+            path: Vec::new(),
+            cost: None,
+            counters: BTreeMap::new(),
+            incumbents: Vec::new(),
+            asked: Asked::default(),
+            wall_ns: 0,
+            answering_ns: 0,
+            is_cut_off: false,
+        }
+    }
+
+    /// A conversation that did not come about.
+    pub fn broken(why: String) -> Self {
+        Self::new(End::Broken(why))
+    }
+}
+
+/// What is asked of a planner.
+#[derive(Debug)]
+pub struct Query<'a> {
+    /// The number of the query.
+    pub id: u64,
+    /// The seed.
+    pub seed: u64,
+    /// The world as data.
+    pub world: World,
+    /// The start configuration.
+    pub start: &'a [f64],
+    /// The goal configuration.
+    pub goal: &'a [f64],
+}
+
+/// Waits for a planner's first line.
+///
+/// # Errors
+/// A sentence: it said nothing in time, or something else.
+pub fn greet(process: &mut Process, program: &Program) -> Result<Hello, String> {
+    let within = Duration::from_secs_f64(program.hello_s);
+    let hello = match process.next(within) {
+        Ok(Some(FromPlanner::Hello(hello))) if hello.protocol == PROTOCOL => hello,
+        Ok(Some(FromPlanner::Hello(hello))) => {
+            let spoken = hello.protocol;
+            return Err(with_log(
+                process,
+                &format!("the planner speaks protocol {spoken}; {PROTOCOL} is accepted"),
+            ));
+        }
+        Ok(Some(_)) => return Err(with_log(process, "the planner's first line is no `hello`")),
+        Ok(None) => {
+            let seconds = program.hello_s;
+            return Err(with_log(process, &format!("the planner said no `hello` within {seconds} s")));
+        }
+        Err(why) => return Err(with_log(process, &why)),
+    };
+    process.hello = Some(hello.clone());
+    Ok(hello)
+}
+
+/// `why` with how the planner ended, if it has, and the end of its log.
+fn with_log(process: &mut Process, why: &str) -> String {
+    let ended = process.ended().map(|status| format!(" ({status})")).unwrap_or_default();
+    let log = process.log();
+    if log.is_empty() { format!("{why}{ended}") } else { format!("{why}{ended}; its log ends: {log}") }
+}
+
+/// Poses `query` to a planner that has said `hello`, and answers its questions until it is done.
+pub fn solve(
+    process: &mut Process,
+    query: Query<'_>,
+    limits: Limits,
+    space: &mut Space<'_>,
+    clock: Clock,
+) -> Talk {
+    let begun = clock();
+    let id = query.id;
+    let talk = Talk::new(End::TimeSpent);
+    process.begin();
+    let (start, goal) = (query.start.to_vec(), query.goal.to_vec());
+    let Query { seed, world, .. } = query;
+    process.send(&ToPlanner::Solve(Box::new(Solve { id, seed, limits, world, start, goal })));
+    let mut held = Conversation { id, limits, space, clock, begun, talk };
+    let end = loop {
+        let left_s = limits.time_s + GRACE_S - held.passed_s();
+        if left_s <= 0.0 {
+            break End::TimeSpent;
+        }
+        match process.next(Duration::from_secs_f64(left_s)) {
+            Ok(None) => {}
+            Ok(Some(message)) => match held.take(process, message) {
+                Ok(None) => {}
+                Ok(Some(end)) => break end,
+                Err(why) => break End::Broken(with_log(process, &why)),
+            },
+            Err(why) => break End::Broken(with_log(process, &why)),
+        }
+    };
+    held.finish(end)
+}
+
+struct Conversation<'a, 'w> {
+    id: u64,
+    limits: Limits,
+    space: &'a mut Space<'w>,
+    clock: Clock,
+    begun: u64,
+    talk: Talk,
+}
+
+impl Conversation<'_, '_> {
+    fn passed_s(&self) -> f64 {
+        ((self.clock)() - self.begun) as f64 * 1e-9
+    }
+
+    /// Takes one message; how the conversation ended, if it has.
+    fn take(&mut self, process: &mut Process, message: FromPlanner) -> Result<Option<End>, String> {
+        match message {
+            FromPlanner::Hello(_) => Err("the planner says `hello` again".to_owned()),
+            FromPlanner::Ask(ask) => {
+                let before = (self.clock)();
+                let answer = self.space.answer(&ask)?;
+                process.send(&ToPlanner::Answer(answer));
+                self.talk.answering_ns += (self.clock)() - before;
+                Ok(None)
+            }
+            FromPlanner::Incumbent(incumbent) => {
+                self.own(incumbent.id)?;
+                self.check(&incumbent.path)?;
+                let passed_s = self.passed_s();
+                if passed_s <= self.limits.time_s {
+                    self.talk.incumbents.push((passed_s, incumbent.path));
+                }
+                Ok(None)
+            }
+            FromPlanner::Result(found) => self.result(found).map(Some),
+        }
+    }
+
+    fn own(&self, id: u64) -> Result<(), String> {
+        let asked = self.id;
+        if id == asked {
+            Ok(())
+        } else {
+            Err(format!("the planner answers query {id}; it was asked query {asked}"))
+        }
+    }
+
+    /// Refuses a path that is none of this world.
+    fn check(&self, path: &[Vec<f64>]) -> Result<(), String> {
+        let width = self.space.width();
+        match path.iter().position(|at| at.len() != width || at.iter().any(|x| !x.is_finite())) {
+            Some(index) => Err(format!(
+                "point {} of a path is {:?}; {width} finite numbers are accepted",
+                index + 1,
+                path[index]
+            )),
+            None => Ok(()),
+        }
+    }
+
+    fn result(&mut self, found: Found) -> Result<End, String> {
+        self.own(found.id)?;
+        self.check(&found.path)?;
+        self.talk.counters = found.counters;
+        Ok(match found.status {
+            Status::Solved => {
+                (self.talk.path, self.talk.cost) = (found.path, found.cost);
+                End::Solved
+            }
+            Status::NoPath => End::NoPath,
+            Status::BudgetSpent => End::BudgetSpent,
+            Status::TimeSpent => End::TimeSpent,
+        })
+    }
+
+    fn finish(mut self, end: End) -> Talk {
+        self.talk.wall_ns = (self.clock)() - self.begun;
+        self.talk.asked = self.space.asked();
+        self.talk.end = end;
+        if self.talk.end == End::TimeSpent
+            && let Some((_, path)) = self.talk.incumbents.last()
+        {
+            self.talk.path.clone_from(path);
+            (self.talk.end, self.talk.is_cut_off) = (End::Solved, true);
+        }
+        self.talk
+    }
+}

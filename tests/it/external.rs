@@ -1,0 +1,173 @@
+//! Planners from outside: whatever one does is the outcome of its own trial and of no other.
+
+mod law;
+mod scripts;
+
+use crate::paper::Bench;
+use replan::study::record::Row;
+use replan::study::reuse;
+use scripts::{CASES, Case, PRELUDE, SILENT};
+use std::collections::BTreeMap;
+use std::fs;
+
+const STUDY: &str = r#"paper = "outside"
+question = "Who misbehaves?"
+seed = 3
+
+[budget]
+expansions = 100_000
+
+[[problems]]
+label = "wall"
+family = "grid_map"
+settings = { map = "wall.map.txt", start = [0, 1], goal = [299, 200], corner_rule = "allow" }
+
+[[contender]]
+label = "A*"
+planner = "astar"
+settings = { weight = 1, ties = "fifo" }
+"#;
+
+const PAPER: &str = "[source]\ntitle = \"Outside\"\nauthors = \"N. N.\"\n\n[prints]\nfigures = 0\ntables = 0\nequations = 0\n";
+
+fn contender(name: &str, command: &str, files: &str) -> String {
+    format!(
+        "\n[[contender]]\nlabel = \"{name}\"\nplanner = \"external\"\nsettings = {{ command = {command}, files = {files}, version = \"1\", \
+         time_s = 0.5, memory_mb = 128, output_mb = 4, any_angle = true, install = \"a shell\" }}\n"
+    )
+}
+
+/// A map of 300 by 210 cells, too large for a pipe; one cell of its first and of its last row is blocked.
+fn map() -> String {
+    let row = |y: usize| {
+        (0..300).map(|x| if x == 150 && [0, 209].contains(&y) { '#' } else { '.' }).collect::<String>()
+    };
+    (0..210).map(|y| row(y) + "\n").collect()
+}
+
+/// A paper whose study has A* and these planners.
+fn bench(cases: &[&Case]) -> Bench {
+    let bench = Bench::empty();
+    let mut study = STUDY.to_owned();
+    for case in cases {
+        let file = format!("outside/{}.sh", case.name);
+        bench.write(&file, format!("{PRELUDE}{}\n", case.script).as_bytes());
+        study += &contender(case.name, &format!("[\"sh\", \"{file}\"]"), &format!("[\"{file}\"]"));
+    }
+    bench.write("outside/paper.toml", PAPER.as_bytes());
+    bench.write("outside/study.toml", study.as_bytes());
+    bench.write("outside/wall.map.txt", map().as_bytes());
+    bench
+}
+
+fn rows(bench: &Bench) -> BTreeMap<String, Row> {
+    let (_, records) = reuse::stored(&bench.at("target/replan/outside/data/runs/outside"), "study").unwrap();
+    records.batch.rows.into_iter().map(|row| (row.key.contender.to_string(), row)).collect()
+}
+
+/// Processes of this machine whose command line holds `text`.
+fn alive(text: &str) -> Vec<String> {
+    let entries = fs::read_dir("/proc").unwrap().flatten();
+    let lines = entries.filter_map(|entry| fs::read(entry.path().join("cmdline")).ok());
+    let lines = lines.map(|line| String::from_utf8_lossy(&line).replace('\0', " "));
+    lines.filter(|line| line.contains(text)).collect()
+}
+
+fn check(row: &Row, case: &Case) {
+    let reason = row.reason.clone().unwrap_or_default();
+    assert_eq!(row.status.name(), case.status, "{}: {reason}", case.name);
+    assert!(reason.contains(case.reason), "{}: should say {}\nsays {reason}", case.name, case.reason);
+}
+
+#[test]
+fn every_way_to_misbehave_is_the_status_of_one_row_and_costs_no_other_trial() {
+    let cases: Vec<&Case> = CASES.iter().collect();
+    let bench = bench(&cases);
+    bench.done(&["run", "./outside"]);
+    let rows = rows(&bench);
+    assert_eq!(rows.len(), cases.len() + 1);
+    for case in &cases {
+        check(&rows[case.name], case);
+    }
+    assert!(rows["A*"].is_solved());
+    let straight = libm::hypot(299.0, 199.0);
+    for name in ["good", "one-query-each", "loud-log", "cut-off", "good-after-all"] {
+        let length = rows[name].value("path_cost_cells").unwrap();
+        assert!((length - straight).abs() < 1e-9, "{name}: {length}");
+    }
+    assert_eq!(rows["cut-off"].value("is_cut_off"), Some(1.0));
+    assert_eq!(rows["good"].value("is_cut_off"), Some(0.0));
+    for seconds in ["sleep 1001", "sleep 1002", "sleep 1003"] {
+        assert_eq!(alive(seconds), [""; 0], "left alone");
+    }
+}
+
+#[test]
+fn a_planner_that_never_says_hello_is_given_up_after_ten_seconds() {
+    let bench = bench(&[&SILENT]);
+    bench.done(&["run", "./outside"]);
+    let rows = rows(&bench);
+    check(&rows[SILENT.name], &SILENT);
+    assert!(rows["A*"].is_solved());
+}
+
+#[test]
+fn recorded_trials_are_kept_by_fresh_and_run_again_by_record_or_where_a_file_changed() {
+    let good = CASES.iter().find(|case| case.name == "good").unwrap();
+    let bench = bench(&[good]);
+    bench.done(&["run", "./outside"]);
+    let clock = |bench: &Bench| rows(bench)["good"].value("solve_wall_ns").unwrap();
+    let first = clock(&bench);
+    bench.done(&["run", "./outside", "--fresh"]);
+    assert_eq!(clock(&bench), first, "--fresh ran a recorded trial again");
+    bench.done(&["run", "./outside", "--record"]);
+    let second = clock(&bench);
+    assert_ne!(second, first, "--record kept a recorded trial");
+    let text = fs::read_to_string(bench.at("outside/good.sh")).unwrap();
+    bench.write("outside/good.sh", format!("{text}# another\n").as_bytes());
+    bench.done(&["run", "./outside"]);
+    assert_ne!(clock(&bench), second, "a changed program's trial was kept");
+}
+
+#[test]
+fn without_its_program_a_run_says_what_to_install_and_stored_trials_stay_readable() {
+    let bench = bench(&[]);
+    let program = "[\"./outside/planner\"]";
+    let study =
+        STUDY.to_owned() + &contender("theirs", program, "[]").replace("a shell", "pip install theirs");
+    bench.write("outside/study.toml", study.as_bytes());
+    let said = bench.run(&["run", "./outside"]);
+    assert_eq!(said.code, Some(4), "{}", said.err);
+    let lacks = "contender `theirs` cannot run: there is no program `./outside/planner`; to install: pip install theirs";
+    assert!(said.err.contains(lacks), "{}", said.err);
+    let good = CASES.iter().find(|case| case.name == "good").unwrap();
+    bench.write("outside/planner", format!("{PRELUDE}{}\n", good.script).as_bytes());
+    let mut mode = fs::metadata(bench.at("outside/planner")).unwrap().permissions();
+    std::os::unix::fs::PermissionsExt::set_mode(&mut mode, 0o755);
+    fs::set_permissions(bench.at("outside/planner"), mode).unwrap();
+    bench.done(&["run", "./outside"]);
+    fs::remove_file(bench.at("outside/planner")).unwrap();
+    bench.done(&["run", "./outside"]);
+    bench.done(&["judge", "./outside"]);
+    assert!(rows(&bench)["theirs"].is_solved());
+}
+
+#[test]
+fn conformance_keeps_count_of_what_is_broken_and_its_exit_code_says_so() {
+    let cases = ["crash", "other-id", "rubbish-first"];
+    let bench = bench(&CASES.iter().filter(|case| cases.contains(&case.name)).collect::<Vec<_>>());
+    for (name, broken) in [
+        ("crash", "BROKEN  query 1 ends with a result: the planner ended before its result"),
+        ("other-id", "BROKEN  query 1 ends with a result: the planner answers query 77"),
+        ("rubbish-first", "BROKEN  it says `hello` within ten seconds: the planner wrote `Welcome!`"),
+    ] {
+        let said = bench.run(&["conformance", "--", "sh", &format!("outside/{name}.sh")]);
+        assert!(said.out.contains(broken), "{name}: should say {broken}\nsays {}{}", said.out, said.err);
+        assert_eq!(said.code, Some(3), "{name}: {}", said.err);
+    }
+    let honest = r#"hello; query; printf '{"type":"result","id":%s,"status":"no_path"}\n' "$id"; query"#;
+    bench.write("outside/honest.sh", format!("{PRELUDE}{honest}\n").as_bytes());
+    let said = bench.run(&["conformance", "--", "sh", "outside/honest.sh"]);
+    assert!(said.out.contains("BROKEN  some query is solved: none was"), "{}", said.out);
+    assert_eq!(bench.run(&["conformance", "--", "./no/such/planner"]).code, Some(4));
+}

@@ -1,0 +1,188 @@
+//! Planners in `sh` that misbehave, each in its own way, and what their trial must say.
+
+/// What every script can use: `hello`, `query` (reads one; sets `id`, `start`, `goal`) and `result PATH`.
+pub const PRELUDE: &str = r#"#!/bin/sh
+hello() {
+  printf '{"type":"hello","protocol":%s,"name":"t","version":"%s","worlds":["%s"],"seeding":"%s","deterministic":true,"anytime":false}\n' \
+    "${protocol:-1}" "${version:-1}" "${world:-grid}" "${seeding:-query}"
+}
+query() {
+  read -r line || exit 0
+  case $line in *'"quit"'*) exit 0 ;; esac
+  id=$(printf '%s' "$line" | sed 's/.*"id":\([0-9]*\).*/\1/')
+  start=$(printf '%s' "$line" | sed 's/.*"start":\(\[[^]]*\]\).*/\1/')
+  goal=$(printf '%s' "$line" | sed 's/.*"goal":\(\[[^]]*\]\).*/\1/')
+}
+result() { printf '{"type":"result","id":%s,"status":"solved","path":%s%s}\n' "$id" "$1" "$2"; }
+straight() { result "[$start,$goal]"; }
+"#;
+
+/// One way to misbehave: its name, the script, the status, and what the reason must hold.
+pub struct Case {
+    pub name: &'static str,
+    pub script: &'static str,
+    pub status: &'static str,
+    pub reason: &'static str,
+}
+
+const fn case(name: &'static str, script: &'static str, status: &'static str, reason: &'static str) -> Case {
+    Case { name, script, status, reason }
+}
+
+/// Says nothing; costs ten seconds and stands alone for it.
+pub const SILENT: Case = case(
+    "silent",
+    "echo 'still loading' >&2; sleep 100",
+    "crashed",
+    "the planner said no `hello` within 10 s; its log ends: still loading",
+);
+
+/// The other cases, the sound ones among them.
+pub const CASES: &[Case] = &[
+    case("good", "hello; while query; do straight; done", "solved", ""),
+    case("one-query-each", "seeding=process; hello; query; straight; query", "solved", ""),
+    case(
+        "no-path",
+        r#"hello; query; printf '{"type":"result","id":%s,"status":"no_path"}\n' "$id"; query"#,
+        "no_path",
+        "found no path",
+    ),
+    case(
+        "own-budget",
+        r#"hello; query; printf '{"type":"result","id":%s,"status":"budget_spent"}\n' "$id"; query"#,
+        "budget_spent",
+        "of the planner's own",
+    ),
+    case("gone", "echo 'no licence' >&2; exit 5", "crashed", "(exit status: 5); its log ends: no licence"),
+    case(
+        "crash",
+        "hello; query; echo oops >&2; exit 3",
+        "crashed",
+        "ended before its result (exit status: 3); its log ends: oops",
+    ),
+    case("killed", "hello; query; kill -9 $$", "crashed", "(signal: 9"),
+    case("hang", "hello; query; sleep 100", "time_spent", "0.5 s were spent"),
+    case("spin", "hello; query; while :; do :; done", "time_spent", "0.5 s were spent"),
+    case(
+        "deaf-to-term",
+        "trap '' TERM; hello; query; while :; do sleep 1; done",
+        "time_spent",
+        "0.5 s were spent",
+    ),
+    case("never-reads", "hello; sleep 100", "time_spent", "0.5 s were spent"),
+    case(
+        "rubbish",
+        "hello; query; echo 'Segmentation fault'; query",
+        "crashed",
+        "`Segmentation fault`, which is no message",
+    ),
+    case("no-number", "hello; query; result '[[0,NaN]]'; query", "crashed", "which is no message"),
+    case(
+        "unknown-key",
+        r#"hello; query; result "[$start,$goal]" ',"lenght":3'; query"#,
+        "crashed",
+        "unknown field `lenght`",
+    ),
+    case(
+        "rubbish-first",
+        "echo 'Welcome!'; hello; query; straight",
+        "crashed",
+        "`Welcome!`, which is no message",
+    ),
+    case("result-first", "id=1; result '[]'; hello; query; straight", "crashed", "first line is no `hello`"),
+    case("hello-twice", "hello; query; hello; straight; query", "crashed", "says `hello` again"),
+    case(
+        "other-protocol",
+        "protocol=2; hello; query; straight",
+        "crashed",
+        "speaks protocol 2; 1 is accepted",
+    ),
+    case(
+        "other-version",
+        "version=2; hello; query; straight",
+        "crashed",
+        "says that it is version `2`; the study asks for `1`",
+    ),
+    case(
+        "other-world",
+        "world=plane; hello; query; straight",
+        "crashed",
+        "does not plan in worlds of kind Grid",
+    ),
+    case(
+        "other-id",
+        "hello; query; id=77; straight; query",
+        "crashed",
+        "answers query 77; it was asked query",
+    ),
+    case(
+        "flood",
+        "hello; query; yes '{}' | tr -d '\\n' & sleep 100",
+        "crashed",
+        "more than its limit of output",
+    ),
+    case("flood-of-lines", "hello; query; yes ''", "crashed", "more than its limit of output"),
+    case("loud-log", "hello; query; head -c 30000000 /dev/zero >&2; straight; query", "solved", ""),
+    case(
+        "too-large",
+        "hello; query; head -c 400000000 /dev/zero | tail -c 400000000 > /dev/null || exit 9; straight",
+        "crashed",
+        "(exit status: 9)",
+    ),
+    case(
+        "children",
+        "hello; query; sleep 1001 & (trap '' TERM; setsid sleep 1002) & straight; query",
+        "solved",
+        "",
+    ),
+    case(
+        "orphans",
+        "hello; query; (setsid sh -c 'trap \"\" TERM; sleep 1003; :' &); exit 4",
+        "crashed",
+        "ended before its result",
+    ),
+    case(
+        "better-than-optimal",
+        r#"hello; query; result "[$start,$goal]" ',"cost":1.5'; query"#,
+        "rejected",
+        "the claimed cost is 1.5",
+    ),
+    case(
+        "elsewhere",
+        r#"hello; query; result "[$start,[1,1]]"; query"#,
+        "rejected",
+        "not from start to goal",
+    ),
+    case("nowhere", "hello; query; result '[]'; query", "rejected", "not from start to goal"),
+    case(
+        "through-a-wall",
+        r#"hello; query; result "[$start,[0,0],[299,0],$goal]"; query"#,
+        "rejected",
+        "enters the blocked cell [150, 0]",
+    ),
+    case(
+        "other-world's-points",
+        "hello; query; result '[[0,0,0]]'; query",
+        "crashed",
+        "2 finite numbers are accepted",
+    ),
+    case(
+        "odd-question",
+        r#"hello; query; echo '{"type":"ask","id":1,"valid":[[1,2,3]]}'; query"#,
+        "crashed",
+        "a configuration of 3 numbers; 2 are accepted",
+    ),
+    case(
+        "question-about-an-arm",
+        r#"hello; query; echo '{"type":"ask","id":1,"fk":[[1,2]]}'; query"#,
+        "crashed",
+        "this world has no arm",
+    ),
+    case(
+        "cut-off",
+        r#"hello; query; printf '{"type":"incumbent","id":%s,"cost":null,"path":[%s,%s]}\n' "$id" "$start" "$goal"; sleep 100"#,
+        "solved",
+        "",
+    ),
+    case("good-after-all", "hello; while query; do straight; done", "solved", ""),
+];
