@@ -79,6 +79,7 @@ pub static METRICS: &[Metric] = &[
     metric("list_operations", "Linear-scan operations", "", Better::Lower),
     metric("local_paths", "Local paths", "", Better::Lower),
     metric("opened", "Opened nodes", "", Better::Lower),
+    metric("opened_distinct", "Opened nodes, each once", "", Better::Lower),
     metric("optimal_cost_cells", "Optimal cost", "cells", Better::Neither),
     metric("optimal_length_cm", "Optimal length", "cm", Better::Neither),
     metric("pairs", "Pairs", "", Better::Neither),

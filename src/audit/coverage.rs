@@ -1,12 +1,12 @@
 //! Numbers in an author's LaTeX that no macro backs, and macros whose value is stale.
 //!
-//! A number counts if it stands in the text as such, in digits or in words: not in a comment, a label, a citation, a file's
-//! name, a length such as `2pt`, or a sub- or superscript, and not as part of a word. One that is no result is excused by a
-//! comment on its line: `% typed: 2, twelve`.
+//! A number counts if it stands in the text as such, in digits, in words, as an ordinal or as a fraction: not in a comment, a
+//! label, a citation, a file's name, a length such as `2pt`, or a sub- or superscript, and not as part of a word. One that is no
+//! result is excused by a comment on its line: `% typed: 2, twelve, 1/2`.
 
 mod scan;
 
-use scan::{numbers, uncommented};
+use scan::{commands, numbers, uncommented};
 use std::collections::BTreeMap;
 
 /// Something for the author to look at.
@@ -32,6 +32,11 @@ pub enum Kind {
         /// Macros with this very value.
         macros: Vec<String>,
     },
+    /// A macro is used that is called like those of the file, and stands neither there nor in the text.
+    Unknown {
+        /// Its name.
+        name: String,
+    },
     /// A macro has another value than it should.
     Stale {
         /// Its name.
@@ -54,6 +59,9 @@ impl std::fmt::Display for Remark {
             Kind::Typed { number, macros } => {
                 let named: Vec<&str> = macros.iter().take(3).map(String::as_str).collect();
                 write!(f, "{number} is typed by hand; macros of this value: {}", named.join(", "))
+            }
+            Kind::Unknown { name } => {
+                write!(f, "{name} is called like the macros of the file, and is not among them")
             }
             Kind::Stale { name, value, now: Some(now) } => {
                 write!(f, "{name} is {value}, but now it is {now}")
@@ -106,7 +114,8 @@ pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
         let same = known.iter().filter(|(_, (value, _))| value == number);
         same.map(|(name, _)| name.clone()).collect()
     };
-    for (name, (value, line)) in macros(text) {
+    let own = macros(text);
+    for (name, (value, line)) in own.clone() {
         let kind = match known.get(&name) {
             Some((now, _)) if *now == value => continue,
             Some((now, _)) => Kind::Stale { name, value, now: Some(now.clone()) },
@@ -115,11 +124,36 @@ pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
         };
         remarks.push(Remark { in_macros: false, line, column: 1, kind });
     }
+    let stem = stem(known);
+    for found in commands(text) {
+        let name = format!("\\{}", found.number);
+        let is_called_so =
+            stem.as_ref().is_some_and(|stem| name.len() > stem.len() && name.starts_with(stem));
+        if is_called_so
+            && !known.contains_key(&name)
+            && !given.contains_key(&name)
+            && !own.contains_key(&name)
+        {
+            let kind = Kind::Unknown { name };
+            remarks.push(Remark { in_macros: false, line: found.line, column: found.column, kind });
+        }
+    }
     for found in numbers(text) {
         let kind = Kind::Typed { macros: of_value(&found.number), number: found.number };
         remarks.push(Remark { in_macros: false, line: found.line, column: found.column, kind });
     }
     remarks
+}
+
+/// What the names of all macros of a file begin with, up to a capital letter: the paper's name; none if they share too little.
+fn stem(known: &BTreeMap<String, (String, usize)>) -> Option<String> {
+    let (first, last) = (known.keys().next()?, known.keys().next_back()?);
+    let shared = first.chars().zip(last.chars()).take_while(|(a, b)| a == b).count();
+    let is_word = |end: usize| {
+        [first, last].iter().all(|name| name[end..].starts_with(|c: char| c.is_ascii_uppercase()))
+    };
+    let end = (4..=shared).rev().find(|end| is_word(*end))?;
+    (known.len() > 1).then(|| first[..end].to_owned())
 }
 
 /// Whether a macro's value is a number and nothing else.
@@ -183,6 +217,40 @@ mod tests {
         assert_eq!(found[..2], ["1:1: 69", "5:1: 2"]);
         assert_eq!(found[2..8], expected);
         assert_eq!(found[8..], ["5:48: 6"]);
+    }
+
+    #[test]
+    fn fractions_ordinals_and_numbers_right_behind_a_command_are_told() {
+        let text = "A $\\frac12$, \\tfrac{3}{4} or \\frac{\\nodes}{7} of them.\n\\bf12 is the 3rd, the fourth and two thirds.\n\
+                    The first second counts; half $\\alpha2$. % typed: half\n";
+        let found: Vec<String> =
+            said(text, None).iter().map(|line| line.split(" is ").next().unwrap().to_owned()).collect();
+        let expected = [
+            "1:4: 1/2",
+            "1:14: 3/4",
+            "1:44: 7",
+            "2:4: 12",
+            "2:14: 3",
+            "2:23: fourth",
+            "2:34: two",
+            "2:38: thirds",
+            "3:38: 2",
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn a_macro_that_is_called_like_the_files_and_is_not_there_is_told() {
+        let file = "\\newcommand{\\zhangNodesOurs}{45}\n\\newcommand{\\zhangNodesPaper}{46}\n\\newcommand{\\zhangCostOurs}{13.40}\n";
+        let told =
+            |text: &str| coverage(text, file, None).iter().map(ToString::to_string).collect::<Vec<_>>();
+        assert_eq!(
+            told("\\zhangNodesOurs{} of \\zhangNodesTheirs{}, \\alpha, \\zhang.\n"),
+            ["1:22: \\zhangNodesTheirs is called like the macros of the file, and is not among them"]
+        );
+        assert_eq!(told("\\newcommand{\\zhangMine}{x}\\zhangMine"), [""; 0]);
+        // Two names that share nothing say nothing about a third.
+        assert_eq!(coverage("\\nodesOld", MACROS, None), []);
     }
 
     #[test]

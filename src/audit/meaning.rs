@@ -2,6 +2,8 @@
 //!
 //! An annotation is a list of items with commas between them. Which items there are is [`ITEMS`]; nothing else is accepted.
 
+pub mod contradiction;
+
 use super::exact::{self, Exact, whole};
 use super::printed::Digits;
 use super::statistic::Statistic;
@@ -11,7 +13,7 @@ pub const ITEMS: &[(&str, &str)] = &[
     ("% of N, share of N, count of N", "k of N trials as a percentage, a fraction, or the count itself"),
     (
         "mean U, sd U, se U, min U, q25 U, median U, max U, total U",
-        "a statistic of n values in unit U (any text)",
+        "a statistic of n values in unit U (any text); q1, q2, q3 are quartiles, any other is in per cent",
     ),
     ("statistic", "the column names each row's statistic: mean, std, min, 25%, 50%, max"),
     ("n=N", "how many values are behind it: a number or the name of a column"),
@@ -40,7 +42,7 @@ pub const ITEMS: &[(&str, &str)] = &[
     ("samples", "the number of samples, by which success is to rise"),
     ("rises, anytime", "expected to rise with samples; anytime: the larger sample contains the smaller"),
     ("lower is better, higher is better", "what bold is to mean"),
-    ("unit=U", "the unit, for people"),
+    ("unit=U", "the unit; numbers that are held against each other must have the same"),
     ("label, skip", "text, or a column that is not looked at"),
 ];
 
@@ -138,6 +140,8 @@ pub struct Meaning {
     pub rises: Option<bool>,
     /// What bold is to mean.
     pub better: Option<Better>,
+    /// The unit of what is printed.
+    pub unit: Option<String>,
 }
 
 /// Lengths of moves on a lattice.
@@ -173,6 +177,7 @@ impl Default for Meaning {
             free: None,
             rises: None,
             better: None,
+            unit: None,
         }
     }
 }
@@ -184,10 +189,36 @@ impl Meaning {
     /// What is wrong with an item, and what is accepted, in words.
     pub fn parse(annotation: &str) -> Result<Self, String> {
         let mut meaning = Self::default();
+        let mut known: Vec<(&str, Self)> = Vec::new();
         for item in annotation.split(',').map(str::trim).filter(|item| !item.is_empty()) {
+            let mut alone = Self::default();
+            alone.take(item)?;
+            for (other, said) in &known {
+                if let Some(what) = contradiction::of_items(said, &alone) {
+                    return Err(format!("`{other}` and `{item}` contradict each other: both say {what}"));
+                }
+            }
+            known.push((item, alone));
             meaning.take(item)?;
         }
-        Ok(meaning)
+        match contradiction::of_whole(&meaning) {
+            Some(why) => Err(format!("`{annotation}` contradicts itself: {why}")),
+            None => Ok(meaning),
+        }
+    }
+
+    /// Takes what `other` says of the same values and this leaves unsaid.
+    pub fn take_unsaid(&mut self, other: &Self) {
+        let other = other.clone();
+        self.n = self.n.take().or(other.n);
+        self.grain = self.grain.or(other.grain);
+        self.least = self.least.or(other.least);
+        self.most = self.most.or(other.most);
+        self.seeds = self.seeds.or(other.seeds);
+        if self.divisor == Divisor::Either {
+            self.divisor = other.divisor;
+        }
+        self.is_linear |= other.is_linear;
     }
 
     /// The columns that it names.
@@ -224,6 +255,8 @@ impl Meaning {
             wrong(item, &known.join("; "))
         })?;
         self.kind = Kind::Of(statistic);
+        let unit = item[word.len()..].trim();
+        self.unit = (!unit.is_empty()).then(|| unit.to_owned());
         Ok(())
     }
 
@@ -299,7 +332,7 @@ impl Meaning {
             "from" => self.ends[0] = Some(point(value).ok_or_else(|| wrong(&item, "from=X:Y"))?),
             "to" => self.ends[1] = Some(point(value).ok_or_else(|| wrong(&item, "to=X:Y"))?),
             "turns" => self.turns = Some(value.to_owned()),
-            "unit" => {}
+            "unit" => self.unit = Some(value.to_owned()),
             "free" => self.free = Some(natural()?),
             _ => {
                 let known: Vec<&str> = ITEMS.iter().map(|(item, _)| *item).collect();

@@ -4,7 +4,7 @@ use super::checks::REGISTRY;
 use super::input::Input;
 use super::meaning::{ITEMS, Kind};
 use super::reader;
-use super::report::{Class, Finding, Power, Report};
+use super::report::{Class, Finding, Report, Unseen};
 use super::statistic::Statistic;
 use super::table::{Column, Table};
 use super::witness::Witness;
@@ -16,7 +16,7 @@ pub fn line(source: &str, finding: &Finding) -> String {
         format!("{source}:{}: {}: {}: {}", finding.place, finding.class.name(), finding.name, finding.said);
     let mut notes = vec![finding.check.to_owned()];
     if let Some(power) = finding.power {
-        notes.push(refuses(power));
+        notes.push(power.to_string());
     }
     match &finding.mend {
         Some(mend) => {
@@ -30,6 +30,9 @@ pub fn line(source: &str, finding: &Finding) -> String {
         }
         None => {}
     }
+    if !finding.follows.is_empty() {
+        notes.push(format!("with that change these are possible too: {}", finding.follows.join(", ")));
+    }
     if finding.class != Class::Possible {
         notes.push(format!("if {}", finding.premises.join("; ")));
     }
@@ -38,12 +41,6 @@ pub fn line(source: &str, finding: &Finding) -> String {
         line += &format!(" {}", witness_line(witness));
     }
     line
-}
-
-/// A check's power in words: what share of which prints it refuses, and why these.
-fn refuses(power: Power) -> String {
-    let Power { low, high, tried, why, .. } = power;
-    format!("refuses {:.0} % of {tried} prints from {low} to {high}, {why}", 100.0 * power.share())
 }
 
 fn witness_line(witness: &Witness) -> String {
@@ -80,6 +77,17 @@ fn unread_spread(table: &Table, at: usize) -> Option<String> {
     ))
 }
 
+/// Columns and samples that no check looked at, with what to write so that one does; and, if no check was asked at all, that.
+pub fn unseen(source: &str, report: &Report) -> Vec<String> {
+    let line = |unseen: &Unseen| {
+        format!("{source}:{}: {}: no check looked at it; {}", unseen.place, unseen.name, unseen.advice)
+    };
+    let nothing = report.tally.is_empty().then(|| {
+        format!("{source}: nothing was looked at, which is no pass: no column says enough for any check")
+    });
+    report.unseen.iter().map(line).chain(nothing).collect()
+}
+
 /// What each check did, a line a check.
 pub fn summary(report: &Report) -> Vec<String> {
     let line = |(name, tally): (&&str, &super::report::Tally)| {
@@ -92,6 +100,9 @@ pub fn summary(report: &Report) -> Vec<String> {
         let mut counts = vec![format!("{} impossible", tally.impossible)];
         if tally.signals > 0 {
             counts.push(format!("{} signals", tally.signals));
+        }
+        if tally.follows > 0 {
+            counts.push(format!("{} told with another finding", tally.follows));
         }
         if tally.unchecked > 0 {
             counts.push(format!("{} not decided", tally.unchecked));
@@ -134,6 +145,7 @@ pub fn json(source: &str, input: &Input, report: &Report) -> Value {
                 "applied": tally.applied,
                 "impossible": tally.impossible,
                 "signals": tally.signals,
+                "told_with_another": tally.follows,
                 "not_decided": tally.unchecked,
                 "mean_power": (tally.powers > 0).then(|| tally.power_sum / tally.powers as f64),
             })
@@ -147,7 +159,17 @@ pub fn json(source: &str, input: &Input, report: &Report) -> Value {
         .map(|table| json!({ "line": table.line, "header": reader::stub(table) }));
     let guessed: Vec<Value> = guessed.collect();
     let unread = unread_spreads(source, input);
-    json!({ "source": source, "guessed": guessed, "unread_spreads": unread, "findings": findings, "checks": checks })
+    let unseen = report.unseen.iter().map(|unseen| {
+        json!({ "line": unseen.place.line, "cell": unseen.place.cell, "name": unseen.name, "advice": unseen.advice })
+    });
+    json!({
+        "source": source,
+        "guessed": guessed,
+        "unread_spreads": unread,
+        "not_looked_at": unseen.collect::<Vec<_>>(),
+        "findings": findings,
+        "checks": checks,
+    })
 }
 
 fn finding(finding: &Finding) -> Value {
@@ -167,6 +189,7 @@ fn finding(finding: &Finding) -> Value {
             "from": power.low.to_string(),
             "to": power.high.to_string(),
             "why": power.why,
+            "is_beyond": power.is_beyond,
         })),
         "mend": finding.mend.as_ref().map(|mend| json!({
             "name": mend.name,
@@ -174,6 +197,7 @@ fn finding(finding: &Finding) -> Value {
             "to": mend.to.to_string(),
             "changes_ranking": mend.changes_ranking,
         })),
+        "follows": finding.follows,
         "certificate": finding.certificate,
         "witness": finding.witness.as_ref().map(|witness| json!({
             "vectors": witness.vectors,
@@ -224,10 +248,13 @@ pub fn section(title: &str, about: &str, report: &Report) -> String {
             finding.said
         );
         if let Some(power) = finding.power {
-            text += &format!(". The check {}", refuses(power));
+            text += &format!(". The check {power}");
         }
         if let Some(mend) = &finding.mend {
             text += &format!("; the least change is {} from {} to {}", mend.name, mend.from, mend.to);
+        }
+        if !finding.follows.is_empty() {
+            text += &format!("; with it these are possible too: {}", finding.follows.join(", "));
         }
         text += &format!(". Premises: {}.\n", finding.premises.join("; "));
     }

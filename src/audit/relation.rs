@@ -1,7 +1,7 @@
 //! A relation of a TOML file: a check asked of numbers by name.
 
 use super::exact::{self, Exact, Print};
-use super::meaning::natural;
+use super::meaning::{contradiction, natural};
 use super::printed::Digits;
 use super::reader::{Number, number, unit};
 use super::sample::Sample;
@@ -104,6 +104,18 @@ impl Relation {
         found.map(Some).ok_or_else(|| self.fault(format!("`{key}` is {value}; {accepted}")))
     }
 
+    /// The least and the greatest value, `least` and `most`; none without the keys.
+    ///
+    /// # Errors
+    /// If one is no number, or the least is above the greatest.
+    pub fn ends(&self) -> Result<[Option<Exact>; 2], Fault> {
+        let [least, most] = [self.exact("least")?, self.exact("most")?];
+        match contradiction::of_ends(least, most) {
+            Some(why) => Err(self.fault(why)),
+            None => Ok([least, most]),
+        }
+    }
+
     /// A point `"X:Y"`; none without the key.
     ///
     /// # Errors
@@ -165,7 +177,11 @@ impl Relation {
         })
     }
 
-    fn resolve(&self, key: &str, text: &str, named: &dyn Named) -> Result<Quoted, Fault> {
+    /// The printed number that `text` under `key` is or names.
+    ///
+    /// # Errors
+    /// If it names no cell and is no number.
+    pub fn resolve(&self, key: &str, text: &str, named: &dyn Named) -> Result<Quoted, Fault> {
         if let Some(quoted) = named.cell(text) {
             return Ok(quoted);
         }

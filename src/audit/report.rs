@@ -1,14 +1,25 @@
 //! Runs every check on an input and says of each application what was found, under which readings of the digits, with
 //! which power, what would mend it, and whether the table's ranking hangs on it.
 
+mod mend;
+mod strength;
+mod unseen;
+
+pub use mend::Mend;
+pub use strength::Power;
+pub use unseen::Unseen;
+
 use super::asked;
-use super::checks::{Entry, Proof, REGISTRY, Test, Window};
-use super::exact::{Exact, Print, ceil, floor, whole};
+use super::checks::{Entry, Proof, REGISTRY, Test};
+use super::exact::Print;
 use super::input::Input;
-use super::printed::{Digits, Printed};
+use super::printed::Digits;
 use super::table::{Fault, Place};
 use super::witness::{Budget, Witness};
+use mend::Refusal;
 use std::collections::BTreeMap;
+use strength::power;
+use unseen::Seen;
 
 /// What a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,41 +46,6 @@ impl Class {
     }
 }
 
-/// The share of printable values that a check would have refused.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Power {
-    /// The least printable value that was tried …
-    pub low: Printed,
-    /// … and the greatest.
-    pub high: Printed,
-    /// How many were tried: all of them, or a spread-out sample.
-    pub tried: usize,
-    /// How many of them the check refuses.
-    pub refused: usize,
-    /// Why this range.
-    pub why: &'static str,
-}
-
-impl Power {
-    /// The share refused.
-    pub fn share(self) -> f64 {
-        self.refused as f64 / self.tried.max(1) as f64
-    }
-}
-
-/// The least change of one printed number that makes the finding possible.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mend {
-    /// Which number.
-    pub name: String,
-    /// As printed.
-    pub from: Printed,
-    /// As it would have to be.
-    pub to: Printed,
-    /// Whether the order of the rows by that column changes with it; none where there is no column.
-    pub changes_ranking: Option<bool>,
-}
-
 /// What a check found in one place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
@@ -91,6 +67,8 @@ pub struct Finding {
     pub power: Option<Power>,
     /// What would mend it.
     pub mend: Option<Mend>,
+    /// Other findings with the same cause, which that change mends too.
+    pub follows: Vec<String>,
     /// The proof, as a certificate.
     pub certificate: Option<serde_json::Value>,
     /// Data behind it.
@@ -106,6 +84,8 @@ pub struct Tally {
     pub impossible: usize,
     /// Of them signals.
     pub signals: usize,
+    /// Of them refused for a cause that another finding tells.
+    pub follows: usize,
     /// Of them not decided.
     pub unchecked: usize,
     /// Sum of the powers that were computed …
@@ -132,6 +112,8 @@ pub struct Report {
     pub findings: Vec<Finding>,
     /// What each check did.
     pub tally: BTreeMap<&'static str, Tally>,
+    /// Columns and samples that no check looked at.
+    pub unseen: Vec<Unseen>,
 }
 
 impl Report {
@@ -147,28 +129,41 @@ const PRINTS: i128 = 1000;
 const PRINTS_EACH: i128 = 200;
 /// Applications of a check whose power is computed if nothing is wrong with them.
 const POWERS: usize = 100;
-/// How many changed prints are tried for a mend.
-const MENDS: i64 = 2000;
-
 /// Runs every check on `input`.
 ///
 /// # Errors
 /// Every relation that is wrong, with its place.
 pub fn audit(input: &Input, options: &Options) -> Result<Report, Vec<Fault>> {
-    let mut run = Run { input, options, report: Report::default(), powers: BTreeMap::new() };
+    let mut run = Run {
+        input,
+        options,
+        report: Report::default(),
+        powers: BTreeMap::new(),
+        seen: Seen::default(),
+        refusals: Vec::new(),
+    };
     for entry in REGISTRY {
-        (entry.tests)(input, &mut |test| run.take(entry, test.as_ref()));
+        (entry.tests)(input, &mut |test| run.take(entry, test, false));
     }
     let mut faults = Vec::new();
     for relation in &input.relations {
         match asked::test(relation, input) {
-            Ok((entry, test)) => run.take(entry, test.as_ref()),
+            Ok((entry, test)) => run.take(entry, test, true),
             Err(fault) => faults.push(fault),
         }
     }
     if !faults.is_empty() {
         return Err(faults);
     }
+    for (check, class) in mend::one_a_cause(&mut run.report.findings, run.refusals) {
+        let tally = run.report.tally.entry(check).or_default();
+        tally.follows += 1;
+        match class {
+            Class::Impossible => tally.impossible -= 1,
+            _ => tally.signals -= 1,
+        }
+    }
+    run.report.unseen = run.seen.others(input);
     run.report.findings.sort_by(|a, b| (a.place, a.class, a.check).cmp(&(b.place, b.class, b.check)));
     Ok(run.report)
 }
@@ -178,6 +173,8 @@ struct Run<'a> {
     options: &'a Options,
     report: Report,
     powers: BTreeMap<String, Option<Power>>,
+    seen: Seen,
+    refusals: Vec<Refusal>,
 }
 
 /// What is known of a test when its finding is written.
@@ -191,14 +188,17 @@ struct Told {
 }
 
 impl Run<'_> {
-    fn take(&mut self, entry: &'static Entry, test: &dyn Test) {
+    fn take(&mut self, entry: &'static Entry, boxed: Box<dyn Test>, is_asked: bool) {
+        let test = boxed.as_ref();
+        self.seen.take(test);
         let prints: Vec<Print> = test.numbers().iter().map(|number| number.print).collect();
         let answer = test.is_possible(&prints);
         let readings = if test.is_about_digits() { allowing(test, &prints) } else { Vec::new() };
         let is_free = prints.iter().all(|print| print.digits == Digits::Any);
         let is_odd =
             is_free && answer == Some(true) && test.is_about_digits() && !readings.contains(&"nearest");
-        let proof = if answer == Some(false) { test.proof(&prints) } else { None };
+        let is_guess = unseen::rests_on_a_guess(self.input, test).is_some();
+        let proof = if answer == Some(false) && !is_guess { test.proof(&prints) } else { None };
         let class = match answer {
             None => Class::Unchecked,
             Some(false) if proof.is_some() => Class::Impossible,
@@ -211,10 +211,18 @@ impl Run<'_> {
             (!self.options.skips_power && answer.is_some() && (class < Class::Unchecked || applied < POWERS))
                 .then(|| self.power(entry, test, &prints))
                 .flatten();
+        let power = power.map(|power| match answer {
+            Some(false) => power.beside_a_refusal(prints[0].printed),
+            _ => power,
+        });
         self.count(entry.name, class, power);
         if class != Class::Possible || self.options.keeps_possible || self.options.witness.is_some() {
-            let finding = Told { class, answer, is_odd, readings, power, proof };
-            self.tell(entry.name, test, &prints, finding);
+            let told = Told { class, answer, is_odd, readings, power, proof };
+            self.tell(entry.name, test, &prints, told);
+        }
+        if answer == Some(false) {
+            let finding = self.report.findings.len() - 1;
+            self.refusals.push(Refusal { finding, test: boxed, is_asked });
         }
     }
 
@@ -238,18 +246,21 @@ impl Run<'_> {
             _ => None,
         };
         let certificate = proof.map(|proof| super::certificate::of(check, test, prints, &proof));
-        let mend =
-            (answer == Some(false) && !self.options.skips_power).then(|| self.mend(test, prints)).flatten();
+        let is_mended = answer == Some(false) && !self.options.skips_power;
+        let mend = is_mended.then(|| mend::least(self.input, test, prints)).flatten();
+        let mut premises = test.premises();
+        premises.extend(unseen::rests_on_a_guess(self.input, test));
         self.report.findings.push(Finding {
             check,
             class,
             place: first.place,
             name: first.name.clone(),
             said,
-            premises: test.premises(),
+            premises,
             readings,
             power,
             mend,
+            follows: Vec::new(),
             certificate,
             witness,
         });
@@ -275,40 +286,6 @@ impl Run<'_> {
         let key = format!("{} {key} {} {:?}", entry.name, first.printed.decimals(), first.digits);
         *self.powers.entry(key).or_insert_with(|| power(test, prints, PRINTS))
     }
-
-    /// The least change, in units of the last place, of one number.
-    fn mend(&self, test: &dyn Test, prints: &[Print]) -> Option<Mend> {
-        let tries = MENDS / (2 * prints.len().max(1) as i64);
-        let (index, to) = (1..=tries).find_map(|by| {
-            (0..prints.len()).find_map(|index| {
-                [by, -by].into_iter().find_map(|by| {
-                    let printed = prints[index].printed;
-                    let changed = printed.with_units(printed.units().checked_add(by)?)?;
-                    let mut all = prints.to_vec();
-                    all[index].printed = changed;
-                    (test.is_possible(&all) == Some(true)).then_some((index, changed))
-                })
-            })
-        })?;
-        let number = &test.numbers()[index];
-        let changes_ranking =
-            number.cell.and_then(|cell| self.changes_ranking(cell, number.print.printed, to));
-        Some(Mend { name: number.name.clone(), from: number.print.printed, to, changes_ranking })
-    }
-
-    fn changes_ranking(&self, [table, row, column]: [usize; 3], from: Printed, to: Printed) -> Option<bool> {
-        let table = self.input.tables.get(table)?;
-        if table.columns.iter().any(|column| column.meaning.kind == super::meaning::Kind::Statistics) {
-            return None;
-        }
-        let value = |printed: Printed| Print { printed, digits: Digits::Rounded }.value();
-        let mut others = (0..table.rows.len()).filter(|other| *other != row);
-        let (from, to) = (value(from), value(to));
-        Some(others.any(|other| {
-            let Some(other) = table.print(other, column) else { return false };
-            from.cmp(&other.value()) != to.cmp(&other.value())
-        }))
-    }
 }
 
 /// The readings of the digits, one for all numbers, that allow `prints`.
@@ -319,46 +296,6 @@ fn allowing(test: &dyn Test, prints: &[Print]) -> Vec<&'static str> {
         test.is_possible(&read) == Some(true)
     });
     allows.map(|(name, _)| *name).collect()
-}
-
-/// How much of what could be printed instead of the first number the test refuses.
-pub fn power(test: &dyn Test, prints: &[Print], most: i128) -> Option<Power> {
-    let first = prints[0].printed;
-    let (low, high, why) = window(test, first)?;
-    let count = i128::from(high - low) + 1;
-    let is_sampled = count > most;
-    let (mut tried, mut refused) = (0, 0);
-    let mut all = prints.to_vec();
-    for index in 0..count.min(most) {
-        // Multiples of the golden section spread evenly and fall in step with no grid.
-        let share = (index as f64 * 0.618_033_988_749_894_9).fract();
-        let at = if is_sampled { (share * count as f64) as i64 } else { index as i64 };
-        let Some(printed) = first.with_units(low + at) else { continue };
-        all[0].printed = printed;
-        tried += 1;
-        refused += usize::from(test.is_possible(&all) == Some(false));
-    }
-    let end = |units| Printed::from_units(units, first.decimals());
-    Some(Power { low: end(low), high: end(high), tried, refused, why })
-}
-
-/// The least and the greatest print of the first number, in units of its last place, and why these.
-pub fn window(test: &dyn Test, first: Printed) -> Option<(i64, i64, &'static str)> {
-    let limit = 10_i64.pow(15) - 1;
-    let (low, high, why) = if let Some(Window { ends: [low, high], why }) = test.window() {
-        let units = |end: Exact| super::exact::mul(end, whole(first.scale()));
-        (i64::try_from(ceil(units(low)?)).ok()?, i64::try_from(floor(units(high)?)).ok()?, why)
-    } else {
-        let around = first.units().abs().max(100);
-        let why = if first.units().abs() < 100 {
-            "100 units of the last place to either side"
-        } else {
-            "as far to either side as it is from 0"
-        };
-        (first.units() - around, first.units() + around, why)
-    };
-    let (low, high) = (low.max(-limit), high.min(limit));
-    (low <= high).then_some((low, high, why))
 }
 
 /// Whether what is impossible with the zeros that were left out is so as typed, in words; nothing if no zeros were.

@@ -6,7 +6,7 @@
 use super::exact::{Exact, Print, div, whole};
 use super::meaning::{Count, Divisor, Kind, Meaning};
 use super::statistic::Statistic;
-use super::table::{Quoted, Table, quoted};
+use super::table::{Column, Quoted, Table, quoted};
 
 /// Values behind printed statistics.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,11 +113,15 @@ pub fn of_meaning(
 
 /// Gives every sample in `table`, which is number `index`.
 pub fn each(index: usize, table: &Table, give: &mut dyn FnMut(&Sample)) {
-    let statistics = table.columns.iter().position(|column| column.meaning.kind == Kind::Statistics);
-    match statistics {
-        Some(column) => down_rows(index, table, column, give),
-        None => (0..table.rows.len()).for_each(|row| in_row(index, table, row, give)),
+    if let Some(column) = table.statistics() {
+        return down_rows(index, table, column, give);
     }
+    let described = |group: Group| {
+        let meaning = group.meaning(&table.columns);
+        (group, meaning)
+    };
+    let groups: Vec<(Group, Meaning)> = groups(&table.columns).into_iter().map(described).collect();
+    (0..table.rows.len()).for_each(|row| in_row(index, table, row, &groups, give));
 }
 
 /// Samples whose statistics stand below each other: rows that are named alike in the columns that hold no numbers, up to
@@ -159,42 +163,72 @@ fn down_rows(index: usize, table: &Table, statistics: usize, give: &mut dyn FnMu
     }
 }
 
-/// Samples whose statistics stand in one row.
-fn in_row(index: usize, table: &Table, row: usize, give: &mut dyn FnMut(&Sample)) {
-    let mut groups: Vec<(&str, &Meaning, Vec<(Statistic, Quoted)>)> = Vec::new();
-    for (at, column) in table.columns.iter().enumerate() {
-        let meaning = &column.meaning;
+/// A group of columns whose numbers in one row are statistics of the same values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// What the values are called.
+    pub name: String,
+    /// The columns, each with its statistic.
+    pub columns: Vec<(usize, Statistic)>,
+}
+
+impl Group {
+    /// What its columns say of the values together: the mean's column first.
+    fn meaning(&self, columns: &[Column]) -> Meaning {
+        let mut order = self.columns.clone();
+        order.sort_by_key(|(_, statistic)| *statistic != Statistic::Mean);
+        let mut meanings = order.into_iter().map(|(at, _)| &columns[at].meaning);
+        let mut all = meanings.next().cloned().unwrap_or_default();
+        meanings.for_each(|other| all.take_unsaid(other));
+        all
+    }
+}
+
+/// The columns whose numbers belong together in a row: those of one `of=` or of one name, up to the column in which a statistic
+/// stands a second time, which is of other values.
+pub fn groups(columns: &[Column]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (at, Column { name, meaning, .. }) in columns.iter().enumerate() {
         let statistic = match meaning.kind {
             Kind::Of(statistic) => statistic,
             Kind::Share { .. } => Statistic::Mean,
             _ => continue,
         };
-        let Some(number) = quoted(index, table, row, at) else { continue };
-        let key = meaning.of.as_deref().unwrap_or(&column.name);
-        let spread = table.rows[row][at].spread.map(|printed| Quoted {
-            name: format!("spread of {}", number.name),
-            print: Print { printed, digits: meaning.digits },
-            cell: None,
-            ..number.clone()
-        });
-        let spread = meaning.spread.zip(spread);
-        // A statistic that stands a second time is of another sample.
-        let last = groups.iter_mut().rev().find(|(known, ..)| *known == key);
-        match last.filter(|(.., numbers)| numbers.iter().all(|(known, _)| *known != statistic)) {
-            Some((_, known, numbers)) => {
-                // What the mean's column says of the values holds for the others too.
-                if statistic == Statistic::Mean || known.n.is_none() {
-                    *known = meaning;
-                }
-                numbers.push((statistic, number));
-                numbers.extend(spread);
-            }
-            None => groups.push((key, meaning, std::iter::once((statistic, number)).chain(spread).collect())),
+        let key = meaning.of.as_ref().unwrap_or(name);
+        let last = groups.iter_mut().rev().find(|group| group.name == *key);
+        match last.filter(|group| group.columns.iter().all(|(_, known)| *known != statistic)) {
+            Some(group) => group.columns.push((at, statistic)),
+            None => groups.push(Group { name: key.clone(), columns: vec![(at, statistic)] }),
         }
     }
-    for (key, meaning, numbers) in groups {
-        let n = count(table, row, meaning);
-        give(&of_meaning(&format!("{key} of {}", table.row_name(row)), meaning, n, numbers));
+    groups
+}
+
+/// Samples whose statistics stand in one row.
+fn in_row(
+    index: usize,
+    table: &Table,
+    row: usize,
+    groups: &[(Group, Meaning)],
+    give: &mut dyn FnMut(&Sample),
+) {
+    for (group, meaning) in groups {
+        let mut numbers = Vec::new();
+        for (at, statistic) in &group.columns {
+            let Some(number) = quoted(index, table, row, *at) else { continue };
+            let spread = table.rows[row][*at].spread.map(|printed| Quoted {
+                name: format!("spread of {}", number.name),
+                print: Print { printed, digits: table.columns[*at].meaning.digits },
+                cell: None,
+                ..number.clone()
+            });
+            numbers.push((*statistic, number));
+            numbers.extend(table.columns[*at].meaning.spread.zip(spread));
+        }
+        if !numbers.is_empty() {
+            let n = count(table, row, meaning);
+            give(&of_meaning(&format!("{} of {}", group.name, table.row_name(row)), meaning, n, numbers));
+        }
     }
 }
 

@@ -22,16 +22,18 @@ pub enum Statistic {
 }
 
 impl Statistic {
-    /// The statistic that a word such as `mean`, `std`, `25%`, `q95` names.
+    /// The statistic that a word such as `mean`, `std`, `25%`, `q95` names; `q1` to `q3` are quartiles.
     pub fn named(word: &str) -> Option<Self> {
         let word = word.trim().to_lowercase();
         Some(match word.as_str() {
-            "mean" | "avg" | "average" => Self::Mean,
-            "sd" | "std" | "std." | "stddev" => Self::Sd,
+            "mean" | "avg" | "avg." | "average" => Self::Mean,
+            "sd" | "std" | "std." | "stdev" | "stddev" => Self::Sd,
             "se" | "sem" => Self::Se,
             "min" | "minimum" => Self::Min,
             "max" | "maximum" => Self::Max,
-            "median" => Self::Quantile(5000),
+            "q1" => Self::Quantile(2500),
+            "median" | "q2" => Self::Quantile(5000),
+            "q3" => Self::Quantile(7500),
             "total" | "sum" => Self::Total,
             other => {
                 let share = other.strip_suffix('%').or_else(|| other.strip_prefix('q'))?;

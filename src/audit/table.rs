@@ -1,7 +1,7 @@
 //! Tables as they are printed: cells as strings with their places, and what each column is said to be.
 
 use super::exact::Print;
-use super::meaning::Meaning;
+use super::meaning::{Kind, Meaning};
 use super::printed::Printed;
 use std::fmt;
 
@@ -66,6 +66,8 @@ pub struct Column {
     pub meaning: Meaning,
     /// The annotation that says so; none if it was guessed.
     pub written: Option<String>,
+    /// The annotation that was written or guessed.
+    pub annotation: String,
 }
 
 /// A table.
@@ -90,11 +92,31 @@ impl Table {
         Some(Print { printed: value, digits: self.columns[column].meaning.digits })
     }
 
-    /// What a row is called: its first cell that is no number, or its number.
+    /// What a row is called: its first cell that is no number, with the statistic that it holds, or its number.
     pub fn row_name(&self, row: usize) -> String {
         let cells = self.rows.get(row).map_or(&[][..], Vec::as_slice);
-        let text = cells.iter().find(|cell| cell.value.is_none() && !cell.text.is_empty());
-        text.map_or_else(|| format!("row {}", row + 1), |cell| cell.text.clone())
+        let text = cells.iter().position(|cell| cell.value.is_none() && !cell.text.is_empty());
+        let Some(text) = text else { return format!("row {}", row + 1) };
+        let statistic = self.statistics().filter(|at| *at != text).and_then(|at| cells.get(at));
+        let name = cells[text].text.clone();
+        statistic.map_or(name.clone(), |statistic| format!("{name} {}", statistic.text))
+    }
+
+    /// The column that names each row's statistic.
+    pub fn statistics(&self) -> Option<usize> {
+        self.columns.iter().position(|column| column.meaning.kind == Kind::Statistics)
+    }
+
+    /// What a column is called, with its statistic where another column has the same name.
+    pub fn column_name(&self, column: usize) -> String {
+        let Column { name, meaning, .. } = &self.columns[column];
+        let is_twin = |(at, other): (usize, &Column)| at != column && other.name == *name;
+        match meaning.kind {
+            Kind::Of(statistic) if self.columns.iter().enumerate().any(is_twin) => {
+                format!("{} of {name}", statistic.name())
+            }
+            _ => name.clone(),
+        }
     }
 
     /// The column of this name.
@@ -120,6 +142,6 @@ pub struct Quoted {
 pub fn quoted(index: usize, table: &Table, row: usize, column: usize) -> Option<Quoted> {
     let print = table.print(row, column)?;
     let of = if table.name.is_empty() { String::new() } else { format!("{}: ", table.name) };
-    let name = format!("{of}{} of {}", table.columns[column].name, table.row_name(row));
+    let name = format!("{of}{} of {}", table.column_name(column), table.row_name(row));
     Some(Quoted { name, place: table.rows[row][column].place, print, cell: Some([index, row, column]) })
 }

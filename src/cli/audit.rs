@@ -98,7 +98,7 @@ impl Audit {
             let findings = report.findings.iter().map(|finding| output::line(&source, finding));
             let remarks =
                 output::guesses(&source, &input).into_iter().chain(output::unread_spreads(&source, &input));
-            let lines = remarks.chain(findings);
+            let lines = remarks.chain(output::unseen(&source, &report)).chain(findings);
             for line in lines.chain(output::summary(&report)) {
                 say!("{line}");
             }

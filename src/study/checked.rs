@@ -156,8 +156,10 @@ impl Study {
         let groups = || self.groups.iter().filter(|group| labels.contains(&group.label.as_str()));
         let known: BTreeSet<&str> = groups().flat_map(|group| &group.queries).map(String::as_str).collect();
         let is_known = known.contains(name) || groups().any(|group| group.queries.is_empty());
-        let of = || format!("query of {}", labels.join(", "));
-        (!is_known && !known.is_empty()).then(|| none_called(&of(), name, known.iter().copied()))
+        (!is_known && !known.is_empty()).then(|| {
+            let what = format!("query of {}", labels.join(", "));
+            none_called(&what, name, known.iter().copied())
+        })
     }
 
     /// How its records are named.

@@ -72,6 +72,7 @@ pub static COLUMNS: &[Column] = &[
     count("unsafe_hops", "hops during which the arm hits an obstacle, both links swept"),
     count("is_unsafe", "1 if the arm hits an obstacle anywhere along the path, else 0"),
     count("opened", "nodes ever put on an open list, both sides"),
+    count("opened_distinct", "nodes ever put on an open list, those of both sides counted once"),
     count("closed", "nodes ever put on a closed list, both sides"),
     count("expansions", "nodes expanded"),
     count("generated", "successors generated, known ones included"),

@@ -131,6 +131,15 @@ pub struct Paper {
     pub document: Arc<Document>,
 }
 
+/// Holds files beside the studies against what they are taken for; what is wrong in one that a study names was told already.
+fn check_others(others: &[(PathBuf, &'static str)], faults: &mut Faults) {
+    for (path, kind) in others.iter().filter(|(_, kind)| *kind != files::FOREIGN) {
+        if !faults.are_in(path) {
+            faults.keep(Document::open(path).and_then(|document| files::validate(&document, kind)));
+        }
+    }
+}
+
 impl Paper {
     /// Reads `paper.toml` and every study in `folder`.
     ///
@@ -183,13 +192,7 @@ impl Paper {
                 kind => others.push((path.clone(), kind)),
             }
         }
-        for (path, kind) in others.iter().filter(|(_, kind)| *kind != files::FOREIGN) {
-            // A study that names the file has told what is wrong in it.
-            if faults.are_in(path) {
-                continue;
-            }
-            faults.keep(Document::open(path).and_then(|document| files::validate(&document, kind)));
-        }
+        check_others(&others, faults);
         if files.len() == others.len() && faults.is_empty() {
             let what = "no study; a study is a TOML file beside paper.toml".to_owned();
             return Err(StudyError::Missing { path: folder.to_owned(), what });

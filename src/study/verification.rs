@@ -122,6 +122,7 @@ fn verify_lattice(
         cost: plan.cost,
         in_graph: untouched && !pipeline.planner.is_any_angle(),
         optimal: untouched && pipeline.planner.is_optimal(),
+        sight_corners: pipeline.stages.iter().find_map(|stage| stage.sight_corners()),
     };
     let refusal = refuse_ending(request, plan).or_else(|| match plan.ending {
         Ending::Solved => case.refuse_path(&answer, optimal),

@@ -39,6 +39,8 @@ pub struct Answer<'a> {
     pub in_graph: bool,
     /// The cost must be the least there is in the graph.
     pub optimal: bool,
+    /// The corners that a segment off the graph may pass, if not those of the case: it must keep one of the two rules.
+    pub sight_corners: Option<CornerRule>,
 }
 
 impl Case<'_> {
@@ -119,7 +121,7 @@ impl Case<'_> {
         if ends != (self.cell(self.start), self.cell(self.goal)) {
             return Some(format!("the path goes from {:?} to {:?}, not from start to goal", ends.0, ends.1));
         }
-        if let Some(refusal) = points.windows(2).find_map(|pair| self.refuse_step(pair, answer.in_graph)) {
+        if let Some(refusal) = points.windows(2).find_map(|pair| self.refuse_step(pair, answer)) {
             return Some(refusal);
         }
         let length = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
@@ -131,13 +133,13 @@ impl Case<'_> {
         optimal.map(|cost| format!("no path is claimed where the verifier finds one of cost {cost}"))
     }
 
-    fn refuse_step(&self, pair: &[[i32; 2]], in_graph: bool) -> Option<String> {
+    fn refuse_step(&self, pair: &[[i32; 2]], answer: &Answer<'_>) -> Option<String> {
         let (from, to) = (pair[0], pair[1]);
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
         if [dx, dy] == [0, 0] {
             return Some(format!("the path stands still at {from:?}"));
         }
-        if in_graph && (dx.abs() > 1 || dy.abs() > 1) {
+        if answer.in_graph && (dx.abs() > 1 || dy.abs() > 1) {
             return Some(format!("the step from {from:?} to {to:?} is not one of the eight moves"));
         }
         let (xs, ys) = (from[0].min(to[0])..=from[0].max(to[0]), from[1].min(to[1])..=from[1].max(to[1]));
@@ -146,7 +148,13 @@ impl Case<'_> {
                 return Some(format!("the segment from {from:?} to {to:?} enters the blocked cell {cell:?}"));
             }
         }
-        self.refuse_corners(from, [dx, dy])
+        let refusal = self.refuse_corners(from, [dx, dy]);
+        let own = answer.sight_corners.filter(|_| !answer.in_graph);
+        refusal.filter(|_| {
+            own.is_none_or(|corner_rule| {
+                Self { corner_rule, ..*self }.refuse_corners(from, [dx, dy]).is_some()
+            })
+        })
     }
 
     /// A segment meets lattice corners at even fractions of its way only if both reduced components are odd.

@@ -78,10 +78,7 @@ fn a_fault_is_told_once_whatever_readings_and_sweeps_lie_over_it() {
         "problem = { goal = [12, 9] }",
     );
     let said = bench.run(&["check", "./mini"]);
-    assert_told(
-        &said.err,
-        &[":20: goal is [12, 9], outside the map"],
-    );
+    assert_told(&said.err, &[":20: goal is [12, 9], outside the map"]);
 }
 
 #[test]

@@ -30,7 +30,8 @@ fn is_solved(planner: &dyn Planner, world: &World, [start, goal]: [u32; 2], what
     let optimum = case.optimal_cost();
     let refusal = match plan.ending {
         Ending::Solved => {
-            let answer = Answer { path: &plan.path, cost: plan.cost, in_graph: true, optimal: true };
+            let (path, cost) = (&plan.path[..], plan.cost);
+            let answer = Answer { path, cost, in_graph: true, optimal: true, sight_corners: None };
             case.refuse_path(&answer, optimum)
         }
         Ending::NoPath => case.refuse_no_path(optimum),

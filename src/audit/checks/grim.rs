@@ -63,10 +63,15 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     let grain = whole_is.or(relation.exact("grain")?).unwrap_or(whole(1));
     let step = Some(grain).filter(|grain| *grain > whole(0)).and_then(|grain| div(grain, count(n)));
     let step = step.ok_or_else(|| relation.fault("`grain` and `whole` must be above 0"))?;
-    let ends = match whole_is {
-        Some(end) => [Some(whole(0)), Some(end)],
-        None => [relation.exact("least")?, relation.exact("most")?],
-    };
+    if let (Some(_), Some(key)) =
+        (whole_is, ["grain", "least", "most"].into_iter().find(|key| relation.has(key)))
+    {
+        let message = format!(
+            "`whole` and `{key}` contradict each other: behind a share stands 0 or the whole; leave one out"
+        );
+        return Err(relation.fault(message));
+    }
+    let ends = whole_is.map_or_else(|| relation.ends(), |end| Ok([Some(whole(0)), Some(end)]))?;
     let values = format!("{n} values, each a multiple of {grain}");
     let numbers = [relation.number("value", input)?];
     Ok(Box::new(Grim { numbers, step, n, grain, is_count: false, value_ends: ends, ends, values }))

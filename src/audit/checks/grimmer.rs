@@ -101,7 +101,7 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
         "population" => Divisor::Population,
         _ => Divisor::Either,
     };
-    let ends = [relation.exact("least")?, relation.exact("most")?];
+    let ends = relation.ends()?;
     let values = format!("{n} values, each a multiple of {grain}");
     let numbers = vec![spread, relation.number("mean", input)?];
     let printed_ends = [None; 2];

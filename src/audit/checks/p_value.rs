@@ -20,8 +20,59 @@ pub static ENTRY: Entry = Entry {
 
 struct PValue {
     numbers: [Quoted; 1],
+    /// What stands before it, if it is printed as a bound: `p < 0.001`.
+    bound: Option<Bound>,
     k: [u64; 2],
     n: [u64; 2],
+}
+
+/// Marks before a p-value that is printed as a bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Bound {
+    Below,
+    AtMost,
+    Above,
+    AtLeast,
+}
+
+impl Bound {
+    /// Every mark; the longer ones first, since texts are looked through in this order.
+    const MARKS: [(&'static str, Self); 6] = [
+        ("<=", Self::AtMost),
+        (">=", Self::AtLeast),
+        ("≤", Self::AtMost),
+        ("≥", Self::AtLeast),
+        ("<", Self::Below),
+        (">", Self::Above),
+    ];
+
+    /// The mark before a text, and the rest; none before a plain number.
+    fn read(text: &str) -> (Option<Self>, &str) {
+        let text = text.trim();
+        let marked = Self::MARKS
+            .iter()
+            .find_map(|(mark, bound)| Some((Some(*bound), text.strip_prefix(mark)?.trim())));
+        marked.unwrap_or((None, text))
+    }
+
+    /// Whether `p` is on its side of `end`, which is printed in full.
+    fn holds(self, p: f64, end: f64) -> bool {
+        match self {
+            Self::Below => p < end,
+            Self::AtMost => p <= end,
+            Self::Above => p > end,
+            Self::AtLeast => p >= end,
+        }
+    }
+
+    fn mark(self) -> &'static str {
+        match self {
+            Self::Below => "<",
+            Self::AtMost => "≤",
+            Self::Above => ">",
+            Self::AtLeast => "≥",
+        }
+    }
 }
 
 /// Trials up to which Fisher's sum is taken.
@@ -40,7 +91,10 @@ fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     if n.iter().any(|n| *n > TRIALS) {
         return Err(relation.fault(format!("`n1` and `n2` are {TRIALS} at most")));
     }
-    Ok(Box::new(PValue { numbers: [relation.number("p", input)?], k, n }))
+    let (bound, value) = Bound::read(relation.text("p")?.unwrap_or_default());
+    let number =
+        if bound.is_some() { relation.resolve("p", value, input)? } else { relation.number("p", input)? };
+    Ok(Box::new(PValue { numbers: [number], bound, k, n }))
 }
 
 impl PValue {
@@ -89,7 +143,10 @@ impl PValue {
     }
 
     fn fitting(&self, print: Print) -> Vec<&'static str> {
-        let fits = |(_, p): &(&str, f64)| print.printed.agrees(*p, print.digits);
+        let fits = |(_, p): &(&str, f64)| match self.bound {
+            Some(bound) => bound.holds(*p, print.printed.value()),
+            None => print.printed.agrees(*p, print.digits),
+        };
         self.values().into_iter().filter(fits).map(|(name, _)| name).collect()
     }
 }
@@ -104,19 +161,29 @@ impl Test for PValue {
     }
 
     fn said(&self, prints: &[Print], is_possible: bool) -> String {
-        let (p, [k1, k2], [n1, n2]) = (prints[0].printed, self.k, self.n);
+        let ([k1, k2], [n1, n2]) = (self.k, self.n);
+        let p = format!("{} {}", self.bound.map_or("=", Bound::mark), prints[0].printed);
         if is_possible {
             return format!(
-                "p = {p} for {k1} of {n1} against {k2} of {n2}: {}",
+                "p {p} for {k1} of {n1} against {k2} of {n2}: {}",
                 self.fitting(prints[0]).join("; ")
             );
         }
         let listed: Vec<String> = self.values().iter().map(|(name, p)| format!("{name} {p:.4}")).collect();
-        format!("p = {p} for {k1} of {n1} against {k2} of {n2} is none of: {}", listed.join("; "))
+        format!("p {p} for {k1} of {n1} against {k2} of {n2} is none of: {}", listed.join("; "))
     }
 
     fn premises(&self) -> Vec<String> {
-        vec!["trials are independent and the test is one of those listed".to_owned(), digits(&self.numbers)]
+        let way = if self.bound.is_some() {
+            "the bound is meant as printed".to_owned()
+        } else {
+            digits(&self.numbers)
+        };
+        vec!["trials are independent and the test is one of those listed".to_owned(), way]
+    }
+
+    fn is_about_digits(&self) -> bool {
+        self.bound.is_none()
     }
 
     fn window(&self) -> Option<Window> {

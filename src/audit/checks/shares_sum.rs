@@ -48,16 +48,17 @@ fn in_table(index: usize, table: &Table, columns: &[usize], give: &mut dyn FnMut
         Some(Count::Number(n)) => Some(n),
         _ => None,
     };
-    let mut give = |cells: Vec<Quoted>| {
-        if cells.len() > 1 {
-            give(Box::new(SharesSum { numbers: cells, all, n }));
+    // Where a part is not printed, the others sum to nothing known.
+    let mut give = |cells: Option<Vec<Quoted>>| {
+        if let Some(numbers) = cells.filter(|cells| cells.len() > 1) {
+            give(Box::new(SharesSum { numbers, all, n }));
         }
     };
     let rows = 0..table.rows.len();
     if columns.len() == 1 {
-        give(rows.filter_map(|row| quoted(index, table, row, columns[0])).collect());
+        give(rows.map(|row| quoted(index, table, row, columns[0])).collect());
     } else {
-        rows.for_each(|row| give(columns.iter().filter_map(|at| quoted(index, table, row, *at)).collect()));
+        rows.for_each(|row| give(columns.iter().map(|at| quoted(index, table, row, *at)).collect()));
     }
 }
 

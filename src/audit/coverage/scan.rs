@@ -45,8 +45,8 @@ const SILENT: &[(&str, usize)] = &[
     ("cmidrule", 1),
 ];
 
-/// Numbers in words; `one` is as often a pronoun.
-const WORDS: [&str; 36] = [
+/// Numbers and ordinals in words; `one` is as often a pronoun, `first` and `second` order sentences and name units.
+const WORDS: [&str; 80] = [
     "zero",
     "two",
     "three",
@@ -80,10 +80,57 @@ const WORDS: [&str; 36] = [
     "billion",
     "dozen",
     "half",
+    "halves",
+    "quarter",
     "twice",
     "thrice",
+    "double",
+    "triple",
+    "quadruple",
+    "twofold",
+    "threefold",
+    "fourfold",
+    "fivefold",
     "tenfold",
+    "hundredfold",
+    "thirds",
+    "quarters",
+    "fifths",
+    "tenths",
+    "third",
+    "fourth",
+    "fifth",
+    "sixth",
+    "seventh",
+    "eighth",
+    "ninth",
+    "tenth",
+    "eleventh",
+    "twelfth",
+    "thirteenth",
+    "fourteenth",
+    "fifteenth",
+    "sixteenth",
+    "seventeenth",
+    "eighteenth",
+    "nineteenth",
+    "twentieth",
+    "hundredth",
+    "thousandth",
+    "dozens",
+    "hundreds",
+    "thousands",
+    "millions",
+    "billions",
+    "doubles",
+    "doubled",
+    "triples",
+    "tripled",
+    "halved",
 ];
+
+/// Commands that divide their first argument by their second.
+const FRACTIONS: [&str; 5] = ["frac", "tfrac", "dfrac", "nicefrac", "sfrac"];
 
 /// A number that stands in the text.
 pub(super) struct Found {
@@ -98,10 +145,20 @@ pub(super) struct Found {
 /// Every number that stands in the text as such, in digits or in words, but for those that a comment on their line excuses:
 /// `% typed: 2, twelve`.
 pub(super) fn numbers(text: &str) -> Vec<Found> {
+    scanned(text).0
+}
+
+/// Every command that stands in the text, with the place of its backslash.
+pub(super) fn commands(text: &str) -> Vec<Found> {
+    scanned(text).1
+}
+
+/// The numbers and the commands of a text.
+fn scanned(text: &str) -> (Vec<Found>, Vec<Found>) {
     let body = text.find("\\begin{document}").map_or(0, |at| at + "\\begin{document}".len());
     let end = text.find("\\end{document}").unwrap_or(text.len()).max(body);
     let first = text[..body].matches('\n').count();
-    let mut scan = Scan { depth: 0, left: 0, found: Vec::new() };
+    let mut scan = Scan { depth: 0, left: 0, behind: 0, found: Vec::new(), commands: Vec::new() };
     for (index, line) in text[body..end].split('\n').enumerate() {
         let offset = if index == 0 {
             text[..body].rsplit('\n').next().map_or(0, |before| before.chars().count())
@@ -118,7 +175,7 @@ pub(super) fn numbers(text: &str) -> Vec<Found> {
             scan.found.extend(on_line.into_iter().filter(|found| !excused.contains(&found.number.as_str())));
         }
     }
-    scan.found
+    (scan.found, scan.commands)
 }
 
 /// A line without its comment.
@@ -138,26 +195,34 @@ struct Scan {
     depth: usize,
     /// … and how many such arguments of the command are left.
     left: usize,
+    /// Where the name of the last command ends: what follows is no part of a word.
+    behind: usize,
     found: Vec<Found>,
+    commands: Vec<Found>,
 }
 
 impl Scan {
     fn line(&mut self, line: usize, offset: usize, text: &str) {
         let chars: Vec<char> = text.chars().collect();
         let mut at = 0;
+        self.behind = usize::MAX;
         while at < chars.len() {
             let c = chars[at];
             let start = at;
             let number = if self.depth > 0 {
                 at = self.silent(&chars, at);
                 None
+            } else if let Some((number, end)) = fraction(&chars, at) {
+                at = end;
+                Some(number)
             } else if c == '\\' {
                 at = self.command(&chars, at + 1);
+                self.name(&chars, start, line, offset);
                 None
             } else if c.is_ascii_digit() {
                 let (number, end) = digits(&chars, at);
                 at = end;
-                (!is_part_of_more(&chars, start, end)).then_some(number)
+                (!is_part_of_more(&chars, start, end, start == self.behind)).then_some(number)
             } else if c.is_alphabetic() {
                 at = (at..chars.len()).find(|at| !chars[*at].is_alphanumeric()).unwrap_or(chars.len());
                 let word = chars[start..at].iter().collect::<String>();
@@ -168,6 +233,16 @@ impl Scan {
             };
             let column = offset + start + 1;
             self.found.extend(number.map(|number| Found { line, column, number }));
+        }
+    }
+
+    /// Notes the command whose backslash stands at `start`.
+    fn name(&mut self, chars: &[char], start: usize, line: usize, offset: usize) {
+        let letters = chars[start + 1..].iter().take_while(|c| c.is_ascii_alphabetic());
+        let number: String = letters.collect();
+        self.behind = start + 1 + number.len();
+        if !number.is_empty() {
+            self.commands.push(Found { line, column: offset + start + 1, number });
         }
     }
 
@@ -233,9 +308,38 @@ fn digits(chars: &[char], start: usize) -> (String, usize) {
     (number, at)
 }
 
-/// Whether digits are part of a word, a length, or a script.
-fn is_part_of_more(chars: &[char], start: usize, end: usize) -> bool {
-    let before = start.checked_sub(1).map(|at| chars[at]);
+/// The fraction of two numbers that starts here, as `1/2`, and where it ends: `\frac12`, `\frac{1}{2}`, `\tfrac{3}5`.
+fn fraction(chars: &[char], start: usize) -> Option<(String, usize)> {
+    let rest: String = chars[start..].iter().take(60).collect();
+    let name = FRACTIONS.iter().find(|name| {
+        let behind = rest.strip_prefix('\\').and_then(|rest| rest.strip_prefix(**name));
+        behind.is_some_and(|behind| !behind.starts_with(|c: char| c.is_ascii_alphabetic()))
+    })?;
+    let mut at = start + 1 + name.len();
+    let mut argument = || {
+        while chars.get(at) == Some(&' ') {
+            at += 1;
+        }
+        let inner: String = if chars.get(at) == Some(&'{') {
+            let end = chars[at..].iter().position(|c| *c == '}')?;
+            let inner = chars[at + 1..at + end].iter().collect();
+            at += end + 1;
+            inner
+        } else {
+            at += 1;
+            chars.get(at - 1)?.to_string()
+        };
+        let is_number = inner.contains(|c: char| c.is_ascii_digit())
+            && inner.chars().all(|c| c.is_ascii_digit() || ".-".contains(c));
+        is_number.then_some(inner)
+    };
+    let (above, below) = (argument()?, argument()?);
+    Some((format!("{above}/{below}"), at))
+}
+
+/// Whether digits are part of a word, a length, or a script; right behind a command's name they are no part of it.
+fn is_part_of_more(chars: &[char], start: usize, end: usize, is_behind_a_command: bool) -> bool {
+    let before = start.checked_sub(1).map(|at| chars[at]).filter(|_| !is_behind_a_command);
     let in_script = before == Some('{') && start >= 2 && matches!(chars[start - 2], '_' | '^');
     let in_word = before.is_some_and(|c| c.is_alphanumeric() || matches!(c, '_' | '^'));
     let after: String = chars[end..].iter().take(4).collect();

@@ -22,6 +22,11 @@ const UNITS: [&str; 34] = [
     "°", "Hz", "kHz", "MHz", "GHz", "kB", "KB", "MB", "GB", "J", "W", "N", "kg", "m/s", "rad/s", "x", "×",
 ];
 
+/// Whether a text is a unit that is known.
+pub fn is_unit(text: &str) -> bool {
+    UNITS.contains(&text)
+}
+
 /// A text that is a number and its unit: the two; the unit is empty where there is none.
 pub fn unit(text: &str) -> (&str, &str) {
     let text = text.trim();
@@ -116,6 +121,9 @@ fn complaint(text: &str) -> &'static str {
     }
     if text.parse::<f64>().is_ok_and(f64::is_finite) && text.contains(['e', 'E']) {
         return "has an exponent, which hides digits; write the number out";
+    }
+    if text.starts_with(['<', '>', '≤', '≥']) {
+        return "is a bound and no printed value; write - for it, or ask about a p-value by a relation `p_value`";
     }
     let shortened = text.strip_suffix(['k', 'K', 'M', 'G', 'B']).is_some_and(|text| is_number(text.trim()));
     if shortened {

@@ -14,8 +14,9 @@ mod units;
 pub use cells::{Number, number, unit};
 
 use super::input::Input;
-use super::meaning::{Kind, Meaning};
+use super::meaning::{Kind, Meaning, contradiction};
 use super::printed::Printed;
+use super::sample::groups;
 use super::statistic::Statistic;
 use super::table::{Cell, Column, Fault, Place, Table};
 
@@ -113,7 +114,10 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
     if columns.len() != raw.header.len() {
         return None;
     }
+    guess::join(&mut columns);
+    guess::propose_n(&mut columns);
     check_references(&columns, raw.line, faults);
+    check_groups(&columns, raw.line, faults);
     let mut rows = Vec::with_capacity(raw.rows.len());
     for (line, texts) in raw.rows {
         let cells = texts.iter().zip(&columns).enumerate().filter_map(|(index, (text, column))| {
@@ -137,18 +141,58 @@ fn table(raw: Raw, faults: &mut Vec<Fault>) -> Option<Table> {
     Some(Table { name: raw.name, line: raw.line, mark: raw.mark, columns, rows })
 }
 
-/// The column that a header cell describes; guessed if it has no annotation.
+/// The column that a header cell describes; guessed if it has no annotation. A unit in brackets is none.
 fn column(raw: &Raw, index: usize, header: &str) -> Result<Column, String> {
     let plain = cells::plain(header).0;
-    if let Some((name, annotation)) = plain.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
-        let meaning = Meaning::parse(annotation)?;
-        let written = Some(annotation.trim().to_owned());
-        return Ok(Column { name: name.trim().to_owned(), meaning, written });
+    let (mut name, mut unit) = (plain.trim(), "");
+    if let Some((before, annotation)) = plain.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
+        let annotation = annotation.trim();
+        match Meaning::parse(annotation) {
+            Ok(meaning) => {
+                let (name, annotation) = (before.trim().to_owned(), annotation.to_owned());
+                return Ok(Column { name, meaning, written: Some(annotation.clone()), annotation });
+            }
+            Err(_) if cells::is_unit(annotation) => (name, unit) = (before.trim(), annotation),
+            Err(message) => return Err(message),
+        }
     }
     let texts = raw.rows.iter().filter_map(|(_, texts)| texts.get(index).map(String::as_str));
-    let annotation = guess::annotation(&plain, &texts.take(1000).collect::<Vec<_>>());
+    let annotation = guess::annotation(name, unit, &texts.take(1000).collect::<Vec<_>>());
     let meaning = Meaning::parse(&annotation).unwrap_or_default();
-    Ok(Column { name: plain.trim().to_owned(), meaning, written: None })
+    Ok(Column { name: name.to_owned(), meaning, written: None, annotation })
+}
+
+/// Columns of the same values, or parts of one whole, must not contradict each other.
+fn check_groups(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
+    let of_group = groups(columns).into_iter().flat_map(|group| {
+        let all: Vec<usize> = group.columns.iter().map(|(at, _)| *at).collect();
+        (1..=all.len()).map(move |end| all[..end].to_vec())
+    });
+    let parts = |at: &usize| columns[*at].meaning.parts.clone();
+    let with_parts = (0..columns.len()).filter(|at| parts(at).is_some());
+    let of_whole = with_parts.map(|at| (0..=at).filter(|other| parts(other) == parts(&at)).collect());
+    let together: Vec<(&str, Vec<usize>)> = of_group
+        .map(|all| ("statistics of the same values; another `of=NAME` is accepted where they are not", all))
+        .chain(
+            of_whole
+                .map(|all| ("parts of one whole; another `parts=NAME` is accepted where they are not", all)),
+        )
+        .collect();
+    for (are, group) in together {
+        let Some((at, before)) = group.split_last() else { continue };
+        let contrary = before.iter().find_map(|before| {
+            let what = contradiction::of_values(&columns[*before].meaning, &columns[*at].meaning)?;
+            Some((before, what))
+        });
+        if let Some((before, what)) = contrary {
+            let [first, second] =
+                [before, at].map(|at| format!("{} [{}]", columns[*at].name, columns[*at].annotation));
+            let message = format!(
+                "`{first}` and `{second}` contradict each other: both say {what}, and they are {are}"
+            );
+            faults.push(Fault::new(Place { line, cell: at + 1 }, message));
+        }
+    }
 }
 
 /// Every column that an annotation names must be there.
@@ -212,21 +256,17 @@ pub fn stub_line(table: &Table) -> String {
 
 /// A header line with an annotation for every column, to be corrected: what was written, or what was guessed.
 pub fn stub(table: &Table) -> Vec<String> {
-    let names = |column: &Column| column.name.clone();
-    let texts: Vec<String> = table.columns.iter().map(names).collect();
-    let column_texts = |index: usize| {
-        table.rows.iter().take(1000).filter_map(move |row| row.get(index).map(|cell| cell.text.as_str()))
-    };
-    let header = texts.iter().enumerate().map(|(index, name)| {
-        let guessed = || guess::annotation(name, &column_texts(index).collect::<Vec<_>>());
-        let annotation = table.columns[index].written.clone().unwrap_or_else(guessed);
-        format!("{name} [{annotation}]").trim_start().to_owned()
-    });
-    header.collect()
+    let header =
+        |Column { name, annotation, .. }: &Column| format!("{name} [{annotation}]").trim_start().to_owned();
+    table.columns.iter().map(header).collect()
 }
 
-/// Whether the texts of a column name statistics: `mean`, `std`, `25%`.
+/// Whether the texts of a column name statistics: `mean`, `std`, `25%`. Queries may be called `q1`, `q2`, so that one word of
+/// another kind is needed.
 fn are_statistics(texts: &[&str]) -> bool {
-    let named = texts.iter().filter(|text| Statistic::named(&cells::plain(text).0).is_some()).count();
-    named >= 3 && 2 * named > texts.len()
+    let named = |text: &&&str| Statistic::named(&cells::plain(text).0).is_some();
+    let count = texts.iter().filter(named).count();
+    let has_word =
+        texts.iter().filter(named).any(|text| !cells::plain(text).0.to_lowercase().starts_with('q'));
+    count >= 3 && 2 * count > texts.len() && has_word
 }

@@ -5,41 +5,64 @@ use super::cells;
 use crate::meaning::Kind;
 use crate::table::{Cell, Column, Fault};
 
-/// Refuses columns of which cells have different units, and sums of columns in different units: such numbers do not compare.
+/// Refuses columns of which cells have other units than their header or each other, and sums of columns in different units:
+/// such numbers do not compare.
 pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
     for (at, column) in columns.iter().enumerate() {
         if matches!(column.meaning.kind, Kind::Skip | Kind::Statistics) {
             continue;
         }
-        let own = |at: usize| rows.iter().filter_map(|row| row.get(at)).find(|cell| cell.value.is_some());
+        let first = |at: usize| rows.iter().filter_map(|row| row.get(at)).find(|cell| cell.value.is_some());
+        let unit = |at: usize, cell: &Cell| {
+            let said = columns[at].meaning.unit.clone();
+            said.unwrap_or_else(|| cells::unit(&cell.text).1.to_owned())
+        };
         for name in &column.meaning.sum {
-            let part = columns.iter().position(|column| column.name == *name).and_then(own);
-            let (Some(total), Some(part)) = (own(at), part) else { continue };
-            if cells::unit(&total.text).1 != cells::unit(&part.text).1 {
+            let Some(part) = columns.iter().position(|column| column.name == *name) else { continue };
+            let (Some(total), Some(of)) = (first(at), first(part)) else { continue };
+            let [own, other] = [unit(at, total), unit(part, of)];
+            let is_said = columns[at].meaning.unit.is_some() || columns[part].meaning.unit.is_some();
+            let is_half = is_said && (own.is_empty() || other.is_empty());
+            if own != other && !is_half {
                 let message = format!(
-                    "column `{}`: `{}` is the sum of numbers such as `{}`; one unit is accepted in both",
-                    column.name, total.text, part.text
+                    "column `{}`: `{}` is the sum of numbers such as `{}`, in {} and in {}; one unit is accepted in both",
+                    column.name,
+                    total.text,
+                    of.text,
+                    named(&own),
+                    named(&other)
                 );
                 faults.push(Fault::new(total.place, message));
             }
         }
-        let cells = rows.iter().filter_map(|row| row.get(at).filter(|cell| cell.value.is_some()));
-        let mut first: Option<&str> = None;
-        for cell in cells {
-            let unit = cells::unit(&cell.text).1;
-            if *first.get_or_insert(unit) != unit && faults.len() < FAULTS {
-                let named = |unit: &str| {
-                    if unit.is_empty() { "no unit".to_owned() } else { format!("the unit {unit}") }
-                };
-                let message = format!(
-                    "column `{}`: `{}` has {}, and the first number {}; one unit a column is accepted, best in its header",
-                    column.name,
-                    cell.text,
-                    named(unit),
-                    named(first.unwrap_or_default()),
-                );
-                faults.push(Fault::new(cell.place, message));
-            }
+        in_cells(at, column, rows, faults);
+    }
+}
+
+/// Refuses cells whose unit is another than the header's, or than the first cell's.
+fn in_cells(at: usize, column: &Column, rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
+    let header = column.meaning.unit.as_deref();
+    let mut first: Option<&str> = None;
+    for cell in rows.iter().filter_map(|row| row.get(at).filter(|cell| cell.value.is_some())) {
+        let unit = cells::unit(&cell.text).1;
+        let (whose, expected) = match header {
+            Some(header) if unit.is_empty() || unit == header => continue,
+            Some(header) => ("its header", header),
+            None => ("the first number", *first.get_or_insert(unit)),
+        };
+        if expected != unit && faults.len() < FAULTS {
+            let message = format!(
+                "column `{}`: `{}` has {}, and {whose} {}; one unit a column is accepted, best in its header",
+                column.name,
+                cell.text,
+                named(unit),
+                named(expected),
+            );
+            faults.push(Fault::new(cell.place, message));
         }
     }
+}
+
+fn named(unit: &str) -> String {
+    if unit.is_empty() { "no unit".to_owned() } else { format!("the unit {unit}") }
 }

@@ -2,6 +2,7 @@
 
 use super::tests::audited;
 use super::*;
+use crate::printed::Printed;
 use crate::reader::Format;
 use rand::{RngExt, SeedableRng, rngs::SmallRng};
 use std::collections::BTreeSet;

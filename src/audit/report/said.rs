@@ -150,7 +150,8 @@ fn ways_to_end_digits_that_differ_are_each_a_premise() {
     let table = "p,x [mean, integers, n=4, rounding=half up],x [sd]\nA,2.50,1.29\n";
     let premise = found(table, Format::Csv, "grimmer").premises[1].clone();
     assert!(
-        premise.contains("those of x of A end in any usual way") && premise.contains("end by half up"),
+        premise.contains("those of standard deviation of x of A end in any usual way")
+            && premise.contains("those of mean of x of A end by half up"),
         "{premise}"
     );
 }
@@ -171,7 +172,7 @@ fn a_stub_is_written_as_the_table_is_and_can_be_read() {
     }
     let table = "|a|rate|\n|-|-|\n|x|25|\n";
     let line = stub_line(&read(table, Format::Markdown).unwrap().tables[0]);
-    assert_eq!(line, "| a [label] | rate [share of ?] |");
+    assert_eq!(line, "| a [label] | rate [% of ?] |");
 }
 
 #[test]
@@ -212,4 +213,201 @@ fn a_fall_in_small_steps_shows_against_the_greatest_success_with_fewer_samples()
     // Digits may be rounded or cut, so that a fall of two units may be none; seven rows fall by more.
     assert_eq!(impossible(&table(rows(90).collect())), 7);
     assert_eq!(impossible(&table(rows(90).take(2).collect())), 0);
+}
+
+/// The faults of a text, which cannot be audited.
+fn refused(text: &str, format: Format) -> String {
+    read(text, format).and_then(|input| audit(&input, &Options::default())).unwrap_err()[0].to_string()
+}
+
+#[test]
+fn annotations_that_contradict_themselves_are_refused_and_not_called_impossible() {
+    for (annotation, said) in [
+        (
+            "% of 250, n=40",
+            "1:2: `% of 250` and `n=40` contradict each other: both say how many values there are",
+        ),
+        (
+            "mean, sd, n=4",
+            "1:2: `mean` and `sd` contradict each other: both say what kind of number the column holds",
+        ),
+        ("mean, least=5, most=1", "1:2: `mean, least=5, most=1` contradicts itself: least=5 is above most=1"),
+        (
+            "mean, binary, most=2",
+            "1:2: `binary` and `most=2` contradict each other: both say the greatest value",
+        ),
+        (
+            "mean, integers, tick=1/4",
+            "1:2: `integers` and `tick=1/4` contradict each other: both say what values",
+        ),
+        (
+            "sd, sample, population",
+            "1:2: `sample` and `population` contradict each other: both say how a deviation",
+        ),
+        ("% of 20, ±sd, ±se", "1:2: `±sd` and `±se` contradict each other: both say what stands after ±"),
+        ("mean, rounding=floor, rounding=ceiling", "1:2: `rounding=floor` and `rounding=ceiling` contradict"),
+        (
+            "% of 20, integers",
+            "1:2: `% of 20, integers` contradicts itself: behind a share every value is 0 or",
+        ),
+        ("mean, seeds=10", "1:2: `mean, seeds=10` contradicts itself: `seeds=S` is for shares"),
+        ("mean s, unit=ms", "1:2: `mean s` and `unit=ms` contradict each other: both say the unit"),
+        (
+            "value, from=0:0, from=1:1",
+            "1:2: `from=0:0` and `from=1:1` contradict each other: both say where paths",
+        ),
+    ] {
+        let found = refused(&format!("p,x [{annotation}]\nA,2\n"), Format::Csv);
+        assert!(found.starts_with(said), "{annotation}: {found}");
+    }
+    for fine in [
+        "% of 250, n=250",
+        "rises, anytime",
+        "binary, integers",
+        "a+b√2, step=2, value",
+        "% of 25, seeds=10, ±sd",
+    ] {
+        read(&format!("p,x [{fine}]\nA,2\n"), Format::Csv)
+            .unwrap_or_else(|faults| panic!("{fine}: {faults:?}"));
+    }
+    let columns = "p,x [mean, n=50],x [sd, n=40]\nA,2,1\n";
+    let said = "1:3: `x [mean, n=50]` and `x [sd, n=40]` contradict each other: both say how many values there are, and they \
+                are statistics of the same values";
+    assert!(refused(columns, Format::Csv).starts_with(said), "{}", refused(columns, Format::Csv));
+    let units = refused("p,x [mean s, n=50],x [sd ms]\nA,2,1\n", Format::Csv);
+    assert!(units.contains("both say the unit"), "{units}");
+    let parts = refused("p,a [% of 40, parts=w],b [% of 50, parts=w]\nA,60,40\n", Format::Csv);
+    assert!(parts.contains("how many values there are, and they are parts of one whole"), "{parts}");
+    for keys in [
+        "check = \"grim\"\nvalue = \"2\"\nn = 4\nleast = 5\nmost = 1",
+        "check = \"grimmer\"\nmean = \"2\"\nsd = \"1\"\nn = 4\nleast = 5\nmost = 1",
+    ] {
+        let found = refused(&format!("[[relation]]\n{keys}\n"), Format::Toml);
+        assert!(found.contains("least=5 is above most=1"), "{found}");
+    }
+    let cell = refused("p,time [mean ms]\nA,1.2 s\n", Format::Csv);
+    assert!(
+        cell.starts_with("2:2: column `time`: `1.2 s` has the unit s, and its header the unit ms"),
+        "{cell}"
+    );
+}
+
+#[test]
+fn a_filled_stub_of_statistics_in_columns_of_their_own_is_checked() {
+    let text = "planner,mean,sd,min,max\nA,2.0,3.0,1.0,4.0\n";
+    let input = read(text, Format::Csv).unwrap();
+    let stub = stub_line(&input.tables[0]);
+    let expected = "planner [label],mean [mean, n=?, of=values],sd [sd, n=?, of=values],min [min, n=?, of=values],max [max, n=?, of=values]";
+    assert_eq!(stub, expected);
+    let filled = text.replace("planner,mean,sd,min,max", &stub.replace('?', "50"));
+    let finding = found(&filled, Format::Csv, "sd_range");
+    assert_eq!(finding.class, Class::Impossible, "{}", finding.said);
+    assert!(finding.name == "sd of A" && finding.premises[0].contains("same"), "{finding:?}");
+    let long = "planner,time mean (n = 50),time std,iterations (mean),iterations (max)\nA,2.0,3.0,5,6\n";
+    let stub = stub_line(&read(long, Format::Csv).unwrap().tables[0]);
+    let expected = "planner [label],time mean (n = 50) [mean, n=50, lower is better, of=time],time std [sd, n=?, of=time],iterations \
+                    (mean) [mean, n=?, of=iterations],iterations (max) [max, n=?, of=iterations]";
+    assert_eq!(stub, expected);
+}
+
+#[test]
+fn what_rests_on_a_guess_is_a_signal_and_the_header_makes_it_a_proof() {
+    let text = "planner,success (% of 250),Time [s]\nA,33.3,1.2\n";
+    let input = read(text, Format::Csv).unwrap();
+    assert_eq!(
+        stub_line(&input.tables[0]),
+        "planner [label],success (% of 250) [% of 250, higher is better],Time [mean, n=?, lower is better, unit=s]"
+    );
+    let finding = found(text, Format::Csv, "grim");
+    assert_eq!((finding.class, finding.certificate), (Class::Signal, None));
+    let premise = finding.premises.last().unwrap();
+    assert!(premise.contains("`% of 250, higher is better` was guessed"), "{premise}");
+    let said = found(&text.replace("(% of 250)", "[% of 250]"), Format::Csv, "grim");
+    assert_eq!(said.class, Class::Impossible);
+    let runs = read("p,runs,success\nA,30,50.0\nB,-,33.3\n", Format::Csv).unwrap();
+    assert_eq!(stub_line(&runs.tables[0]), "p [label],runs [value],success [% of runs, higher is better]");
+    let comma = refused("p;success;time\nA;33,3;1.234,5\nB;90,0;2,5\n", Format::Csv);
+    assert!(comma.starts_with("2:2: column `success`: `33,3` has a decimal comma"), "{comma}");
+    let counts = read("q,solved of 20\nq1,3\nq2,20\nq3,7\n", Format::Csv).unwrap();
+    assert_eq!(stub_line(&counts.tables[0]), "q [label],solved of 20 [count of 20, higher is better]");
+}
+
+#[test]
+fn what_no_check_looked_at_is_told_with_what_to_write() {
+    let unseen = |text: &str| {
+        let report = audited(text, Format::Csv, &Options::default());
+        (output::unseen("t", &report), report.tally.len())
+    };
+    let (lines, asked) = unseen("p,a [mean, n=50],b [sd],c [value],d [% of 20],e\nA,2.0,3.0,1,25,3\n");
+    assert_eq!(asked, 1, "the share is a k of 20");
+    let starts: Vec<&str> = lines.iter().map(|line| line.split(": no check").next().unwrap()).collect();
+    assert_eq!(starts, ["t:2:2: column `a`", "t:2:3: column `b`", "t:2:4: column `c`", "t:2:6: column `e`"]);
+    let (lines, _) = unseen("p,a [mean, n=50]\nA,2.0\n");
+    assert!(lines[1].starts_with("t: nothing was looked at, which is no pass"), "{lines:?}");
+    assert_eq!(unseen("p,a [% of m],m\nA,25,20\n").0, [""; 0], "a column that holds n is looked at");
+    let sample = "[[sample]]\nname = \"x\"\nmean = \"2.0\"\n";
+    let lines = output::unseen("t", &audited(sample, Format::Toml, &Options::default()));
+    assert!(lines[0].starts_with("t:1: sample `x`: no check looked at it"), "{lines:?}");
+}
+
+#[test]
+fn a_cause_is_told_once_with_what_follows_from_it() {
+    let text = "p,x [mean, integers, n=10],x [sd],x [median]\nA,3.45,1.2,3\n";
+    let report = audited(text, Format::Csv, &Options::default());
+    let checks: Vec<&str> = report.findings.iter().map(|finding| finding.check).collect();
+    assert_eq!(checks, ["grim"]);
+    assert_eq!(report.findings[0].follows, ["grimmer of standard deviation of x of A"]);
+    assert_eq!((report.tally["grimmer"].impossible, report.tally["grimmer"].follows), (0, 1));
+    // A deviation that no mended mean has is a cause of its own.
+    let two = audited(&text.replace("1.2,", "0.01,"), Format::Csv, &Options::default());
+    assert_eq!(two.findings.len(), 2, "{two:#?}");
+}
+
+#[test]
+fn power_beside_a_refusal_is_not_nothing() {
+    for text in [
+        "p,x [% of 20]\nA,104.0\n",
+        "p,x [value, free=900]\nA,1024\n",
+        "p,x [mean],x [max]\nA,123456.7,3.1\n",
+        "p,x [% of 1000000]\nA,99.99995\n",
+    ] {
+        for finding in audited(text, Format::Csv, &Options::default()).findings {
+            let power = finding.power.unwrap();
+            assert!(power.refused > 0 || power.is_beyond, "{text}: {power:?}");
+            assert!(!power.to_string().contains("refuses 0 %") || power.is_beyond, "{power}");
+        }
+    }
+}
+
+#[test]
+fn a_p_value_may_be_printed_as_a_bound() {
+    let relation = |p: &str| {
+        format!("[[relation]]\ncheck = \"p_value\"\np = \"{p}\"\nk1 = 90\nn1 = 100\nk2 = 60\nn2 = 100\n")
+    };
+    for (p, class) in [
+        ("< 0.001", Class::Possible),
+        ("≤0.05", Class::Possible),
+        ("> 0.05", Class::Signal),
+        (">=0.5", Class::Signal),
+    ] {
+        let finding = found(&relation(p), Format::Toml, "p_value");
+        assert_eq!(finding.class, class, "{}", finding.said);
+    }
+    assert!(found(&relation("> 0.05"), Format::Toml, "p_value").said.starts_with("p > 0.05 for 90 of 100"));
+    assert!(refused("p,x [value]\nA,<0.1\n", Format::Csv).contains("is a bound and no printed value"));
+}
+
+#[test]
+fn a_row_without_all_parts_sums_to_nothing_and_a_missing_cell_joins_no_other_sample() {
+    let report = audited(
+        "p,a [%, parts=w],b [%, parts=w],c [%, parts=w]\nA,50,-,20\n",
+        Format::Csv,
+        &Options::default(),
+    );
+    assert!(report.findings.is_empty() && !report.tally.contains_key("shares_sum"), "{report:?}");
+    let twice = "p,a [mean],a [min],a [mean],a [min]\nx,-,5,2.0,1\n";
+    assert!(
+        audited(twice, Format::Csv, &Options::default()).findings.is_empty(),
+        "5 is the least of other values"
+    );
 }

@@ -227,7 +227,7 @@ const WRONG: [(&str, Format, &str); 21] = [
     (
         "a,time [value],b [value],both [value, sum=time+b]\nx,950 ms,1 ms,1.2 s\n",
         Format::Csv,
-        "2:4: column `both`: `1.2 s` is the sum of numbers such as `950 ms`; one unit is accepted",
+        "2:4: column `both`: `1.2 s` is the sum of numbers such as `950 ms`, in the unit s and in the unit ms; one unit is accepted",
     ),
     (
         "a,b [mean, digits=6]\nx,2.50\n",
@@ -295,11 +295,11 @@ fn guesses_are_a_header_that_can_be_read() {
     let text = "planner,Success rate (%),Time (s),n\nA,33.3,1.2 ± 0.1,250\nB,12.5,1.3 ± 0.2,250\n";
     let input = read(text, Format::Csv).unwrap();
     let stub = crate::reader::stub(&input.tables[0]);
-    assert_eq!(stub[1], "Success rate (%) [% of ?, higher is better]");
-    assert_eq!(stub[2], "Time (s) [mean, n=?, ±sd, lower is better]");
+    assert_eq!(stub[1], "Success rate (%) [% of n, higher is better]");
+    assert_eq!(stub[2], "Time (s) [mean, n=n, ±sd, lower is better]");
     let half = read("planner,rate [% of 30],Time (s)\nA,33.3,1.2\n", Format::Csv).unwrap();
     assert_eq!(crate::reader::stub(&half.tables[0])[1], "rate [% of 30]", "what was written stays");
-    let corrected = format!("{}\nA,33.3,1.2 ± 0.1,250\n", stub.join(",").replace("% of ?", "% of n"));
+    let corrected = format!("{}\nA,33.3,1.2 ± 0.1,250\n", stub.join(","));
     let report = audited(&corrected, Format::Csv, &Options::default());
     assert!(report.has_impossible(), "{report:?}");
 }

@@ -4,7 +4,8 @@
 //! `y · width + x`, a `u32`; cell (0, 0) is the lower left one. Map files list their highest row first (text maps)
 //! or count y downwards (`MovingAI`); both readers turn that into y up and nothing later needs to know.
 //!
-//! The order of neighbours is written once, as [`DIRECTIONS`], and every mask, search and tie rule follows it.
+//! The order of neighbours is written once, as [`DIRECTIONS`]; every mask follows it, and every search that is not told
+//! another [`NeighbourOrder`].
 //! Costs belong to the search floor.
 
 mod built;
@@ -15,6 +16,7 @@ mod error;
 mod moves;
 mod movingai;
 mod offsets;
+mod order;
 mod picture;
 mod random;
 mod sight;
@@ -28,6 +30,7 @@ pub use error::GridError;
 pub use moves::{CornerRule, DIRECTIONS, Moves};
 pub use movingai::{Scenario, parse_movingai_map, parse_scenarios, read_movingai_map, read_scenarios};
 pub use offsets::Offsets;
+pub use order::NeighbourOrder;
 pub use picture::read_map;
 pub use random::{bars, independent_cells, rectangles};
 pub use sight::Sight;

@@ -2,7 +2,7 @@
 
 use super::Grid2;
 
-/// The eight steps `[dx, dy]` in the order in which neighbours are generated everywhere.
+/// The eight steps `[dx, dy]` in the order of masks, which is also the default order of neighbours.
 ///
 /// Bit `i` of a move mask stands for `DIRECTIONS[i]`; `DIRECTIONS[7 - i]` is its reverse.
 pub const DIRECTIONS: [[i32; 2]; 8] = [[1, 1], [1, 0], [1, -1], [0, 1], [0, -1], [-1, 1], [-1, 0], [-1, -1]];

@@ -151,7 +151,7 @@ impl Document {
             line: before.matches('\n').count() + 1,
             column: text[line_start..start].chars().count() + 1,
             with: Vec::new(),
-            about: Vec::new(),
+            about: Box::default(),
             message: message.into(),
             excerpt: printable(text[line_start..].lines().next().unwrap_or_default().trim_end()).into(),
         }

@@ -26,7 +26,7 @@ pub enum SettingsError {
         /// What was laid over what stands there: readings, sweeps.
         with: Vec<String>,
         /// The names that were looked up, if it was not found.
-        about: Vec<Box<str>>,
+        about: Box<[Box<str>]>,
         /// What was found and what is accepted.
         message: String,
         /// The line itself.
@@ -103,7 +103,8 @@ impl SettingsError {
     #[must_use]
     pub fn about(mut self, word: &str) -> Self {
         if let Self::At { about, .. } = &mut self {
-            about.push(word.into());
+            let known = std::mem::take(about).into_vec();
+            *about = known.into_iter().chain([word.into()]).collect();
         }
         self
     }

@@ -116,8 +116,8 @@ impl Sought<'_> {
             }
             Self::Key(path) => {
                 let (before, key) = path.rsplit_once('.').unwrap_or(("", path));
-                let holder = before.split('.').filter(|step| !step.is_empty());
-                let holder = holder.into_iter().try_fold(table, |value, step| inner(value, step))?;
+                let mut holder = before.split('.').filter(|step| !step.is_empty());
+                let holder = holder.try_fold(table, |value, step| inner(value, step))?;
                 let mut keys = holder.get_ref().as_table()?.iter().map(|(key, _)| key);
                 keys.find(|found| found.get_ref() == key).map(toml::Spanned::span)
             }

@@ -9,7 +9,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The columns that every any-angle search fills.
-pub(super) const COLUMNS: &[&str] = &["opened", "closed", "expansions", "generated", "sight_checks"];
+pub(super) const COLUMNS: &[&str] =
+    &["opened", "opened_distinct", "closed", "expansions", "generated", "sight_checks"];
 
 /// An any-angle planner with its settings.
 #[derive(Deserialize, JsonSchema)]
@@ -69,7 +70,8 @@ impl AnyAngleSettings {
             exhibits.push(lattice::cells(grid, "opened_start_side", &trace.opened));
             exhibits.push(lattice::cells(grid, "closed_start_side", &trace.closed));
         }
-        let mut plan = lattice::plan(grid, &report.outcome, &[report.counters], exhibits);
+        let plan = lattice::plan(grid, &report.outcome, &[report.counters], exhibits);
+        let mut plan = lattice::with_distinct(plan, report.counters.opened);
         plan.counts.insert("sight_checks", Value::Count(sight_checks));
         Ok(plan)
     }

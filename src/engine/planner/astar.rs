@@ -1,6 +1,6 @@
 //! A* on a lattice with the Euclidean heuristic.
 
-use super::lattice::{self, COLUMNS, Posed, TiesSetting, UPDATE};
+use super::lattice::{self, COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
@@ -8,6 +8,7 @@ use crate::search::{
     falling, weighted,
 };
 use crate::space::WorldKind;
+use base::grid::NeighbourOrder;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -16,9 +17,9 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "astar",
     about: "A* with f = g + weight · h, h the Euclidean distance, the weight constant or Zhang's (R + r) / R",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Lattice,
-    columns: COLUMNS,
+    columns: COLUMNS_DISTINCT,
     settings: Accepted::of::<Astar>(),
     example: r#"
 weight = 1
@@ -46,6 +47,9 @@ struct Astar {
     /// The order among equal f.
     #[serde(default)]
     ties: TiesSetting,
+    /// The order in which neighbours are generated; it decides among the first opened of equal f.
+    #[serde(default)]
+    neighbours: NeighbourOrder,
     #[serde(skip)]
     pool: Pool<Search<Octile, Heap>>,
 }
@@ -88,7 +92,7 @@ impl Astar {
         let (grid, goal) = (posed.world.grid(), posed.goal);
         let estimate = Combined { h: euclidean_to(grid, goal), combine };
         let terms = Terms {
-            graph: &mut GridGraph::new(posed.world.moves()),
+            graph: &mut GridGraph::in_order(posed.world.moves(), self.neighbours),
             estimate: &estimate,
             observer,
             update: UPDATE,
@@ -115,7 +119,8 @@ impl Planner for Astar {
             exhibits.push(lattice::cells(grid, "opened_start_side", &trace.opened));
             exhibits.push(lattice::cells(grid, "closed_start_side", &trace.closed));
         }
-        Ok(lattice::plan(grid, &report.outcome, &[report.counters], exhibits))
+        let plan = lattice::plan(grid, &report.outcome, &[report.counters], exhibits);
+        Ok(lattice::with_distinct(plan, report.counters.opened))
     }
 
     fn is_optimal(&self) -> bool {

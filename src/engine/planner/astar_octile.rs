@@ -1,6 +1,6 @@
 //! The fast A* for 8-connected grids with the octile heuristic.
 
-use super::lattice::{self, COLUMNS, Posed};
+use super::lattice::{self, COLUMNS_DISTINCT, Posed};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::OctileAstar;
@@ -15,9 +15,9 @@ use std::sync::Arc;
 pub static ENTRY: Entry = Entry {
     name: "astar_octile",
     about: "A* with the octile heuristic in integers and buckets: least cost, fast, and of equal f the last offered",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Lattice,
-    columns: COLUMNS,
+    columns: COLUMNS_DISTINCT,
     settings: Accepted::of::<AstarOctile>(),
     example: "",
     build: Build::Planner(|settings| {
@@ -51,7 +51,8 @@ impl Planner for AstarOctile {
         };
         let report = built.search.solve(start, goal, request.expansions);
         self.pool.keep(built);
-        Ok(lattice::plan(world.grid(), &report.outcome, &[report.counters], Vec::new()))
+        let plan = lattice::plan(world.grid(), &report.outcome, &[report.counters], Vec::new());
+        Ok(lattice::with_distinct(plan, report.counters.opened))
     }
 
     fn is_optimal(&self) -> bool {

@@ -1,24 +1,26 @@
 //! Bidirectional A* on a lattice, with Zhang's falling weight or a constant one.
 
-use super::lattice::{self, COLUMNS, Posed, TiesSetting, UPDATE};
+use super::lattice::{self, COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Bidirectional, BidirectionalReport, BidirectionalRules, Combined, GridGraph, Heap, Meeting, Octile,
-    SideChoice, euclidean_to, falling, sum,
+    Bidirectional, BidirectionalReport, BidirectionalRules, Combined, End, GridGraph, Heap, Meeting,
+    Observer, Octile, SideChoice, euclidean_to, falling, sum,
 };
 use crate::space::WorldKind;
+use base::grid::NeighbourOrder;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::cell::Cell;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "bidirectional",
     about: "two A* searches towards each other, with a constant weight on h or Zhang's (R + r) / R",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Lattice,
-    columns: COLUMNS,
+    columns: COLUMNS_DISTINCT,
     settings: Accepted::of::<TwoSided>(),
     example: r#"
 weight = "one"
@@ -39,11 +41,20 @@ struct TwoSided {
     weight: Weight,
     /// When the two sides have met.
     meeting: MeetingSetting,
+    /// What is done once they have met while a node is expanded.
+    #[serde(default)]
+    end: EndSetting,
+    /// What a side's h is the distance to.
+    #[serde(default)]
+    aim: Aim,
     /// Which side moves next.
     side: SideSetting,
     /// The order among equal f.
     #[serde(default)]
     ties: TiesSetting,
+    /// The order in which neighbours are generated; it decides among the first opened of equal f.
+    #[serde(default)]
+    neighbours: NeighbourOrder,
     #[serde(skip)]
     pool: Pool<Memory>,
 }
@@ -72,6 +83,36 @@ enum MeetingSetting {
     OptimalStop,
 }
 
+#[derive(Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum EndSetting {
+    /// The expansion is finished, and the node with the smallest sum of both g is kept.
+    #[default]
+    Expansion,
+    /// The first node that met is kept; no later successor is generated. The optimal stop goes on all the same.
+    Contact,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum Aim {
+    /// Where the other side began.
+    #[default]
+    Root,
+    /// The node that the other side expanded last; h is measured when a node is opened. R stays the distance from start
+    /// to goal.
+    Front,
+}
+
+/// The node that a side expanded last.
+struct Front<'a>(&'a Cell<u32>);
+
+impl Observer for Front<'_> {
+    fn closed(&mut self, node: u32) {
+        self.0.set(node);
+    }
+}
+
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 enum SideSetting {
@@ -90,6 +131,10 @@ impl TwoSided {
                 MeetingSetting::BothClosed => Meeting::BothClosed,
                 MeetingSetting::OptimalStop => Meeting::OptimalStop,
             },
+            end: match self.end {
+                EndSetting::Expansion => End::Expansion,
+                EndSetting::Contact => End::Contact,
+            },
             choice: match self.side {
                 SideSetting::Alternate => SideChoice::Alternate,
                 SideSetting::SmallerF => SideChoice::SmallerF,
@@ -106,12 +151,25 @@ impl TwoSided {
         combine: impl Fn(f64, f64) -> f64 + Copy,
         expansions: u64,
     ) -> BidirectionalReport<Octile> {
-        let grid = posed.world.grid();
-        let estimates =
-            [posed.goal, posed.start].map(|target| Combined { h: euclidean_to(grid, target), combine });
-        let mut graph = GridGraph::new(posed.world.moves());
+        let (grid, rules) = (posed.world.grid(), self.rules(expansions));
         let ends = [posed.start, posed.goal];
-        memory.run(&mut graph, &estimates, &mut [(), ()], ends, self.rules(expansions))
+        let mut graph = GridGraph::in_order(posed.world.moves(), self.neighbours);
+        match self.aim {
+            Aim::Root => {
+                let estimates =
+                    [1, 0].map(|target| Combined { h: euclidean_to(grid, ends[target]), combine });
+                memory.run(&mut graph, &estimates, &mut [(), ()], ends, rules)
+            }
+            Aim::Front => {
+                let fronts = ends.map(Cell::new);
+                let to_front = |target: usize| {
+                    let front = &fronts[target];
+                    move |cell: u32| euclidean_to(grid, front.get())(cell)
+                };
+                let estimates = [1, 0].map(|target| Combined { h: to_front(target), combine });
+                memory.run(&mut graph, &estimates, &mut [0, 1].map(|side| Front(&fronts[side])), ends, rules)
+            }
+        }
     }
 }
 
@@ -134,12 +192,14 @@ impl Planner for TwoSided {
             exhibits.push(lattice::cells(grid, "opened_goal_side", memory.opened(1)));
             exhibits.extend(report.meeting.map(|cell| lattice::cells(grid, "meeting", &[cell])));
         }
+        let opened = memory.opened_distinct();
         self.pool.keep(memory);
-        Ok(lattice::plan(grid, &report.outcome, &report.sides, exhibits))
+        Ok(lattice::with_distinct(lattice::plan(grid, &report.outcome, &report.sides, exhibits), opened))
     }
 
     fn is_optimal(&self) -> bool {
-        self.weight == Weight::One && self.meeting == MeetingSetting::OptimalStop
+        // The distance to a front is no bound on the way to the goal.
+        self.weight == Weight::One && self.meeting == MeetingSetting::OptimalStop && self.aim == Aim::Root
     }
 
     fn is_complete(&self) -> bool {

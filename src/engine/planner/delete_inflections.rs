@@ -1,10 +1,10 @@
 //! Zhang's inflection-point deletion as a stage.
 
-use super::lattice::{SightSetting, lattice, sees};
+use super::lattice::{SightCorners, SightSetting, lattice, sees_by};
 use super::{Build, Ending, Entry, Plan, Request, Stage};
 use crate::shorten::{bends, inflection_deletion, path_length};
 use crate::space::WorldKind;
-use base::grid::Sight;
+use base::grid::{CornerRule, Sight};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -13,7 +13,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "delete_inflections",
     about: "from the goal backwards, drops bends while the line of sight to the bend before is free",
-    revision: 2,
+    revision: 3,
     needs: WorldKind::Lattice,
     columns: &[],
     settings: Accepted::of::<DeleteInflections>(),
@@ -31,6 +31,9 @@ line_of_sight = "exact_interior"
 struct DeleteInflections {
     /// Which cells a line of sight must find free.
     line_of_sight: SightSetting,
+    /// Which corners it may pass.
+    #[serde(default)]
+    sight_corners: SightCorners,
 }
 
 impl Stage for DeleteInflections {
@@ -42,9 +45,10 @@ impl Stage for DeleteInflections {
         let corners: Vec<[i32; 2]> =
             bends(&plan.path).into_iter().map(|i| [plan.path[i][0] as i32, plan.path[i][1] as i32]).collect();
         let sight = Sight::from(self.line_of_sight);
+        let corner_rule = self.sight_corners.own().unwrap_or(world.corner_rule());
         let mut refused = Vec::new();
         let kept = inflection_deletion(corners.len(), |i, j| {
-            let is_free = sees(world, sight, corners[i], corners[j]);
+            let is_free = sees_by(world.grid(), corner_rule, sight, corners[i], corners[j]);
             if !is_free && request.trace {
                 refused.extend([corners[i], corners[j]].concat().into_iter().map(f64::from));
             }
@@ -62,5 +66,9 @@ impl Stage for DeleteInflections {
         plan.path = kept.into_iter().map(|i| corners[i].map(f64::from).to_vec()).collect();
         plan.cost = Some(path_length(&plan.path));
         plan
+    }
+
+    fn sight_corners(&self) -> Option<CornerRule> {
+        self.sight_corners.own()
     }
 }

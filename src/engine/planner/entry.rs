@@ -2,6 +2,7 @@
 
 use crate::space::roadmap::Extent;
 use crate::space::{World, WorldKind};
+use base::grid::CornerRule;
 use base::settings::{Accepted, Settings, SettingsError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -130,6 +131,12 @@ pub trait Planner: Send + Sync {
 pub trait Stage: Send + Sync {
     /// The plan, tidied; counts are added to, never replaced.
     fn refine(&self, request: &Request<'_>, plan: Plan) -> Plan;
+
+    /// Which corners its segments on a lattice may pass, if not those that moves may; the verifier then judges a segment by
+    /// whichever of the two rules it keeps.
+    fn sight_corners(&self) -> Option<CornerRule> {
+        None
+    }
 }
 
 /// How an entry is built from its settings.

@@ -13,7 +13,7 @@ use base::settings::Accepted;
 pub static ENTRY: Entry = Entry {
     name: "lazy_theta_star",
     about: "Lazy Theta*: any-angle A*, a line of sight looked at for each node taken from OPEN",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Lattice,
     columns: COLUMNS,
     settings: Accepted::of::<AnyAngleSettings>(),

@@ -23,6 +23,8 @@ mod lattice;
 mod lattice26_astar;
 mod lattice_astar;
 mod lazy_theta_star;
+#[cfg(test)]
+mod mirrors;
 mod polyhedra;
 mod pool;
 mod posture;

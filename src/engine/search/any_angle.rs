@@ -89,7 +89,7 @@ impl<Q: Frontier> AnyAngle<Q> {
             let choose = |side: &Side<f64, Q>, to: u32, cost: f64| {
                 way.to(side, on, to, cost, (when == When::Generated).then_some(&mut sight_checks))
             };
-            self.side.expand_by(offer.node, &mut terms, choose, |_, _| ());
+            self.side.expand_by(offer.node, &mut terms, choose, |_, _| true);
         };
         Seen { report: Report { outcome, counters: self.side.counters }, sight_checks }
     }

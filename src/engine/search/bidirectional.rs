@@ -2,7 +2,8 @@
 //!
 //! Side 0 starts at the start, side 1 at the goal; a path is the two chains joined at the meeting node. Both use
 //! one graph, whose steps must be symmetric. Each side is the same search as [`Search`](super::Search) runs and
-//! keeps its own OPEN and CLOSED, so a node opened by both sides is counted on both.
+//! keeps its own OPEN and CLOSED, so a node opened by both sides is counted on both;
+//! [`Bidirectional::opened_distinct`] counts it once.
 
 use super::cost::Cost;
 use super::estimate::Estimate;
@@ -14,8 +15,7 @@ use super::{Counters, Outcome, Route};
 
 /// When the two sides have met.
 ///
-/// All but the last finish the expansion in hand and keep, of the nodes that met in it, the one with the smallest
-/// sum of the two g (of equals the one generated first); they promise no shortest path.
+/// All but the last end as [`End`] says; they promise no shortest path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meeting {
     /// A side generates a node that the other has generated before, be it open or closed there.
@@ -27,6 +27,18 @@ pub enum Meeting {
     /// The best sum found is no more than the smallest f on either side. With an admissible and consistent
     /// estimate the path is shortest.
     OptimalStop,
+}
+
+/// What is done once the sides have met while a node is expanded. A node that both closed ends the search at once, and the
+/// optimal stop asks for the least f of both sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum End {
+    /// The expansion in hand is finished; of the nodes that met in it, the one with the smallest sum of the two g is kept,
+    /// of equals the one generated first.
+    #[default]
+    Expansion,
+    /// The search ends with the first node that met; no later successor is generated.
+    Contact,
 }
 
 /// Which side moves next. A side whose OPEN is empty is passed over.
@@ -43,6 +55,8 @@ pub enum SideChoice {
 pub struct BidirectionalRules {
     /// When the sides have met.
     pub meeting: Meeting,
+    /// What is done then.
+    pub end: End,
     /// Which side moves next.
     pub choice: SideChoice,
     /// What a better way changes, on both sides.
@@ -112,7 +126,7 @@ impl<C: Cost, Q: Frontier + Clone> Bidirectional<C, Q> {
             }
             let observer = &mut observers[side];
             let terms = &mut Terms { graph, estimate: &estimates[side], observer, update };
-            self.step(side, offer.node, terms, rules.meeting, &mut met);
+            self.step(side, offer.node, terms, rules, &mut met);
             turn = 1 - side;
         };
         let meeting = outcome.route().and(met).map(|(node, _)| node);
@@ -135,7 +149,7 @@ impl<C: Cost, Q: Frontier + Clone> Bidirectional<C, Q> {
         side: usize,
         node: u32,
         terms: &mut Terms<'_, G, E, O>,
-        meeting: Meeting,
+        rules: BidirectionalRules,
         met: &mut Met<C>,
     ) where
         G: Graph<Cost = C>,
@@ -149,16 +163,24 @@ impl<C: Cost, Q: Frontier + Clone> Bidirectional<C, Q> {
             if let Some(sum) = sum.filter(|sum| met.is_none_or(|(_, best)| sum.compare(best).is_lt())) {
                 *met = Some((node, sum));
             }
+            met.is_some()
         };
         this.close(node, terms.observer);
-        if meeting == Meeting::BothClosed && other.place(node) == Place::Closed {
+        if rules.meeting == Meeting::BothClosed && other.place(node) == Place::Closed {
             note(this, node);
             return;
         }
-        this.expand(node, terms, |this, to| match meeting {
-            Meeting::GeneratedAny | Meeting::OptimalStop => note(this, to),
-            Meeting::ClosedByOther if other.place(to) == Place::Closed => note(this, to),
-            Meeting::ClosedByOther | Meeting::BothClosed => {}
+        this.expand(node, terms, |this, to| {
+            let has_met = match rules.meeting {
+                Meeting::GeneratedAny => note(this, to),
+                Meeting::ClosedByOther => other.place(to) == Place::Closed && note(this, to),
+                Meeting::OptimalStop => {
+                    note(this, to);
+                    false
+                }
+                Meeting::BothClosed => false,
+            };
+            !(has_met && rules.end == End::Contact)
         });
     }
 
@@ -167,6 +189,13 @@ impl<C: Cost, Q: Frontier + Clone> Bidirectional<C, Q> {
         nodes.extend(back.into_iter().rev().skip(1));
         let g = |side: usize| self.sides[side].g(meeting).expect("the sides met where both were");
         Outcome::Solved(Route { nodes, cost: g(0).plus(g(1)) })
+    }
+
+    /// How many different nodes both sides together opened in the last search.
+    pub fn opened_distinct(&self) -> u64 {
+        let [start, goal] = &self.sides;
+        let of_goal_alone = goal.opened().iter().filter(|node| start.g(**node).is_none());
+        (start.opened().len() + of_goal_alone.count()) as u64
     }
 
     /// The nodes that the start's side (0) or the goal's side (1) opened in the last search, in that order.

@@ -1,7 +1,8 @@
 //! Successor rules.
 
 use super::cost::{Cost, Octile};
-use base::grid::{DIRECTIONS, Grid2, Moves, Offsets};
+use base::grid::{Grid2, Moves, NeighbourOrder, Offsets};
+use std::sync::OnceLock;
 
 /// What can be reached from a node in one step.
 ///
@@ -22,14 +23,40 @@ pub trait Graph {
 #[derive(Clone, Copy, Debug)]
 pub struct GridGraph<'a> {
     moves: &'a Moves,
+    /// For every mask of legal moves, the same moves as places in the order of neighbours.
+    places: &'static [u8; 256],
+    /// By place in that order.
     steps: [i32; 8],
+    costs: [Octile; 8],
 }
 
 impl<'a> GridGraph<'a> {
-    /// The graph of the legal `moves`.
+    /// The graph of the legal `moves`, neighbours in the default order.
     pub fn new(moves: &'a Moves) -> Self {
-        Self { moves, steps: DIRECTIONS.map(|[dx, dy]| dy * moves.width() as i32 + dx) }
+        Self::in_order(moves, NeighbourOrder::default())
     }
+
+    /// The graph of the legal `moves`, neighbours in this order.
+    pub fn in_order(moves: &'a Moves, order: NeighbourOrder) -> Self {
+        let steps = order.steps();
+        let cost = |[dx, dy]: [i32; 2]| if dx != 0 && dy != 0 { Octile::DIAGONAL } else { Octile::STRAIGHT };
+        Self {
+            moves,
+            places: places(order),
+            steps: steps.map(|[dx, dy]| dy * moves.width() as i32 + dx),
+            costs: steps.map(cost),
+        }
+    }
+}
+
+/// For every mask of moves, the mask of their places in `order`.
+fn places(order: NeighbourOrder) -> &'static [u8; 256] {
+    static PLACES: [OnceLock<[u8; 256]>; 24] = [const { OnceLock::new() }; 24];
+    PLACES[order.index()].get_or_init(|| {
+        let bits = order.bits();
+        let moved = |mask: usize| (0..8).map(|place| (mask >> bits[place] & 1) << place).sum::<usize>();
+        std::array::from_fn(|mask| moved(mask) as u8)
+    })
 }
 
 impl Graph for GridGraph<'_> {
@@ -40,13 +67,11 @@ impl Graph for GridGraph<'_> {
     }
 
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, Octile)) {
-        let mut mask = self.moves.mask(node);
-        while mask != 0 {
-            let bit = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            let [dx, dy] = DIRECTIONS[bit];
-            let cost = if dx != 0 && dy != 0 { Octile::DIAGONAL } else { Octile::STRAIGHT };
-            visit(node.wrapping_add_signed(self.steps[bit]), cost);
+        let mut places = self.places[usize::from(self.moves.mask(node))];
+        while places != 0 {
+            let place = places.trailing_zeros() as usize;
+            places &= places - 1;
+            visit(node.wrapping_add_signed(self.steps[place]), self.costs[place]);
         }
     }
 }

@@ -24,7 +24,8 @@
 //! Keys are integers. Estimates over floating point are rounded to 1e-9 ([`quantised`]) before they are compared,
 //! so that the noise of a sum does not order nodes. Among equal f the frontier's written rule decides, and every
 //! rule ends in the order in which nodes were first opened, so no tie is left open. Neighbours are generated in
-//! the order of the graph; on grids that is [`DIRECTIONS`](base::grid::DIRECTIONS).
+//! the order of the graph, which therefore decides among paths of equal cost; on grids that is a
+//! [`NeighbourOrder`](base::grid::NeighbourOrder).
 //!
 //! Graphs with states of their own (poses, configurations) number them in the order in which they meet them;
 //! records grow as numbers appear.
@@ -51,7 +52,7 @@ mod sorted_buckets;
 mod tests;
 
 pub use any_angle::{AnyAngle, Seen, Sighted, When};
-pub use bidirectional::{Bidirectional, BidirectionalReport, BidirectionalRules, Meeting, SideChoice};
+pub use bidirectional::{Bidirectional, BidirectionalReport, BidirectionalRules, End, Meeting, SideChoice};
 pub use buckets::Buckets;
 pub use cost::{Cost, Octile, quantised};
 pub use estimate::{Combined, Estimate, ScaledOctile, euclidean_to, falling, octile_to, sum, weighted};

@@ -112,6 +112,7 @@ impl<C: Cost, Q: Frontier> Search<C, Q> {
                 if rules.stop == Stop::GoalGenerated && reached.is_none() && is_goal(to) {
                     reached = Some(to);
                 }
+                true
             });
         };
         Report { outcome, counters: self.side.counters }

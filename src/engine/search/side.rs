@@ -119,12 +119,13 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         observer.closed(node);
     }
 
-    /// Generates the successors of `node` and deals with each; `each` is told of every one after that.
+    /// Generates the successors of `node` and deals with each; `each` is told of every one after that, and says whether to
+    /// go on.
     pub(super) fn expand<G, E, O>(
         &mut self,
         node: u32,
         terms: &mut Terms<'_, G, E, O>,
-        each: impl FnMut(&Self, u32),
+        each: impl FnMut(&Self, u32) -> bool,
     ) where
         G: Graph<Cost = C>,
         E: Estimate<C>,
@@ -140,7 +141,7 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
         node: u32,
         terms: &mut Terms<'_, G, E, O>,
         mut way: impl FnMut(&Self, u32, C) -> (u32, C),
-        mut each: impl FnMut(&Self, u32),
+        mut each: impl FnMut(&Self, u32) -> bool,
     ) where
         G: Graph<Cost = C>,
         E: Estimate<C>,
@@ -148,11 +149,15 @@ impl<C: Cost, Q: Frontier> Side<C, Q> {
     {
         let Terms { graph, estimate, observer, update } = terms;
         self.counters.expansions += 1;
+        let mut goes_on = true;
         graph.successors(node, |to, cost| {
+            if !goes_on {
+                return;
+            }
             self.counters.generated += 1;
             let (parent, g) = way(self, to, cost);
             self.receive(to, parent, g, *estimate, *observer, *update);
-            each(self, to);
+            goes_on = each(self, to);
         });
         self.counters.peak_open = self.counters.peak_open.max(self.open);
     }

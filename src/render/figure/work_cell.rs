@@ -148,15 +148,14 @@ impl WorkCell {
         let mut faults = Faults::default();
         for (index, [pose, _]) in self.poses.iter().enumerate() {
             let end = pose.rsplit_once('/').filter(|(_, end)| ["start", "goal"].contains(end));
-            faults.keep(match end {
-                Some((query, _)) => ask::query(settings, study, &self.problems, query, (&["poses"], pose)),
-                None => {
-                    let message = format!(
-                        "`{pose}` is no end of a query; one is accepted, as in `1/start` or `1/goal`"
-                    );
-                    Err(settings.error_at(&format!("poses.{index}.0"), message))
-                }
-            });
+            let known = if let Some((query, _)) = end {
+                ask::query(settings, study, &self.problems, query, (&["poses"], pose))
+            } else {
+                let message =
+                    format!("`{pose}` is no end of a query; one is accepted, as in `1/start` or `1/goal`");
+                Err(settings.error_at(&format!("poses.{index}.0"), message))
+            };
+            faults.keep(known);
         }
         if !self.contenders.is_empty() {
             faults.keep(ask::query(settings, study, &self.problems, &self.query, (&["query"], &self.query)));

@@ -10,6 +10,7 @@ use super::sizes::SWEPT;
 use super::{Contender, Group, ReadingChoice, Study, SweepPoint, labels_of};
 use base::settings::{Document, Faults, SettingsError, did_you_mean, none_called};
 use engine::planner;
+use engine::space::WorldKind;
 use engine::space::roadmap::Extent;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -140,20 +141,25 @@ impl Study {
                     faults.add(self.document.error_at(&place, message));
                 }
             }
-            for stage in &contender.stages {
-                if let Some(kind) = kinds.iter().find(|kind| !kind.serves(stage.entry.needs)) {
-                    let message = format!(
-                        "contender `{}` uses `{}`, which needs a {} world; the study's problems are of kind {}",
-                        contender.label,
-                        stage.entry.name,
-                        stage.entry.needs.name(),
-                        kind.name()
-                    );
-                    faults.add(self.document.error(stage.named.clone(), message));
-                }
-            }
+            self.check_needs(contender, &kinds, faults);
         }
         Ok(())
+    }
+
+    /// Refuses stages that need worlds of another kind than the problems are posed in.
+    fn check_needs(&self, contender: &Contender, kinds: &BTreeSet<WorldKind>, faults: &mut Faults) {
+        for stage in &contender.stages {
+            if let Some(kind) = kinds.iter().find(|kind| !kind.serves(stage.entry.needs)) {
+                let message = format!(
+                    "contender `{}` uses `{}`, which needs a {} world; the study's problems are of kind {}",
+                    contender.label,
+                    stage.entry.name,
+                    stage.entry.needs.name(),
+                    kind.name()
+                );
+                faults.add(self.document.error(stage.named.clone(), message));
+            }
+        }
     }
 
     /// Refuses sweeps that no record could name or that change nothing, and leaves out the former.

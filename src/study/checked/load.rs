@@ -117,8 +117,8 @@ fn read_all<S, T>(
 
 /// Labels are told apart in the names of trials.
 fn check_labels(spec: &StudySpec, document: &Document, study: &str, faults: &mut Faults) {
-    let labels = spec.problems.iter().map(|p| &p.label).chain(spec.contenders.iter().map(|c| &c.label));
-    let is_nameless = labels.into_iter().any(|label| slug(label.get_ref()).is_empty());
+    let mut labels = spec.problems.iter().map(|p| &p.label).chain(spec.contenders.iter().map(|c| &c.label));
+    let is_nameless = labels.any(|label| slug(label.get_ref()).is_empty());
     if is_nameless || document.is_part("problems") || document.is_part("contender") {
         faults.unread(labels_of(study));
         faults.unread(columns_of(study));

@@ -47,6 +47,11 @@ fn passes(grid: &Grid2, rule: CornerRule, [x, y]: [i32; 2], is_rising: bool) -> 
     }
 }
 
+/// An answer of which the steps alone are judged.
+fn answer(in_graph: bool, sight_corners: Option<CornerRule>) -> Answer<'static> {
+    Answer { path: &[], cost: None, in_graph, optimal: false, sight_corners }
+}
+
 fn grid(seed: u64, side: u32, share: f64) -> Grid2 {
     let mut stream = stream(derive(seed, &["verify"]));
     let mut grid = Grid2::new(side, side).unwrap();
@@ -85,14 +90,20 @@ fn a_step_is_refused_exactly_where_it_enters_a_blocked_cell_or_cuts_a_forbidden_
                 let cells = (0..49).map(grid_xy).filter(|cell| clips(from, to, *cell));
                 let is_free = cells.into_iter().all(|[x, y]| grid.is_free_xy(x, y));
                 let is_rising = (to[0] - from[0]) * (to[1] - from[1]) > 0;
-                let is_open = corners_on(from, to).iter().all(|at| passes(&grid, rule, *at, is_rising));
-                let got = case.refuse_step(&[from, to], false);
-                assert_eq!(
-                    got.is_none(),
-                    is_free && is_open,
-                    "seed {seed}, {rule:?}, {from:?} to {to:?}: {got:?}"
-                );
-                by_reason[if is_free { usize::from(!is_open) } else { 2 }] += 1;
+                let keeps = |rule| corners_on(from, to).iter().all(|at| passes(&grid, rule, *at, is_rising));
+                for own in [None].into_iter().chain(RULES.map(Some)) {
+                    let is_open = keeps(rule) || own.is_some_and(keeps);
+                    let got = case.refuse_step(&[from, to], &answer(false, own));
+                    assert_eq!(
+                        got.is_none(),
+                        is_free && is_open,
+                        "seed {seed}, {rule:?}, {own:?}, {from:?} to {to:?}: {got:?}"
+                    );
+                    by_reason[if is_free { usize::from(!is_open) } else { 2 }] += 1;
+                }
+                let moves_keep_their_rule =
+                    case.refuse_step(&[from, to], &answer(true, Some(CornerRule::Allow)));
+                assert!(moves_keep_their_rule.is_some() || keeps(rule), "{rule:?}, {from:?} to {to:?}");
             }
         }
     }
@@ -164,7 +175,7 @@ fn corner_rules_judge_the_same_diagonal_differently() {
             let (start, goal) = ([0.0, 0.0], [1.0, 1.0]);
             let case = Case { grid: &grid, corner_rule: rule, start: &start, goal: &goal };
             let is_free = grid.is_free_xy(1, 1);
-            let refused = case.refuse_step(&[[0, 0], [1, 1]], true);
+            let refused = case.refuse_step(&[[0, 0], [1, 1]], &answer(true, None));
             assert_eq!(refused.is_none(), is_allowed && is_free, "{rule:?} on\n{map}{refused:?}");
         }
     }

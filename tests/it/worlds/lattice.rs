@@ -91,7 +91,8 @@ pub fn refusal(
 ) -> Option<String> {
     let (grid, corner_rule) = (world(case).grid(), world(case).corner_rule());
     let query = Query { grid, corner_rule, start: &case.start, goal: &case.goal };
-    query.refuse_path(&Answer { path: &plan.path, cost: plan.cost, in_graph, optimal }, optimum)
+    let answer = Answer { path: &plan.path, cost: plan.cost, in_graph, optimal, sight_corners: None };
+    query.refuse_path(&answer, optimum)
 }
 
 /// In an obstacle, outside, between cells, of another dimension.

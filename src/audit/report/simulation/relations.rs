@@ -176,7 +176,14 @@ fn p_value(rng: &mut SmallRng) -> String {
     let ways = |first: i128| choose(n[0], first) * choose(n[1], hits - first);
     let range = (hits - n[1]).max(0)..=hits.min(n[0]);
     let rare: i128 = range.map(ways).filter(|count| *count <= ways(k[0])).sum();
-    let p = plain.other(rng).ratio(rare, choose(n[0] + n[1], hits));
+    let all = choose(n[0] + n[1], hits);
+    // One in three is printed as the bound that it keeps.
+    let p = match rng.random_range(0..3) {
+        0 if rare * 1000 < all => "< 0.001".to_owned(),
+        0 if rare * 20 <= all => "≤ 0.05".to_owned(),
+        0 => "> 0.05".to_owned(),
+        _ => plain.other(rng).ratio(rare, all),
+    };
     let keys = format!("p = \"{p}\"\nk1 = {}\nn1 = {}\nk2 = {}\nn2 = {}", k[0], n[0], k[1], n[1]);
     relation("p_value", &plain, &keys)
 }

@@ -146,7 +146,7 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
     let tool_length_m = faults.keep(tool_length_m(&source, &file.tool.length_mm));
     let joints = faults.keep(joints(&source, &file.joint));
     let ((base, tool_length_m), joints) = faults.or(base.zip(tool_length_m).zip(joints))?;
-    let (chain, far) = chain(&source, &file, joints, base, tool_frame(tool_length_m))?;
+    let (chain, far) = chain(&source, &file, &joints, base, tool_frame(tool_length_m))?;
     let solver = file.solver.as_ref();
     let arm = Arm::new(chain, solver.map(|name| name.get_ref().as_str())).map_err(|error| {
         let span = match &error {
@@ -214,14 +214,14 @@ fn joints(
 fn chain(
     source: &Source,
     file: &RobotFile,
-    joints: [Joint; AXES],
+    joints: &[Joint; AXES],
     base: Frame,
     tool: Frame,
 ) -> Result<(Chain, Option<[Frame; AXES + 1]>), SettingsError> {
     let entries = &file.joint;
     let chain = match file.convention {
-        Convention::Distal => Chain::new(joints, base, tool).map(|chain| (chain, None)),
-        Convention::Modified => Chain::modified(joints, base, tool).map(|(chain, far)| (chain, Some(far))),
+        Convention::Distal => Chain::new(*joints, base, tool).map(|chain| (chain, None)),
+        Convention::Modified => Chain::modified(*joints, base, tool).map(|(chain, far)| (chain, Some(far))),
     };
     chain.map_err(|error| {
         let at = match &error {

@@ -6,7 +6,13 @@ pub(super) const MEETINGS: [Meeting; 4] =
     [Meeting::GeneratedAny, Meeting::ClosedByOther, Meeting::BothClosed, Meeting::OptimalStop];
 
 pub(super) fn rules(meeting: Meeting, choice: SideChoice) -> BidirectionalRules {
-    BidirectionalRules { meeting, choice, update: Update::default(), max_expansions: u64::MAX }
+    BidirectionalRules {
+        meeting,
+        end: End::Expansion,
+        choice,
+        update: Update::default(),
+        max_expansions: u64::MAX,
+    }
 }
 
 fn run(case: &Case, rules: BidirectionalRules) -> BidirectionalReport<Octile> {

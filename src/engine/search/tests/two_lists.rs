@@ -1,6 +1,7 @@
 //! The bidirectional driver against a program with plain lists, under every rule.
 
 use super::*;
+use std::collections::BTreeSet;
 
 /// One side as plain lists: nodes with their g, OPEN in the order in which nodes entered it.
 struct Lists {
@@ -55,15 +56,16 @@ impl Lists {
 struct Two<'a> {
     case: &'a Case,
     meeting: Meeting,
+    end: End,
     sides: [Lists; 2],
     met: Option<(u32, Octile)>,
 }
 
 impl<'a> Two<'a> {
-    fn new(case: &'a Case, meeting: Meeting) -> Self {
+    fn new(case: &'a Case, meeting: Meeting, end: End) -> Self {
         let [start, goal] = case.ends;
         let met = (start == goal).then_some((start, Octile::ZERO));
-        Self { case, meeting, sides: [Lists::new(start, goal), Lists::new(goal, start)], met }
+        Self { case, meeting, end, sides: [Lists::new(start, goal), Lists::new(goal, start)], met }
     }
 
     fn is_over(&self, f: [Option<u64>; 2]) -> bool {
@@ -101,6 +103,9 @@ impl<'a> Two<'a> {
                 Meeting::ClosedByOther if self.sides[1 - side].has_closed(to) => self.note(to),
                 Meeting::ClosedByOther | Meeting::BothClosed => {}
             }
+            if self.end == End::Contact && self.meeting != Meeting::OptimalStop && self.met.is_some() {
+                break;
+            }
         }
         let Lists { counters, open, .. } = &mut self.sides[side];
         counters.peak_open = counters.peak_open.max(open.len() as u64);
@@ -129,24 +134,28 @@ fn every_rule_opens_counts_and_meets_as_a_program_with_plain_lists_does() {
     let mut expansions = 0;
     for case in cases(150, 0.3) {
         for meeting in bidirectional::MEETINGS {
-            for choice in [SideChoice::Alternate, SideChoice::SmallerF] {
-                let place = format!("seed {}, {meeting:?}, {choice:?}", case.seed);
+            let choices = [SideChoice::Alternate, SideChoice::SmallerF];
+            let ends = [End::Expansion, End::Contact];
+            for (choice, end) in choices.into_iter().flat_map(|choice| ends.map(|end| (choice, end))) {
+                let place = format!("seed {}, {meeting:?}, {choice:?}, {end:?}", case.seed);
                 let towards = |target| Combined { h: euclidean_to(&case.grid, target), combine: sum };
                 let estimates = [towards(case.ends[1]), towards(case.ends[0])];
                 let graph = &mut GridGraph::new(&case.moves);
                 let mut search = Bidirectional::new(Heap::new(Ties::Fifo));
-                let rules = bidirectional::rules(meeting, choice);
+                let rules = BidirectionalRules { end, ..bidirectional::rules(meeting, choice) };
                 let report = search.run(graph, &estimates, &mut [(), ()], case.ends, rules);
-                let Two { sides, met, .. } = Two::new(&case, meeting).run(choice);
+                let Two { sides, met, .. } = Two::new(&case, meeting, end).run(choice);
                 assert_eq!(report.sides, sides.each_ref().map(|side| side.counters), "{place}");
                 for (side, lists) in sides.iter().enumerate() {
                     assert_eq!(search.opened(side), lists.opened, "{place}, side {side}");
                 }
+                let opened: BTreeSet<u32> = sides.iter().flat_map(|lists| lists.opened.clone()).collect();
+                assert_eq!(search.opened_distinct(), opened.len() as u64, "{place}");
                 assert_eq!(report.meeting, met.map(|(node, _)| node), "{place}");
                 assert_eq!(report.outcome.route().map(|r| r.cost), met.map(|(_, cost)| cost), "{place}");
                 expansions += sides.iter().map(|side| side.counters.expansions).sum::<u64>();
             }
         }
     }
-    assert!(expansions > 15_000, "only {expansions} expansions compared");
+    assert!(expansions > 30_000, "only {expansions} expansions compared");
 }

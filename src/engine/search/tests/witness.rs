@@ -46,7 +46,13 @@ fn improved(grid: &Grid2, ends: [u32; 2], meeting: Meeting) -> BidirectionalRepo
     let side = |target: u32| Combined { h: euclidean_to(grid, target), combine: falling(reference) };
     let moves = Moves::new(grid, CornerRule::Allow);
     let choice = SideChoice::Alternate;
-    let rules = BidirectionalRules { meeting, choice, update: Update::default(), max_expansions: u64::MAX };
+    let rules = BidirectionalRules {
+        meeting,
+        end: End::Expansion,
+        choice,
+        update: Update::default(),
+        max_expansions: u64::MAX,
+    };
     let (mut graph, estimates) = (GridGraph::new(&moves), [side(ends[1]), side(ends[0])]);
     Bidirectional::new(Heap::new(Ties::Fifo)).run(&mut graph, &estimates, &mut [(), ()], ends, rules)
 }
