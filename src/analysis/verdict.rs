@@ -1,6 +1,7 @@
 //! Verdicts: what was found about each claim, and the file that keeps them.
 
 use super::class::Verdict;
+use super::compare::stored_studies;
 use crate::study::StudyError;
 use crate::study::store::write_whole;
 use base::settings::Document;
@@ -303,7 +304,12 @@ impl Verdicts {
     pub fn read(folder: &Path) -> Result<Self, StudyError> {
         let path = Self::path(folder);
         if !path.exists() {
-            return Err(StudyError::stored(&path, "no verdicts; run `replan judge` first"));
+            let missing = "no verdicts; run `replan judge` first";
+            return Err(if stored_studies(folder).is_empty() {
+                StudyError::stored(&path, missing)
+            } else {
+                StudyError::Touched(format!("{}: {missing}", path.display()))
+            });
         }
         let read = Document::open(&path).and_then(|document| document.read_stored());
         read.map_err(|error| StudyError::touched(error, "`replan judge` writes it again"))

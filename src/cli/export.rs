@@ -5,9 +5,9 @@ use super::places::stored_run;
 use crate::analysis::compare::{StoredRun, cells, stored_studies};
 use crate::render::comparison::cells_csv;
 use crate::study::manifest::Manifest;
-use crate::study::store::{Staged, csv};
+use crate::study::store::{Staged, check_records, csv};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Exports a stored run.
 #[derive(Args)]
@@ -25,11 +25,20 @@ pub struct Export {
 /// The kinds of record that are exported; exhibits are lists of numbers without a table's shape.
 const PARTS: [&str; 3] = ["trials", "prepared", "times"];
 
+/// Refuses a folder of which some record is gone or is not what its manifest names.
+pub(super) fn check_stored(folder: &Path) -> Result<(), Failure> {
+    for study in stored_studies(folder) {
+        check_records(folder, &study, &Manifest::read(folder, &study)?.files)?;
+    }
+    Ok(())
+}
+
 impl Export {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         let folder = stored_run(&self.paper)?;
         let name = folder.file_name().unwrap_or_default();
+        check_stored(&folder)?;
         let out = self.out.unwrap_or_else(|| PathBuf::from("target/replan/export").join(name));
         let mut staged = Staged::default();
         let cells = cells(&StoredRun::read(&folder, &self.paper)?);

@@ -11,6 +11,7 @@ use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::Verdicts;
 use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
+use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
 use clap::Args;
 use std::fs;
@@ -48,7 +49,9 @@ impl Judge {
 /// Judges again and refuses stored verdicts that are not what comes out, to the byte.
 fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Failure> {
     let (stored, path) = (Verdicts::read(&places.runs)?, Verdicts::path(&places.runs));
-    let now = judged(&read(paper, point, places)?, places)?;
+    let evidence = read(paper, point, places)?;
+    check_manifests(&evidence, places)?;
+    let now = judged(&evidence, places)?;
     let mut found = differences(&stored, &now);
     if found.is_empty() && fs::read(&path)? != now.text().as_bytes() {
         found.push("the same verdicts in other words than `replan judge` writes".to_owned());
@@ -58,6 +61,24 @@ fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Fai
         return Ok(());
     }
     let message = format!("{}: not what the stored run gives:\n  {}", path.display(), found.join("\n  "));
+    Err(Failure::stale(message))
+}
+
+/// Refuses manifests that say what the studies, their inputs and the records do not bear out.
+fn check_manifests(evidence: &Evidence<'_>, places: &Places) -> Result<(), Failure> {
+    let mut found = Vec::new();
+    for run in evidence.runs() {
+        let mut untrue = run.manifest.untrue(run.study, &places.inputs)?;
+        if run.sessions() > run.manifest.sessions.len() {
+            untrue.push(format!("the clock was read in {} sessions, and fewer are listed", run.sessions()));
+        }
+        let path = Manifest::path(&places.runs, &run.study.name);
+        found.extend(untrue.iter().map(|what| format!("{}: {what}", path.display())));
+    }
+    if found.is_empty() {
+        return Ok(());
+    }
+    let message = format!("{}; edited, or of an older program: run the studies again", found.join("\n"));
     Err(Failure::stale(message))
 }
 

@@ -2,7 +2,7 @@
 
 use super::places::Places;
 use super::verdicts::{COLUMNS, print};
-use super::{Failure, Which};
+use super::{Failure, Which, export::check_stored};
 use crate::analysis::verdict::{Finding, Judged, Verdicts};
 use crate::render::prose::wrapped;
 use crate::render::report::across_lines;
@@ -30,6 +30,7 @@ impl Show {
     pub fn run(self) -> Result<(), Failure> {
         let places = Places::find(&Which { paper: self.paper, out: self.out }, "")?;
         let verdicts = Verdicts::read(&places.runs)?;
+        check_stored(&places.runs)?;
         let Some(id) = self.claim else {
             print(&verdicts);
             return Ok(());

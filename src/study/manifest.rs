@@ -9,7 +9,7 @@ use super::name;
 use super::reading::ReadingChoice;
 use super::runner::{BuiltStudy, SESSION};
 use super::shard::{Portion, Shard};
-use super::store::Staged;
+use super::store::{Staged, part_path};
 use base::hash::sha256;
 use base::settings::Document;
 use serde::{Deserialize, Serialize};
@@ -158,7 +158,12 @@ impl Manifest {
     pub fn read(folder: &Path, study: &str) -> Result<Self, StudyError> {
         let path = Self::path(folder, study);
         if !path.exists() {
-            return Err(StudyError::stored(&path, "no stored run; run the study first"));
+            let missing = "no stored run; run the study first";
+            return Err(if part_path(folder, study, "trials").exists() {
+                StudyError::Touched(format!("{}: {missing}", path.display()))
+            } else {
+                StudyError::stored(&path, missing)
+            });
         }
         let read = Document::open(&path).and_then(|document| document.read_stored());
         read.map_err(|error| StudyError::touched(error, "run the study again"))
@@ -391,5 +396,6 @@ fn note(hashes: &mut Hashes, label: &str, text: &str, reading: usize) {
     hashes.entry(label.to_owned()).or_default().entry(hash).or_default().push(reading);
 }
 
+mod held;
 #[cfg(test)]
 mod tests;

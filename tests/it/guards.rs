@@ -217,5 +217,91 @@ fn each_exit_code_means_what_the_help_says() {
     bench.write("in_the_way", b"");
     assert_eq!(code(&["repro", "movingai_sample", "--out", "in_the_way/below"]), 1);
     fs::remove_file(bench.at(&format!("{RUNS}/verdicts.toml"))).unwrap();
-    assert_eq!(code(&["judge", "movingai_sample", "--check"]), 2);
+    assert_eq!(code(&["judge", "movingai_sample", "--check"]), 3, "what was stored is gone");
+    fs::remove_dir_all(bench.at(RUNS)).unwrap();
+    assert_eq!(code(&["judge", "movingai_sample", "--check"]), 2, "nothing is stored");
+}
+
+#[test]
+fn a_record_that_is_gone_is_told_by_every_command_that_reads_the_run() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let runs = "target/replan/mini/data/runs/mini";
+    for part in ["trials.parquet", "prepared.parquet", "times.parquet", "exhibits.parquet", "manifest.toml"] {
+        let file = format!("{runs}/draws.{part}");
+        let whole = fs::read(bench.at(&file)).unwrap();
+        fs::remove_file(bench.at(&file)).unwrap();
+        let said = refused(&bench, &["judge", "./mini", "--check"]);
+        assert!(said.contains(&file), "{said}");
+        if part != "manifest.toml" {
+            for command in [&["show", "./mini"][..], &["export", "target/replan/mini", "--csv"]] {
+                let said = bench.run(command);
+                assert_eq!(said.code, Some(2), "{command:?}: {}{}", said.out, said.err);
+                assert!(said.err.contains(&file), "{}", said.err);
+            }
+        }
+        bench.write(&file, &whole);
+    }
+    bench.done(&["judge", "./mini", "--check"]);
+}
+
+#[test]
+fn a_touched_record_is_neither_shown_nor_exported() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    for part in ["trials", "exhibits"] {
+        let file = format!("target/replan/mini/data/runs/mini/draws.{part}.parquet");
+        let whole = fs::read(bench.at(&file)).unwrap();
+        let mut touched = whole.clone();
+        touched[whole.len() / 2] ^= 1;
+        bench.write(&file, &touched);
+        for command in [&["show", "./mini", "nodes"][..], &["export", "target/replan/mini", "--csv"]] {
+            let said = bench.run(command);
+            assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{command:?}: {}", said.err);
+            assert!(
+                said.err.contains(&format!("{file}: is not the file that the manifest names")),
+                "{}",
+                said.err
+            );
+        }
+        bench.write(&file, &whole);
+    }
+    bench.done(&["show", "./mini", "nodes"]);
+}
+
+#[test]
+fn a_manifest_edited_by_hand_is_caught_by_judge() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let file = "target/replan/mini/data/runs/mini/draws.manifest.toml";
+    let whole = fs::read_to_string(bench.at(file)).unwrap();
+    let edits: Vec<(String, String)> = whole
+        .lines()
+        .filter_map(|line| {
+            let edited = match line.split_once(" = ")? {
+                // What cannot be found out again is believed; the hashes of files are held against the files.
+                ("command" | "claims" | "replan" | "git" | "clean" | "rustc" | "lock" | "cpu", _) => {
+                    return None;
+                }
+                (key, "false") => format!("{key} = true"),
+                (key, value) if value.parse::<u64>().is_ok() => format!("{key} = {value}1"),
+                (key, value) if value.starts_with('"') => format!("{key} = \"0{}", &value[2..]),
+                (key, value) if value.starts_with("[[\"") => format!("{key} = [[\"0{}", &value[4..]),
+                (key, value) if value.starts_with("[\"") => format!("{key} = [\"0{}", &value[3..]),
+                _ if line.len() > 16 && line.chars().take(16).all(|c| c.is_ascii_hexdigit()) => {
+                    format!("{}{}", if line.starts_with('0') { '1' } else { '0' }, &line[1..])
+                }
+                _ => return None,
+            };
+            (edited != line).then(|| (line.to_owned(), edited))
+        })
+        .collect();
+    assert!(edits.len() > 12, "{edits:?}");
+    for (line, edited) in edits {
+        bench.write(file, whole.replacen(&line, &edited, 1).as_bytes());
+        let said = bench.run(&["judge", "./mini", "--check"]);
+        assert!(said.code != Some(0), "{line} was edited to {edited}, and nothing noticed it");
+    }
+    bench.write(file, whole.as_bytes());
+    bench.done(&["judge", "./mini", "--check"]);
 }

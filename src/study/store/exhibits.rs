@@ -1,6 +1,6 @@
 //! Exhibits on disk, written and read group by group: whoever puts parts together holds one group of each at a time.
 
-use super::read::{Draws, Stored, touched};
+use super::read::{Draws, Stored, UNREADABLE, touched, unpanicked};
 use super::table;
 use crate::study::StudyError;
 use crate::study::key::{KeyColumns, Owner, SweepKey};
@@ -101,9 +101,8 @@ impl ExhibitReader {
     /// [`StudyError::Stored`].
     pub fn open(path: &Path) -> Result<Self, StudyError> {
         let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
-        let mut reader = ParquetReader::new(file);
-        let metadata =
-            reader.get_metadata().map_err(|_| touched(path, "is no Parquet file that can be read"))?;
+        let metadata = unpanicked(|| ParquetReader::new(file).get_metadata().ok().cloned());
+        let metadata = metadata.flatten().ok_or_else(|| touched(path, UNREADABLE))?;
         let mut groups = Vec::new();
         for group in metadata.row_groups.iter().rev() {
             groups.push(group.num_rows());
@@ -123,7 +122,8 @@ impl ExhibitReader {
             let file = File::open(&self.path).map_err(StudyError::io(&self.path, "opening the file"))?;
             let slice = Some((self.row, count));
             let read = || ParquetReader::new(file).with_slice(slice).finish();
-            self.read = Stored::of(self.path.clone(), read)?.exhibits(&mut self.draws)?.into();
+            let stored = Stored::of(self.path.clone(), read)?;
+            self.read = stored.guarded(|file| file.exhibits(&mut self.draws))?.into();
             self.row += count;
         }
         Ok(self.read.front())

@@ -111,7 +111,7 @@ pub fn stage_records(
 /// Reads every part of `study`'s records in `folder`, each checked against its hash in `hashes`.
 ///
 /// # Errors
-/// [`StudyError::Stored`] for a file that is missing, [`StudyError::Touched`] for one that is not what the manifest speaks of.
+/// [`StudyError::Touched`] for a file that is missing or is not what the manifest speaks of.
 pub fn read_records(
     folder: &Path,
     study: &str,
@@ -142,12 +142,40 @@ fn read_parts(
     let open = |part: &str| open(folder, study, part, hashes);
     Ok(Records {
         batch: Batch {
-            rows: open("trials")?.trials(draws)?,
-            prepared: open("prepared")?.prepared(draws)?,
-            kept: if with_exhibits { open("exhibits")?.exhibits(draws)? } else { Vec::new() },
+            rows: open("trials")?.guarded(|file| file.trials(draws))?,
+            prepared: open("prepared")?.guarded(|file| file.prepared(draws))?,
+            kept: if with_exhibits {
+                open("exhibits")?.guarded(|file| file.exhibits(draws))?
+            } else {
+                Vec::new()
+            },
         },
-        times: open("times")?.times(draws)?,
+        times: open("times")?.guarded(|file| file.times(draws))?,
     })
+}
+
+/// Refuses records of `study` in `folder` of which some file is gone or has not its hash among `hashes`.
+///
+/// # Errors
+/// [`StudyError::Touched`].
+pub fn check_records(
+    folder: &Path,
+    study: &str,
+    hashes: &BTreeMap<String, String>,
+) -> Result<(), StudyError> {
+    for (part, hash) in hashes {
+        let path = part_path(folder, study, part);
+        check(&path, &hash_of(&path)?, Some(hash))?;
+    }
+    Ok(())
+}
+
+/// The SHA-256 of the file at `path`, which is not held in memory.
+fn hash_of(path: &Path) -> Result<String, StudyError> {
+    let mut hasher = Hasher::default();
+    let copied = fs::File::open(path).and_then(|mut file| io::copy(&mut file, &mut hasher));
+    copied.map_err(|error| unreadable(path, &error))?;
+    Ok(hasher.finish())
 }
 
 /// The exhibits of `study` in `folder`, to be read one group at a time; they must have their hash among `hashes`.
@@ -160,15 +188,13 @@ pub fn open_exhibits(
     hashes: &BTreeMap<String, String>,
 ) -> Result<ExhibitReader, StudyError> {
     let path = part_path(folder, study, "exhibits");
-    let mut hasher = Hasher::default();
-    let copied = fs::File::open(&path).and_then(|mut file| io::copy(&mut file, &mut hasher));
-    copied.map_err(|e| unreadable(&path, &e))?;
-    check(&path, &hasher.finish(), hashes.get("exhibits"))?;
+    check(&path, &hash_of(&path)?, hashes.get("exhibits"))?;
     ExhibitReader::open(&path)
 }
 
+/// A file that its manifest names and that is gone or cannot be read.
 fn unreadable(path: &Path, error: &io::Error) -> StudyError {
-    StudyError::stored(path, format!("cannot be read ({error}); run the study again"))
+    read::touched(path, &format!("cannot be read ({error})"))
 }
 
 /// Refuses a file that is not the one that a manifest names.
@@ -210,7 +236,7 @@ pub fn csv(
     part: &str,
     hashes: &BTreeMap<String, String>,
 ) -> Result<String, StudyError> {
-    Ok(open(folder, study, part, hashes)?.csv())
+    open(folder, study, part, hashes)?.guarded(|file| Ok(file.csv()))
 }
 
 /// Files that are written, but not in their places yet: all of them are put there, or none.

@@ -13,9 +13,10 @@ use polars::prelude::{AnyValue, Column, DataFrame, DataType, PolarsResult};
 use polars_io::prelude::{ParquetReader, SerReader as _};
 use std::collections::BTreeMap;
 use std::io::Cursor;
-use std::panic::{UnwindSafe, catch_unwind};
+use std::panic::{self, AssertUnwindSafe, UnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Once};
 
 /// Draws that several files of a study name.
 #[derive(Default)]
@@ -82,6 +83,31 @@ pub fn touched(path: &Path, what: &str) -> StudyError {
     StudyError::Touched(format!("{}: {what}; run the study again", path.display()))
 }
 
+/// What is said of a file that polars cannot make anything of.
+pub const UNREADABLE: &str = "is no Parquet file that can be read";
+
+/// What `read` gives; none if it panics. polars takes the lengths in a file at its word and panics at some that are wrong: that is
+/// told as an error, and not on the terminal as well.
+pub fn unpanicked<T>(read: impl FnOnce() -> T + UnwindSafe) -> Option<T> {
+    static READING: AtomicUsize = AtomicUsize::new(0);
+    static QUIET: Once = Once::new();
+    QUIET.call_once(|| {
+        let told = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            // The standard library's own lines are where polars asks for a slice or a capacity that there is not.
+            let is_theirs = |file: &str| file.contains("polars") || file.contains("/rustc/");
+            let is_theirs = info.location().is_some_and(|at| is_theirs(at.file()));
+            if READING.load(Ordering::SeqCst) == 0 || !is_theirs {
+                told(info);
+            }
+        }));
+    });
+    READING.fetch_add(1, Ordering::SeqCst);
+    let done = catch_unwind(read);
+    READING.fetch_sub(1, Ordering::SeqCst);
+    done.ok()
+}
+
 /// A Parquet file that was opened.
 pub struct Stored {
     path: PathBuf,
@@ -99,12 +125,16 @@ impl Stored {
         path: PathBuf,
         read: impl FnOnce() -> PolarsResult<DataFrame> + UnwindSafe,
     ) -> Result<Self, StudyError> {
-        // polars takes the lengths in a file at its word and panics at some that are wrong.
-        let frame = catch_unwind(|| read().ok());
-        match frame.ok().flatten() {
+        match unpanicked(|| read().ok()).flatten() {
             Some(frame) => Ok(Self { path, frame }),
-            None => Err(touched(&path, "is no Parquet file that can be read")),
+            None => Err(touched(&path, UNREADABLE)),
         }
+    }
+
+    /// What `made` makes of the frame: polars reads some of a file only when its cells are asked for.
+    pub fn guarded<T>(&self, made: impl FnOnce(&Self) -> Result<T, StudyError>) -> Result<T, StudyError> {
+        // Nothing that is left half-done by a panic is used again: the error ends the reading of the whole run.
+        unpanicked(AssertUnwindSafe(|| made(self))).unwrap_or_else(|| Err(touched(&self.path, UNREADABLE)))
     }
 
     fn column(&self, name: &str) -> Result<&Column, StudyError> {

@@ -1,6 +1,6 @@
 //! Damaged files of a stored run, read as `judge` and `render` read them. A Parquet file is opened only if its hash is the
-//! manifest's; for every other case its end or its footer is damaged and the manifest's hash changed too, so that the damage
-//! reaches the reader. (Damage within a page may make polars ask for more memory than there is, which ends the process.)
+//! manifest's; for every other case its end, its footer or its pages are damaged and the manifest's hash changed too, so that the damage
+//! reaches the reader.
 
 use super::damage::{damaged, flipped};
 use super::{cases, fault};
@@ -40,13 +40,16 @@ fn broken(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
     flipped(stream, bytes.to_vec())
 }
 
-/// `bytes` of a Parquet file: some of its footer flipped, or the end gone.
-fn beheaded(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
+/// `bytes` of a Parquet file: some of its footer or of its pages flipped, or the end gone.
+fn hidden(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
     if stream.random_range(0..3) == 0 {
         return bytes[..stream.random_range(0..bytes.len())].to_vec();
     }
     let length = bytes[bytes.len() - 8..bytes.len() - 4].try_into().unwrap();
     let (pages, footer) = bytes.split_at(bytes.len() - 8 - u32::from_le_bytes(length) as usize);
+    if stream.random_range(0..2) == 0 {
+        return [flipped(stream, pages.to_vec()), footer.to_vec()].concat();
+    }
     [pages.to_vec(), flipped(stream, footer.to_vec())].concat()
 }
 
@@ -73,7 +76,7 @@ fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
         let is_hidden = !is_text && case % 2 == 0;
         let new = match () {
             () if is_text => damaged(&mut stream, bytes),
-            () if is_hidden => beheaded(&mut stream, bytes),
+            () if is_hidden => hidden(&mut stream, bytes),
             () => broken(&mut stream, bytes),
         };
         fs::write(path, &new).unwrap();

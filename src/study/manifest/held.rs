@@ -1,0 +1,58 @@
+//! What a stored manifest says that the study and its inputs do not bear out: for `replan judge --check`.
+
+use super::Manifest;
+use crate::study::reading::ReadingChoice;
+use crate::study::runner::BuiltStudy;
+use crate::study::{Inputs, Study, StudyError};
+
+impl Manifest {
+    /// What it says otherwise than a run of `study` as it is now would, one sentence each. The record files are held against it
+    /// where they are read; what cannot be found out again (the command, the machine, the claims as they were) is believed.
+    ///
+    /// # Errors
+    /// Those of [`Manifest::new`].
+    pub fn untrue(&self, study: &Study, inputs: &Inputs) -> Result<Vec<String>, StudyError> {
+        let study = Study { seed: self.seed, ..study.clone() };
+        let study = if self.quick { study.quick() } else { study };
+        let points = match self.points(&study) {
+            Ok(points) => points,
+            Err(message) => return Ok(vec![message]),
+        };
+        let built = BuiltStudy::new(&study, &points, inputs)?;
+        let now = Self::new(&study, &points, &built, self.claims.clone(), self.command.clone(), self.quick)?;
+        let mut found = now.differs_from(self);
+        for (key, is_same) in [
+            ("study", self.study == now.study),
+            ("spec", self.spec == now.spec),
+            ("depends", self.depends == now.depends),
+            ("defaults", self.defaults == now.defaults),
+            ("inputs", self.inputs == now.inputs),
+            ("problems", self.problems == now.problems),
+            ("contenders", self.contenders == now.contenders),
+        ] {
+            if !is_same && found.is_empty() {
+                found.push(format!("`{key}` is not what the study and its inputs give"));
+            }
+        }
+        let numbers = self.sessions.iter().map(|session| session.number);
+        if !numbers.eq(1..=self.sessions.len() as u32) {
+            found.push("`session` has numbers that do not count from 1".to_owned());
+        }
+        Ok(found)
+    }
+
+    /// The readings that it lists.
+    fn points(&self, study: &Study) -> Result<Vec<ReadingChoice>, String> {
+        if self.readings.is_empty() {
+            return Err("`readings` lists none".to_owned());
+        }
+        let point = |options: &Vec<String>| {
+            if options.len() != self.axes.len() {
+                return Err(format!("`readings` has {} options for {} axes", options.len(), self.axes.len()));
+            }
+            let chosen = self.axes.iter().cloned().zip(options.iter().cloned()).collect();
+            ReadingChoice::new(&study.readings, &chosen).map_err(|message| format!("`readings`: {message}"))
+        };
+        self.readings.iter().map(point).collect()
+    }
+}
