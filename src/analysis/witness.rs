@@ -382,7 +382,7 @@ impl<'g> Walk<'g> {
         let distance = self.ground.distance(&self.grid);
         let warmth = WARMTH * (1.0 - done) * (1.0 - done) + 1e-9;
         let worse = distance - self.distance;
-        if worse <= 0.0 || self.stream.random_bool((-worse / warmth).exp()) {
+        if worse <= 0.0 || self.stream.random_bool(libm::exp(-worse / warmth)) {
             self.distance = distance;
         } else {
             self.flip(&cells);

@@ -81,13 +81,11 @@ impl Witness {
         let out =
             self.out.clone().unwrap_or_else(|| places.home.join("target/replan/witness").join(&paper.id));
         let file = |end: &str| out.join(format!("{}.{end}", self.name(&paper)));
-        match self.searched(&hunt, &file("searches.toml"))? {
-            Some(found) => self.found(&hunt, &found, &file("map.txt")),
-            None => {
-                say!("none found in {} searches of {} maps each, {}", self.searches, self.maps, self.asked());
-                Ok(())
-            }
+        if let Some(found) = self.searched(&hunt, &file("searches.toml"))? {
+            return self.found(&hunt, &found, &file("map.txt"));
         }
+        say!("none found in {} searches of {} maps each, {}", self.searches, self.maps, self.asked());
+        Ok(())
     }
 
     /// The readings as other commands are told them.
@@ -97,7 +95,8 @@ impl Witness {
 
     /// What was asked, in words.
     fn asked(&self) -> String {
-        let also: String = self.also.iter().map(|also| format!(", {also}")).collect();
+        let also: Vec<String> = self.also.iter().map(|also| format!(", {also}")).collect();
+        let also = also.concat();
         let under = self.readings.as_deref().unwrap_or("default");
         format!("for {}{also}; reading {under}, seed {}", self.claims.join(", "), self.seed)
     }
@@ -152,9 +151,12 @@ impl Witness {
             ),
         ];
         said.extend(holding.iter().map(line));
-        let comments: String = said.iter().map(|line| format!("; {line}\n")).collect();
+        let comments: Vec<String> = said.iter().map(|line| format!("; {line}\n")).collect();
+        let comments = comments.concat();
         write_whole(file, (comments + &to_text_map(&found.grid)).as_bytes())?;
-        said.iter().for_each(|line| say!("{line}"));
+        for line in &said {
+            say!("{line}");
+        }
         say!("the map is in {}", file.display());
         Ok(())
     }

@@ -358,7 +358,7 @@ impl SceneFormat {
                 let stills = scene.obstacles().iter().map(still).collect();
                 // Cells know a robot's first body only.
                 let is_first = robot.bodies().first().is_some_and(|first| first.name() == body);
-                let placed = robot.placed(scene.base());
+                let placed = robot.clone().placed(scene.base());
                 let check = is_first.then(|| Check::Cell(Box::new(Cell::new(robot.clone(), scene, true))));
                 Ok(Standing { robot: placed, stills, check })
             }
@@ -371,7 +371,7 @@ impl SceneFormat {
                 let stills = solids.chain(floor).collect();
                 let arm = CarriedArm::new(robot, body, &support).ok();
                 let check = arm.map(|arm| Check::Rods(Box::new(arm), bodies));
-                Ok(Standing { robot: robot.placed(support.base()), stills, check })
+                Ok(Standing { robot: robot.clone().placed(support.base()), stills, check })
             }
         }
     }

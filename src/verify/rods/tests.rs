@@ -12,6 +12,7 @@ fn arm() -> Arm {
         rows: [row(50.0), row(50.0), row(0.0), row(0.0), row(0.0), row(0.0)],
         tip: [0.0; 3],
         rods: vec![rod(1), rod(2)],
+        floor: None,
     }
 }
 

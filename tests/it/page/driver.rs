@@ -22,7 +22,8 @@ pub struct Browser {
     driver: Child,
     port: u16,
     session: String,
-    _profile: TempDir,
+    /// Gone with the browser.
+    profile: TempDir,
 }
 
 impl Browser {
@@ -44,13 +45,9 @@ impl Browser {
         let port = lines.map_while(Result::ok).find_map(|line| {
             line.split("started successfully on port ").nth(1)?.trim_end_matches('.').parse().ok()
         });
-        let mut browser = Self {
-            driver,
-            port: port.expect("chromedriver says its port"),
-            session: String::new(),
-            _profile: profile,
-        };
-        let data = format!("--user-data-dir={}", browser._profile.path().display());
+        let mut browser =
+            Self { driver, port: port.expect("chromedriver says its port"), session: String::new(), profile };
+        let data = format!("--user-data-dir={}", browser.profile.path().display());
         let size = format!("--window-size={width},{height}");
         let args = [
             "--headless",
@@ -66,11 +63,9 @@ impl Browser {
             &size,
         ];
         let wanted = json!({ "browserName": "chrome", "goog:loggingPrefs": { "browser": "ALL" },
-            "goog:chromeOptions": { "binary": chromium, "args": args, "mobileEmulation": null } });
-        let mut wanted = wanted;
-        wanted["goog:chromeOptions"].as_object_mut().unwrap().remove("mobileEmulation");
+            "goog:chromeOptions": { "binary": chromium, "args": args } });
         let made = browser.ask("POST", "/session", &json!({ "capabilities": { "alwaysMatch": wanted } }));
-        browser.session = made["sessionId"].as_str().unwrap_or_else(|| panic!("{made}")).to_owned();
+        made["sessionId"].as_str().unwrap_or_else(|| panic!("{made}")).clone_into(&mut browser.session);
         Some(browser)
     }
 

@@ -106,8 +106,8 @@ impl Robot {
 
     /// The same robot with its base at `base`; a file puts it at the origin.
     #[must_use]
-    pub fn placed(&self, base: &Frame) -> Self {
-        Self { arm: self.arm.placed(base), ..self.clone() }
+    pub fn placed(self, base: &Frame) -> Self {
+        Self { arm: self.arm.placed(base), ..self }
     }
 
     /// The same robot with a tool of another length, which its tool's capsules follow.

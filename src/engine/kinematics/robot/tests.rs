@@ -165,7 +165,8 @@ fn millimetres_and_degrees_become_metres_and_radians() {
     assert!((joint.speed_rad_s - 2.443_460_953).abs() < 1e-9, "{joint:?}");
     assert!((up6.arm().chain().joints()[5].upper_rad - std::f64::consts::TAU).abs() < 1e-15);
     assert!((aubo.arm().chain().joints()[2].speed_rad_s - 2.5656).abs() < 1e-15);
-    let moved = up6.placed(&(Frame::at(Vec3::y() * 1.5) * Frame::turned(&Vec3::z(), 450_f64.to_radians())));
+    let moved =
+        up6.clone().placed(&(Frame::at(Vec3::y() * 1.5) * Frame::turned(&Vec3::z(), 450_f64.to_radians())));
     let base = moved.arm().chain().base();
     assert!((base.origin.y - 1.5).abs() < 1e-15 && (base.axis(0).y - 1.0).abs() < 1e-12, "{base:?}");
 }
