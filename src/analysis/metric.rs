@@ -54,13 +54,13 @@ const fn metric(name: &'static str, label: &'static str, unit: &'static str, bet
 /// Every metric, in the order of their names.
 pub static METRICS: &[Metric] = &[
     metric("adjustments", "Adjustments", "", Better::Neither),
+    metric("attainable_hit_share_percent", "Attainable targets met", "%", Better::Neither),
     metric("bends", "Bends", "", Better::Lower),
     metric("candidates", "Pairs tried one by one", "", Better::Neither),
     metric("closed", "Closed nodes", "", Better::Lower),
     metric("components", "Connected components", "", Better::Neither),
     metric("connected", "Start and goal connected", "", Better::Neither),
     metric("cut_in_cm", "Cut-in depth", "cm", Better::Lower),
-    metric("attainable_hit_share_percent", "Attainable targets met", "%", Better::Neither),
     metric("deepest_cm", "Deepest in an obstacle", "cm", Better::Lower),
     metric("expansions", "Expansions", "", Better::Lower),
     Metric { column: STATUS, ..metric("found", "Path found", "", Better::Higher) },

@@ -34,7 +34,7 @@ const POSES: Change = ("poses.toml", "-120, -90, 0]", "-120, -90]");
 const IN_FILES: [&str; 3] = [
     "poses.toml:5:5: `A` is an array of 5",
     "robot.toml:15:1: joint 1: upper_deg is -500",
-    "scene.toml:13:1: obstacle `shelf`",
+    "scene.toml:16:1: obstacle `shelf`",
 ];
 
 #[test]

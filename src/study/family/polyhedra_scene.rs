@@ -286,7 +286,7 @@ mod tests {
             ("robot = 'data/robots/none.toml'".to_owned(), ["`data/robots/none.toml`", "does not exist"]),
             (
                 "scene = 'data/scenes/tang_e1.toml'".to_owned(),
-                ["at `scene`", "data/scenes/tang_e1.toml: a scene of an arm says where its base stands"],
+                ["data/scenes/tang_e1.toml: a scene of an arm says where its base stands", "a table `[support]`"],
             ),
             ("steps = 1".to_owned(), ["steps", "step_cm"]),
         ] {

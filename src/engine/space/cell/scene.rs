@@ -247,11 +247,11 @@ mod tests {
 
     #[test]
     fn a_box_of_another_height_stands_where_it_stood() {
-        let text =
-            "name = 's'\n[[box]]\nname = 'b'\nmin_mm = [0, 0, 100]\nmax_mm = [10, 20, 400]\nyaw_deg = 90\n";
-        let scene = Scene::parse(&Document::new(Path::new("s.toml"), text.to_owned())).unwrap();
+        let block = "[[box]]\nname = 'b'\nmin_mm = [0, 0, 100]\nmax_mm = [10, 20, 400]\nyaw_deg = 90\n";
+        let text = format!("name = 's'\n{block}{FLOOR}");
+        let scene = Scene::parse(&Document::new(Path::new("s.toml"), text)).unwrap();
         let changed = scene.with_height("b", 0.5).unwrap();
-        let Solid::Box(higher) = &changed.obstacles()[0].solid else { panic!("no box") };
+        let Some(Solid::Box(higher)) = changed.obstacles().last().map(|o| &o.solid) else { panic!("no box") };
         let z: Vec<f64> = higher.corners().iter().map(|corner| corner.z).collect();
         let [low, high] = [f64::min, f64::max].map(|of| z.iter().copied().reduce(of).unwrap());
         assert!((low - 0.1).abs() < 1e-12 && (high - 0.6).abs() < 1e-12, "{z:?}");
