@@ -6,6 +6,8 @@
 //! nothing is proved. Searches are numbered, each depends on the seed and its number alone, and of those that find a map
 //! the first counts, whatever the number of threads.
 
+mod walk;
+
 use super::context::Context;
 use super::criterion::{Attained, EXISTS};
 use super::metric::Metric;
@@ -24,6 +26,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
+use walk::Walk;
 
 /// Which reading maps are searched under.
 #[derive(Debug, Clone)]
@@ -357,50 +360,3 @@ impl Ground {
 
 /// How far from the ends cells are changed.
 const MARGIN_CELLS: u32 = 6;
-
-/// A map that changes by a few cells at a time.
-struct Walk<'g> {
-    ground: &'g Ground,
-    stream: &'g mut Stream,
-    near: [Range<u32>; 2],
-    grid: Grid2,
-    distance: f64,
-}
-
-impl<'g> Walk<'g> {
-    fn new(ground: &'g Ground, grid: Grid2, stream: &'g mut Stream) -> Self {
-        let distance = ground.distance(&grid);
-        Self { near: ground.near(), ground, stream, grid, distance }
-    }
-
-    /// Changes some cells, and takes that back unless it is kept; `done` is the share of the search that is over.
-    fn step(&mut self, done: f64) {
-        // One cell, or two or three at once, so that a blocked cell may move.
-        let count = [1, 1, 2, 3][self.stream.random_range(0..4)];
-        let cells: Vec<u32> = (0..count).map(|_| self.drawn_cell()).collect();
-        self.flip(&cells);
-        let distance = self.ground.distance(&self.grid);
-        let warmth = WARMTH * (1.0 - done) * (1.0 - done) + 1e-9;
-        let worse = distance - self.distance;
-        if worse <= 0.0 || self.stream.random_bool(libm::exp(-worse / warmth)) {
-            self.distance = distance;
-        } else {
-            self.flip(&cells);
-        }
-    }
-
-    fn drawn_cell(&mut self) -> u32 {
-        let [x, y] = [0, 1].map(|axis: usize| self.stream.random_range(self.near[axis].clone()));
-        y * self.grid.width() + x
-    }
-
-    /// Blocks what is free and frees what is blocked, but for the ends.
-    fn flip(&mut self, cells: &[u32]) {
-        for cell in cells.iter().filter(|cell| !self.ground.cells.contains(cell)) {
-            self.grid.set_blocked(*cell, self.grid.is_free(*cell));
-        }
-    }
-}
-
-/// How much worse a map may become in one step at the start of a search.
-const WARMTH: f64 = 0.05;

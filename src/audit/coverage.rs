@@ -73,9 +73,12 @@ impl std::fmt::Display for Remark {
     }
 }
 
-/// The macros that a text defines: name with backslash, value, and line.
-pub fn macros(text: &str) -> BTreeMap<String, (String, usize)> {
-    let mut found = BTreeMap::new();
+/// Macros by their names with backslash, each with its value and its line.
+pub type Macros = BTreeMap<String, (String, usize)>;
+
+/// The macros that a text defines.
+pub fn macros(text: &str) -> Macros {
+    let mut found = Macros::new();
     for (index, line) in text.lines().enumerate() {
         let line = uncommented(line);
         for command in ["\\newcommand", "\\renewcommand", "\\providecommand", "\\def"] {
@@ -101,14 +104,7 @@ pub fn macros(text: &str) -> BTreeMap<String, (String, usize)> {
 pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
     let given = macros(given);
     let truth = current.map(macros);
-    let mut remarks = Vec::new();
-    for (name, (value, line)) in truth.iter().flat_map(|_| &given) {
-        let now = truth.as_ref().and_then(|truth| truth.get(name)).map(|(now, _)| now.clone());
-        if now.as_ref() != Some(value) {
-            let kind = Kind::Stale { name: name.clone(), value: value.clone(), now };
-            remarks.push(Remark { in_macros: true, line: *line, column: 1, kind });
-        }
-    }
+    let mut remarks: Vec<Remark> = truth.iter().flat_map(|truth| stale(&given, truth)).collect();
     let known = truth.as_ref().unwrap_or(&given);
     let of_value = |number: &str| -> Vec<String> {
         let same = known.iter().filter(|(_, (value, _))| value == number);
@@ -124,20 +120,7 @@ pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
         };
         remarks.push(Remark { in_macros: false, line, column: 1, kind });
     }
-    let stem = stem(known);
-    for found in commands(text) {
-        let name = format!("\\{}", found.number);
-        let is_called_so =
-            stem.as_ref().is_some_and(|stem| name.len() > stem.len() && name.starts_with(stem));
-        if is_called_so
-            && !known.contains_key(&name)
-            && !given.contains_key(&name)
-            && !own.contains_key(&name)
-        {
-            let kind = Kind::Unknown { name };
-            remarks.push(Remark { in_macros: false, line: found.line, column: found.column, kind });
-        }
-    }
+    remarks.extend(unknown(text, known, [&given, &own]));
     for found in numbers(text) {
         let kind = Kind::Typed { macros: of_value(&found.number), number: found.number };
         remarks.push(Remark { in_macros: false, line: found.line, column: found.column, kind });
@@ -145,8 +128,35 @@ pub fn coverage(text: &str, given: &str, current: Option<&str>) -> Vec<Remark> {
     remarks
 }
 
+/// The macros of the file, `given`, that have another value in `truth` or are not there.
+fn stale(given: &Macros, truth: &Macros) -> Vec<Remark> {
+    let now = |name: &String| truth.get(name).map(|(now, _)| now.clone());
+    let differs = |(name, (value, _)): &(&String, &(String, usize))| now(name).as_ref() != Some(value);
+    let remark = |(name, (value, line)): (&String, &(String, usize))| {
+        let kind = Kind::Stale { name: name.clone(), value: value.clone(), now: now(name) };
+        Remark { in_macros: true, line: *line, column: 1, kind }
+    };
+    given.iter().filter(differs).map(remark).collect()
+}
+
+/// The macros that `text` uses and that are called like those `known`, but stand neither there nor in `besides`.
+fn unknown(text: &str, known: &Macros, besides: [&Macros; 2]) -> Vec<Remark> {
+    let Some(stem) = stem(known) else { return Vec::new() };
+    let is_called_so = |name: &str| name.len() > stem.len() && name.starts_with(&stem);
+    let is_defined = |name: &str| besides.into_iter().chain([known]).any(|macros| macros.contains_key(name));
+    let mut remarks = Vec::new();
+    for found in commands(text) {
+        let name = format!("\\{}", found.number);
+        if is_called_so(&name) && !is_defined(&name) {
+            let kind = Kind::Unknown { name };
+            remarks.push(Remark { in_macros: false, line: found.line, column: found.column, kind });
+        }
+    }
+    remarks
+}
+
 /// What the names of all macros of a file begin with, up to a capital letter: the paper's name; none if they share too little.
-fn stem(known: &BTreeMap<String, (String, usize)>) -> Option<String> {
+fn stem(known: &Macros) -> Option<String> {
     let (first, last) = (known.keys().next()?, known.keys().next_back()?);
     let shared = first.chars().zip(last.chars()).take_while(|(a, b)| a == b).count();
     let is_word = |end: usize| {

@@ -149,6 +149,12 @@ fn link(judged: &Judged, words: &str, details: &str) -> String {
     format!("[{words}]({details}#{})", anchor(&judged.claim))
 }
 
+/// Links to the evidence of `claims` within the details.
+fn links(claims: &[impl AsRef<str>]) -> String {
+    let link = |claim: &str| format!("[`{claim}`](#{})", anchor(claim));
+    claims.iter().map(|claim| link(claim.as_ref())).collect::<Vec<_>>().join(", ")
+}
+
 /// A paragraph, its text shown as it is.
 fn paragraph(text: &str) -> String {
     wrapped("", &markdown(text), 0, COLUMNS) + "\n\n"

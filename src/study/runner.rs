@@ -4,24 +4,22 @@
 //! Units are numbered by reading, problem group and replicate; results are put together in that order, so the
 //! number of threads and the order of completion change nothing.
 
+mod timed;
+
 use super::checked::Study;
-use super::clock;
 use super::error::StudyError;
 use super::family::Family;
 use super::group::{Families, Group};
 use super::inputs::Inputs;
 use super::key::{DrawKey, Owner, ReadingKey, Text, TrialKey};
 use super::name::Names;
-use super::prepared::Prepared;
 use super::reading::ReadingChoice;
-use super::record::{Batch, Kept, Row, Timing};
-use super::spec::TimingSpec;
+use super::record::{Batch, Kept, Row};
 use super::store::Journal;
 use super::task::Task;
 use super::unit::{Entrant, Terms, Unit};
 use base::hash::sha256;
 use base::seed;
-use engine::planner::Request;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -52,9 +50,6 @@ impl Progress for Unwatched {
 /// The number of the session in which a run reads the clock: its readings replace all older ones. Later sessions are read
 /// beside it.
 pub const SESSION: u32 = 1;
-
-/// How many times the clock's sample is gone through; each time takes its share of the repeats.
-const PASSES: u32 = 4;
 
 /// What is stored of a unit of which other contenders' trials must run.
 #[derive(Debug, Default)]
@@ -310,90 +305,5 @@ impl<'a> BuiltStudy<'a> {
             return Err(StudyError::Interrupted { study, kept: done.len(), total });
         }
         Ok(done.into_values().fold(Batch::default(), Batch::with))
-    }
-
-    /// The timed passes: one thread, warmed up, with only the pipeline's call between two readings of the clock.
-    ///
-    /// They time the first draws of every group under the first point, every contender and sweep. A machine that gets
-    /// slower or faster meanwhile must not favour anyone: contenders take turns within each repeat, forwards and backwards,
-    /// and the repeats are spread over several passes through the whole sample.
-    ///
-    /// # Errors
-    /// [`StudyError::Interrupted`] if `stop` was set: half a sample would favour the first groups.
-    pub fn time(
-        &self,
-        session: u32,
-        stop: &AtomicBool,
-        progress: &dyn Progress,
-    ) -> Result<Vec<Timing>, StudyError> {
-        let Some(timing) = self.study.timing else { return Ok(Vec::new()) };
-        let units = self.units();
-        let total = units.len();
-        let is_timed = |unit: &&Unit<'_>| *unit.point == self.points[0] && unit.key.draw < timing.problems;
-        let sample: Vec<(&Unit<'_>, Prepared)> = units
-            .iter()
-            .filter(is_timed)
-            .filter_map(|unit| Some((unit, unit.family.prepare(unit.seed).ok()?)))
-            .collect();
-        let passes = PASSES.min(timing.repeats);
-        progress.begin(&format!("{}: clock", self.study.name), sample.len() * passes as usize);
-        let mut readings = Vec::new();
-        for pass in 0..passes {
-            for (unit, prepared) in &sample {
-                if stop.load(Ordering::Relaxed) {
-                    progress.end();
-                    let study = self.study.name.clone();
-                    return Err(StudyError::Interrupted { study, kept: total, total });
-                }
-                let repeats: Vec<u32> = (pass..timing.repeats).step_by(passes as usize).collect();
-                let of_unit = self.time_unit(unit, prepared, timing, &repeats);
-                readings.extend(of_unit.into_iter().map(|reading| Timing { session, ..reading }));
-                progress.step();
-            }
-        }
-        progress.end();
-        Ok(readings)
-    }
-
-    fn time_unit(
-        &self,
-        unit: &Unit<'_>,
-        prepared: &Prepared,
-        timing: TimingSpec,
-        repeats: &[u32],
-    ) -> Vec<Timing> {
-        let mut readings = Vec::new();
-        for query in &unit.queries() {
-            let seeds = |entrant: &Entrant<'_>| entrant.contender.repeats.min(timing.seeds.unwrap_or(1));
-            // What is recorded has clocks of its own.
-            let repeated = unit.entrants.iter().copied().filter(|entrant| !entrant.contender.is_recorded());
-            let of_entrant = |entrant| (0..seeds(entrant)).map(move |seed| (entrant, seed));
-            let runs = repeated.flat_map(of_entrant);
-            let request = |(entrant, seed): &(&Entrant<'_>, u32)| Request {
-                world: &prepared.world,
-                start: &query.start,
-                goal: &query.goal,
-                expansions: self.study.budget.expansions,
-                seed: entrant.seed(&self.terms, &unit.problem(query), *seed),
-                trace: false,
-            };
-            let warmed: Vec<_> = runs.filter(|run| run.0.pipeline.plan(&request(run)).is_ok()).collect();
-            let mut read = |run: &(&Entrant<'_>, u32), repeat: u32| {
-                let request = request(run);
-                readings.push(Timing {
-                    trial: unit.trial(query, run.0, run.1),
-                    session: SESSION,
-                    clock_repeat: repeat,
-                    plan_wall_ns: clock::timed(|| run.0.pipeline.plan(&request)).0,
-                });
-            };
-            for (turn, repeat) in repeats.iter().enumerate() {
-                for place in 0..warmed.len() {
-                    let whose = if turn % 2 == 0 { place } else { warmed.len() - 1 - place };
-                    read(&warmed[whose], *repeat);
-                }
-            }
-        }
-        readings
     }
 }

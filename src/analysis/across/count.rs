@@ -3,7 +3,7 @@
 
 use super::super::class::{Polarity, Verdict};
 use super::glance::Sight;
-use super::stored::Exploration;
+use super::stored::{Exploration, ExploredResult};
 use crate::study::Reading;
 use crate::study::paper::Paper;
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,6 +42,25 @@ pub struct Counted {
     pub none_compatible: bool,
     /// One witness would do.
     pub is_existential: bool,
+}
+
+impl Counted {
+    /// Counts a result of the claim for those of its readings that are `judged`; `default` is the class in the default run.
+    fn take(&mut self, result: &ExploredResult, judged: &[usize], default: Option<&Verdict>) {
+        let own: Vec<usize> =
+            result.readings.iter().copied().filter(|place| judged.contains(place)).collect();
+        let Some(reading) = own.first().copied() else { return };
+        // The default run has more draws than an exploration.
+        let is_default = own.contains(&0);
+        let class = default.copied().filter(|_| is_default).unwrap_or(result.class);
+        let seen =
+            if result.sight == Sight::Looked { own.clone() } else { own[..usize::from(is_default)].to_vec() };
+        self.not_looked_at += own.len() - seen.len();
+        self.looked += seen.len();
+        if !seen.is_empty() {
+            self.groups.push(Group { reading, readings: seen, class });
+        }
+    }
 }
 
 impl Axes {
@@ -83,23 +102,7 @@ impl Axes {
             ..Counted::default()
         };
         for result in &claim.results {
-            let own: Vec<usize> =
-                result.readings.iter().copied().filter(|place| judged.contains(place)).collect();
-            let Some(reading) = own.first().copied() else { continue };
-            // The default run has more draws than an exploration.
-            let is_default = own.contains(&0);
-            let class =
-                if is_default { default.get(id).copied().unwrap_or(result.class) } else { result.class };
-            let seen = if result.sight == Sight::Looked {
-                own.clone()
-            } else {
-                own[..usize::from(is_default)].to_vec()
-            };
-            counted.not_looked_at += own.len() - seen.len();
-            counted.looked += seen.len();
-            if !seen.is_empty() {
-                counted.groups.push(Group { reading, readings: seen, class });
-            }
+            counted.take(result, &judged, default.get(id));
         }
         counted.groups.sort_by_key(|group| group.reading);
         counted

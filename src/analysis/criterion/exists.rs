@@ -1,5 +1,7 @@
 //! Whether the printed number is met exactly by any stored trial, alone or together with other printed numbers.
 
+mod differs;
+
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::{CONTENDER_KEYS, Context};
@@ -12,9 +14,9 @@ use crate::study::record::Row;
 use crate::study::{Reading, ReadingChoice, Study};
 use audit::exact::Print;
 use base::settings::{Accepted, Faults, SettingsError, none_called};
+use differs::Differs;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::summary::median;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -346,67 +348,5 @@ impl Criterion for Attained<'_> {
 
     fn is_clock(&self) -> bool {
         self.metric.is_clock()
-    }
-}
-
-/// A claim that a metric is not the same on all problems of each set.
-struct Differs<'a> {
-    study: &'a Study,
-    contender: String,
-    metric: &'static Metric,
-    sets: Vec<Vec<String>>,
-}
-
-impl<'a> Differs<'a> {
-    fn new(context: &Context<'a>, settings: Settings) -> Result<Self, SettingsError> {
-        let (places, metric) = places(context, &settings, &context.paper.readings())?;
-        let contenders = settings.contenders.listed();
-        let ([place], [contender]) = (&places[..], &contenders[..]) else {
-            return Err(context.settings.error_at("differ", "`differ` takes one place and one contender"));
-        };
-        context.groups("differ", place.study, &Labels::Several(settings.differ.concat()))?;
-        Ok(Self { study: place.study, contender: contender.clone(), metric, sets: settings.differ })
-    }
-}
-
-impl Criterion for Differs<'_> {
-    fn find(&self, evidence: &Evidence<'_>) -> Found {
-        let Some(run) = evidence.run(&self.study.name) else { return Found::default() };
-        let value = |problem: &String| {
-            let rows = run.rows(problem, &self.contender);
-            median(&rows.iter().filter_map(|row| run.value(row, self.metric)).collect::<Vec<_>>())
-        };
-        let mut found = Found { existential: true, ..Found::default() };
-        let mut differ = 0;
-        for set in &self.sets {
-            let values: Vec<Option<f64>> = set.iter().map(value).collect();
-            let spelled = |(problem, value): (&String, &Option<f64>)| match value {
-                Some(value) => format!("{problem} {value:.4}"),
-                None => format!("{problem} –"),
-            };
-            found.because.push(set.iter().zip(&values).map(spelled).collect::<Vec<_>>().join(", "));
-            let known: Vec<f64> = values.into_iter().flatten().collect();
-            let is_other = |value: &f64| (value - known[0]).abs() > 1e-9;
-            differ += usize::from(known.len() == set.len() && known.iter().any(is_other));
-        }
-        found.outcome = Some(match differ {
-            0 => Outcome::Fails,
-            all if all == self.sets.len() => Outcome::Holds,
-            _ => Outcome::SignOnly,
-        });
-        let first =
-            self.sets.iter().flatten().find_map(|group| run.rows(group, &self.contender).into_iter().next());
-        found.trial = first.map(|row| run.trial(row));
-        let metric = self.metric.label.to_lowercase();
-        found.because.push(format!(
-            "{metric} of {} differs in {differ} of {} sets",
-            self.contender,
-            self.sets.len()
-        ));
-        found
-    }
-
-    fn studies(&self) -> Vec<&Study> {
-        vec![self.study]
     }
 }

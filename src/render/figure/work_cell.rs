@@ -4,7 +4,7 @@ use super::{Entry, Kind, Scene, Shown, ask};
 use crate::analysis::statistic::median;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
-use crate::render::chart::{Key, Panel, Sheet};
+use crate::render::chart::{Key, Panel, Sheet, axis};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{Dash, GREY, Rgb, Stroke, WHITE, Width, YELLOW, series_color};
@@ -152,6 +152,16 @@ fn straight_lines(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Option<String> {
         "{count} of {all} straight lines are free, with mm of clearance: {free}; blocked: {}",
         blocked.join(", ")
     ))
+}
+
+/// A pose in words: joint angles, where flange and tip are, and where the tool points.
+fn posed(pose: &Exhibit) -> [String; 4] {
+    let axes = pose.width - 9;
+    let numbers = |(from, to, decimals): (usize, usize, usize)| {
+        let of = |value: &f64| axis::number(*value, decimals);
+        pose.values[from..to].iter().map(of).collect::<Vec<_>>().join(", ")
+    };
+    [(0, axes, 0), (axes, axes + 3, 1), (axes + 3, axes + 6, 1), (axes + 6, axes + 9, 3)].map(numbers)
 }
 
 /// A panel that shows `scene`.
@@ -316,19 +326,12 @@ impl Kind for WorkCell {
             else {
                 continue;
             };
-            let numbers = |from: usize, to: usize, decimals: usize| {
-                let of = |value: &f64| crate::render::chart::axis::number(*value, decimals);
-                exhibit.values[from..to].iter().map(of).collect::<Vec<_>>().join(", ")
-            };
             let group = if end == "start" { group } else { "" };
-            let axes = exhibit.width - 9;
-            let cells = [(0, axes, 0), (axes, axes + 3, 1), (axes + 3, axes + 6, 1), (axes + 6, axes + 9, 3)];
-            let cells = cells.map(|(from, to, decimals)| numbers(from, to, decimals));
             let line = if end == "start" { lines.next() } else { None };
             let line = line.map_or_else(String::new, |line| {
                 if line[0] > 0.0 { format!("free, {:.1} mm", line[1]) } else { "blocked".to_owned() }
             });
-            let row = [group.to_owned(), end.to_owned()].into_iter().chain(cells).chain([line]);
+            let row = [group.to_owned(), end.to_owned()].into_iter().chain(posed(exhibit)).chain([line]);
             table.row(row.map(Cell::from).collect());
         }
         Ok(Some(table))

@@ -3,7 +3,7 @@
 
 use super::chapter::Page;
 use super::readings::across_lines;
-use super::{SECTIONS, anchor, item, linked, paragraph, place, said};
+use super::{SECTIONS, anchor, item, linked, links, paragraph, place, said};
 use crate::analysis::verdict::{Finding, Judged, Together, Verdicts};
 use crate::render::prose::{COLUMNS, markdown, wrapped};
 use crate::render::results;
@@ -213,11 +213,6 @@ fn alike(counted: &[(String, String)]) -> String {
 fn section(text: &mut String, at: usize) {
     let (name, to) = SECTIONS[at];
     *text += &format!("\n## {name} {}\n\n", place(to));
-}
-
-pub(super) fn links(claims: &[impl AsRef<str>]) -> String {
-    let link = |claim: &str| format!("[`{claim}`](#{})", anchor(claim));
-    claims.iter().map(|claim| link(claim.as_ref())).collect::<Vec<_>>().join(", ")
 }
 
 fn together(set: &Together, with_fail: bool) -> String {

@@ -1,8 +1,7 @@
 //! What readings do, as details show it: which vote and by what, which claims each moves.
 
 use super::chapter::Page;
-use super::details::links;
-use super::{item, paragraph};
+use super::{item, links, paragraph};
 use crate::analysis::verdict::{Effect, Judged};
 use crate::render::prose::markdown;
 use crate::study::Reading;

@@ -1,6 +1,9 @@
 //! Queries of an arm in its work cell, answered on roadmaps drawn from a seed.
 
+mod groups;
 mod picture;
+
+pub use groups::GROUPS_FILE;
 
 use super::input::{input, load_robot};
 use super::{Entry, Family, Query, Stance};
@@ -8,18 +11,18 @@ use crate::study::prepared::{Prepared, nested_roadmap};
 use crate::study::verification::roadmap::ARM_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::seed;
-use base::settings::{Accepted, Document, Faults, Settings, SettingsError, Spanned};
+use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use engine::kinematics::ik::Branch;
 use engine::kinematics::{AXES, Joints, Robot};
 use engine::planner::Invalid;
 use engine::space::WorldKind;
 use engine::space::cell::{self, Cell, EdgeEnd, LineRules, Lines, Scene, SpeedRule};
 use engine::space::roadmap::{Counted, Extent, Local, Sample};
+use groups::{posed, read_queries};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// The registry's entry.
@@ -214,79 +217,6 @@ impl CellQueries {
             },
         }
     }
-}
-
-/// The file of poses and of groups that join two of them.
-/// What a file of groups may hold.
-pub const GROUPS_FILE: Accepted = Accepted::of::<GroupsFile>();
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct GroupsFile {
-    /// The poses by name: the angle of each joint, from the base on.
-    pose_deg: BTreeMap<String, Joints>,
-    /// The queries.
-    #[serde(rename = "group")]
-    groups: Vec<GroupEntry>,
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct GroupEntry {
-    /// Its name.
-    name: String,
-    /// The pose that it starts from, by name.
-    from: Spanned<String>,
-    /// The pose that it goes to, by name.
-    to: Spanned<String>,
-}
-
-/// The queries of a file, and where the ends of each are named in it.
-type Placed = (Vec<Query>, Vec<[Range<usize>; 2]>);
-
-fn read_queries(document: &Document) -> Result<Placed, SettingsError> {
-    let file: GroupsFile = document.read()?;
-    let mut faults = Faults::default();
-    let mut pose = |name: &Spanned<String>| {
-        let found = file.pose_deg.get(name.get_ref()).ok_or_else(|| {
-            let known = file.pose_deg.keys().cloned().collect::<Vec<_>>().join(", ");
-            document
-                .error(name.span(), format!("there is no pose `{}`; the poses are {known}", name.get_ref()))
-        });
-        let found = faults.keep(found)?;
-        if let Some(number) = found.iter().find(|number| !number.is_finite()) {
-            let message =
-                format!("pose `{}` has the angle {number}; finite angles are accepted", name.get_ref());
-            faults.add(document.error(name.span(), message));
-            return None;
-        }
-        Some(found.map(f64::to_radians).to_vec())
-    };
-    let query = |group: &GroupEntry| {
-        let (start, goal) = (pose(&group.from), pose(&group.to));
-        Some(Query { name: group.name.clone(), start: start?, goal: goal? })
-    };
-    let queries: Vec<Query> = file.groups.iter().filter_map(query).collect();
-    if file.groups.is_empty() {
-        faults.add(document.error_at("group", "there is no group; at least one is accepted"));
-    }
-    let places = file.groups.iter().map(|group| [group.from.span(), group.to.span()]).collect();
-    faults.or(Some((queries, places)))
-}
-
-/// That the arm can stand at all ends of queries in `cell`.
-fn posed(cell: &Cell, document: &Document, (queries, places): &Placed) -> Result<(), SettingsError> {
-    let mut faults = Faults::default();
-    for (query, places) in queries.iter().zip(places) {
-        for ((what, end), place) in [("start", &query.start), ("goal", &query.goal)].into_iter().zip(places) {
-            let pose: Joints = end.as_slice().try_into().expect("a pose has six angles");
-            if let Some(refusal) = cell.refusal(&pose) {
-                let message = format!("the {what} of group `{}` cannot be posed: {refusal}", query.name);
-                faults.add(document.error(place.clone(), message));
-            }
-        }
-    }
-    faults.done()
 }
 
 struct Posed {

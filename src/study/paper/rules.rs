@@ -1,6 +1,8 @@
 //! What must hold in a paper as a whole: names that exist, tables that fit, a ledger without gaps.
 
 use super::{ClaimSpec, Paper, Parts};
+use crate::study::Reading;
+use crate::study::spec::OptionSpec;
 use base::settings::{Document, Faults, Spanned, none_called};
 use std::collections::BTreeSet;
 
@@ -120,27 +122,8 @@ impl Paper {
                 wrong("bounds", message);
             }
             for (name, option) in &own.options {
-                let place = format!("option.{name}");
-                if let Some(bounds) =
-                    reading.bounds.as_ref().filter(|_| reading.options[name].value.is_none())
-                {
-                    let range = format!("{} to {}", bounds.least, bounds.greatest);
-                    wrong(
-                        &place,
-                        format!("option `{name}` needs `value`: the number held against the bounds, {range}"),
-                    );
-                } else if option.value.is_some() && reading.bounds.is_none() {
-                    wrong(
-                        &place,
-                        format!("option `{name}` has a `value`, which needs `bounds` to be held against"),
-                    );
-                }
-                if [&option.paper, &option.practice].into_iter().flatten().any(|text| text.trim().is_empty())
-                {
-                    wrong(
-                        &place,
-                        format!("option `{name}` cites nothing; the source and its words are accepted"),
-                    );
+                for message in option_faults(name, option, reading) {
+                    wrong(&format!("option.{name}"), message);
                 }
             }
             if !reading.votes(&own.default) {
@@ -218,4 +201,24 @@ impl Paper {
             }
         }
     }
+}
+
+/// What is wrong with an option of `reading`: a number without bounds or bounds without a number, or an empty source.
+fn option_faults(name: &str, option: &OptionSpec, reading: &Reading) -> Vec<String> {
+    let mut faults = Vec::new();
+    match &reading.bounds {
+        Some(bounds) if reading.options[name].value.is_none() => {
+            let range = format!("{} to {}", bounds.least, bounds.greatest);
+            faults
+                .push(format!("option `{name}` needs `value`: the number held against the bounds, {range}"));
+        }
+        None if option.value.is_some() => {
+            faults.push(format!("option `{name}` has a `value`, which needs `bounds` to be held against"));
+        }
+        _ => {}
+    }
+    if [&option.paper, &option.practice].into_iter().flatten().any(|text| text.trim().is_empty()) {
+        faults.push(format!("option `{name}` cites nothing; the source and its words are accepted"));
+    }
+    faults
 }

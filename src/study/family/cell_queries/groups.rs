@@ -1,0 +1,89 @@
+//! The file of groups: named poses of an arm, and the queries that join two of them.
+
+use super::Query;
+use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
+use engine::kinematics::Joints;
+use engine::space::cell::Cell;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// What a file of groups may hold.
+pub const GROUPS_FILE: Accepted = Accepted::of::<GroupsFile>();
+
+/// The file of poses and of groups that join two of them.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct GroupsFile {
+    /// The poses by name: the angle of each joint, from the base on.
+    pose_deg: BTreeMap<String, Joints>,
+    /// The queries.
+    #[serde(rename = "group")]
+    groups: Vec<GroupEntry>,
+}
+
+/// A query from one pose to another.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct GroupEntry {
+    /// Its name.
+    name: String,
+    /// The pose that it starts from, by name.
+    from: Spanned<String>,
+    /// The pose that it goes to, by name.
+    to: Spanned<String>,
+}
+
+/// The queries of a file, and where the ends of each are named in it.
+pub(super) type Placed = (Vec<Query>, Vec<[Range<usize>; 2]>);
+
+/// The queries of a file of groups.
+pub(super) fn read_queries(document: &Document) -> Result<Placed, SettingsError> {
+    let file: GroupsFile = document.read()?;
+    let mut faults = Faults::default();
+    let mut pose = |name: &Spanned<String>| {
+        let found = file.pose_deg.get(name.get_ref()).ok_or_else(|| {
+            let known = file.pose_deg.keys().cloned().collect::<Vec<_>>().join(", ");
+            document
+                .error(name.span(), format!("there is no pose `{}`; the poses are {known}", name.get_ref()))
+        });
+        let found = faults.keep(found)?;
+        if let Some(number) = found.iter().find(|number| !number.is_finite()) {
+            let message =
+                format!("pose `{}` has the angle {number}; finite angles are accepted", name.get_ref());
+            faults.add(document.error(name.span(), message));
+            return None;
+        }
+        Some(found.map(f64::to_radians).to_vec())
+    };
+    let query = |group: &GroupEntry| {
+        let (start, goal) = (pose(&group.from), pose(&group.to));
+        Some(Query { name: group.name.clone(), start: start?, goal: goal? })
+    };
+    let queries: Vec<Query> = file.groups.iter().filter_map(query).collect();
+    if file.groups.is_empty() {
+        faults.add(document.error_at("group", "there is no group; at least one is accepted"));
+    }
+    let places = file.groups.iter().map(|group| [group.from.span(), group.to.span()]).collect();
+    faults.or(Some((queries, places)))
+}
+
+/// That the arm can stand at all ends of queries in `cell`.
+pub(super) fn posed(
+    cell: &Cell,
+    document: &Document,
+    (queries, places): &Placed,
+) -> Result<(), SettingsError> {
+    let mut faults = Faults::default();
+    for (query, places) in queries.iter().zip(places) {
+        for ((what, end), place) in [("start", &query.start), ("goal", &query.goal)].into_iter().zip(places) {
+            let pose: Joints = end.as_slice().try_into().expect("a pose has six angles");
+            if let Some(refusal) = cell.refusal(&pose) {
+                let message = format!("the {what} of group `{}` cannot be posed: {refusal}", query.name);
+                faults.add(document.error(place.clone(), message));
+            }
+        }
+    }
+    faults.done()
+}

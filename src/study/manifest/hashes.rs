@@ -1,0 +1,116 @@
+//! What each problem group and contender depends on, as hashes.
+
+use crate::study::contender::SweepPoint;
+use crate::study::name;
+use crate::study::reading::ReadingChoice;
+use crate::study::runner::BuiltStudy;
+use crate::study::{Study, StudyError};
+use base::hash::sha256;
+use std::collections::BTreeMap;
+
+/// What something depends on, by label: a hash, and the numbers of the readings under which it is that.
+pub type Hashes = BTreeMap<String, BTreeMap<String, Vec<usize>>>;
+
+/// What each problem group of `study` depends on under `points`.
+pub(super) fn problem_hashes(
+    study: &Study,
+    points: &[ReadingChoice],
+    built: &BuiltStudy<'_>,
+) -> Result<Hashes, StudyError> {
+    let mut hashes = Hashes::new();
+    for (reading, point) in points.iter().enumerate() {
+        for (place, group) in study.groups.iter().enumerate() {
+            let settings = group.settings_under(point);
+            // The object's own exhibits are kept for every draw of which anything is.
+            let kept = study.kept().filter(|trials| trials.problems == group.label);
+            let text = format!(
+                "{} {} {} {} {:?} {} {} {} {} {:?} {:?} {:?} {:?}",
+                study.paper,
+                study.name,
+                study.seed,
+                group.label,
+                group.draw,
+                study.task.name,
+                study.task.revision,
+                group.family.name,
+                group.family.revision,
+                study.budget,
+                (settings.table(), study.task_settings.table()),
+                kept.map(|trials| trials.replicates).max(),
+                built.inputs_of(reading, place)?,
+            );
+            note(&mut hashes, &group.label, &text, reading);
+        }
+    }
+    Ok(hashes)
+}
+
+/// What each contender of `study` depends on under `points`.
+pub(super) fn contender_hashes(
+    study: &Study,
+    points: &[ReadingChoice],
+    built: &BuiltStudy<'_>,
+) -> Result<Hashes, StudyError> {
+    let mut hashes = Hashes::new();
+    let sweeps: Vec<SweepPoint> = study.sweep_points();
+    for (reading, point) in points.iter().enumerate() {
+        for contender in &study.contenders {
+            let mut text = format!("{} {}", contender.label, contender.repeats);
+            for stage in &contender.stages {
+                let entry = stage.entry;
+                text += &format!("\n{} {}", entry.name, entry.revision);
+                for sweep in &sweeps {
+                    text +=
+                        &format!(" {} {:?}", name::sweep(&sweep.key), stage.effective(point, sweep).table());
+                }
+            }
+            let is_own = |of: &Option<String>| of.as_ref().is_none_or(|label| *label == contender.label);
+            for trials in study.kept().filter(|trials| is_own(&trials.contender)) {
+                text += &format!("\n{} {} {:?}", trials.problems, trials.replicates, trials.repeats);
+            }
+            let files = built.files_of(reading, &contender.label)?;
+            if !files.is_empty() {
+                text += &format!("\n{files:?}");
+            }
+            note(&mut hashes, &contender.label, &text, reading);
+        }
+    }
+    Ok(hashes)
+}
+
+/// How many digits of a hash tell what trials depend on apart.
+const DIGITS: usize = 16;
+
+/// Notes that the thing called `label` depends on what `text` says under the reading of this number.
+fn note(hashes: &mut Hashes, label: &str, text: &str, reading: usize) {
+    let hash = sha256(text.as_bytes())[..DIGITS].to_owned();
+    hashes.entry(label.to_owned()).or_default().entry(hash).or_default().push(reading);
+}
+
+/// What is new, has changed or is gone among the things called `what`; `both` are the readings of both runs.
+pub(super) fn changes(what: &str, ours: &Hashes, theirs: &Hashes, both: &[[usize; 2]]) -> Vec<String> {
+    let mut changes = Vec::new();
+    for label in ours.keys() {
+        let is_other =
+            |[own, other]: &&[usize; 2]| hash_of(ours, label, *own) != hash_of(theirs, label, *other);
+        let changed = both.iter().filter(is_other).count();
+        if !theirs.contains_key(label) {
+            changes.push(format!("{what} `{label}` is new"));
+        } else if changed > 0 {
+            let under = match both.len() {
+                1 => String::new(),
+                all => format!(" under {changed} of {all} readings"),
+            };
+            changes.push(format!("{what} `{label}` has changed{under}"));
+        }
+    }
+    let gone = theirs.keys().filter(|label| !ours.contains_key(*label));
+    changes.extend(gone.map(|label| format!("{what} `{label}` is gone")));
+    changes
+}
+
+/// What the thing called `label` depends on under the reading of this number.
+pub(super) fn hash_of<'h>(hashes: &'h Hashes, label: &str, reading: usize) -> Option<&'h str> {
+    let under = hashes.get(label)?.iter();
+    under.filter(|(_, readings)| readings.contains(&reading)).map(|(hash, _)| hash.as_str()).next()
+}
