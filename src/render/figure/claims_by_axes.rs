@@ -3,11 +3,10 @@
 use super::{Entry, Kind, Scene};
 use crate::analysis::verdict::{Across, Effect, Judged};
 use crate::render::RenderError;
-use crate::render::canvas::{Align, Stand, Type};
 use crate::render::chart::legend::cell_key;
-use crate::render::chart::marks::{Cells, Note};
+use crate::render::chart::marks::Cells;
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{BLUE, GREY, GRID, Rgb, Stroke, TextSize, VERMILLION, WHITE, Width};
+use crate::render::style::{BLUE, GREY, GRID, Rgb, Stroke, VERMILLION, WHITE, Width};
 use base::settings::{Accepted, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -85,26 +84,21 @@ impl Kind for ClaimsByAxes {
             // A quick run, or one whose readings were not explored, has nothing to show; that is no fault of the figure's.
             return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No explored reading moves a claim."));
         }
-        // A column more for the class across readings.
-        let columns = axes.iter().copied().chain(["class"]);
-        let names = rows.iter().rev().map(|(judged, _)| judged.claim.as_str());
+        let columns = axes.iter().copied();
+        let named = |(judged, _): &(&Judged, &Across)| format!("{}: {}", judged.claim, judged.outcome());
+        let names: Vec<String> = rows.iter().rev().map(named).collect();
         let mut panel = Panel::new("", Axis::names("", columns), Axis::names("", names));
         let of_row = |(_, across): &(&Judged, &Across)| {
-            axes.iter().map(|axis| color(across, axis)).chain([None]).collect::<Vec<_>>()
+            axes.iter().map(|axis| color(across, axis)).collect::<Vec<_>>()
         };
         panel.add(Cells {
             corner: [-0.5, -0.5],
             cell: [1.0, 1.0],
-            columns: axes.len() + 1,
+            columns: axes.len(),
             colors: rows.iter().rev().flat_map(of_row).collect(),
             lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
             keys: LOOKS.map(|(_, label, color)| cell_key(label, color.mixed(WHITE, 0.25))).to_vec(),
         });
-        let set = Type::of(TextSize::TICK).aligned(Align::Middle, Stand::Centre);
-        for (row, (judged, _)) in rows.iter().rev().enumerate() {
-            let (at, text) = ([axes.len() as f64, row as f64], judged.verdict.name().to_owned());
-            panel.add(Note { at, shift_pt: [0.0, 0.0], text, set });
-        }
         let height = rows.len() as f64 * ROW_PT + 2.0 * ROW_PT;
         Sheet::new(Width::Double, 1, height).with([Ok(panel)])
     }

@@ -286,7 +286,10 @@ mod tests {
             ("robot = 'data/robots/none.toml'".to_owned(), ["`data/robots/none.toml`", "does not exist"]),
             (
                 "scene = 'data/scenes/tang_e1.toml'".to_owned(),
-                ["data/scenes/tang_e1.toml: a scene of an arm says where its base stands", "a table `[support]`"],
+                [
+                    "data/scenes/tang_e1.toml: a scene of an arm says where its base stands",
+                    "a table `[support]`",
+                ],
             ),
             ("steps = 1".to_owned(), ["steps", "step_cm"]),
         ] {
