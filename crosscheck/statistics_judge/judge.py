@@ -85,6 +85,11 @@ def of_claim(paper: Paper, claim: dict[str, Any]) -> Claim:
     return Claim(claim["id"], findings, names, "untestable" in claim, parts)
 
 
+def with_row(paper: Paper, claim: str) -> list[str]:
+    """The claim, and the table row that it is a cell of: what was fitted to a row was fitted to its cells."""
+    return [claim, *(row["id"] for row in paper.claims if claim in row.get("cells", []))]
+
+
 def of_criterion(
     paper: Paper, claim: dict[str, Any], name: str, settings: dict[str, Any], *, decides: bool
 ) -> Recomputed:
@@ -107,7 +112,7 @@ def of_criterion(
         and classes.of_finding(
             outcome,
             searched=any(study.spec.get("searched", False) for study in studies),
-            fitted=any(claim["id"] in study.spec.get("fitted_to", []) for study in studies),
+            fitted=any(id in study.spec.get("fitted_to", []) for study in studies for id in with_row(paper, claim["id"])),
             existential=found.existential,
             powerless=found.powerless,
             censored=censored,
