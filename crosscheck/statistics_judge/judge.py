@@ -112,7 +112,11 @@ def of_criterion(
         and classes.of_finding(
             outcome,
             searched=any(study.spec.get("searched", False) for study in studies),
-            fitted=any(id in study.spec.get("fitted_to", []) for study in studies for id in with_row(paper, claim["id"])),
+            fitted=any(
+                one in study.spec.get("fitted_to", [])
+                for study in studies
+                for one in with_row(paper, claim["id"])
+            ),
             existential=found.existential,
             powerless=found.powerless,
             censored=censored,
@@ -223,7 +227,10 @@ def compare_claim(
     default = across["default"] if across else stored["verdict"]
     compare_class(f"{paper}: `{claim.id}`", default, whole(claim, possible), said)
     if across and across["class"] != stored["verdict"]:
-        said.differ.append(f"{paper}: `{claim.id}` is {stored['verdict']}, but {across['class']} across readings")
+        said.differ.append(
+            f"{paper}: `{claim.id}`: its class is {stored['verdict']}; "
+            f"across readings it is {across['class']}"
+        )
 
 
 def compare_class(where: str, stored: str | None, possible: Classes, said: Said) -> None:

@@ -97,8 +97,8 @@ fn replays_change_from_step_to_step_in_wide_and_narrow_windows() {
     let bench = Bench::empty();
     let replays = [
         ("zhang", "witness/w1/a-star", [2, 40, 69]),
-        ("planar", "methods/case-1/a-8", [0, 10, 20]),
-        ("gallery", "ur5/cell/low/shortest", [0, 30, 60]),
+        ("planar", "methods/case-1/a-star-8", [0, 10, 20]),
+        ("gallery", "puma560/cell/0/high/shortest", [0, 30, 60]),
     ];
     for [width, height] in [[1280, 800], [390, 844]] {
         let Some(browser) = Browser::open([width, height]) else { return };
@@ -112,7 +112,7 @@ fn replays_change_from_step_to_step_in_wide_and_narrow_windows() {
 fn the_play_button_plays() {
     let bench = Bench::empty();
     let Some(browser) = Browser::open([1280, 800]) else { return };
-    browser.go(&page(&bench, "planar"), "replay=methods/case-1/a-8");
+    browser.go(&page(&bench, "planar"), "replay=methods/case-1/a-star-8");
     browser.run("document.querySelector('[name=play]').click()");
     browser.wait("return Number(document.querySelector('[name=step]').value) > 2");
     assert_eq!(browser.console(), json!([]));

@@ -98,7 +98,7 @@ fn whether_a_cost_below_the_straight_line_is_possible_is_answered_within_three_c
     let line = report.lines().find(|line| line.starts_with("| [`zhang`](#zhang)")).unwrap();
     assert!(line.contains("13.40"), "{line}");
     let chapter = report.split("<a id=\"zhang\"></a>").nth(1).unwrap();
-    let finding = chapter.lines().find(|line| line.contains("13.40")).unwrap();
+    let finding = chapter.split("\n- ").find(|finding| finding.contains("13.40")).unwrap();
     assert!(finding.contains("impossible") && finding.contains("straight line"), "{finding}");
     let target = "plots/zhang/details.md#t1.improved.cost";
     let class = format!("[impossible]({target})");

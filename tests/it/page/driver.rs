@@ -78,10 +78,18 @@ impl Browser {
             "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\nContent-Length: {length}\r\n\r\n"
         );
         stream.write_all((head + &body).as_bytes()).unwrap();
-        let mut answer = String::new();
-        stream.read_to_string(&mut answer).unwrap();
-        let (_, body) = answer.split_once("\r\n\r\n").unwrap();
-        serde_json::from_str::<Value>(body).unwrap()["value"].take()
+        // The driver keeps the connection open, so that only its head says where the answer ends.
+        let mut reader = BufReader::new(stream);
+        let (mut line, mut length) = (String::new(), 0);
+        while reader.read_line(&mut line).unwrap() > 2 {
+            let lower = line.to_ascii_lowercase();
+            length =
+                lower.strip_prefix("content-length:").map_or(length, |said| said.trim().parse().unwrap());
+            line.clear();
+        }
+        let mut answer = vec![0; length];
+        reader.read_exact(&mut answer).unwrap();
+        serde_json::from_slice::<Value>(&answer).unwrap()["value"].take()
     }
 
     fn of_session(&self, method: &str, path: &str, body: &Value) -> Value {
@@ -101,7 +109,7 @@ impl Browser {
 
     /// Runs `script` until it returns true.
     pub fn wait(&self, script: &str) {
-        for _ in 0..600 {
+        for _ in 0..200 {
             if self.run(script) == Value::Bool(true) {
                 return;
             }
