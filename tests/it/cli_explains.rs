@@ -53,7 +53,8 @@ fn a_toy_needs_no_ledger_no_counts_no_quick_and_no_ties() {
 fn a_scene_in_a_papers_folder_is_taken_for_a_scene() {
     let bench = Bench::new();
     let support = "[support]\nunder = \"floor\"\nbase_mm = [0, 0, 0]\nyaw_deg = 0\n";
-    let scene = format!("name = \"s\"\n[[box]]\nname = \"b\"\nmin_mm = [0, 0, 0]\nmax_mm = [1, 1, 1]\n{support}");
+    let scene =
+        format!("name = \"s\"\n[[box]]\nname = \"b\"\nmin_mm = [0, 0, 0]\nmax_mm = [1, 1, 1]\n{support}");
     bench.write("mini/walls.toml", scene.as_bytes());
     let said = bench.done(&["check", "./mini"]);
     assert!(said.contains("mini/walls.toml is taken for a cell_scene, not for a study"), "{said}");
