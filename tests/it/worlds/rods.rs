@@ -13,6 +13,7 @@ use rand::RngExt as _;
 use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::fs;
 use std::path::Path;
 use verify::polyhedra::{Point, Solid};
 use verify::rods::{Arm, Case as Query, Rod, Row};
@@ -53,16 +54,20 @@ pub fn aubo() -> Arm {
             rod(2, [-64.7, 0.0, -20.13], [0.0, 0.0, -20.13], 8.0),
             rod(3, [-60.05, 0.0, 20.13], [0.0, 0.0, 20.13], 6.0),
             rod(4, [0.0; 3], [0.0, 0.0, 10.25], 5.0),
-            rod(5, [0.0; 3], [0.0, 0.0, 4.9], 4.5),
+            rod(5, [0.0; 3], [0.0, 0.0, 9.4], 4.5),
         ],
         floor: Some(0.0),
     }
 }
 
-/// The same arm as planners have it.
+/// The same arm as planners have it: the AUBO-i10 with a last rod that reaches beyond the tip, so that a cage can hold it.
 pub fn carried() -> CarriedArm {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
-    let robot = Robot::load(&data.join("robots/aubo_i10.toml")).unwrap();
+    let text = fs::read_to_string(data.join("robots/aubo_i10.toml")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("long_rod.toml");
+    fs::write(&file, text.replace("to_mm = [0, 0, 49]", "to_mm = [0, 0, 94]")).unwrap();
+    let robot = Robot::load(&file).unwrap();
     CarriedArm::new(&robot, "paper", &Support::on_floor(Frame::IDENTITY)).unwrap()
 }
 
