@@ -115,6 +115,7 @@ fn against_the_crate(criterion: &mut Criterion) {
         ("8", "square", 1),
         ("24", "square", 2),
         ("48", "square", 3),
+        ("80", "square", 4),
         ("chs_4", "disc", 4),
         ("chs_6", "disc", 6),
     ] {

@@ -38,7 +38,10 @@ def answer(asked: tuple[Path, Path, list[Metric]]) -> tuple[str, Said]:
 
 def report(name: str, said: Said) -> None:
     """Say what agrees, what is near and what differs."""
-    agree = f"{said.estimates} estimates, {said.intervals} intervals and {said.classes} classes agree"
+    agree = (
+        f"{said.estimates} estimates, {said.intervals} intervals, {said.classes} classes "
+        f"and {said.across} combinations across readings agree"
+    )
     print(f"{name}: {agree}; {len(said.near)} near, {len(said.differ)} differ", flush=True)
     for line in said.near:
         print(f"  near: {line}")

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from statistics_judge import classes, medians, printed_cells, shares, sizes
+from statistics_judge import across, classes, medians, printed_cells, shares, sizes
 from statistics_judge.found import Asked, Estimate, Found
 from statistics_judge.records import Paper
 from statistics_judge.selection import labels
@@ -57,6 +57,7 @@ class Said:
     estimates: int = 0
     intervals: int = 0
     classes: int = 0
+    across: int = 0
     near: list[str] = field(default_factory=list)
     differ: list[str] = field(default_factory=list)
 
@@ -172,6 +173,11 @@ def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Said
     alone = {claim.id: whole(claim, possible) for claim, possible in zip(claims, known, strict=True)}
     for claim, possible in zip(claims, known, strict=True):
         compare_claim(paper.id, claim, stored[claim.id], (possible, alone), said)
+    for line in across.differences(paper, verdicts):
+        if line is None:
+            said.across += 1
+        else:
+            said.differ.append(line)
     return said
 
 
@@ -223,13 +229,13 @@ def compare_claim(
         compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("verdict"), of_parts, said)
         possible = [*possible, of_parts]
     # Findings are those under the default reading; across readings is another question.
-    across = stored.get("across")
-    default = across["default"] if across else stored["verdict"]
+    several = stored.get("across")
+    default = several["default"] if several else stored["verdict"]
     compare_class(f"{paper}: `{claim.id}`", default, whole(claim, possible), said)
-    if across and across["class"] != stored["verdict"]:
+    if several and several["class"] != stored["verdict"]:
         said.differ.append(
             f"{paper}: `{claim.id}`: its class is {stored['verdict']}; "
-            f"across readings it is {across['class']}"
+            f"across readings it is {several['class']}"
         )
 
 

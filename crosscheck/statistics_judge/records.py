@@ -1,5 +1,6 @@
 """Papers, studies and stored trials as numpy arrays."""
 
+import gzip
 import itertools
 import tomllib
 from collections.abc import Iterator
@@ -258,6 +259,15 @@ class Paper:
         self.meanings = {name: own for option in options for name, own in option.get("metric", {}).items()}
         self.digits = next((option["digits"] for option in options if "digits" in option), "unknown")
 
+    @cached_property
+    def explorations(self) -> list[dict[str, Any] | None]:
+        """What exploring found, first and on the second seed; none where nothing is stored."""
+        paths = [self.runs / f"{name}.toml.gz" for name in ("explored", "second_seed")]
+        found = [toml(path) if path.is_file() else None for path in paths]
+        for claim in (claim for one in found if one is not None for claim in one["claims"].values()):
+            claim["at"] = {place: result for result in claim["results"] for place in result["readings"]}
+        return found
+
     def metric(self, name: str) -> Metric:
         """The metric that a name stands for under the default readings."""
         return self.metrics[self.meanings.get(name, name)]
@@ -276,6 +286,6 @@ def studies(folder: Path, runs: Path) -> Iterator[Study]:
 
 
 def toml(path: Path) -> dict[str, Any]:
-    """A TOML file."""
-    with path.open("rb") as file:
+    """A TOML file, which may be packed by gzip."""
+    with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as file:
         return tomllib.load(file)

@@ -134,11 +134,11 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
     parts: list[tuple[int, Places, Places | None]] = []
     for index, group in enumerate(groups_of(study, of["problems"])):
         for contender in labels(of.get("contender", [])):
-            rows = posed(study, group, contender, of)
+            rows = posed(study, group, contender, of, metric)
             if against is None:
                 parts.append((index, rows, None))
             else:
-                parts.append((index, *matched(study, rows, posed(study, group, against, of))))
+                parts.append((index, *matched(study, rows, posed(study, group, against, of, metric))))
     own = np.concatenate([rows for _, rows, _ in parts])
     base = None if against is None else np.concatenate([bases for _, _, bases in parts])
     places = np.concatenate([np.full(len(rows), index) for index, rows, _ in parts])
@@ -151,10 +151,16 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
     return cases.kept(~np.isin(cases.unit, cases.unit[unsolved]))
 
 
-def posed(study: Study, group: str, contender: str, of: dict[str, Any]) -> Places:
-    """The trials of a contender that a selection looks at: those whose problem could be posed."""
+def posed(
+    study: Study, group: str, contender: str, of: dict[str, Any], metric: Metric | None = None
+) -> Places:
+    """The trials that a selection looks at: their problem could be posed, their metric was looked for."""
     rows = study.rows(group, contender)
     kept = study.status[rows] != "invalid_problem"
+    timing = study.spec.get("timing")
+    if metric is not None and metric.clock and timing is not None:
+        # The clock is read on the first draws of each group alone.
+        kept &= study.draw[rows] < timing["problems"]
     for wanted, (places, words) in ((of.get("query"), study.query), (of.get("sweep"), study.sweep)):
         if wanted is not None:
             kept &= places[rows] == (words.index(wanted) if wanted in words else -1)

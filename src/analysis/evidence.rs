@@ -7,7 +7,7 @@ use crate::study::manifest::Manifest;
 use crate::study::name::Names;
 use crate::study::paper::Paper;
 use crate::study::record::{PreparedRow, Row, Status};
-use crate::study::store::{Records, read_records};
+use crate::study::store::{KeptExhibits, Records, read_numbers};
 use crate::study::{ReadingChoice, Study, StudyError};
 use audit::turns::{Polyline, TurnQuery};
 use base::hash::sha256;
@@ -15,6 +15,7 @@ use engine::planner::Exhibit;
 use rayon::prelude::*;
 use stats::summary;
 use std::collections::BTreeMap;
+use std::mem;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -34,8 +35,9 @@ pub struct Run<'a> {
     pub study: &'a Study,
     /// What the records depend on.
     pub manifest: Arc<Manifest>,
-    /// The records.
+    /// The records, without exhibits.
     pub records: Arc<Records>,
+    kept: Arc<KeptExhibits>,
     reading: ReadingKey,
     /// The session of the clock, from 1.
     session: u32,
@@ -50,8 +52,6 @@ struct Index {
     names: Names,
     /// Rows by reading, group and contender, in the order of records.
     rows: BTreeMap<ReadingKey, Groups>,
-    /// Exhibits by their owners.
-    kept: BTreeMap<Owner, Vec<usize>>,
     /// The clock readings of each timed trial by session, from 1; those of several are never pooled.
     readings_ns: Vec<BTreeMap<TrialKey, Vec<f64>>>,
 }
@@ -152,6 +152,14 @@ impl<'a> Evidence<'a> {
         self.runs.values()
     }
 
+    /// That every exhibit that was asked for could be read.
+    ///
+    /// # Errors
+    /// [`StudyError::Touched`] for the first file that could not.
+    pub fn exhibits_read(&self) -> Result<(), StudyError> {
+        self.runs().try_for_each(|run| run.kept.damage())
+    }
+
     /// The metric that `name` stands for under the reading.
     pub fn metric(&self, name: &str) -> Option<&'static Metric> {
         metric::find(self.point.metric(name))
@@ -173,15 +181,17 @@ impl<'a> Run<'a> {
             let reason = format!("the stored run was made by another spec; run study `{}` again", study.name);
             return Err(StudyError::stored(path, reason));
         }
-        let records = read_records(folder, &study.name, &manifest.files)?;
-        Ok(Self::of(study, point, manifest, records))
+        let records = read_numbers(folder, &study.name, &manifest.files)?;
+        let kept = KeptExhibits::stored(folder, &study.name, &manifest.files)?;
+        Ok(Self { kept: Arc::new(kept), ..Self::of(study, point, manifest, records) })
     }
 
-    fn of(study: &'a Study, point: &ReadingChoice, manifest: Manifest, records: Records) -> Self {
+    fn of(study: &'a Study, point: &ReadingChoice, manifest: Manifest, mut records: Records) -> Self {
+        let kept = Arc::new(KeptExhibits::held(mem::take(&mut records.batch.kept)));
         let index = Arc::new(Index::of(study.names(), &records));
         let reading = point.for_trials(&study.readings).key(&study.readings);
         let (manifest, records) = (Arc::new(manifest), Arc::new(records));
-        Self { study, manifest, records, reading, session: 1, index, hash: OnceLock::new() }
+        Self { study, manifest, records, kept, reading, session: 1, index, hash: OnceLock::new() }
     }
 
     fn under(&self, point: &ReadingChoice) -> Self {
@@ -189,6 +199,7 @@ impl<'a> Run<'a> {
             study: self.study,
             manifest: self.manifest.clone(),
             records: self.records.clone(),
+            kept: self.kept.clone(),
             reading: point.for_trials(&self.study.readings).key(&self.study.readings),
             session: self.session,
             index: self.index.clone(),
@@ -291,8 +302,7 @@ impl<'a> Run<'a> {
 
     /// The exhibits of a trial or prepared object.
     pub fn exhibits(&self, of: impl Into<Owner>) -> impl Iterator<Item = &Exhibit> {
-        let places = self.index.kept.get(&of.into()).into_iter().flatten();
-        places.map(|place| &self.records.batch.kept[*place].exhibit)
+        self.kept.of(&of.into())
     }
 
     /// The exhibit called `name` of a trial or prepared object.
@@ -340,9 +350,6 @@ impl Index {
                     }
                 }
             }
-        }
-        for (place, kept) in records.batch.kept.iter().enumerate() {
-            index.kept.entry(kept.of.clone()).or_default().push(place);
         }
         for time in &records.times {
             let session = time.session.max(1) as usize;

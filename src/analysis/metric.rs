@@ -57,6 +57,7 @@ pub static METRICS: &[Metric] = &[
     metric("attainable_hit_share_percent", "Attainable targets met", "%", Better::Neither),
     metric("bends", "Bends", "", Better::Lower),
     metric("candidates", "Pairs tried one by one", "", Better::Neither),
+    metric("checked_states", "Configurations checked by the query", "", Better::Lower),
     metric("closed", "Closed nodes", "", Better::Lower),
     metric("components", "Connected components", "", Better::Neither),
     metric("connected", "Start and goal connected", "", Better::Neither),

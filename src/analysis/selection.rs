@@ -197,8 +197,16 @@ impl<'a> Selection<'a> {
             row.status != Status::InvalidProblem
                 && self.query.as_ref().is_none_or(|query| row.query() == query)
                 && self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep)
+                && self.is_read(row)
         });
         rows
+    }
+
+    /// Whether the metric was looked for on a trial's draw: the clock is read on the first draws of each group alone, so that
+    /// what failed on the others is no failure among the timed.
+    fn is_read(&self, row: &Row) -> bool {
+        let timed = self.study.timing.filter(|_| self.is_clock());
+        timed.is_none_or(|timing| row.draw() < timing.problems)
     }
 
     /// What is looked at, in a sentence: `A against B on X, Y of study`.

@@ -157,6 +157,31 @@ pub struct Explored {
     /// Claims of which what is stored of the second seed is stale.
     #[serde(default)]
     pub second_stale: Vec<String>,
+    /// How each setting of the readings agrees with what a study was fitted to; none if no reading is fitted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fits: Vec<SettingFit>,
+}
+
+/// A setting of the readings that are not fitted, with what the studies were fitted to under each option of the one that is.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SettingFit {
+    /// What differs from the defaults, in words.
+    pub setting: String,
+    /// By option of the fitted reading.
+    pub fits: BTreeMap<String, Fit>,
+}
+
+/// Whether a reading agrees with what the studies were fitted to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fit {
+    /// As well as any other option of the fitted reading: it counts.
+    Best,
+    /// It does, but another option does better.
+    Less,
+    /// It does not.
+    Refused,
 }
 
 /// A claim with what was found about it.
@@ -219,6 +244,11 @@ impl Judged {
         let second = self.second.map(|second| format!("second seed: {}", second.name()));
         let said: Vec<String> = self.across_readings().into_iter().chain(second).collect();
         (!said.is_empty()).then(|| said.join("; "))
+    }
+
+    /// As [`beside`](Self::beside), with the second seed's class where it is another one.
+    pub fn beside_if_other(&self) -> Option<String> {
+        if self.second == Some(self.verdict) { self.across_readings() } else { self.beside() }
     }
 
     /// Its class under the reading that its findings are of.

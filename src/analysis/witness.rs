@@ -269,6 +269,15 @@ fn drawn(readings: &[Reading], stream: &mut Stream) -> ReadingChoice {
     ReadingChoice::new(readings, &choices).expect("the options are the readings' own")
 }
 
+/// What of the reading changes the study's settings: axes of its own, and any along which the reading departs. The default of
+/// an axis that only other studies have says nothing of this one, whose own settings stand.
+fn laid_over(hunt: &Hunt<'_>, reading: &ReadingChoice) -> ReadingChoice {
+    let mut axes = hunt.paper.readings();
+    let is_own = |axis: &Reading| hunt.study.readings.iter().any(|own| own.id == axis.id);
+    axes.retain(|axis| is_own(axis) || reading.choices().get(&axis.id) != Some(&axis.default));
+    reading.within(&axes)
+}
+
 /// What maps are tried on: contenders under one reading, ends and a corner rule.
 struct Ground {
     wanted: Vec<Wanted>,
@@ -290,10 +299,11 @@ impl Ground {
         let labels: Vec<&String> =
             wanted.iter().flat_map(|one| std::iter::once(&one.contender).chain(&one.against)).collect();
         let mut pipelines = Vec::new();
+        let laid = laid_over(hunt, reading);
         for contender in hunt.study.contenders.iter().filter(|own| all || labels.contains(&&own.label)) {
-            pipelines.push((contender.label.clone(), contender.pipeline(reading, &SweepPoint::default())?));
+            pipelines.push((contender.label.clone(), contender.pipeline(&laid, &SweepPoint::default())?));
         }
-        let family = hunt.group.family(reading, hunt.inputs)?;
+        let family = hunt.group.family(&laid, hunt.inputs)?;
         let world = family.draw(0).map_err(|invalid| refused(invalid.0))?;
         let lattice = world.as_lattice().expect("a map of cells is a lattice");
         let (grid, query) = (lattice.grid(), &family.queries()[0]);

@@ -317,6 +317,8 @@ fn listed(names: &[&str]) -> String {
 }
 
 #[cfg(test)]
+mod boundaries;
+#[cfg(test)]
 mod pages;
 #[cfg(test)]
 mod power;

@@ -1,6 +1,6 @@
 //! `replan confirm`: a paper's claims on the second seed.
 
-use super::explore::{Explorer, judged, scratch};
+use super::explore::{Explorer, judged, most_draws, scratch, within};
 use super::judge;
 use super::load::load;
 use super::places::Places;
@@ -8,6 +8,7 @@ use super::{Failure, How, Which, command_line, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::to_confirm;
 use crate::analysis::evidence::{Evidence, default_point};
+use crate::analysis::verdict::Verdicts;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
@@ -17,6 +18,8 @@ use std::collections::BTreeMap;
 
 /// Runs a paper's studies once more on the second seed that each spec writes down, and with it every reading that turns a
 /// claim, with more draws: a class that turns counts only if it turns twice.
+///
+/// The readings are taken in order while the paper's budget of trials lasts; one that is left out stays unconfirmed.
 ///
 /// No clock is read. What was run stays below target/replan/confirm/, so that a command that was stopped goes on from there.
 ///
@@ -81,34 +84,58 @@ fn check_seeds(paper: &Paper) -> Result<(), Failure> {
 /// Every claim on the second seed: under the default reading with all draws, and under readings that turn a claim.
 fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Failure> {
     let (paper, places) = (explorer.paper, explorer.places);
-    let verdicts = judged(paper, places)?;
     let default = default_point(paper);
     let again: Vec<Study> = paper.studies.iter().map(reseeded).collect();
-    let (mut stored, mut trials) = (BTreeMap::new(), 0);
+    let mut all_trials = affordable(explorer, &again)?;
+    let verdicts = judged(paper, places)?;
+    let mut stored = BTreeMap::new();
     for study in &again {
         let run = explorer.run(study, std::slice::from_ref(&default), &explorer.folder.join("default"))?;
-        trials += run.1.batch.rows.len();
         stored.insert(study.name.clone(), run);
     }
     let evidence = Evidence::of(paper, default.clone(), stored);
-    let (mut found, _) = explorer.judge_under(&evidence, std::slice::from_ref(&default))?;
+    let (mut found, _) = explorer.judge_under(evidence, std::slice::from_ref(&default))?;
     let mut points = vec![default];
     if let Some(first) = Exploration::read(&Exploration::first(&places.runs))? {
-        let readings = paper.readings();
-        let chosen = to_confirm(paper, &verdicts, &first);
-        let chosen = chosen.into_iter().filter(|place| *place > 0);
-        // A reading that the specs no longer have belongs to an exploration that is stale.
-        let turned: Vec<ReadingChoice> =
-            chosen.filter_map(|place| ReadingChoice::new(&readings, &first.readings[place]).ok()).collect();
-        let draws = |study: &Study| {
-            study.explore.as_ref().map_or(0, |explore| explore.more_draws.unwrap_or(explore.draws))
-        };
-        let (glances, _) = explorer.look(&turned, "turned", &draws)?;
-        found.extend(glances);
-        points.extend(turned);
+        let each = explorer.trials_each(most_draws, |_| true)?;
+        let all = turned(paper, &verdicts, &first);
+        let budget = paper.explore.as_ref().map_or(u64::MAX, |explore| explore.trials);
+        let (_, some) = within(budget, &mut all_trials, &each, &all, (0..all.len()).collect());
+        if some.len() < all.len() {
+            let why = "readings that turn a claim and for which the budget has no room";
+            say!("{}: {why}: {}", paper.id, all.len() - some.len());
+        }
+        found.extend(explorer.look(&some, "turned", &most_draws)?.0);
+        points.extend(some);
     }
     let all = Exploration::of(paper, &points, &found, &BTreeMap::new());
-    Ok(Exploration { command: command_line(), trials: trials as u64, ..all })
+    Ok(Exploration { command: command_line(), trials: all_trials, ..all })
+}
+
+/// How many trials the default reading takes on the second seed; refused if the paper's budget has no room for them.
+fn affordable(explorer: &Explorer<'_>, again: &[Study]) -> Result<u64, Failure> {
+    let mut needed = 0;
+    for study in again {
+        needed += explorer.trials_of(study)?;
+    }
+    match &explorer.paper.explore {
+        Some(budget) if needed > budget.trials => {
+            let message = format!(
+                "the default reading takes {needed} trials on the second seed; `trials` is {}: a larger budget is accepted",
+                budget.trials
+            );
+            Err(explorer.paper.document.error_at("explore.trials", message).into())
+        }
+        _ => Ok(needed),
+    }
+}
+
+/// The readings of `first` that turn a claim.
+fn turned(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> Vec<ReadingChoice> {
+    let readings = paper.readings();
+    let places = to_confirm(paper, verdicts, first).into_iter().filter(|place| *place > 0);
+    // A reading that the specs no longer have belongs to an exploration that is stale.
+    places.filter_map(|place| ReadingChoice::new(&readings, &first.readings[place]).ok()).collect()
 }
 
 /// The study on its second seed; no clock is read and nothing is kept for figures.

@@ -6,8 +6,8 @@ use super::places::Places;
 use super::progress::{Bar, doing, safe_point, stop_flag};
 use super::{Failure, How, Which, command_line, verdicts};
 use crate::analysis::across::glance::{Glance, glances};
-use crate::analysis::across::near_a_flip;
 use crate::analysis::across::stored::Exploration;
+use crate::analysis::across::{compatible, near_a_flip};
 use crate::analysis::claims;
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::together::{greatest, together};
@@ -18,7 +18,7 @@ use crate::study::manifest::{MadeBy, Manifest};
 use crate::study::paper::Paper;
 use crate::study::runner::BuiltStudy;
 use crate::study::session::{self, Options};
-use crate::study::store::{Records, read_records};
+use crate::study::store::{Records, read_numbers};
 use crate::study::{ReadingChoice, Study};
 use base::seed;
 use clap::Args;
@@ -112,7 +112,7 @@ fn budget(paper: &Paper) -> Result<ExplorePaper, Failure> {
             path.display()
         ))
     };
-    let budget = paper.explore.ok_or_else(missing)?;
+    let budget = paper.explore.clone().ok_or_else(missing)?;
     if paper.studies.iter().all(|study| study.explore.is_none()) {
         return Err(missing());
     }
@@ -127,7 +127,10 @@ pub fn scratch(places: &Places, paper: &Paper, command: &str) -> PathBuf {
 /// The claims' verdicts by the stored default run.
 pub fn judged(paper: &Paper, places: &Places) -> Result<Verdicts, Failure> {
     doing(&format!("{}: judging {} claims", paper.id, paper.claims.len()));
-    Ok(claims::judge(&judge::read(paper, default_point(paper), places)?)?)
+    let evidence = judge::read(paper, default_point(paper), places)?.remembering(&judge::polylines(places));
+    let verdicts = claims::judge(&evidence)?;
+    evidence.keep_polylines();
+    Ok(verdicts)
 }
 
 impl<'p> Explorer<'p> {
@@ -137,7 +140,7 @@ impl<'p> Explorer<'p> {
         let seed = seed::derive(0, &[&paper.id, "explore"]);
         let refuse = |message: String| Failure::from(paper.document.error_at("explore", message));
         let Points { alone, drawn } = points(&paper.readings(), budget.sample, seed).map_err(refuse)?;
-        let each = self.trials_each(|study| study.explore.as_ref().map_or(0, |explore| explore.draws))?;
+        let each = self.trials_each(first_draws, |study| !budget.is_late(study))?;
         let mut chosen = alone;
         let mut trials = trials(&each, &chosen);
         if trials > budget.trials {
@@ -175,21 +178,29 @@ impl<'p> Explorer<'p> {
         self.paper.studies.iter().filter_map(ran).collect()
     }
 
-    /// How many trials each explored study runs under one reading.
-    fn trials_each(&self, draws: impl Fn(&Study) -> u32) -> Result<Vec<(&'p Study, u64)>, Failure> {
+    /// How many trials each explored study that `is_meant` runs under one reading.
+    pub fn trials_each(
+        &self,
+        draws: impl Fn(&Study) -> u32,
+        is_meant: impl Fn(&Study) -> bool,
+    ) -> Result<Vec<(&'p Study, u64)>, Failure> {
         let mut each = Vec::new();
-        for ran in self.studies(draws) {
-            let point = default_point(self.paper).for_trials(&ran.study.readings);
-            let points = [point];
-            let built = BuiltStudy::new(&ran.study, &points, &self.places.inputs)?;
-            let count: usize = built.units().iter().map(|unit| built.trials(unit).len()).sum();
+        for ran in self.studies(draws).into_iter().filter(|ran| is_meant(&ran.study)) {
             let study = self.paper.study(&ran.study.name).expect("it is a study of the paper");
-            each.push((study, count as u64));
+            each.push((study, self.trials_of(&ran.study)?));
         }
         Ok(each)
     }
 
-    /// Runs and judges `points`, and once more with more draws where a class is near a flip.
+    /// How many trials `study` runs under one reading.
+    pub fn trials_of(&self, study: &Study) -> Result<u64, Failure> {
+        let points = [default_point(self.paper).for_trials(&study.readings)];
+        let built = BuiltStudy::new(study, &points, &self.places.inputs)?;
+        Ok(built.units().iter().map(|unit| built.trials(unit).len() as u64).sum())
+    }
+
+    /// Runs and judges `points`; what runs where readings are compatible, under those; and once more with more draws where a
+    /// class is near a flip.
     fn explore(
         &self,
         points: &[ReadingChoice],
@@ -197,34 +208,51 @@ impl<'p> Explorer<'p> {
         spent: u64,
         verdicts: &Verdicts,
     ) -> Result<Exploration, Failure> {
-        let draws = |study: &Study| study.explore.as_ref().map_or(0, |explore| explore.draws);
-        let (found, sets) = self.look(points, "round-1", &draws)?;
+        let (early, late) =
+            self.studies(first_draws).into_iter().partition(|ran| !budget.is_late(&ran.study));
+        let (early, late): (Vec<Ran<'_>>, Vec<Ran<'_>>) = (early, late);
+        let (mut found, mut sets) = self.judge_run(vec![self.stored(&early, points, "round-1")?], points)?;
         let mut first = Exploration::of(self.paper, points, &found, &BTreeMap::new());
         first.trials = spent;
-        let more = |study: &Study| {
-            study.explore.as_ref().map_or(0, |explore| explore.more_draws.unwrap_or(explore.draws))
-        };
-        let each = self.trials_each(more)?;
-        let mut chosen: Vec<usize> = Vec::new();
-        let has_more = self.paper.studies.iter().any(|study| more(study) > draws(study));
-        let near = if has_more { near_a_flip(self.paper, verdicts, &first) } else { BTreeSet::new() };
-        for place in near {
-            let with: Vec<ReadingChoice> =
-                chosen.iter().chain([&place]).map(|place| points[*place].clone()).collect();
-            if trials(&each, &with) + spent <= budget.trials {
-                chosen.push(place);
-            }
+        if !late.is_empty() {
+            let each = self.trials_each(first_draws, |study| budget.is_late(study))?;
+            let fits = compatible(self.paper, verdicts, &first);
+            let (places, some) = within(budget.trials, &mut first.trials, &each, points, fits);
+            let runs =
+                vec![self.stored(&early, points, "round-1")?, self.stored(&late, &some, "compatible")?];
+            let (glances, more) = self.judge_run(runs, &some)?;
+            sets.extend(more);
+            places.into_iter().zip(glances).for_each(|(place, glances)| found[place] = glances);
+            first = Exploration {
+                trials: first.trials,
+                ..Exploration::of(self.paper, points, &found, &BTreeMap::new())
+            };
         }
-        let again: Vec<ReadingChoice> = chosen.iter().map(|place| points[*place].clone()).collect();
-        let mut with_more = BTreeMap::new();
-        if !again.is_empty() {
-            let (found, _) = self.look(&again, "round-2", &more)?;
-            with_more = chosen.into_iter().zip(found).collect();
-        }
-        let trials = spent + trials(&each, &again);
+        let (with_more, trials) = self.once_more(points, budget, verdicts, &first)?;
         let (together, command) = (greatest(sets), command_line());
         let all = Exploration::of(self.paper, points, &found, &with_more);
         Ok(Exploration { command, trials, together, ..all })
+    }
+
+    /// What is found with more draws, by the places of readings near a flip, and how many trials it took in all.
+    fn once_more(
+        &self,
+        points: &[ReadingChoice],
+        budget: &ExplorePaper,
+        verdicts: &Verdicts,
+        first: &Exploration,
+    ) -> Result<(BTreeMap<usize, Glances>, u64), Failure> {
+        if self.paper.studies.iter().all(|study| most_draws(study) <= first_draws(study)) {
+            return Ok((BTreeMap::new(), first.trials));
+        }
+        let (mut trials, near) = (first.trials, near_a_flip(self.paper, verdicts, first));
+        let each = self.trials_each(most_draws, |_| true)?;
+        let (places, again) = within(budget.trials, &mut trials, &each, points, near);
+        if again.is_empty() {
+            return Ok((BTreeMap::new(), trials));
+        }
+        let (found, _) = self.look(&again, "round-2", &most_draws)?;
+        Ok((places.into_iter().zip(found).collect(), trials))
     }
 
     /// What every claim is under each of `points`, with so many draws, and which claims hold jointly there.
@@ -235,18 +263,48 @@ impl<'p> Explorer<'p> {
         draws: &dyn Fn(&Study) -> u32,
     ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
         let studies = self.studies(draws);
-        let folder = self.folder.join(round);
-        let mut stored = Vec::new();
-        for ran in &studies {
-            let (manifest, records) = self.run(&ran.study, points, &folder)?;
-            stored.push((&ran.study, ran.answers, manifest, records));
-        }
-        let evidence = judge::read(self.paper, default_point(self.paper), self.places)?.with(stored);
-        self.judge_under(&evidence, points)
+        self.judge_run(vec![self.stored(&studies, points, round)?], points)
     }
 
-    /// Judges every claim of `evidence` under each of `points`.
+    /// The records of `studies` under `points`, run where they are not stored.
+    fn stored<'r>(
+        &self,
+        studies: &'r [Ran<'r>],
+        points: &[ReadingChoice],
+        round: &str,
+    ) -> Result<Vec<(&'r Study, &'r Study, Manifest, Records)>, Failure> {
+        let folder = self.folder.join(round);
+        let run = |ran: &'r Ran<'r>| {
+            let (manifest, records) = self.run(&ran.study, points, &folder)?;
+            Ok((&ran.study, ran.answers, manifest, records))
+        };
+        studies.iter().map(run).collect()
+    }
+
+    /// Judges every claim under each of `points` by these records and the stored default run.
+    fn judge_run<'r>(
+        &'r self,
+        runs: Vec<Vec<(&'r Study, &'r Study, Manifest, Records)>>,
+        points: &[ReadingChoice],
+    ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
+        let evidence = judge::read(self.paper, default_point(self.paper), self.places)?;
+        self.judge_under(evidence.with(runs.into_iter().flatten().collect()), points)
+    }
+
+    /// Judges every claim of `evidence` under each of `points`; polylines that are found are kept for the next command,
+    /// after Ctrl-C as well.
     pub fn judge_under(
+        &self,
+        evidence: Evidence<'_>,
+        points: &[ReadingChoice],
+    ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
+        let evidence = evidence.remembering(&judge::polylines(self.places));
+        let found = self.judge_each(&evidence, points);
+        evidence.keep_polylines();
+        found
+    }
+
+    fn judge_each(
         &self,
         evidence: &Evidence<'_>,
         points: &[ReadingChoice],
@@ -294,9 +352,42 @@ impl<'p> Explorer<'p> {
                 progress: &Bar::default(),
             },
         )?;
-        let records = read_records(folder, &study.name, &report.manifest.files)?;
+        let records = read_numbers(folder, &study.name, &report.manifest.files)?;
         Ok((report.manifest, records))
     }
+}
+
+/// The draws that an explored study begins with.
+fn first_draws(study: &Study) -> u32 {
+    study.explore.as_ref().map_or(0, |explore| explore.draws)
+}
+
+/// The draws that it ends with, where a class is near a flip or turned.
+pub fn most_draws(study: &Study) -> u32 {
+    study.explore.as_ref().map_or(0, |explore| explore.more_draws.unwrap_or(explore.draws))
+}
+
+/// Of `points` at these places, in order, those for which `budget` has room beside what is `spent`, which grows by them.
+pub fn within(
+    budget: u64,
+    spent: &mut u64,
+    each: &[(&Study, u64)],
+    points: &[ReadingChoice],
+    places: BTreeSet<usize>,
+) -> (Vec<usize>, Vec<ReadingChoice>) {
+    let (mut chosen, mut some, mut needed) = (Vec::new(), Vec::new(), 0);
+    for place in places {
+        some.push(points[place].clone());
+        let with = trials(each, &some);
+        if with + *spent > budget {
+            some.pop();
+            continue;
+        }
+        needed = with;
+        chosen.push(place);
+    }
+    *spent += needed;
+    (chosen, some)
 }
 
 /// How many trials `points` take, each study running those apart that it tells apart.

@@ -3,7 +3,6 @@
 use super::places::Places;
 use super::progress::doing;
 use super::{Failure, How, Which, verdicts};
-use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::{self, Stored};
 use crate::analysis::claims;
 use crate::analysis::difference::differences;
@@ -15,7 +14,6 @@ use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
 use clap::Args;
 use std::fs;
-use std::path::PathBuf;
 
 /// Judges a paper's claims again.
 #[derive(Args)]
@@ -84,7 +82,7 @@ fn check_manifests(evidence: &Evidence<'_>, places: &Places) -> Result<(), Failu
 
 /// Judges `paper` under `point` by its stored run and writes the verdicts beside it.
 pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Verdicts, Failure> {
-    let evidence = read(paper, point, places)?.remembering(&places.home.join(POLYLINES));
+    let evidence = read(paper, point, places)?.remembering(&polylines(places));
     let verdicts = judged(&evidence, places)?;
     evidence.keep_polylines();
     verdicts.write(&places.runs)?;
@@ -96,18 +94,15 @@ fn judged(evidence: &Evidence<'_>, places: &Places) -> Result<Verdicts, Failure>
     let mut verdicts = claims::judge(evidence)?;
     let is_default = evidence.point == default_point(evidence.paper);
     if is_default && !verdicts.quick {
-        let read = |path: PathBuf| Exploration::read(&path);
-        let stored = Stored {
-            first: read(Exploration::first(&places.runs))?,
-            second: read(Exploration::second(&places.runs))?,
-        };
-        across::apply(evidence.paper, &mut verdicts, &stored);
+        across::apply(evidence.paper, &mut verdicts, &Stored::read(&places.runs)?);
     }
     Ok(verdicts)
 }
 
 /// Where polylines that were searched for are kept; a check searches for its own.
-const POLYLINES: &str = "target/replan/cache/polylines.json";
+pub fn polylines(places: &Places) -> std::path::PathBuf {
+    places.home.join("target/replan/cache/polylines.json")
+}
 
 /// The stored run of `paper`, to be judged under `point`.
 pub fn read<'a>(paper: &'a Paper, point: ReadingChoice, places: &Places) -> Result<Evidence<'a>, Failure> {

@@ -107,7 +107,9 @@ fn draw(paper: &Paper, places: &Places, only: Option<&str>, stop: &AtomicBool) -
     })?;
     let evidence = Evidence::read(paper, point, &places.runs)?;
     doing(&format!("{}: drawing its figures and tables", paper.id));
-    let mut outputs = output::outputs(&evidence, &verdicts, only, stop)?;
+    let outputs = output::outputs(&evidence, &verdicts, only, stop);
+    evidence.exhibits_read()?;
+    let mut outputs = outputs?;
     if only.is_some() {
         return Ok(Drawn { outputs, chapter: None });
     }

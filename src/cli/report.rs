@@ -3,11 +3,13 @@
 use super::places::{Places, home, papers};
 use super::progress::doing;
 use super::{Failure, How, Which};
+use crate::analysis::across::Stored;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::page;
 use crate::render::output::Output;
 use crate::study::ReadingChoice;
+use crate::study::clock::timed;
 use crate::study::paper::Paper;
 use crate::study::store::write_whole;
 use clap::Args;
@@ -76,8 +78,12 @@ fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String;
     let paper = super::load::load(places, &how).map_err(|failure| (None, failure))?;
     let file = folder.join(format!("{}.html", paper.id));
     let line = |said: String| [paper.id.clone(), paper.source.title.clone(), said];
-    match made(&paper, places, folder) {
-        Ok(said) => Ok(line(said)),
+    let (spent_ns, made) = timed(|| made(&paper, places, folder));
+    match made {
+        Ok(Made { classes, sizes }) => {
+            say!("{}: {sizes} in {:.1} s", paper.id, spent_ns as f64 / 1e9);
+            Ok(line(classes))
+        }
         Err(failure) => {
             let why = page::unread(&paper.id, &paper.source.title, &failure.message);
             match write_whole(&file, why.as_bytes()) {
@@ -88,7 +94,15 @@ fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String;
     }
 }
 
-fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<String, Failure> {
+/// What is said of a page that was written.
+struct Made {
+    /// How many claims are of each class.
+    classes: String,
+    /// How large it is, and what lies beside it.
+    sizes: String,
+}
+
+fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> {
     let verdicts = Verdicts::read(&places.runs)?;
     let point = ReadingChoice::new(&paper.readings(), &verdicts.reading).map_err(|message| {
         Failure::input(format!("the stored verdicts are of other readings ({message}); judge again"))
@@ -97,7 +111,10 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<String, Failure
     doing(&format!("{}: writing its page", paper.id));
     let figures = figures(paper, &places.plots);
     let rest = format!("{}-replays.zip", paper.id);
-    let made = page::page(&evidence, &verdicts, &figures, &places.inputs, &rest)?;
+    let stored = Stored::read(&places.runs)?;
+    let made = page::page(&evidence, &verdicts, &stored, &figures, &places.inputs, &rest);
+    evidence.exhibits_read()?;
+    let made = made?;
     write_whole(&folder.join(format!("{}.html", paper.id)), made.html.as_bytes())?;
     let size = made.html.len() as f64 / 1e6;
     let beside = made.rest.as_ref().map(|rest| rest.len() as f64 / 1e6);
@@ -105,8 +122,7 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<String, Failure
         write_whole(&folder.join(&rest), bytes)?;
     }
     let beside = beside.map_or_else(String::new, |size| format!(", and {size:.2} MB of replays in {rest}"));
-    say!("{}: {size:.2} MB{beside}", paper.id);
-    Ok(verdicts.counts().classes)
+    Ok(Made { classes: verdicts.counts().classes, sizes: format!("{size:.2} MB{beside}") })
 }
 
 /// The figures of `paper` as they were drawn into `folder`; what is not there is not shown, and the page says so in its place.

@@ -7,7 +7,7 @@ use crate::study::key::Owner;
 use crate::study::manifest::Manifest;
 use crate::study::name::Names;
 use crate::study::record::{Kept, Row, Status};
-use crate::study::store::read_records;
+use crate::study::store::{open_exhibits, read_numbers};
 use crate::study::{Inputs, ReadingChoice, Study, StudyError};
 use base::settings::SettingsError;
 use engine::space::World;
@@ -59,18 +59,22 @@ impl StoredPaths {
     ) -> Result<Vec<JointPath>, CrosscheckError> {
         let names = self.study(folder, inputs)?.names();
         let manifest = Manifest::read(runs, &self.study)?;
-        let records = read_records(runs, &self.study, &manifest.files)?;
+        let records = read_numbers(runs, &self.study, &manifest.files)?;
         let rows = records.batch.rows.iter();
         let is_solved = |row: &&Row| row.status == Status::Solved && *row.key.on.group == *self.problems;
         let solved: BTreeSet<Owner> = rows.filter(is_solved).map(|row| Owner::from(&row.key)).collect();
         // A group may also hold paths of a bare point, which are narrower.
-        let is_wanted = |kept: &&Kept| {
+        let is_wanted = |kept: &Kept| {
             kept.exhibit.name == self.exhibit
                 && kept.exhibit.width >= self.first_joint + joints
                 && solved.contains(&kept.of)
         };
-        let kept = records.batch.kept.iter().filter(is_wanted).map(|kept| self.path(kept, &names, joints));
-        let paths: Vec<JointPath> = kept.filter(|path| path.stops_rad.len() > 1).collect();
+        let mut paths = Vec::new();
+        let mut stored = open_exhibits(runs, &self.study, &manifest.files)?;
+        while let Some(kept) = stored.next_one()? {
+            let path = is_wanted(&kept).then(|| self.path(&kept, &names, joints));
+            paths.extend(path.filter(|path| path.stops_rad.len() > 1));
+        }
         if paths.is_empty() {
             let reason = format!(
                 "the stored run of study `{}` kept no exhibit `{}` of a solved trial of problems `{}`",

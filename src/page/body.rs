@@ -2,10 +2,11 @@
 //! is drawn.
 
 use super::html::{escaped, prose as inline};
+use super::readings;
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::tabulated::grid;
-use crate::analysis::verdict::{Finding, Judged, Verdicts};
+use crate::analysis::verdict::{Effect, Finding, Judged, Verdicts};
 use crate::render::RenderError;
 use crate::render::figure::caption;
 use crate::render::prose::prose;
@@ -20,6 +21,8 @@ pub struct Body<'a> {
     pub verdicts: &'a Verdicts,
     /// The trials of which there is a replay.
     pub replayed: &'a [&'a str],
+    /// How many readings can be looked at.
+    pub explored: usize,
 }
 
 /// The class as a name of CSS.
@@ -43,12 +46,16 @@ impl Body<'_> {
         text += &self.head(state.is_empty());
         text += &self.navigation(is_without_curves);
         text += &self.claims();
-        text += &self.tables()?;
+        if self.has_tables() {
+            text += &self.tables()?;
+        }
         if !is_without_curves {
             text += "<section id=\"curves\"><h2>Curves</h2></section>\n";
         }
         text += &self.replays();
-        text += &self.figures();
+        if self.has_figures() {
+            text += &self.figures();
+        }
         Ok(text + "</main>\n")
     }
 
@@ -86,10 +93,11 @@ impl Body<'_> {
     fn navigation(&self, is_without_curves: bool) -> String {
         let parts = [
             ("claims", "Claims", true),
-            ("tables", "Tables", true),
+            ("readings", "Readings", !self.evidence.paper.readings().is_empty()),
+            ("tables", "Tables", self.has_tables()),
             ("curves", "Curves", !is_without_curves),
             ("replays", "Replays", !self.replayed.is_empty()),
-            ("figures", "Figures", true),
+            ("figures", "Figures", self.has_figures()),
         ];
         let link = |(to, name, _): &(&str, &str, bool)| format!("<a href=\"#{to}\">{name}</a>");
         let links: Vec<String> = parts.iter().filter(|(.., is_there)| *is_there).map(link).collect();
@@ -103,9 +111,12 @@ impl Body<'_> {
              <label>words <input type=\"search\" name=\"words\"></label>\
              <label>class <select name=\"class\"><option value=\"\">any</option>{classes}</select></label>\
              <label>hangs on <select name=\"hangs\"><option value=\"\">anything</option></select></label>\
+             <label hidden>under this reading <select name=\"under\"><option value=\"\">any</option>\
+             <option value=\"differs\">not as under the default</option>{classes}</select></label>\
              <label><input type=\"checkbox\" name=\"parts\"> with parts and cells</label>\
              <output></output></form>\n"
         );
+        text += &readings::section(self.evidence.paper, self.verdicts, self.explored);
         text += "<div class=\"wide\"><table id=\"claimed\"><thead><tr>";
         for (key, name) in [
             ("claim", "claim"),
@@ -113,9 +124,10 @@ impl Body<'_> {
             ("ours", "ours"),
             ("class", "class"),
             ("readings", "readings"),
+            ("under", "under this reading"),
         ] {
             text += &format!(
-                "<th scope=\"col\" aria-sort=\"none\"><button type=\"button\" data-sort=\"{key}\">{name}</button></th>"
+                "<th scope=\"col\" data-column=\"{key}\" aria-sort=\"none\"><button type=\"button\" data-sort=\"{key}\">{name}</button></th>"
             );
         }
         text += "</tr></thead>\n";
@@ -138,11 +150,14 @@ impl Body<'_> {
         let rank = Verdict::ALL.iter().position(|class| *class == judged.verdict).unwrap_or(0);
         let part = if judged.part_of.is_some() { " data-part" } else { "" };
         format!(
-            "<tbody id=\"claim={id}\" data-class=\"{}\" data-rank=\"{rank}\"{part}>\
+            "<tbody id=\"claim={id}\" data-class=\"{}\" data-rank=\"{rank}\" \
+             data-hangs=\"{}\"{part}>\
              <tr><th scope=\"row\"><button type=\"button\" class=\"open\" aria-expanded=\"false\">{id}</button></th>\
-             <td>{}: {}</td><td>{}</td><td>{}</td><td class=\"readings\">{}</td></tr>\n\
-             <tr class=\"evidence\" hidden><td colspan=\"5\">{}</td></tr></tbody>\n",
+             <td>{}: {}</td><td>{}</td><td>{}</td><td class=\"readings\">{}</td>\
+             <td class=\"under\"></td></tr>\n\
+             <tr class=\"evidence\" hidden><td colspan=\"6\">{}</td></tr></tbody>\n",
             escaped(judged.verdict.name()),
+            escaped(&hangs_on(judged).join(" ")),
             escaped(&judged.at),
             escaped(&says),
             escaped(&ours),
@@ -200,10 +215,19 @@ impl Body<'_> {
         format!("trial <code>{}</code>{replay}; again: <code>{}</code>", escaped(trial), escaped(&again))
     }
 
+    fn has_tables(&self) -> bool {
+        let paper = self.evidence.paper;
+        !paper.results.is_empty() || paper.tables.iter().any(is_beside)
+    }
+
+    fn has_figures(&self) -> bool {
+        self.evidence.runs().any(|run| !run.study.figures.is_empty())
+    }
+
     fn tables(&self) -> Result<String, RenderError> {
         let paper = self.evidence.paper;
         let mut text = "<section id=\"tables\"><h2>The paper's tables beside ours</h2>\n".to_owned();
-        for table in paper.tables.iter().filter(|table| table.rows.iter().any(|row| !row.claims.is_empty())) {
+        for table in paper.tables.iter().filter(|table| is_beside(table)) {
             text += &self.table(table)?;
         }
         for table in &paper.results {
@@ -279,6 +303,17 @@ impl Body<'_> {
         }
         text + "</section>\n"
     }
+}
+
+/// The readings one of whose options, departing alone from the default, turns the claim or leaves it open.
+fn hangs_on(judged: &Judged) -> Vec<&str> {
+    let effects = judged.across.iter().flat_map(|across| &across.effects);
+    effects.filter(|(_, of)| of.effect >= Effect::Opens).map(|(axis, _)| axis.as_str()).collect()
+}
+
+/// Whether ours stands beside what the table prints.
+fn is_beside(table: &TableSpec) -> bool {
+    table.rows.iter().any(|row| !row.claims.is_empty())
 }
 
 /// Each of `texts` as a cell.

@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// How far a paper's readings are explored, besides its defaults and every other option by itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExplorePaper {
     /// How many settings of readings are drawn from the product of options that vote, at most and without repetition.
@@ -23,6 +23,17 @@ pub struct ExplorePaper {
     /// How many trials `replan explore` may run in all, and `replan confirm` once more.
     #[schemars(range(min = 1, max = 1_000_000_000_000_u64))]
     pub trials: u64,
+    /// Studies that run only under readings that are compatible with what the paper's studies are fitted to, as those that run
+    /// under all say.
+    #[serde(default)]
+    pub where_compatible: Vec<String>,
+}
+
+impl ExplorePaper {
+    /// Whether `study` runs only under readings that are compatible.
+    pub fn is_late(&self, study: &Study) -> bool {
+        self.where_compatible.contains(&study.name)
+    }
 }
 
 /// The points to explore: those that must be, and those to be added in this order while the budget lasts.

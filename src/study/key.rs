@@ -207,6 +207,16 @@ pub enum Owner {
     Trial(TrialKey),
 }
 
+impl Owner {
+    /// The draw that it belongs to.
+    pub fn on(&self) -> &Arc<DrawKey> {
+        match self {
+            Self::Draw(key) => key,
+            Self::Trial(key) => &key.on,
+        }
+    }
+}
+
 impl From<&Arc<DrawKey>> for Owner {
     fn from(key: &Arc<DrawKey>) -> Self {
         Self::Draw(key.clone())

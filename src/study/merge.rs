@@ -3,7 +3,7 @@
 //! Nothing is put together unless every part is there, whole, of one plan and of one program. A part is refused by the name of
 //! its folder, with what it should be.
 
-use super::key::{DrawKey, Owner, SweepKey};
+use super::key::{DrawKey, SweepKey};
 use super::manifest::Manifest;
 use super::plan::{Plan, brief, unlike};
 use super::record::{Batch, Kept, Row};
@@ -149,7 +149,7 @@ fn streamed(
             let part = &mut parts[shards[unit] - 1];
             match part.peek() {
                 Err(error) => return Some(Err(error)),
-                Ok(Some(kept)) if *drawn(&kept.of) == keys[unit] => return part.take().map(Ok),
+                Ok(Some(kept)) if *kept.of.on() == keys[unit] => return part.take().map(Ok),
                 Ok(_) => unit += 1,
             }
         }
@@ -194,14 +194,6 @@ impl Units<'_> {
             all.extend(left[part].by_ref().take(count));
         }
         Ok(all)
-    }
-}
-
-/// The draw that something belongs to.
-fn drawn(of: &Owner) -> &Arc<DrawKey> {
-    match of {
-        Owner::Draw(key) => key,
-        Owner::Trial(key) => &key.on,
     }
 }
 

@@ -5,7 +5,7 @@ use super::manifest::Manifest;
 use super::reading::ReadingChoice;
 use super::record::Row;
 use super::runner::BuiltStudy;
-use super::store::read_records;
+use super::store::read_numbers;
 use super::{Inputs, Study, StudyError};
 use base::seed;
 use rand::RngExt as _;
@@ -36,7 +36,7 @@ pub fn rerun(
     threads: usize,
 ) -> Result<Rerun, StudyError> {
     let manifest = Manifest::read(folder, &study.name)?;
-    let records = read_records(folder, &study.name, &manifest.files)?;
+    let records = read_numbers(folder, &study.name, &manifest.files)?;
     let points: Vec<ReadingChoice> = study
         .trial_points()?
         .into_iter()

@@ -7,18 +7,22 @@ use super::error::StudyError;
 use super::key::{DrawKey, Owner, Text, TrialKey};
 use super::manifest::Manifest;
 use super::name::Names;
-use super::record::{Batch, Row};
+use super::record::{Batch, Kept, Row};
 use super::runner::{BuiltStudy, Part};
-use super::store::{Records, read_records};
+use super::store::{Exhibits, GROUP_VALUES, Journal, KeptExhibits, Records, read_numbers};
 use super::unit::{Entrant, Unit};
-use std::collections::{BTreeMap, BTreeSet};
+use engine::planner::Exhibit;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::iter;
 use std::path::Path;
 use std::sync::Arc;
 
 /// What is stored of a study, and why it cannot stand for the run that a manifest describes.
 pub struct Before {
-    /// The manifest and the records.
+    /// The manifest and the records, without exhibits.
     pub stored: Option<(Manifest, Records)>,
+    /// The exhibits.
+    pub kept: KeptExhibits,
     /// What has changed.
     pub why: Vec<String>,
 }
@@ -27,25 +31,34 @@ impl Before {
     /// What `folder` has of the study that `manifest` is about.
     pub fn read(folder: &Path, manifest: &Manifest) -> Self {
         if !Manifest::path(folder, &manifest.study).exists() {
-            return Self { stored: None, why: Vec::new() };
+            return Self { stored: None, kept: KeptExhibits::default(), why: Vec::new() };
         }
-        match stored(folder, &manifest.study) {
-            Ok((before, records)) => {
-                let why = manifest.differs_from(&before);
-                Self { stored: Some((before, records)), why }
+        match Self::stored(folder, manifest) {
+            Ok(before) => before,
+            Err(error) => {
+                let why = vec![format!("what is stored cannot be used: {error}")];
+                Self { stored: None, kept: KeptExhibits::default(), why }
             }
-            Err(error) => Self { stored: None, why: vec![format!("what is stored cannot be used: {error}")] },
         }
+    }
+
+    fn stored(folder: &Path, manifest: &Manifest) -> Result<Self, StudyError> {
+        let study = &manifest.study;
+        let (before, records) = stored(folder, study)?;
+        let kept = KeptExhibits::stored(folder, study, &before.files)?;
+        kept.owners()?;
+        let why = manifest.differs_from(&before);
+        Ok(Self { stored: Some((before, records)), kept, why })
     }
 }
 
-/// The manifest and the records of `study` in `folder`.
+/// The manifest and the records of `study` in `folder`, without exhibits.
 ///
 /// # Errors
 /// [`StudyError::Stored`] for a file that is missing, damaged, or not the one that the manifest speaks of.
 pub fn stored(folder: &Path, study: &str) -> Result<(Manifest, Records), StudyError> {
     let manifest = Manifest::read(folder, study)?;
-    let records = read_records(folder, study, &manifest.files)?;
+    let records = read_numbers(folder, study, &manifest.files)?;
     Ok((manifest, records))
 }
 
@@ -71,6 +84,8 @@ pub struct Reusable {
     pub units: BTreeMap<usize, Batch>,
     /// Units of which some contenders' trials are.
     pub parts: BTreeMap<usize, Part>,
+    /// The contenders of each of these units whose exhibits are stored; of all in a task that does without contenders.
+    pub exhibits: BTreeMap<usize, Option<BTreeSet<Text>>>,
 }
 
 impl Reusable {
@@ -122,12 +137,14 @@ impl Reusable {
         if contenders == 0 {
             // A task that does without contenders depends on its problems alone.
             self.units.insert(index, stored);
+            self.exhibits.insert(index, None);
         } else if same.len() == contenders {
             self.units.insert(index, built.in_order(unit, [&stored, &Batch::default()]));
+            self.exhibits.insert(index, Some(same));
         } else if !same.is_empty() {
             let is_same = |key: &TrialKey| same.contains(&key.contender);
             stored.rows.retain(|row| is_same(&row.key));
-            stored.kept.retain(|kept| matches!(&kept.of, Owner::Trial(key) if is_same(key)));
+            self.exhibits.insert(index, Some(same.clone()));
             self.parts.insert(index, Part { contenders: same, stored });
         }
     }
@@ -147,14 +164,92 @@ fn by_draw(batch: &Batch) -> BTreeMap<Arc<DrawKey>, Batch> {
     for row in &batch.rows {
         draws.entry(row.key.on.clone()).or_default().rows.push(row.clone());
     }
-    for kept in &batch.kept {
-        let on = match &kept.of {
-            Owner::Draw(key) => key,
-            Owner::Trial(key) => &key.on,
-        };
-        draws.entry(on.clone()).or_default().kept.push(kept.clone());
-    }
     draws
+}
+
+/// The exhibits of a run on their way to its records: those of trials that ran are in the journal, the others in the file of the
+/// run before.
+pub struct Gathered<'r, 'a> {
+    built: &'r BuiltStudy<'a>,
+    journal: &'r mut Journal,
+    before: KeptExhibits,
+    reused: BTreeMap<usize, Option<BTreeSet<Text>>>,
+}
+
+impl<'r, 'a> Gathered<'r, 'a> {
+    /// Those of a run that took over what `reused` says of `before`.
+    pub fn new(
+        built: &'r BuiltStudy<'a>,
+        journal: &'r mut Journal,
+        before: KeptExhibits,
+        reused: BTreeMap<usize, Option<BTreeSet<Text>>>,
+    ) -> Self {
+        Self { built, journal, before, reused }
+    }
+
+    /// All of them in the order of records; `rows` are the run's.
+    ///
+    /// # Errors
+    /// Those of the file of the run before.
+    pub fn all(mut self, rows: &[Row]) -> Result<Exhibits<'r>, StudyError>
+    where
+        'a: 'r,
+    {
+        let built = self.built;
+        let units = built.units();
+        let numbers: BTreeMap<&Arc<DrawKey>, usize> = units.iter().map(|unit| &unit.key).zip(0..).collect();
+        let is_taken = |owner: &&Owner| match owner {
+            Owner::Draw(_) => false,
+            Owner::Trial(key) => {
+                let of_unit = numbers.get(&key.on).and_then(|unit| self.reused.get(unit));
+                of_unit.is_some_and(|taken| taken.as_ref().is_none_or(|taken| taken.contains(&key.contender)))
+            }
+        };
+        let has_trials = self.journal.sweep().is_some() || self.before.owners()?.iter().any(is_taken);
+        let sweep = rows.first().filter(|_| has_trials).map(|row| row.key.sweep.clone());
+        let mut units = units.into_iter().enumerate();
+        let mut unit = VecDeque::new();
+        let each = std::iter::from_fn(move || {
+            while unit.is_empty() {
+                let (index, next) = units.next()?;
+                match self.of(index, &next) {
+                    Ok(kept) => unit.extend(kept),
+                    Err(error) => return Some(Err(error)),
+                }
+            }
+            unit.pop_front().map(Ok)
+        });
+        Ok(Exhibits { each: Box::new(each), sweep, group_values: GROUP_VALUES })
+    }
+
+    fn of(&mut self, index: usize, unit: &Unit<'_>) -> Result<Vec<Kept>, StudyError> {
+        let ran = self.journal.exhibits(index)?;
+        let Some(reused) = self.reused.get(&index) else { return Ok(ran) };
+        let mut by_owner: BTreeMap<Owner, Vec<Exhibit>> = BTreeMap::new();
+        for Kept { of, exhibit } in ran {
+            by_owner.entry(of).or_default().push(exhibit);
+        }
+        let owners: Vec<Owner> = if reused.is_none() {
+            self.before.owners()?.into_iter().filter(|of| *of.on() == unit.key).cloned().collect()
+        } else {
+            let trials = self.built.trials(unit).into_iter().map(Owner::Trial);
+            iter::once(Owner::from(&unit.key)).chain(trials).collect()
+        };
+        let is_reused = |of: &Owner| match (of, reused) {
+            (Owner::Trial(key), Some(reused)) => reused.contains(&key.contender),
+            _ => true,
+        };
+        let mut all = Vec::new();
+        for of in owners {
+            let exhibits = match by_owner.remove(&of) {
+                Some(exhibits) => exhibits,
+                None if is_reused(&of) => self.before.take(&of)?,
+                None => continue,
+            };
+            all.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.clone(), exhibit }));
+        }
+        Ok(all)
+    }
 }
 
 /// Trials whose problem and contender are unchanged but whose row is not what was stored, by their names.

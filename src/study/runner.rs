@@ -11,15 +11,16 @@ use super::error::StudyError;
 use super::family::Family;
 use super::group::{Families, Group};
 use super::inputs::Inputs;
-use super::key::{DrawKey, Owner, ReadingKey, Text, TrialKey};
+use super::key::{DrawKey, ReadingKey, Text, TrialKey};
 use super::name::Names;
 use super::reading::ReadingChoice;
-use super::record::{Batch, Kept, Row};
+use super::record::{Batch, Row};
 use super::store::Journal;
 use super::task::Task;
 use super::unit::{Entrant, Terms, Unit};
 use base::hash::sha256;
 use base::seed;
+use engine::space::WorldKind;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -239,29 +240,15 @@ impl<'a> BuiltStudy<'a> {
         self.in_order(unit, [&part.stored, &fresh])
     }
 
-    /// The records of `batches` that are the unit's, in the order in which a run gives them.
+    /// The records of `batches` that are the unit's, in the order in which a run gives them; exhibits are the last one's.
     pub fn in_order(&self, unit: &Unit<'_>, batches: [&Batch; 2]) -> Batch {
         let rows = batches.iter().flat_map(|batch| &batch.rows);
         let rows: BTreeMap<&TrialKey, &Row> = rows.map(|row| (&row.key, row)).collect();
         let prepared = batches.iter().flat_map(|batch| &batch.prepared);
-        let mut kept: BTreeMap<&Owner, Vec<&Kept>> = BTreeMap::new();
-        for batch in batches {
-            let of_batch = batch.kept.iter().map(|kept| &kept.of).collect::<BTreeSet<_>>();
-            // What both hold is the prepared object's, and the same in both.
-            let new: Vec<&Owner> = of_batch.into_iter().filter(|of| !kept.contains_key(*of)).collect();
-            for exhibit in batch.kept.iter().filter(|kept| new.contains(&&kept.of)) {
-                kept.entry(&exhibit.of).or_default().push(exhibit);
-            }
-        }
-        let mut all = Batch { prepared: prepared.take(1).cloned().collect(), ..Batch::default() };
-        let mut keep =
-            |of: Owner| all.kept.extend(kept.get(&of).into_iter().flatten().map(|kept| (*kept).clone()));
-        keep(Owner::from(&unit.key));
-        for key in self.trials(unit) {
-            all.rows.extend(rows.get(&key).map(|row| (*row).clone()));
-            keep(Owner::Trial(key));
-        }
-        all
+        let prepared = prepared.take(1).cloned().collect();
+        let rows =
+            self.trials(unit).iter().filter_map(|key| rows.get(key).map(|row| (*row).clone())).collect();
+        Batch { prepared, rows, kept: batches[1].kept.clone() }
     }
 
     /// Runs every unit, or those among `only`, that `done` does not hold yet, in the current thread pool; of a unit of which
@@ -269,6 +256,8 @@ impl<'a> BuiltStudy<'a> {
     ///
     /// # Errors
     /// [`StudyError::Interrupted`] if `stop` was set; an error of the journal.
+    ///
+    /// The exhibits are in the journal, or where the stored trials are.
     pub fn run(
         &self,
         only: Option<&BTreeSet<usize>>,
@@ -285,18 +274,21 @@ impl<'a> BuiltStudy<'a> {
         let todo: Vec<usize> =
             (0..units.len()).filter(|index| is_own(index) && !done.contains_key(index)).collect();
         progress.begin(&format!("{}: trials", self.study.name), todo.len());
-        let work = |index: &usize| -> Result<Option<(usize, Batch)>, StudyError> {
+        let work = |alike: &Vec<usize>| -> Result<Vec<(usize, Batch)>, StudyError> {
             if stop.load(Ordering::Relaxed) {
-                return Ok(None);
+                return Ok(Vec::new());
             }
-            let batch = match parts.get(index) {
-                Some(part) => self.run_rest(&units[*index], part),
-                None => self.run_unit(&units[*index]),
-            };
-            journal.lock().expect("no thread panics while it writes").append(*index, &batch)?;
-            progress.step();
-            Ok(Some((*index, batch)))
+            let mut found = self.run_alike(&units, alike, parts);
+            for (index, batch) in &mut found {
+                journal.lock().expect("no thread panics while it writes").append(*index, batch)?;
+                progress.step();
+            }
+            Ok(found)
         };
+        // Roadmaps are dear and are searched by one thread; what else is prepared is cheap, or shared out among threads.
+        let is_apart =
+            |index: usize| parts.contains_key(&index) || units[index].family.world() != WorldKind::Roadmap;
+        let todo = alike(&units, &todo, is_apart);
         let fresh: Vec<_> = todo.par_iter().map(work).collect::<Result<_, _>>()?;
         progress.end();
         done.extend(fresh.into_iter().flatten());
@@ -306,4 +298,39 @@ impl<'a> BuiltStudy<'a> {
         }
         Ok(done.into_values().fold(Batch::default(), Batch::with))
     }
+
+    /// The records of the units with these numbers, which share what is prepared.
+    fn run_alike(
+        &self,
+        units: &[Unit<'_>],
+        alike: &[usize],
+        parts: &BTreeMap<usize, Part>,
+    ) -> Vec<(usize, Batch)> {
+        let batches = match (alike, alike.first().and_then(|index| parts.get(index))) {
+            ([index], Some(part)) => vec![self.run_rest(&units[*index], part)],
+            _ => self.task.run_alike(&alike.iter().map(|index| &units[*index]).collect::<Vec<_>>()),
+        };
+        alike.iter().copied().zip(batches).collect()
+    }
+}
+
+/// The units in `todo` by what they are drawn from: those of one family and one seed share what is prepared, readings that
+/// change contenders alone among them; units that are `apart` stand by themselves. In the order of their first units.
+fn alike(units: &[Unit<'_>], todo: &[usize], apart: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+    let mut all: Vec<Vec<usize>> = Vec::new();
+    let mut places = BTreeMap::new();
+    for &index in todo {
+        let unit = &units[index];
+        let of = (std::ptr::from_ref(unit.family).cast::<()>(), unit.group.place, &unit.key.group, unit.seed);
+        if let Some(place) = places.get(&of).filter(|_| !apart(index)) {
+            let of_family: &mut Vec<usize> = &mut all[*place];
+            of_family.push(index);
+            continue;
+        }
+        if !apart(index) {
+            places.insert(of, all.len());
+        }
+        all.push(vec![index]);
+    }
+    all
 }

@@ -6,11 +6,12 @@ use super::manifest::{MadeBy, Manifest, Session};
 use super::name::Names;
 use super::reading::ReadingChoice;
 use super::record::{Batch, Row, Status, Timing};
-use super::reuse::{self, Before, Keeps, Reusable, moved};
+use super::reuse::{self, Before, Gathered, Keeps, Reusable, moved};
 use super::runner::{BuiltStudy, Progress, SESSION};
 use super::shard::Portion;
 use super::store::{
-    Columns, Exhibits, GROUP_VALUES, Journal, Records, Staged, remove_temporaries, stage_records,
+    Columns, Exhibits, GROUP_VALUES, Journal, Records, Staged, open_exhibits, remove_temporaries,
+    stage_records,
 };
 use super::unit::Unit;
 use super::{Inputs, StudyError};
@@ -147,7 +148,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     remove_temporaries(folder, &study.name);
     let (journal, mut done) = Journal::open(&Journal::path(folder, &study.name), &manifest.depends)?;
     let (resumed, units) = (done.len(), only.map_or_else(|| built.units().len(), BTreeSet::len));
-    let Before { stored, why } = Before::read(folder, &manifest);
+    let Before { stored, kept, why } = Before::read(folder, &manifest);
     let is_current =
         |(before, _): &&(Manifest, Records)| !options.fresh && !options.record && manifest.is_as(before);
     if let Some((before, records)) = stored.as_ref().filter(is_current) {
@@ -163,22 +164,22 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     }
     done = found.units.into_iter().chain(done).collect();
     built.check_programs(only, &done, &found.parts)?;
-    let (journal, pool) = (Mutex::new(journal), pool(options.threads));
-    let batch =
-        pool.install(|| built.run(only, done, &found.parts, &journal, options.stop, options.progress))?;
+    let (journal, parts) = (Mutex::new(journal), &found.parts);
+    let run = || built.run(only, done, parts, &journal, options.stop, options.progress);
+    let batch = pool(options.threads).install(run)?;
     let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
         Some(times) => times,
         None if only.is_some() => Vec::new(),
         None => built.time(SESSION, options.stop, options.progress)?,
     };
     let records = Records { batch, times };
-    write(study, folder, &mut manifest, &records, Exhibits::held(&records.batch.kept))?;
-    journal.into_inner().expect("no thread panicked while it wrote").remove()?;
-    let mut report = Report::new(manifest, &counts, &records.batch, built.names(), why);
-    report.moved = stored.as_ref().map_or_else(Default::default, |(before, old)| {
-        moved(&report.manifest, before, &old.batch, &records.batch, built.names())
-    });
-    Ok(report)
+    let mut journal = journal.into_inner().expect("no thread panicked while it wrote");
+    let exhibits = Gathered::new(&built, &mut journal, kept, found.exhibits).all(&records.batch.rows)?;
+    write(study, folder, &mut manifest, &records, exhibits)?;
+    journal.remove()?;
+    let (new, names) = (&records.batch, built.names());
+    let moved = stored.map_or_else(Vec::new, |(was, old)| moved(&manifest, &was, &old.batch, new, names));
+    Ok(Report { moved, ..Report::new(manifest, &counts, new, names, why) })
 }
 
 /// Reads the clock of a stored run once more, in a session of its own beside those that are stored; the session's number.
@@ -196,7 +197,9 @@ pub fn read_clock(study: &Study, options: &Options<'_>) -> Result<u32, StudyErro
     let number = manifest.sessions.len() as u32 + 1;
     records.times.extend(built.time(number, options.stop, options.progress)?);
     manifest.sessions.push(Session { number, ..Session::of(MadeBy::here()) });
-    write(study, folder, &mut manifest, &records, Exhibits::held(&records.batch.kept))?;
+    let stored = open_exhibits(folder, &study.name, &manifest.files)?;
+    let exhibits = stored.all(&records.batch.rows)?;
+    write(study, folder, &mut manifest, &records, exhibits)?;
     Ok(number)
 }
 

@@ -259,6 +259,8 @@ pub struct TrialsSpec {
     pub replicates: u32,
     /// Seeds of a contender below this number; all of them if absent.
     pub repeats: Option<u32>,
+    /// Names of the exhibits that are kept of a trial; all that there are if absent.
+    pub exhibits: Option<Vec<String>>,
 }
 
 /// What `--quick` cuts down to.

@@ -91,16 +91,33 @@ impl Unit<'_> {
 
     /// Whether exhibits of this unit (of `contender`'s seed number `repeat`, if given) are kept.
     pub fn is_kept(&self, contender: Option<&str>, repeat: u32) -> bool {
-        let mut wanted = self.terms.keeps.iter().filter(|trials| trials.problems == self.group.label);
-        self.keeps_all
-            || wanted.any(|trials| {
-                let named = match (contender, &trials.contender) {
-                    (Some(contender), Some(wanted)) => contender == wanted,
-                    _ => true,
-                };
-                let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
-                named && is_early && self.key.draw < trials.replicates
-            })
+        self.keeps_all || self.keeping(contender, repeat).next().is_some()
+    }
+
+    /// Whether the exhibit called `name` of a trial is kept.
+    pub fn keeps(&self, contender: &str, repeat: u32, name: &str) -> bool {
+        let is_named = |trials: &TrialsSpec| {
+            trials.exhibits.as_ref().is_none_or(|names| names.iter().any(|known| known == name))
+        };
+        self.keeps_all || self.keeping(Some(contender), repeat).any(is_named)
+    }
+
+    /// What has exhibits kept of this unit (of `contender`'s seed number `repeat`, if given).
+    fn keeping<'s>(
+        &'s self,
+        contender: Option<&'s str>,
+        repeat: u32,
+    ) -> impl Iterator<Item = &'s TrialsSpec> + 's {
+        let wanted = self.terms.keeps.iter().filter(|trials| trials.problems == self.group.label);
+        let keeps = move |trials: &&TrialsSpec| {
+            let named = match (contender, &trials.contender) {
+                (Some(contender), Some(wanted)) => contender == wanted,
+                _ => true,
+            };
+            let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
+            named && is_early && self.key.draw < trials.replicates
+        };
+        wanted.copied().filter(keeps)
     }
 }
 

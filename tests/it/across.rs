@@ -1,9 +1,13 @@
 //! Classes across readings, on a small paper through the whole program: run, explore, confirm, judge.
 
 use crate::paper::Bench;
+use replan::analysis::across::stored::Exploration;
 use replan::analysis::class::Verdict;
 use replan::analysis::verdict::{Judged, Verdicts};
 use std::fs;
+
+/// Where its runs are.
+pub const RUNS: &str = "target/replan/toy/data/runs/toy";
 
 const PAPER: &str = r#"
 [source]
@@ -114,10 +118,17 @@ settings = { weight = 3, ties = "fifo" }
 "#;
 
 /// The toy, with every `from` of its files replaced.
-struct Toy(Bench);
+pub struct Toy(pub Bench);
 
 impl Toy {
-    fn new(edits: &[(&str, &str)]) -> Self {
+    pub fn new(edits: &[(&str, &str)]) -> Self {
+        let toy = Self::unexplored(edits);
+        toy.0.done(&["explore", "./toy"]);
+        toy
+    }
+
+    /// The toy with its default run alone.
+    pub fn unexplored(edits: &[(&str, &str)]) -> Self {
         let bench = Bench::new();
         fs::create_dir(bench.at("toy")).unwrap();
         let mut unused: Vec<&str> = edits.iter().map(|(from, _)| *from).collect();
@@ -136,31 +147,35 @@ impl Toy {
         }
         assert!(unused.is_empty(), "nothing to replace: {unused:?}");
         bench.done(&["run", "./toy"]);
-        bench.done(&["explore", "./toy"]);
         Self(bench)
     }
 
-    fn verdicts(&self) -> Verdicts {
-        Verdicts::read(&self.0.at("target/replan/toy/data/runs/toy")).unwrap()
+    /// What is stored of its explorations: `explored.toml.gz` or `second_seed.toml.gz`.
+    pub fn stored(&self, name: &str) -> Exploration {
+        Exploration::read(&self.0.at(RUNS).join(name)).unwrap().unwrap()
     }
 
-    fn claim(&self, id: &str) -> Judged {
+    fn verdicts(&self) -> Verdicts {
+        Verdicts::read(&self.0.at(RUNS)).unwrap()
+    }
+
+    pub fn claim(&self, id: &str) -> Judged {
         self.verdicts().claim(id).unwrap().clone()
     }
 
     /// The class of a claim and what stands beside it.
-    fn said(&self, id: &str) -> (String, String) {
+    pub fn said(&self, id: &str) -> (String, String) {
         let judged = self.claim(id);
         (judged.verdict.name().to_owned(), judged.across_readings().unwrap_or_default())
     }
 }
 
-fn pair(class: &str, said: &str) -> (String, String) {
+pub fn pair(class: &str, said: &str) -> (String, String) {
     (class.to_owned(), said.to_owned())
 }
 
 /// A source for the option without a weight.
-const CITED: (&str, &str) = ("[reading.option.none]", "[reading.option.none]\npractice = \"textbooks\"");
+pub const CITED: (&str, &str) = ("[reading.option.none]", "[reading.option.none]\npractice = \"textbooks\"");
 
 #[test]
 fn a_silly_reading_does_not_veto_and_is_printed() {
@@ -263,7 +278,7 @@ fn what_changed_after_an_exploration_is_stale_and_judged_under_the_default_alone
 #[test]
 fn exploring_once_more_runs_nothing_and_writes_the_same_bytes() {
     let toy = Toy::new(&[CITED]);
-    let path = toy.0.at("target/replan/toy/data/runs/toy/explored.toml");
+    let path = toy.0.at(RUNS).join("explored.toml.gz");
     let before = fs::read(&path).unwrap();
     let said = toy.0.run(&["explore", "./toy"]);
     assert!(!said.err.contains("trials:"), "{}", said.err);

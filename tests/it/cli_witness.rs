@@ -2,6 +2,7 @@
 
 use crate::paper::Bench;
 use base::grid::parse_text_map;
+use std::collections::BTreeSet;
 use std::fs;
 
 #[test]
@@ -21,11 +22,58 @@ fn a_map_is_found_on_which_the_claim_holds_and_the_same_at_any_number_of_threads
         bench.tree("one").into_values().collect::<Vec<_>>(),
         bench.tree("two").into_values().collect::<Vec<_>>()
     );
-    // The map that was written is one of the study's size.
-    let (_, text) = bench.tree("one").into_iter().next().unwrap();
+    // The map that was written is one of the study's size, and the study run on it gives what was said.
+    let (path, text) = bench.tree("one").into_iter().next().unwrap();
     let map = parse_text_map(&String::from_utf8(text).unwrap()).unwrap();
     let room = parse_text_map(&fs::read_to_string(bench.at("mini/room.map.txt")).unwrap()).unwrap();
     assert_eq!((map.width(), map.height()), (room.width(), room.height()));
+    fs::copy(bench.at("one").join(path), bench.at("mini/room.map.txt")).unwrap();
+    let judged = bench.done(&["repro", "./mini"]);
+    assert_eq!(class_of("cost", &judged), "attainable", "{judged}");
+}
+
+/// The class that the table of classes gives to a claim.
+fn class_of<'t>(claim: &str, table: &'t str) -> &'t str {
+    let line = table.lines().find(|line| line.split_whitespace().next() == Some(claim));
+    line.and_then(|line| line.split_whitespace().last()).unwrap_or_default()
+}
+
+const CORNERS: &str = r#"[[reading]]
+id = "corners"
+why = "not said"
+default = "allow"
+[reading.option.allow]
+practice = "one program"
+problem = { corner_rule = "allow" }
+[reading.option.forbid_any]
+practice = "another program"
+problem = { corner_rule = "forbid_any" }
+
+[[figure]]
+"#;
+
+#[test]
+fn under_any_reading_each_search_draws_one_and_the_study_agrees_under_it() {
+    let bench = Bench::new();
+    bench.edit("mini/room.toml", "[[figure]]\n", CORNERS);
+    let (mut readings, mut attained) = (BTreeSet::new(), 0);
+    for seed in 1..=8 {
+        let (seed, out) = (seed.to_string(), format!("any{seed}"));
+        let ask =
+            ["witness", "./mini", "--claims", "cost", "--readings", "any", "--seed", &seed, "--out", &out];
+        let said = bench.done(&ask);
+        let reading = said.lines().find_map(|line| line.strip_prefix("reading: ")).unwrap();
+        let reading = reading.split(';').next().unwrap().to_owned();
+        let (path, _) = bench.tree(&out).into_iter().next().unwrap();
+        fs::copy(bench.at(&out).join(path), bench.at("mini/room.map.txt")).unwrap();
+        let under = reading.replace("default", "corners=allow");
+        let judged = bench.done(&["repro", "./mini", "--readings", &under, "--out", &format!("{out}/run")]);
+        attained += u32::from(class_of("cost", &judged) == "attainable");
+        readings.insert(reading);
+    }
+    assert_eq!(attained, 8, "of 8 maps");
+    let both = ["corners=forbid_any".to_owned(), "default".to_owned()];
+    assert_eq!(readings, BTreeSet::from(both), "a one-sided sample");
 }
 
 #[test]
@@ -74,4 +122,26 @@ fn a_clock_that_is_read_again_adds_a_session_and_moves_no_trial() {
     assert!(manifests.iter().any(|(path, text)| path.ends_with("room.manifest.toml") && numbers(text) == 1));
     assert!(bench.done(&["run", "./mini", "--clock"]).contains("session 3"));
     assert!(bench.done(&["run", "./mini"]).contains("reused"), "a session made the trials stale");
+}
+
+#[test]
+fn what_failed_on_draws_that_were_not_timed_is_no_failure_among_the_timed() {
+    let bench = Bench::new();
+    bench.edit("mini/draws.toml", "problems = 2", "problems = 12");
+    bench.edit("mini/paper.toml", "metric = \"nodes\"", "metric = \"plan_time_us\"");
+    let judged = bench.done(&["repro", "./mini"]);
+    let line = judged.lines().find(|line| line.starts_with("nodes ")).unwrap();
+    let solved = line.split_whitespace().find(|word| word.contains('/')).unwrap();
+    let failed = judged_failures(&bench);
+    assert!(failed > 0, "no draw fails, so that none could be counted wrongly");
+    assert!(solved.ends_with("/12"), "12 of 24 draws are timed, and {solved} are counted\n{judged}");
+}
+
+/// How many draws the same paper counts as failed when it asks for what every trial has.
+fn judged_failures(bench: &Bench) -> u32 {
+    bench.edit("mini/paper.toml", "metric = \"plan_time_us\"", "metric = \"nodes\"");
+    let judged = bench.done(&["judge", "./mini"]);
+    let line = judged.lines().find(|line| line.starts_with("nodes ")).unwrap();
+    let (solved, all) = line.split_whitespace().find_map(|word| word.split_once('/')).unwrap();
+    all.parse::<u32>().unwrap() - solved.parse::<u32>().unwrap()
 }

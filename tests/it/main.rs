@@ -20,6 +20,7 @@ mod committed;
 mod conformance;
 mod crosscheck;
 mod documented;
+mod exploring;
 mod external;
 mod floors;
 mod guards;

@@ -1,6 +1,8 @@
 //! The page that `replan report` writes: what it says of runs that cannot be shown, and how it behaves in a browser.
 
 mod driver;
+mod look;
+mod readings;
 
 use crate::paper::Bench;
 use driver::Browser;
@@ -9,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const PAPERS: [&str; 5] = ["fu2018", "gallery", "planar", "tang2023", "zhang"];
+const PAPERS: [&str; 6] = ["baselines", "fu2018", "gallery", "planar", "tang2023", "zhang"];
 /// A page may take so many bytes.
 const PAGE_BYTES: usize = 4_000_000;
 
@@ -96,7 +98,7 @@ fn moves(browser: &Browser, page: &Path, trial: &str, steps: &[u32], name: &str)
 fn replays_change_from_step_to_step_in_wide_and_narrow_windows() {
     let bench = Bench::empty();
     let replays = [
-        ("zhang", "witness/w1/a-star", [2, 40, 69]),
+        ("zhang", "witness/w1/a-star", [1, 8, 16]),
         ("planar", "methods/case-1/a-star-8", [0, 10, 20]),
         ("gallery", "puma560/cell/0/high/shortest", [0, 30, 60]),
     ];
@@ -106,6 +108,45 @@ fn replays_change_from_step_to_step_in_wide_and_narrow_windows() {
             moves(&browser, &page(&bench, paper), trial, &steps, &format!("{paper}-replay-{width}"));
         }
     }
+}
+
+/// The study of a room with a second contender, which searches from both sides.
+fn two_sided(bench: &Bench) {
+    let both = "contenders = [\"A*\", \"Two-sided\"]";
+    bench.edit("mini/room.toml", "contenders = [\"A*\"]", both);
+    bench.edit(
+        "mini/room.toml",
+        "[[figure]]",
+        "[[contender]]\nlabel = \"Two-sided\"\nplanner = \"bidirectional\"\n\
+         settings = { weight = \"one\", meeting = \"both_closed\", side = \"alternate\", ties = \"fifo\" }\n[[figure]]",
+    );
+}
+
+#[test]
+fn a_search_closes_a_cell_a_step_and_its_sides_are_told_apart() {
+    let bench = Bench::new();
+    two_sided(&bench);
+    bench.done(&["repro", "mini", "--quick", "--out", "quick"]);
+    bench.done(&["report", "mini", "--out", "quick", "--to", "pages"]);
+    let Some(browser) = Browser::open([1280, 800]) else { return };
+    let file = bench.at("pages/mini.html");
+    let mut seen = Vec::new();
+    for step in 0..5_usize {
+        browser.go(&file, &format!("replay=room/room/two-sided&step={step}"));
+        let said = browser.run("return document.querySelector('.controls output').textContent");
+        let said = said.as_str().unwrap().to_owned();
+        let closed = |side: &str| -> usize {
+            let of = said.split(side).nth(1).unwrap().split(" closed").next().unwrap();
+            of.rsplit(' ').next().unwrap().parse().unwrap()
+        };
+        let [one, start, goal] = ["A* ", "from the start ", "from the goal "].map(closed);
+        assert_eq!((one, start, goal), (step, step.div_ceil(2), step / 2), "{said}");
+        let pixels = browser.run(PIXELS);
+        assert!(!seen.contains(&pixels), "step {step} looks as one before");
+        seen.push(pixels);
+    }
+    browser.picture("mini-sides-1280");
+    assert_eq!(browser.console(), json!([]));
 }
 
 #[test]
@@ -147,7 +188,12 @@ fn missing_stale_and_damaged_runs_are_said_in_the_first_line() {
     assert!(first().contains("Nothing is shown: ") && first().contains("trials.parquet"), "{}", first());
 
     fs::write(&trials, &bytes).unwrap();
-    bench.edit("mini/paper.toml", "[[claim]]", "[[claim]]\n# changed\n");
-    bench.run(&["report", "mini", "--out", "run", "--to", "pages"]);
-    assert!(!first().contains("Nothing is shown"), "{}", first());
+    bench.done(&["report", "mini", "--out", "run", "--to", "pages"]);
+    assert!(first().starts_with("<main>"), "{}", first());
+    bench.edit("mini/paper.toml", "printed = \"7.83\"", "printed = \"7.84\"");
+    bench.done(&["report", "mini", "--out", "run", "--to", "pages"]);
+    assert!(first().starts_with("<p class=\"state\">Stale: "), "{}", first());
+    bench.edit("mini/draws.toml", "replicates = 24", "replicates = 25");
+    assert_ne!(bench.run(&["report", "mini", "--out", "run", "--to", "pages"]).code, Some(0));
+    assert!(first().contains("Nothing is shown: ") && first().contains("draws"), "{}", first());
 }

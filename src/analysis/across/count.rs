@@ -2,6 +2,7 @@
 //! count once.
 
 use super::super::class::{Polarity, Verdict};
+use super::super::verdict::{Fit, SettingFit};
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
 use crate::study::Reading;
@@ -108,6 +109,53 @@ impl Axes {
         counted
     }
 
+    /// The readings of `first` that vote and are compatible with every calibration claim; all that vote if none is.
+    pub fn fitting(
+        &self,
+        paper: &Paper,
+        first: &Exploration,
+        default: &BTreeMap<String, Verdict>,
+    ) -> Vec<usize> {
+        let voting: Vec<usize> =
+            (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place])).collect();
+        let all = self.calibration.iter().map(String::as_str);
+        let calibration: Vec<&str> = all.filter(|id| first.is_current(paper, id)).collect();
+        let compatible = self.compatible(first, &voting, &calibration, default);
+        if compatible.is_empty() { voting } else { compatible }
+    }
+
+    /// How each setting of the readings that are not fitted agrees with the calibration claims under each option of the one
+    /// that is; none if no reading is fitted.
+    pub fn fits(
+        &self,
+        paper: &Paper,
+        first: &Exploration,
+        default: &BTreeMap<String, Verdict>,
+    ) -> Vec<SettingFit> {
+        let Some(fitted) = self.readings.iter().find(|axis| axis.fitted) else { return Vec::new() };
+        let voting = (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place]));
+        let best: BTreeSet<usize> = self.fitting(paper, first, default).into_iter().collect();
+        let calibration: Vec<&str> = self.calibration.iter().map(String::as_str).collect();
+        let mut all: Vec<SettingFit> = Vec::new();
+        for place in voting {
+            let reading = &first.readings[place];
+            let others = reading.iter().filter(|(id, _)| **id != fitted.id);
+            let said: Vec<String> = others.map(|(id, option)| format!("{id} = {option}")).collect();
+            let setting = if said.is_empty() { "the defaults".to_owned() } else { said.join(", ") };
+            let fit = match held(first, place, &calibration, default) {
+                None => Fit::Refused,
+                Some(_) if best.contains(&place) => Fit::Best,
+                Some(_) => Fit::Less,
+            };
+            let at = all.iter().position(|row| row.setting == setting).unwrap_or_else(|| {
+                all.push(SettingFit { setting, ..SettingFit::default() });
+                all.len() - 1
+            });
+            all[at].fits.insert(Self::option(fitted, reading).to_owned(), fit);
+        }
+        all
+    }
+
     /// The claims whose being contradicted makes a reading incompatible: a claim never filters itself, nor its parts nor
     /// the sentence that it is a part of; one that is stale filters nothing.
     fn calibrating<'c>(&'c self, paper: &Paper, first: &Exploration, id: &str) -> Vec<&'c str> {
@@ -128,25 +176,10 @@ impl Axes {
         calibration: &[&str],
         default: &BTreeMap<String, Verdict>,
     ) -> Vec<usize> {
-        let holds = |place: usize| -> Option<usize> {
-            let mut holds = 0;
-            for id in calibration {
-                let Some(result) = first.result(id, place) else { continue };
-                // What its studies were not explored for says nothing of other readings.
-                if result.sight == Sight::Unexplored {
-                    continue;
-                }
-                let full = default.get(*id).filter(|_| place == 0);
-                let polarity = full.unwrap_or(&result.class).polarity();
-                if polarity == Polarity::Against || (result.sight == Sight::Powerless && full.is_none()) {
-                    return None;
-                }
-                holds += usize::from(polarity == Polarity::For);
-            }
-            Some(holds)
-        };
-        let fits: BTreeMap<usize, usize> =
-            voting.iter().filter_map(|place| Some((*place, holds(*place)?))).collect();
+        let fits: BTreeMap<usize, usize> = voting
+            .iter()
+            .filter_map(|place| Some((*place, held(first, *place, calibration, default)?)))
+            .collect();
         let mut best: BTreeMap<Vec<&str>, usize> = BTreeMap::new();
         for (place, holds) in &fits {
             let most = best.entry(self.unfitted(first, *place)).or_default();
@@ -161,4 +194,28 @@ impl Axes {
         let axes = self.readings.iter().filter(|axis| !axis.fitted);
         axes.map(|axis| Self::option(axis, &first.readings[place])).collect()
     }
+}
+
+/// How many calibration claims hold under the reading at `place`; none if one is contradicted or has no power there.
+fn held(
+    first: &Exploration,
+    place: usize,
+    calibration: &[&str],
+    default: &BTreeMap<String, Verdict>,
+) -> Option<usize> {
+    let mut holds = 0;
+    for id in calibration {
+        let Some(result) = first.result(id, place) else { continue };
+        // What its studies were not explored for says nothing of other readings.
+        if result.sight == Sight::Unexplored {
+            continue;
+        }
+        let full = default.get(*id).filter(|_| place == 0);
+        let polarity = full.unwrap_or(&result.class).polarity();
+        if polarity == Polarity::Against || (result.sight == Sight::Powerless && full.is_none()) {
+            return None;
+        }
+        holds += usize::from(polarity == Polarity::For);
+    }
+    Some(holds)
 }

@@ -26,10 +26,11 @@ pub fn probes(axes: &Axes, first: &Exploration, id: &str, default: Verdict) -> V
     moving.map(|(axis, option, effect)| format!("{axis} = {option}: {}", effect.1.name())).collect()
 }
 
-type Found = (String, String, (Effect, Verdict));
+/// An axis, an option of it, and what that does, with the class under it.
+pub(super) type Found = (String, String, (Effect, Verdict));
 
 /// Every option, voting or not, that departs alone from the defaults, with what it does.
-fn each(axes: &Axes, first: &Exploration, id: &str, default: Verdict, voting: bool) -> Vec<Found> {
+pub(super) fn each(axes: &Axes, first: &Exploration, id: &str, default: Verdict, voting: bool) -> Vec<Found> {
     let Some(base) = first.result(id, 0) else { return Vec::new() };
     let mut all = Vec::new();
     for axis in &axes.readings {

@@ -5,6 +5,7 @@
 //! and their classes are combined in one place ([`combine`](mod@combine)), with the words that stand beside the class
 //! ([`hangs`]) and what each reading moves ([`effects`]).
 
+pub mod by_reading;
 pub mod combine;
 pub mod count;
 pub mod effects;
@@ -15,9 +16,11 @@ pub mod stored;
 use super::class::{Polarity, Verdict};
 use super::together::greatest;
 use super::verdict::{Across, Explored, Judged, Verdicts};
+use crate::study::StudyError;
 use crate::study::paper::Paper;
 use count::{Axes, Counted, Group};
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 use stored::Exploration;
 
 /// What is stored of a paper besides its default run.
@@ -29,16 +32,29 @@ pub struct Stored {
     pub second: Option<Exploration>,
 }
 
+impl Stored {
+    /// What is stored beside the runs in `folder`.
+    ///
+    /// # Errors
+    /// [`StudyError::Touched`] if it cannot be understood.
+    pub fn read(folder: &Path) -> Result<Self, StudyError> {
+        let first = Exploration::read(&Exploration::first(folder))?;
+        Ok(Self { first, second: Exploration::read(&Exploration::second(folder))? })
+    }
+}
+
 /// Gives every claim of `verdicts`, which were judged under the default reading, its class across readings.
 pub fn apply(paper: &Paper, verdicts: &mut Verdicts, stored: &Stored) {
-    let classes: BTreeMap<String, Verdict> =
-        verdicts.claims.iter().map(|judged| (judged.claim.clone(), judged.verdict)).collect();
+    let classes = default_classes(verdicts);
     let axes = Axes::of(paper);
     let mut note = Explored::default();
     if let Some(first) = &stored.first {
         note.readings = first.readings.len();
         note.trials = first.trials;
         note.stale = first.stale(paper);
+        if note.stale.is_empty() {
+            note.fits = axes.fits(paper, first, &classes);
+        }
     }
     if let Some(second) = &stored.second {
         note.second_seed = true;
@@ -77,11 +93,7 @@ fn across(
     if judged.theorem.is_some() || counted.looked < 2 {
         return None;
     }
-    let votes = combine::confirmed(&counted.groups, |group| {
-        let second = second?;
-        let reading = second.place(&first.readings[group.reading])?;
-        second.result(&judged.claim, reading).map(|result| result.class)
-    });
+    let votes = counted_as(first, second, &judged.claim, &counted.groups);
     let class = combine::combined(&votes, counted.is_existential);
     let count = |wanted| votes.iter().filter(|vote| vote.polarity() == wanted).count();
     let unconfirmed = votes.iter().zip(&counted.groups).filter(|(vote, group)| **vote != group.class).count();
@@ -103,6 +115,21 @@ fn across(
     })
 }
 
+/// What each result counts as for the claim called `id`: a class that speaks against most of them is open unless the second
+/// seed says so too.
+fn counted_as(first: &Exploration, second: Option<&Exploration>, id: &str, groups: &[Group]) -> Vec<Verdict> {
+    combine::confirmed(groups, |group| {
+        let second = second?;
+        let reading = second.place(&first.readings[group.reading])?;
+        second.result(id, reading).map(|result| result.class)
+    })
+}
+
+/// The class of every claim under the default reading, by id.
+fn default_classes(verdicts: &Verdicts) -> BTreeMap<String, Verdict> {
+    verdicts.claims.iter().map(|judged| (judged.claim.clone(), judged.alone())).collect()
+}
+
 /// The readings, by their places in `first`, whose classes a second seed must confirm: those that speak against what most
 /// readings say of some claim.
 pub fn to_confirm(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
@@ -119,16 +146,19 @@ pub fn near_a_flip(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> B
     })
 }
 
+/// The readings, by their places in `first`, that vote and are compatible with what the studies were fitted to; all that vote
+/// if none is, and the defaults.
+pub fn compatible(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
+    Axes::of(paper).fitting(paper, first, &default_classes(verdicts)).into_iter().chain([0]).collect()
+}
+
 fn turned(
     paper: &Paper,
     verdicts: &Verdicts,
     first: &Exploration,
     which: impl Fn(&[Group]) -> Vec<&Group>,
 ) -> BTreeSet<usize> {
-    let default = |judged: &Judged| judged.across.as_ref().map_or(judged.verdict, |across| across.default);
-    let classes: BTreeMap<String, Verdict> =
-        verdicts.claims.iter().map(|judged| (judged.claim.clone(), default(judged))).collect();
-    let axes = Axes::of(paper);
+    let (axes, classes) = (Axes::of(paper), default_classes(verdicts));
     let whole = verdicts.claims.iter().filter(|judged| judged.theorem.is_none());
     let of_claim = |judged: &Judged| {
         let counted = axes.counted(paper, first, &judged.claim, &classes);

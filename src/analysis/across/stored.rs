@@ -9,8 +9,13 @@ use crate::study::paper::Paper;
 use crate::study::store::write_whole;
 use crate::study::{ReadingChoice, StudyError};
 use base::settings::Document;
+use flate2::Compression;
+use flate2::read::GzDecoder;
+use flate2::write::GzEncoder;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 /// Readings of a paper under which its claims were judged.
@@ -128,12 +133,12 @@ impl Exploration {
 
     /// Where the first exploration of the paper whose runs are in `folder` lies.
     pub fn first(folder: &Path) -> PathBuf {
-        folder.join("explored.toml")
+        folder.join("explored.toml.gz")
     }
 
     /// Where what was found on the second seed lies.
     pub fn second(folder: &Path) -> PathBuf {
-        folder.join("second_seed.toml")
+        folder.join("second_seed.toml.gz")
     }
 
     /// The exploration in `path`, if there is one.
@@ -144,9 +149,14 @@ impl Exploration {
         if !path.exists() {
             return Ok(None);
         }
-        let read = Document::open(path).and_then(|document| document.read_stored());
-        let found: Self =
-            read.map_err(|error| StudyError::touched(error, "explore or confirm the paper again"))?;
+        let again = "explore or confirm the paper again";
+        let (file, mut text) =
+            (File::open(path).map_err(StudyError::io(path, "opening the file"))?, String::new());
+        GzDecoder::new(file).read_to_string(&mut text).map_err(|error| {
+            StudyError::stored(path, format!("is no text packed by gzip ({error}); {again}"))
+        })?;
+        let read = Document::new(path, text).read_stored();
+        let found: Self = read.map_err(|error| StudyError::touched(error, again))?;
         let beyond =
             |result: &ExploredResult| result.readings.iter().any(|place| *place >= found.readings.len());
         if found.claims.values().flat_map(|claim| &claim.results).any(beyond) {
@@ -162,7 +172,10 @@ impl Exploration {
     /// [`StudyError::Io`].
     pub fn write(&self, path: &Path) -> Result<(), StudyError> {
         let text = toml::to_string(self).expect("an exploration is strings, numbers and tables of them");
-        write_whole(path, text.as_bytes())
+        // A claim has a row for each result: a megabyte as text, a tenth of that packed.
+        let mut packed = GzEncoder::new(Vec::new(), Compression::best());
+        let packed = packed.write_all(text.as_bytes()).and_then(|()| packed.finish());
+        write_whole(path, &packed.map_err(StudyError::io(path, "packing the text"))?)
     }
 
     /// The place of the reading with these options, if it was explored.

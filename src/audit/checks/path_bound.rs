@@ -5,7 +5,7 @@ use super::{Entry, FromRelation, Proof, Test};
 use crate::bounds::{Moves, against, apart};
 use crate::exact::{Exact, Print, spelled, whole};
 use crate::input::Input;
-use crate::meaning::Kind;
+use crate::meaning::{Kind, Meaning};
 use crate::relation::Relation;
 use crate::statistic::Statistic;
 use crate::table::{Column, Fault, Quoted};
@@ -35,15 +35,18 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
         Kind::Of(statistic) => !matches!(statistic, Statistic::Sd | Statistic::Se | Statistic::Total),
         _ => false,
     };
-    let is_meant =
-        |column: &Column| is_length(&column.meaning.kind) && column.meaning.ends.iter().all(Option::is_some);
+    // Where a diagonal move does not count √2, a length may be below the straight line; the check `lattice` looks at it.
+    let is_length_of_path =
+        |meaning: &Meaning| meaning.lattice.is_none_or(|lattice| lattice.diagonal.is_none());
+    let is_meant = |column: &Column| {
+        is_length(&column.meaning.kind)
+            && is_length_of_path(&column.meaning)
+            && column.meaning.ends.iter().all(Option::is_some)
+    };
     super::arguments::each_number(input, is_meant, &mut |_, column, _, number| {
         if let [Some(from), Some(to)] = column.meaning.ends {
-            // Only unit moves of cost 1 and √2 on cells have the octile distance.
-            let is_octile = column
-                .meaning
-                .lattice
-                .is_some_and(|lattice| lattice.step == whole(1) && lattice.diagonal.is_none());
+            // Only moves of cost 1 and √2 on cells have the octile distance.
+            let is_octile = column.meaning.lattice.is_some_and(|lattice| lattice.step == whole(1));
             let moves = if is_octile { Moves::Eight } else { Moves::Any };
             give(Box::new(PathBound { numbers: [number], apart: apart(from, to), moves }));
         }

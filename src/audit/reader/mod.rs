@@ -195,19 +195,20 @@ fn check_groups(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
     }
 }
 
-/// Every column that an annotation names must be there.
+/// Every column that an annotation names must be there, and be another one.
 fn check_references(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
     for (index, column) in columns.iter().enumerate() {
         for name in column.meaning.named_columns() {
-            if !names.contains(&name) {
-                let message = format!(
-                    "column `{}` names the column `{name}`; there are: {}",
-                    column.name,
-                    names.join(", ")
-                );
-                faults.push(Fault::new(Place { line, cell: index + 1 }, message));
-            }
+            let why = if !names.contains(&name) {
+                format!("names the column `{name}`; there are: {}", names.join(", "))
+            } else if name == column.name {
+                "names itself; another column is accepted".to_owned()
+            } else {
+                continue;
+            };
+            let message = format!("column `{}` {why}", column.name);
+            faults.push(Fault::new(Place { line, cell: index + 1 }, message));
         }
     }
 }

@@ -23,11 +23,6 @@ pub(super) fn input(seed: u64) -> (String, Format) {
     }
 }
 
-/// A relation on a drawn polyline, whose search takes long.
-pub(super) fn polyline(seed: u64) -> String {
-    relations::any_angle_turns(&mut SmallRng::seed_from_u64(seed))
-}
-
 /// How a column prints its numbers.
 #[derive(Clone)]
 struct Style {

@@ -42,23 +42,12 @@ fn no_table_that_was_printed_from_simulated_data_is_called_impossible() {
         let halves = [0..50_000, 50_000..100_000].map(|seeds| scope.spawn(|| asked_of_possible(seeds)));
         halves.map(|half| half.join().expect("a table is called impossible; its seed is told above"))
     });
-    for entry in REGISTRY.iter().filter(|entry| entry.name != "any_angle_turns") {
+    for entry in REGISTRY {
         let count: usize = halves.iter().filter_map(|half| half.get(entry.name)).sum();
-        assert!(count > 5000, "{} was asked {count} times only", entry.name);
+        // Turns at any angle take a search each.
+        let least = if entry.name == "any_angle_turns" { 1000 } else { 5000 };
+        assert!(count > least, "{} was asked {count} times only", entry.name);
     }
-}
-
-#[test]
-fn no_polyline_that_was_drawn_is_a_signal() {
-    let options = Options { skips_power: true, keeps_possible: true, ..Options::default() };
-    let mut asked = 0;
-    for seed in 0..60 {
-        let text = super::simulation::polyline(seed);
-        let report = audited(&text, Format::Toml, &options);
-        assert!(false_alarms(&report).is_empty(), "seed {seed}\n{text}\n{report:#?}");
-        asked += report.tally["any_angle_turns"].applied - report.tally["any_angle_turns"].unchecked;
-    }
-    assert!(asked > 50, "{asked}");
 }
 
 const EXAMPLES: &str = include_str!("../../../docs/audit/examples.toml");
@@ -200,13 +189,19 @@ fn no_mutated_input_panics_and_every_fault_has_its_line() {
 }
 
 /// Wrong input, and how what is said of it begins.
-const WRONG: [(&str, Format, &str); 21] = [
+const WRONG: [(&str, Format, &str); 23] = [
     ("a,b [% of 5]\n1,20\n2\n", Format::Csv, "3: 1 cells, where the header has 2"),
     ("a,b [% of 5]\nx,\"1,234\"\n", Format::Csv, "2:2: column `b`: `1,234` may have a thousands separator"),
     ("a;b [% of 5]\nx;12,5\n", Format::Csv, "2:2: column `b`: `12,5` has a decimal comma"),
     ("a,b [% of 0]\nx,1\n", Format::Csv, "1:2: `% of 0` is no item"),
     ("a,b [mean, n=-3]\nx,1\n", Format::Csv, "1:2: `n=-3` is no item"),
     ("a,b [% of runs]\nx,1\n", Format::Csv, "1:2: column `b` names the column `runs`; there are: a, b"),
+    ("a,b [value, sum=b+b]\nx,1\n", Format::Csv, "1:2: column `b` names itself; another column is accepted"),
+    (
+        "a,b [value, ratio=b/a]\nx,1\n",
+        Format::Csv,
+        "1:2: column `b` names itself; another column is accepted",
+    ),
     (
         "a,b [mean, n=m],m\nx,1.5,0\n",
         Format::Csv,

@@ -85,6 +85,12 @@ impl Arm {
         apart(0).min(apart(1))
     }
 
+    /// The angle between the two links of the arm: 0 where the elbow is stretched, half a turn where it is folded.
+    #[inline]
+    pub fn elbow_fold_rad(&self, q: &Joints) -> f64 {
+        self.solver.folds_rad(q)[0]
+    }
+
     /// Every configuration within limits that puts the tool at `target`, as far as the [solver](Self::solver) is complete: of
     /// those that differ by whole turns, each joint takes the one nearest to its reference, the lower one if two are.
     ///

@@ -3,7 +3,7 @@
 use super::lattice::{self, Posed, SightSetting, TiesSetting, sees};
 use super::pool::Pool;
 use super::{Invalid, Plan, Planner, Request, Value};
-use crate::search::{AnyAngle, Heap, Observer, Seen, Sighted, Trace, When};
+use crate::search::{AnyAngle, Closings, Heap, Observer, Seen, Sighted, Trace, When};
 use base::settings::{Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -59,16 +59,17 @@ impl AnyAngleSettings {
     /// The plan of a search that looks at lines of sight at the time `when`; its path lists corners alone.
     fn plan(&self, request: &Request<'_>, when: When) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let (grid, mut trace) = (posed.world.grid(), Trace::default());
+        let (grid, closings) = (posed.world.grid(), Closings::default());
+        let mut watching = (Trace::default(), closings.of(0));
         let Seen { report, sight_checks } = if request.trace {
-            self.search(&posed, request.expansions, when, &mut trace)
+            self.search(&posed, request.expansions, when, &mut watching)
         } else {
             self.search(&posed, request.expansions, when, &mut ())
         };
         let mut exhibits = Vec::new();
         if request.trace {
-            exhibits.push(lattice::cells(grid, "opened_start_side", &trace.opened));
-            exhibits.push(lattice::cells(grid, "closed_start_side", &trace.closed));
+            exhibits.push(lattice::cells(grid, "opened_start_side", &watching.0.opened));
+            exhibits.push(lattice::closings(grid, closings));
         }
         let plan = lattice::plan(grid, &report.outcome, &[report.counters], exhibits);
         let mut plan = lattice::with_distinct(plan, report.counters.opened);

@@ -4,8 +4,8 @@ use super::lattice::{self, COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Combined, GridGraph, Heap, Observer, Octile, Report, Rules, Search, Stop, Terms, Trace, euclidean_to,
-    falling, weighted,
+    Closings, Combined, GridGraph, Heap, Observer, Octile, Report, Rules, Search, Stop, Terms, Trace,
+    euclidean_to, falling, weighted,
 };
 use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
@@ -108,16 +108,17 @@ impl Astar {
 impl Planner for Astar {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let (grid, mut trace) = (posed.world.grid(), Trace::default());
+        let (grid, closings) = (posed.world.grid(), Closings::default());
+        let mut watching = (Trace::default(), closings.of(0));
         let report = if request.trace {
-            self.run(&posed, request.expansions, &mut trace)
+            self.run(&posed, request.expansions, &mut watching)
         } else {
             self.run(&posed, request.expansions, &mut ())
         };
         let mut exhibits = Vec::new();
         if request.trace {
-            exhibits.push(lattice::cells(grid, "opened_start_side", &trace.opened));
-            exhibits.push(lattice::cells(grid, "closed_start_side", &trace.closed));
+            exhibits.push(lattice::cells(grid, "opened_start_side", &watching.0.opened));
+            exhibits.push(lattice::closings(grid, closings));
         }
         let plan = lattice::plan(grid, &report.outcome, &[report.counters], exhibits);
         Ok(lattice::with_distinct(plan, report.counters.opened))

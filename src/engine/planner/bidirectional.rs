@@ -4,8 +4,8 @@ use super::lattice::{self, COLUMNS_DISTINCT, Posed, TiesSetting, UPDATE};
 use super::pool::Pool;
 use super::{Build, Entry, Invalid, Plan, Planner, Request};
 use crate::search::{
-    Bidirectional, BidirectionalReport, BidirectionalRules, Combined, End, GridGraph, Heap, Meeting,
-    Observer, Octile, SideChoice, euclidean_to, falling, sum,
+    Bidirectional, BidirectionalReport, BidirectionalRules, Closings, Combined, End, GridGraph, Heap,
+    Meeting, Observer, Octile, SideChoice, euclidean_to, falling, sum,
 };
 use crate::space::WorldKind;
 use base::grid::NeighbourOrder;
@@ -144,12 +144,31 @@ impl TwoSided {
         }
     }
 
-    fn run(
+    /// Searches with the settings' weight; `observers` watch both sides.
+    fn run<O: Observer>(
+        &self,
+        memory: &mut Memory,
+        posed: &Posed<'_>,
+        expansions: u64,
+        observers: [O; 2],
+    ) -> BidirectionalReport<Octile> {
+        match self.weight {
+            Weight::One => self.run_with(memory, posed, sum, expansions, observers),
+            Weight::Falling => {
+                let apart = euclidean_to(posed.world.grid(), posed.goal)(posed.start);
+                let combine = falling(apart);
+                self.run_with(memory, posed, &combine, expansions, observers)
+            }
+        }
+    }
+
+    fn run_with<O: Observer>(
         &self,
         memory: &mut Memory,
         posed: &Posed<'_>,
         combine: impl Fn(f64, f64) -> f64 + Copy,
         expansions: u64,
+        mut observers: [O; 2],
     ) -> BidirectionalReport<Octile> {
         let (grid, rules) = (posed.world.grid(), self.rules(expansions));
         let ends = [posed.start, posed.goal];
@@ -158,7 +177,7 @@ impl TwoSided {
             Aim::Root => {
                 let estimates =
                     [1, 0].map(|target| Combined { h: euclidean_to(grid, ends[target]), combine });
-                memory.run(&mut graph, &estimates, &mut [(), ()], ends, rules)
+                memory.run(&mut graph, &estimates, &mut observers, ends, rules)
             }
             Aim::Front => {
                 let fronts = ends.map(Cell::new);
@@ -167,7 +186,9 @@ impl TwoSided {
                     move |cell: u32| euclidean_to(grid, front.get())(cell)
                 };
                 let estimates = [1, 0].map(|target| Combined { h: to_front(target), combine });
-                memory.run(&mut graph, &estimates, &mut [0, 1].map(|side| Front(&fronts[side])), ends, rules)
+                let [start, goal] = observers;
+                let mut both = [(Front(&fronts[0]), start), (Front(&fronts[1]), goal)];
+                memory.run(&mut graph, &estimates, &mut both, ends, rules)
             }
         }
     }
@@ -178,18 +199,17 @@ impl Planner for TwoSided {
         let posed = Posed::new(request)?;
         let grid = posed.world.grid();
         let mut memory = self.pool.any(|| Bidirectional::new(Heap::new(self.ties.into())));
-        let report = match self.weight {
-            Weight::One => self.run(&mut memory, &posed, sum, request.expansions),
-            Weight::Falling => {
-                let apart = euclidean_to(grid, posed.goal)(posed.start);
-                let combine = falling(apart);
-                self.run(&mut memory, &posed, &combine, request.expansions)
-            }
+        let closings = Closings::default();
+        let report = if request.trace {
+            self.run(&mut memory, &posed, request.expansions, [0, 1].map(|side| closings.of(side)))
+        } else {
+            self.run(&mut memory, &posed, request.expansions, [(), ()])
         };
         let mut exhibits = Vec::new();
         if request.trace {
             exhibits.push(lattice::cells(grid, "opened_start_side", memory.opened(0)));
             exhibits.push(lattice::cells(grid, "opened_goal_side", memory.opened(1)));
+            exhibits.push(lattice::closings(grid, closings));
             exhibits.extend(report.meeting.map(|cell| lattice::cells(grid, "meeting", &[cell])));
         }
         let opened = memory.opened_distinct();

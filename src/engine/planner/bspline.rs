@@ -10,7 +10,7 @@ use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::geometry::{Segment, Vec3};
 use crate::shorten::cubic_spline;
 use crate::space::{PolyhedraWorld, WorldKind};
-use base::settings::{Accepted, Settings};
+use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -29,13 +29,19 @@ points_per_span = 4
 "#,
     build: Build::Stage(|settings: &Settings| {
         let read: Spline = settings.read()?;
-        if !(1..=64).contains(&read.points_per_span) {
-            let message = format!("points_per_span is {}; 1 to 64 is accepted", read.points_per_span);
-            return Err(settings.error_at("points_per_span", message));
-        }
+        check_points(settings, read.points_per_span)?;
         Ok(Box::new(read))
     }),
 };
+
+/// Refuses a curve of too many points, or of none, on each of its spans.
+pub(super) fn check_points(settings: &Settings, points_per_span: u32) -> Result<(), SettingsError> {
+    if (1..=64).contains(&points_per_span) {
+        return Ok(());
+    }
+    let message = format!("points_per_span is {points_per_span}; 1 to 64 is accepted");
+    Err(settings.error_at("points_per_span", message))
+}
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -56,6 +62,8 @@ enum Control {
     Nodes,
     /// A point at every step along the path.
     Steps,
+    /// None: the path stays as it is.
+    Off,
 }
 
 /// A curve as control point and place, in order.
@@ -63,7 +71,7 @@ type Curve = Vec<(usize, [f64; 3])>;
 
 impl Stage for Spline {
     fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
-        if plan.ending != Ending::Solved {
+        if plan.ending != Ending::Solved || self.control == Control::Off {
             return plan;
         }
         let world = polyhedra(request.world);
@@ -71,11 +79,16 @@ impl Stage for Spline {
         let control: Vec<[f64; 3]> = match self.control {
             Control::Nodes => nodes.iter().map(|node| (*node).into()).collect(),
             Control::Steps => densified(&nodes, world.step()).iter().map(|node| (*node).into()).collect(),
+            Control::Off => Vec::new(),
         };
         let mut multiplicity = vec![1; control.len()];
         let mut curve = cubic_spline(&control, &multiplicity, self.points_per_span);
         plan.counts.insert("cut_in_cm", Value::Real(depth(world, &curve)));
-        while self.guarded && raise(world, &curve, &mut multiplicity) {
+        while self.guarded
+            && raise(&curve, &mut multiplicity, |a, b| {
+                world.is_clear(&Segment::new((*a).into(), (*b).into()))
+            })
+        {
             curve = cubic_spline(&control, &multiplicity, self.points_per_span);
         }
         let raised = multiplicity.iter().filter(|times| **times > 1).count();
@@ -90,13 +103,17 @@ impl Stage for Spline {
     }
 }
 
-/// Lets the control points of every span that touches an obstacle count once more; whether any could.
-fn raise(world: &PolyhedraWorld, curve: &Curve, multiplicity: &mut [u8]) -> bool {
+/// Lets the control points of every span that is not clear between two points of the curve count once more; whether any could.
+pub(super) fn raise<T>(
+    curve: &[(usize, T)],
+    multiplicity: &mut [u8],
+    is_clear: impl Fn(&T, &T) -> bool,
+) -> bool {
     let mut raised = false;
     let mut last = None;
     for pair in curve.windows(2) {
-        let (span, way) = (pair[1].0, Segment::new(pair[0].1.into(), pair[1].1.into()));
-        if last == Some(span) || world.is_clear(&way) {
+        let span = pair[1].0;
+        if last == Some(span) || is_clear(&pair[0].1, &pair[1].1) {
             continue;
         }
         last = Some(span);

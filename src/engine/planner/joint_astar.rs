@@ -152,7 +152,7 @@ impl Space<'_> {
         (1..=count).rev().all(|k| {
             let share = f64::from(k) / f64::from(count);
             let q = std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share);
-            self.arm.clearance(&q, self.world.bodies(), 2.0 * LEAST_CM, false) >= LEAST_CM
+            self.arm.is_clear(&q, self.world.bodies(), LEAST_CM, false)
         })
     }
 }

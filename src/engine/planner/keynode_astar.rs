@@ -17,9 +17,10 @@ mod walk;
 use super::lattice26_astar::{self, Checked};
 use super::polyhedra::{Posed, plan};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
-use crate::geometry::Vec3;
+use crate::geometry::{Segment, Vec3};
 use crate::search::{Heap, Search, Ties};
-use crate::space::WorldKind;
+use crate::shorten::{Resume, stepwise_straightening};
+use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -36,6 +37,7 @@ pub static ENTRY: Entry = Entry {
 search = "greedy"
 cluster = false
 last_resort = false
+legs = "as_walked"
 "#,
     build: Build::Planner(|settings| {
         let read: Keynode = settings.read()?;
@@ -69,6 +71,22 @@ struct Keynode {
     cluster: bool,
     /// Whether the lattice is searched when no key node is left.
     last_resort: bool,
+    /// What becomes of the stretch between two key nodes once the second one is reached.
+    #[serde(default)]
+    legs: Legs,
+}
+
+/// What becomes of the nodes between two key nodes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Legs {
+    /// They stay; a stage may straighten the whole path.
+    #[default]
+    AsWalked,
+    /// Straightened from key node to key node, each stretch going on from the last node that was joined.
+    LastJoined,
+    /// The same, each stretch going on from the first node that could not be joined, as the text says.
+    FirstRefused,
 }
 
 /// What was counted: `opened` nodes are steps walked and key nodes computed.
@@ -83,7 +101,25 @@ struct Tally {
 struct Walked {
     ending: Ending,
     points: Vec<Vec3>,
+    /// Which of the points are key nodes, besides the first and the last, in order.
+    keys: Vec<usize>,
     tally: Tally,
+}
+
+impl Walked {
+    /// Straightens every stretch between two key nodes by itself.
+    fn straighten(&mut self, world: &PolyhedraWorld, resume: Resume) {
+        let last = self.points.len().saturating_sub(1);
+        let stops: Vec<usize> = [0].into_iter().chain(self.keys.iter().copied()).chain([last]).collect();
+        let mut kept: Vec<Vec3> = self.points.first().into_iter().copied().collect();
+        for pair in stops.windows(2).filter(|pair| pair[0] < pair[1]) {
+            let nodes = &self.points[pair[0]..=pair[1]];
+            let can_join = |i: usize, j: usize| world.is_clear(&Segment::new(nodes[i], nodes[j]));
+            let joined = stepwise_straightening(nodes.len(), resume, can_join);
+            kept.extend(joined.into_iter().skip(1).map(|i| nodes[i]));
+        }
+        self.points = kept;
+    }
 }
 
 impl Planner for Keynode {
@@ -104,8 +140,13 @@ impl Planner for Keynode {
                 walked.tally.opened += counters.opened;
                 walked.tally.generated += counters.generated;
                 walked.tally.expansions += counters.expansions;
-                (walked.ending, walked.points) = (found.ending, found.points);
+                (walked.ending, walked.points, walked.keys) = (found.ending, found.points, Vec::new());
             }
+        }
+        match self.legs {
+            Legs::AsWalked => {}
+            Legs::LastJoined => walked.straighten(posed.world, Resume::LastJoined),
+            Legs::FirstRefused => walked.straighten(posed.world, Resume::FirstRefused),
         }
         let counts = Counts::from([
             ("opened", Value::Count(walked.tally.opened)),

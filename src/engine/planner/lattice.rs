@@ -1,7 +1,7 @@
 //! What the planners on a lattice share: their ends, their settings' words, their plans.
 
 use super::{Counts, Ending, Exhibit, Invalid, Plan, Request, Value};
-use crate::search::{Cost, Counters, Outcome, Ties, Update};
+use crate::search::{Closing, Closings, Cost, Counters, Outcome, Ties, Update};
 use crate::space::{LatticeWorld, World};
 use base::grid::{CornerRule, Grid2, Sight};
 use schemars::JsonSchema;
@@ -147,6 +147,20 @@ pub(super) fn with_distinct(mut plan: Plan, opened: u64) -> Plan {
 pub(super) fn cells(grid: &Grid2, name: &str, cells: &[u32]) -> Exhibit {
     let values = cells.iter().flat_map(|cell| grid.xy(*cell).map(f64::from)).collect();
     Exhibit { name: name.to_owned(), width: 2, values }
+}
+
+/// Cells in the order in which they were closed, as an exhibit: x, y, the side that closed it (0 from the start, 1 from the
+/// goal), and how many cells the start's and the goal's side had opened before.
+pub(super) fn closings(grid: &Grid2, closings: Closings) -> Exhibit {
+    let row = |Closing { node, side, opened }| {
+        let [x, y] = grid.xy(node).map(f64::from);
+        [x, y, f64::from(side), f64::from(opened[0]), f64::from(opened[1])]
+    };
+    Exhibit {
+        name: "closings".to_owned(),
+        width: 5,
+        values: closings.all().into_iter().flat_map(row).collect(),
+    }
 }
 
 /// Whether the segment is free by the line of sight and cuts no corner that the world's rule forbids.

@@ -14,6 +14,7 @@ mod delete_inflections;
 mod direct;
 mod entry;
 mod joint_astar;
+mod joint_bspline;
 mod jps;
 mod jps_plus;
 mod jump_points;
@@ -49,6 +50,7 @@ pub static REGISTRY: &[&Entry] = &[
     &delete_inflections::ENTRY,
     &direct::ENTRY,
     &joint_astar::ENTRY,
+    &joint_bspline::ENTRY,
     &jps::ENTRY,
     &jps_plus::ENTRY,
     &keynode_astar::ENTRY,

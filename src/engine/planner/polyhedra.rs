@@ -53,6 +53,12 @@ pub(super) fn exhibit(name: &str, points: &[Vec3]) -> Exhibit {
     Exhibit { name: name.to_owned(), width: 3, values }
 }
 
+/// Whether `point` is where the point may be at all.
+pub(super) fn is_within(world: &PolyhedraWorld, point: &Vec3) -> bool {
+    let domain = world.domain();
+    (0..3).all(|axis| (domain.min[axis]..=domain.max[axis]).contains(&point[axis]))
+}
+
 /// How many steps of `step` cover `length`, the last one shorter.
 pub(super) fn steps(length: f64, step: f64) -> u64 {
     (length / step - 1e-9).ceil().max(0.0) as u64

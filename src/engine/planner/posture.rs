@@ -16,14 +16,14 @@ mod tests;
 
 use super::polyhedra::{densified, exhibit, points, polyhedra};
 use super::{Build, Ending, Entry, Exhibit, Plan, Request, Stage, Value};
-use crate::geometry::Vec3;
+use crate::geometry::{Capsule, Vec3};
 use crate::kinematics::Joints;
 use crate::kinematics::ik::Branch;
 use crate::shorten::path_length;
 use crate::space::polyhedra::{CarriedArm, DOWN};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
-use follow::{Follower, LEAST_CM};
+use follow::Follower;
 use settings::{Branches, Posture};
 
 /// The registry's entry.
@@ -110,7 +110,7 @@ impl Posture {
             .map(|(branch, q)| {
                 (arm.clearance(q, world.bodies(), reach, self.uses_printed_distance()), branch, *q)
             })
-            .filter(|(clearance, ..)| *clearance >= LEAST_CM)
+            .filter(|(clearance, ..)| *clearance >= self.margin_cm)
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
         if self.branches == Branches::Clearest {
@@ -160,6 +160,9 @@ impl Posture {
             plan.exhibits.extend(trails(follower.arm, &follower.trail));
         }
         if let Some(node) = failed_at {
+            if request.trace {
+                plan.exhibits.extend(follower.blocking(&nodes[node]).map(|rod| blocking(&rod)));
+            }
             if self.diagnose {
                 let [near, wide] =
                     [self.bounds_rad, [1.0; 3]].map(|reach| other(&follower, &nodes[node], reach));
@@ -190,7 +193,7 @@ fn other(follower: &Follower<'_>, tip: &Vec3, reach: [f64; 3]) -> bool {
         let target = CarriedArm::target(tip, &(rotation::exp(&w) * follower.rotation));
         let solved = follower.arm.arm().inverse_on(&target, follower.branch, &follower.q);
         solved.is_some_and(|q| {
-            follower.arm.clearance(&q, follower.world.bodies(), 2.0 * LEAST_CM, false) >= LEAST_CM
+            follower.arm.is_clear(&q, follower.world.bodies(), follower.settings.margin_cm, false)
         })
     })
 }
@@ -201,6 +204,13 @@ pub(super) fn trails(arm: &CarriedArm, trail: &[Joints]) -> Vec<Exhibit> {
     let turn = |q: &Joints| rotation::log(&(arm.arm().chain().forward(q).rotation * DOWN.transpose()));
     let turns: Vec<Vec3> = trail.iter().map(turn).collect();
     vec![rods(arm, trail), exhibit("tip_trail", &tips), exhibit("posture_trail", &turns)]
+}
+
+/// The rod that would touch at the next node: both ends, radius.
+fn blocking(rod: &Capsule) -> Exhibit {
+    let ends = rod.segment.a.iter().chain(rod.segment.b.iter());
+    let values = ends.copied().chain([rod.radius]).collect();
+    Exhibit { name: "blocking_rod".to_owned(), width: 7, values }
 }
 
 /// The rods at configurations spread evenly over the trail: number of the posture, both ends, radius.

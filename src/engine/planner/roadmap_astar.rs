@@ -15,7 +15,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "roadmap_astar",
     about: "A* on the first samples of a roadmap; f = depth or way so far + distance to the goal; perhaps a shot at the goal",
-    revision: 3,
+    revision: 4,
     needs: WorldKind::Roadmap,
     columns: &[
         "opened",
@@ -23,6 +23,7 @@ pub static ENTRY: Entry = Entry {
         "expansions",
         "generated",
         "shots",
+        "checked_states",
         "connected",
         "components",
         "start_links",
@@ -109,7 +110,7 @@ enum PathSetting {
 
 impl RoadmapAstar {
     fn extent(&self) -> Extent {
-        Extent { samples: self.samples, radius_mm: self.neighbour_mm.unwrap_or(0.0) }
+        Extent { samples: self.samples, radius_mm: self.neighbour_mm }
     }
 
     /// How far apart neighbours may be on a roadmap that was built up to `radius_mm`.
@@ -119,7 +120,7 @@ impl RoadmapAstar {
 
     fn part<'a>(&self, posed: &Posed<'a>) -> Result<Part<'a>, Invalid> {
         let prefix = posed.map.prefix(self.samples).map_err(Invalid)?;
-        let built = Extent { samples: self.samples, radius_mm: posed.map.radius_mm() };
+        let built = Extent { samples: self.samples, radius_mm: Some(posed.map.radius_mm()) };
         if let Some(lack) = built.lacks(&self.extent()) {
             return Err(Invalid(lack));
         }
@@ -129,16 +130,17 @@ impl RoadmapAstar {
             CostSetting::Nothing => EdgeCost::Nothing,
         };
         let nearest = self.nearest.map(|count| count as usize);
-        Ok(Part::new(posed, prefix, self.neighbour_mm(built.radius_mm), nearest, cost))
+        Ok(Part::new(posed, prefix, self.neighbour_mm(posed.map.radius_mm()), nearest, cost))
     }
 
-    fn counts(&self, part: &Part<'_>, counters: &Counters, shots: u64) -> Counts {
+    fn counts(&self, part: &Part<'_>, counters: &Counters, [shots, checked]: [u64; 2]) -> Counts {
         let components = part.map.components(part.prefix, part.radius_mm);
         let mut counts = Counts::from([
             ("opened", Value::Count(counters.opened)),
             ("closed", Value::Count(counters.closed)),
             ("expansions", Value::Count(counters.expansions)),
             ("generated", Value::Count(counters.generated)),
+            ("checked_states", Value::Count(checked)),
             ("neighbour_mm", Value::Real(part.radius_mm)),
             ("used_samples", Value::Count(u64::from(part.prefix))),
             ("straight_mm", Value::Real(part.map.gap_mm(part.start, part.goal))),
@@ -183,7 +185,7 @@ impl Planner for RoadmapAstar {
         let (map, start, goal) = (posed.map, posed.start, posed.goal);
         let (to_goal_mm, weight) = (distance_to(map, goal), if self.blind { 0.0 } else { 1.0 });
         let estimate = Combined { h: |node| weight * to_goal_mm(node), combine: sum };
-        let (mut shots, mut lists) = (0, Trace::default());
+        let (mut shots, mut checked, mut lists) = (0, 0, Trace::default());
         let mut shoot = |node: u32, _: f64| {
             let is_tried = match self.goal_shot {
                 ShotSetting::Never => false,
@@ -191,15 +193,16 @@ impl Planner for RoadmapAstar {
                 ShotSetting::BeforeExpansion => true,
             };
             shots += u64::from(is_tried);
-            let is_free = is_tried && map.join(node, goal).is_ok();
-            is_free.then_some(Shot { goal, cost: 1.0 })
+            let (found, states) = is_tried.then(|| map.join_counted(node, goal))?;
+            checked += states;
+            found.is_ok().then_some(Shot { goal, cost: 1.0 })
         };
         let rules = Rules { stop: Stop::GoalPopped, max_expansions: request.expansions };
         let update = Update { lower_open: true, reopen_closed: false };
         let terms = Terms { graph: &mut part, estimate: &estimate, observer: &mut lists, update };
         let report =
             Search::new(Heap::new(Ties::Fifo)).run(terms, start, |node| node == goal, rules, &mut shoot);
-        let counts = self.counts(&part, &report.counters, shots);
+        let counts = self.counts(&part, &report.counters, [shots, checked]);
         let mut plan = match report.outcome {
             Outcome::NoPath => unsolved(Ending::NoPath, counts),
             Outcome::BudgetSpent => unsolved(Ending::BudgetSpent, counts),

@@ -12,9 +12,9 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "straighten",
     about: "from the start on, joins each node of a roadmap's path with the furthest one that a local path reaches",
-    revision: 1,
+    revision: 2,
     needs: WorldKind::Roadmap,
-    columns: &["joins"],
+    columns: &["joins", "checked_states"],
     settings: Accepted::of::<Straighten>(),
     example: r#"
 last = "goal"
@@ -53,14 +53,18 @@ impl Stage for Straighten {
             LastSetting::AsPrinted => LastNode::BeforePrinted,
             LastSetting::Goal => LastNode::Goal,
         };
-        let mut joins = 0;
+        let (mut joins, mut checked) = (0, 0);
         let kept = straightening(nodes.len(), last, |i, j| {
+            let (found, states) = map.join_counted(nodes[i], nodes[j]);
             joins += 1;
-            map.join(nodes[i], nodes[j]).is_ok()
+            checked += states;
+            found.is_ok()
         });
         let kept: Vec<u32> = kept.into_iter().map(|index| nodes[index]).collect();
         let mut counts = plan.counts;
         counts.insert("joins", Value::Count(joins));
+        let before = counts.get("checked_states").map_or(0.0, |value| value.as_f64());
+        counts.insert("checked_states", Value::Count(before as u64 + checked));
         let mut exhibits = plan.exhibits;
         if request.trace {
             let values = plan.path.concat();

@@ -40,6 +40,8 @@ enum ResumeSetting {
     LastJoined,
     /// At the node that could not be joined, P(m), as the text says.
     FirstRefused,
+    /// Nowhere: the path stays as it is, because the planner straightened it between its key nodes.
+    Off,
 }
 
 impl Stage for Straighten {
@@ -52,6 +54,7 @@ impl Stage for Straighten {
         let resume = match self.resume {
             ResumeSetting::LastJoined => Resume::LastJoined,
             ResumeSetting::FirstRefused => Resume::FirstRefused,
+            ResumeSetting::Off => return plan,
         };
         let can_join = |i: usize, j: usize| world.is_clear(&Segment::new(nodes[i], nodes[j]));
         let kept = stepwise_straightening(nodes.len(), resume, can_join);

@@ -309,3 +309,30 @@ pub(super) fn steps(name: &str, steps: &[[i32; 2]]) -> Exhibit {
     let values = steps.iter().flat_map(|step| step.map(f64::from)).collect();
     Exhibit { name: name.to_owned(), width: 2, values }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_heuristic_is_its_own_norm_and_steps_below_it_are_refused() {
+        let way = Vec2::new(-3.0, 4.0);
+        for (heuristic, expected) in [
+            (Heuristic::Euclidean, 5.0),
+            (Heuristic::Manhattan, 7.0),
+            (Heuristic::Octile, 1.0 + 3.0 * SQRT_2),
+        ] {
+            assert!((heuristic.over(way) - expected).abs() < 1e-12, "{heuristic:?}");
+        }
+        // Of eight steps the diagonal ones are shorter than Manhattan says; a knight's step is shorter than octile says.
+        let (straight, diagonal, knight) = ([1, 0], [1, 1], [2, 1]);
+        for (steps, expected) in [
+            (&[straight][..], [true, true, true]),
+            (&[straight, diagonal], [true, false, true]),
+            (&[straight, diagonal, knight], [true, false, false]),
+        ] {
+            let all = [Heuristic::Euclidean, Heuristic::Manhattan, Heuristic::Octile];
+            assert_eq!(all.map(|heuristic| heuristic.is_consistent(steps)), expected, "{steps:?}");
+        }
+    }
+}

@@ -1,5 +1,7 @@
 //! Watching a search without changing it.
 
+use std::cell::{Cell, RefCell};
+
 /// Told what a search does. Every method does nothing unless written, and `()` watches nothing at no cost.
 pub trait Observer {
     /// `node` entered OPEN for the first time.
@@ -61,6 +63,54 @@ impl Observer for Trace {
 
     fn closed(&mut self, node: u32) {
         self.closed.push(node);
+    }
+}
+
+/// The order in which both sides of a search closed nodes, with what each had opened by then.
+#[derive(Debug, Default)]
+pub struct Closings {
+    opened: [Cell<u32>; 2],
+    closed: RefCell<Vec<Closing>>,
+}
+
+/// A node that was closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Closing {
+    /// The node.
+    pub node: u32,
+    /// Who closed it: the start's side (0) or the goal's (1).
+    pub side: u32,
+    /// How many nodes each side had opened before.
+    pub opened: [u32; 2],
+}
+
+impl Closings {
+    /// Who watches the start's side (0), which is the only one of a search in one direction, or the goal's (1).
+    pub fn of(&self, side: u32) -> OneSide<'_> {
+        OneSide { both: self, side }
+    }
+
+    /// What was closed, in order; a node that reopened stands there again.
+    pub fn all(self) -> Vec<Closing> {
+        self.closed.into_inner()
+    }
+}
+
+/// Notes in [`Closings`] what one side does.
+#[derive(Clone, Copy, Debug)]
+pub struct OneSide<'a> {
+    both: &'a Closings,
+    side: u32,
+}
+
+impl Observer for OneSide<'_> {
+    fn opened(&mut self, _: u32) {
+        self.both.opened[self.side as usize].update(|count| count + 1);
+    }
+
+    fn closed(&mut self, node: u32) {
+        let opened = self.both.opened.each_ref().map(Cell::get);
+        self.both.closed.borrow_mut().push(Closing { node, side: self.side, opened });
     }
 }
 

@@ -19,15 +19,20 @@ struct Lane {
     said: String,
     /// Opened cells of each side, in their order.
     opened: [Vec<[u32; 2]>; 2],
-    /// Closed cells, in their order, where they were kept.
-    closed: Vec<[u32; 2]>,
+    /// Closed cells in their order: the cell, the side that closed it, and how many each side had opened before.
+    closings: Vec<[u32; 5]>,
     raw: Vec<[f64; 2]>,
     path: Vec<[f64; 2]>,
 }
 
-fn cells(exhibit: Option<&Exhibit>) -> Vec<[u32; 2]> {
+/// The rows of what was kept, cut to `N` whole numbers each; none of what is narrower or was not kept.
+fn rows<const N: usize>(exhibit: Option<&Exhibit>) -> Vec<[u32; N]> {
     let rows = exhibit.into_iter().flat_map(|exhibit| exhibit.values.chunks(exhibit.width));
-    rows.map(|cell| [cell[0] as u32, cell[1] as u32]).collect()
+    rows.filter_map(|row| row.first_chunk::<N>()).map(|row| row.map(|value| value as u32)).collect()
+}
+
+fn cells(exhibit: Option<&Exhibit>) -> Vec<[u32; 2]> {
+    rows(exhibit)
 }
 
 fn centres(exhibit: Option<&Exhibit>) -> Vec<[f64; 2]> {
@@ -45,7 +50,7 @@ pub fn scene(case: &Case<'_>) -> Option<Scene> {
             label: row.key.contender.to_string(),
             said: said(row),
             opened: ["opened_start_side", "opened_goal_side"].map(|name| cells(kept(name))),
-            closed: cells(kept("closed_start_side")),
+            closings: rows(kept("closings")),
             raw: centres(kept("raw_path")),
             path: centres(kept("path")),
         }

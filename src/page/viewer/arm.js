@@ -59,7 +59,8 @@ function view(row, replay, lane, colour, camera, extent) {
   const body = parts(lane, colour);
   scene.add(body.group);
   if (lane.way.length > 1) scene.add(polyline(lane.way, "#888888"));
-  const trail = body.tips.length > 1 ? polyline(body.tips, colour) : null;
+  const walked = body.count ? body.tips : lane.way;
+  const trail = walked.length > 1 ? polyline(walked, colour) : null;
   if (trail) scene.add(trail);
   const count = body.count || lane.way.length;
   const put = (step) => {
@@ -76,7 +77,7 @@ function view(row, replay, lane, colour, camera, extent) {
 
 // Obstacles and floor.
 function furnish(scene, replay, extent) {
-  const paint = new MeshLambertMaterial({ color: "#d9b44a", transparent: true, opacity: 0.75, side: DoubleSide });
+  const paint = new MeshLambertMaterial({ color: "#d9b44a", transparent: true, opacity: 0.5, depthWrite: false, side: DoubleSide });
   for (const solid of replay.solids) {
     const corners = solid.faces.flatMap((face) => face.slice(2).flatMap((_, k) => [face[0], face[k + 1], face[k + 2]]));
     const geometry = new BufferGeometry();
@@ -100,8 +101,7 @@ function furnish(scene, replay, extent) {
 function parts(lane, colour) {
   const group = new Group();
   const material = new MeshLambertMaterial({ color: colour });
-  const bytes = Uint8Array.from(atob(lane.frames), (c) => c.charCodeAt(0));
-  const numbers = new Int16Array(bytes.buffer, 0, bytes.length >> 1);
+  const numbers = unpacked(lane);
   const wide = 6 * lane.radii.length + 3;
   const count = lane.radii.length ? numbers.length / wide : 0;
   const at = (frame, from, length) => Array.from(numbers.subarray(frame * wide + from, frame * wide + from + length), (n) => n * lane.step);
@@ -125,6 +125,18 @@ function parts(lane, colour) {
   };
 }
 
+// Frames as whole multiples of the lane's step.
+function unpacked(lane) {
+  const bytes = Uint8Array.from(atob(lane.frames), (c) => c.charCodeAt(0));
+  return new Int16Array(bytes.buffer, 0, bytes.length >> 1);
+}
+
+// Every point of an arm's frames.
+function placesOf(lane) {
+  const numbers = unpacked(lane);
+  return Array.from({ length: Math.floor(numbers.length / 3) }, (_, at) => Array.from(numbers.subarray(3 * at, 3 * at + 3), (n) => n * lane.step));
+}
+
 function rod(radius, length, material) {
   return new Mesh(length > 0 ? new CapsuleGeometry(radius, length, 6, 14) : new SphereGeometry(radius, 16, 12), material);
 }
@@ -143,8 +155,8 @@ function polyline(points, colour) {
 function bounds(replay) {
   const points = [
     ...replay.solids.flatMap((solid) => solid.vertices),
-    ...replay.lanes.flatMap((lane) => lane.way),
-    [0, 0, 0],
+    ...replay.lanes.flatMap((lane) => [...lane.way, ...placesOf(lane)]),
+    ...(replay.lanes.some((lane) => lane.radii.length) ? [[0, 0, 0]] : []),
   ];
   const low = new Vector3(Infinity, Infinity, Infinity);
   const high = new Vector3(-Infinity, -Infinity, -Infinity);

@@ -11,12 +11,13 @@ export function claims() {
 
   const filter = () => {
     const asked = form.elements.words.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const [kind, hangs] = [form.elements.class.value, form.elements.hangs.value];
+    const [kind, hangs, under] = ["class", "hangs", "under"].map((name) => form.elements[name].value);
     let count = 0;
     for (const line of lines) {
       const shown = asked.every((word) => words.get(line).includes(word))
         && (!kind || line.dataset.class === kind)
         && (!hangs || axes(line).includes(hangs))
+        && (!under || (under === "differs" ? "differs" in line.dataset : line.dataset.under === under))
         && (form.elements.parts.checked || asked.length > 0 || !("part" in line.dataset));
       line.hidden = !shown;
       count += shown;
@@ -29,6 +30,7 @@ export function claims() {
   const open = (line, wanted) => {
     line.querySelector(".evidence").hidden = !wanted;
     line.querySelector(".open").setAttribute("aria-expanded", String(wanted));
+    if (wanted) line.dispatchEvent(new Event("opened", { bubbles: true }));
   };
   table.addEventListener("click", (event) => {
     const button = event.target.closest("button");
@@ -38,7 +40,10 @@ export function claims() {
     }
     if (button?.dataset.sort) sort(table, lines, button);
   });
-  addEventListener("beforeprint", () => lines.forEach((line) => open(line, true)));
+  addEventListener("beforeprint", () => {
+    lines.forEach((line) => open(line, true));
+    document.querySelectorAll("details").forEach((details) => (details.open = true));
+  });
 
   const follow = () => {
     const asked = new URLSearchParams(location.hash.slice(1));

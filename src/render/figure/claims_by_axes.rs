@@ -1,7 +1,7 @@
 //! What each reading of a paper does to each of its claims when it alone departs from its default.
 
 use super::{Entry, Kind, Scene};
-use crate::analysis::verdict::{Across, Effect, Judged};
+use crate::analysis::verdict::{Across, Effect, Fit, Judged, SettingFit};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::Cells;
@@ -39,6 +39,10 @@ struct ClaimsByAxes {
     /// The claims, from above; all sentences and rows that readings can touch if empty.
     #[serde(default)]
     claims: Vec<String>,
+    /// Instead of claims: which settings of the readings agree with what the studies were fitted to, and under which options of
+    /// the fitted reading.
+    #[serde(default)]
+    fitted: bool,
 }
 
 /// Height of a row, in points.
@@ -50,6 +54,44 @@ const LOOKS: [(Effect, &str, Rgb); 3] = [
     (Effect::Opens, "opens or decides it", BLUE),
     (Effect::Turns, "turns it", VERMILLION),
 ];
+
+/// What a fit is called and drawn as.
+const FITS: [(Fit, &str, Rgb); 3] = [
+    (Fit::Best, "agrees, and counts", BLUE),
+    (Fit::Less, "agrees less than another", GRID),
+    (Fit::Refused, "refused", VERMILLION),
+];
+
+/// Which settings agree with what the studies were fitted to: one a row, the options of the fitted reading side by side.
+fn settings(scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+    let rows: &[SettingFit] = scene.verdicts.explored.as_ref().map_or(&[], |explored| &explored.fits);
+    let readings = scene.evidence.paper.readings();
+    let Some(fitted) = readings.iter().find(|reading| reading.fitted).filter(|_| !rows.is_empty()) else {
+        return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No reading was explored."));
+    };
+    let options: Vec<&str> = fitted.options.keys().map(String::as_str).collect();
+    // A setting of many options has a line's worth of name at most.
+    let name = |row: &SettingFit| match row.setting.char_indices().nth(72) {
+        Some((end, _)) => format!("{}…", &row.setting[..end]),
+        None => row.setting.clone(),
+    };
+    let names: Vec<String> = rows.iter().rev().map(name).collect();
+    let mut panel = Panel::new("", Axis::names(&fitted.id, options.iter().copied()), Axis::names("", names));
+    let color = |row: &SettingFit, option: &str| {
+        let fit = row.fits.get(option)?;
+        FITS.iter().find(|(own, ..)| own == fit).map(|(_, _, color)| color.mixed(WHITE, 0.25))
+    };
+    let of_row = |row: &SettingFit| options.iter().map(|option| color(row, option)).collect::<Vec<_>>();
+    panel.add(Cells {
+        corner: [-0.5, -0.5],
+        cell: [1.0, 1.0],
+        columns: options.len(),
+        colors: rows.iter().rev().flat_map(of_row).collect(),
+        lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
+        keys: FITS.map(|(_, label, color)| cell_key(label, color.mixed(WHITE, 0.25))).to_vec(),
+    });
+    Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).with([Ok(panel)])
+}
 
 fn color(across: &Across, axis: &str) -> Option<Rgb> {
     let effect = across.effects.get(axis)?.effect;
@@ -76,6 +118,9 @@ impl ClaimsByAxes {
 
 impl Kind for ClaimsByAxes {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        if self.fitted {
+            return settings(scene);
+        }
         let rows = self.rows(scene);
         let readings = scene.evidence.paper.readings();
         let is_moving = |id: &&str| rows.iter().any(|(_, across)| across.effects.contains_key(*id));

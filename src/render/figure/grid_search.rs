@@ -50,11 +50,15 @@ struct GridSearch {
     /// Shows, in place of opened cells, how the path was tidied: bends before and after, refused lines of sight.
     #[serde(default)]
     tidying: bool,
+    /// Shows of each map only the part that some contender opened, in place of all of it.
+    #[serde(default)]
+    part: bool,
 }
 
-/// Cells opened from the start's side, from the goal's, and blocked ones.
+/// Cells opened from the start's side, from the goal's, from both, and blocked ones.
 const START_SIDE: Rgb = SKY.mixed(WHITE, 0.6);
 const GOAL_SIDE: Rgb = ORANGE.mixed(WHITE, 0.2);
+const BOTH_SIDES: Rgb = PURPLE.mixed(BLACK, 0.15);
 const BLOCKED: Rgb = BLACK.mixed(WHITE, 0.25);
 
 impl Kind for GridSearch {
@@ -65,11 +69,14 @@ impl Kind for GridSearch {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let mut panels = Vec::new();
         for problem in &self.problems {
-            for contender in &self.contenders {
-                let map = Map::of(scene, ask::trial(scene, problem, 0, None, contender)?)?;
+            let map = |contender: &String| Map::of(scene, ask::trial(scene, problem, 0, None, contender)?);
+            let maps = self.contenders.iter().map(map).collect::<Result<Vec<_>, _>>()?;
+            // One part for all contenders, so that their panels show the same.
+            let part: Vec<[f64; 2]> = maps.iter().filter(|_| self.part).flat_map(Map::opened).collect();
+            for map in maps {
                 match (&self.moments[..], self.tidying) {
                     ([], true) => panels.push(map.tidied(problem)),
-                    ([], false) => panels.push(map.searched()),
+                    ([], false) => panels.push(map.searched(&part)),
                     (moments, _) => panels.extend(moments.iter().map(|share| map.moment(*share))),
                 }
             }
@@ -103,26 +110,34 @@ impl<'a> Map<'a> {
         self.exhibit(name).map(ask::points).unwrap_or_default()
     }
 
-    /// The whole map with all that was opened and the paths.
-    fn searched(&self) -> Result<Panel, RenderError> {
+    /// The centres of all that was opened.
+    fn opened(&self) -> Vec<[f64; 2]> {
+        let sides = ["opened_start_side", "opened_goal_side"].map(|name| self.listed(name));
+        sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect()
+    }
+
+    /// All that was opened and the paths, on the part of the map about `part`, or on all of it.
+    fn searched(&self, part: &[[f64; 2]]) -> Result<Panel, RenderError> {
         let number = |column: &str, decimals| ask::number(self.row, column, decimals);
+        // Four digits behind the point: 14.6569 was printed as 14.65, and 14.66 would look like another number.
         let title = format!(
             "{}: cost {}, turns {}°, opened {}",
             self.row.key.contender,
-            number("path_cost_cells", 2),
+            number("path_cost_cells", 4),
             number("turn_exterior_deg", 2),
             number("opened", 0)
         );
         let [width, height] = self.size.map(|side| side as f64);
-        let mut panel = window(title, [[0.0, width], [0.0, height]])?;
-        let layers =
-            [(self.listed("opened_goal_side"), GOAL_SIDE), (self.listed("opened_start_side"), START_SIDE)];
-        let keys = vec![
-            cell_key("blocked", BLOCKED),
-            cell_key("opened by the start's side", START_SIDE),
-            cell_key("opened by the goal's side", GOAL_SIDE),
-        ];
-        panel.add(self.painted(&layers, keys));
+        let mut panel = match part {
+            [] => window(title, [[0.0, width], [0.0, height]])?,
+            part => self.panel_about(title, part)?,
+        };
+        let (start, goal) = (self.listed("opened_start_side"), self.listed("opened_goal_side"));
+        panel.add(self.painted_sides(
+            start,
+            goal,
+            ["opened by the start's side", "opened by the goal's side"],
+        ));
         if let Some(raw) = self.exhibit("raw_path") {
             let dashed = Stroke::solid(BLUE, 1.0).dashed(Dash::Dashed);
             panel.add(Line::through(centres(raw), dashed).labelled("path as searched"));
@@ -140,20 +155,15 @@ impl<'a> Map<'a> {
         let shown = sides.each_ref().map(|side| (side.len() as f64 * share).ceil() as usize);
         let all: usize = sides.iter().map(Vec::len).sum();
         let title = format!("{} of {all} nodes opened", shown.iter().sum::<usize>());
-        let around: Vec<[f64; 2]> = sides.concat().into_iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
-        let mut panel = self.panel_about(title, &around)?;
+        let mut panel = self.panel_about(title, &self.opened())?;
         let [start, goal] = [0, 1].map(|side: usize| sides[side][..shown[side]].to_vec());
-        let mut keys = vec![cell_key("blocked", BLOCKED), cell_key("opened from the start", START_SIDE)];
-        if !sides[1].is_empty() {
-            keys.push(cell_key("opened from the goal", GOAL_SIDE));
-        }
-        panel.add(self.painted(&[(goal, GOAL_SIDE), (start, START_SIDE)], keys));
+        panel.add(self.painted_sides(start, goal, ["opened from the start", "opened from the goal"]));
         let path = self.exhibit("raw_path").or_else(|| self.exhibit("path")).map(centres).unwrap_or_default();
         if share >= 1.0 {
             panel.add(Line::through(path.clone(), Stroke::solid(BLUE, 1.4)).labelled("path found"));
             let met: Vec<[f64; 2]> = self.exhibit("meeting").map(centres).unwrap_or_default();
             if !met.is_empty() {
-                panel.add(Points::of(met, Marker::Square, 3.0, PURPLE).labelled("where the sides met"));
+                panel.add(Points::of(met, Marker::Square, 2.0, BLACK).labelled("where the sides met"));
             }
         }
         ask::add_ends(&mut panel, &path, 3.2, ENDS);
@@ -204,6 +214,17 @@ impl<'a> Map<'a> {
         window(title, part)
     }
 
+    /// The cells with what each side opened, and what both did.
+    fn painted_sides(&self, start: Vec<[f64; 2]>, goal: Vec<[f64; 2]>, names: [&str; 2]) -> Cells {
+        let both: Vec<[f64; 2]> = start.iter().filter(|cell| goal.contains(cell)).copied().collect();
+        let mut keys = vec![cell_key("blocked", BLOCKED)];
+        let layers = [(start, START_SIDE), (goal, GOAL_SIDE), (both, BOTH_SIDES)];
+        for ((cells, color), name) in layers.iter().zip([names[0], names[1], "opened by both"]) {
+            keys.extend((!cells.is_empty()).then(|| cell_key(name, *color)));
+        }
+        self.painted(&layers, keys)
+    }
+
     /// The cells, blocked ones dark, with `layers` on top of nothing and below the walls.
     fn painted(&self, layers: &[(Vec<[f64; 2]>, Rgb)], keys: Vec<Key>) -> Cells {
         let [columns, rows] = self.size;
@@ -239,7 +260,7 @@ mod tests {
 
     #[test]
     fn walls_both_sides_and_bare_paper_differ_in_grey() {
-        let mut greys = [BLOCKED, START_SIDE, GOAL_SIDE, WHITE].map(Rgb::luminance);
+        let mut greys = [BLOCKED, START_SIDE, GOAL_SIDE, BOTH_SIDES, WHITE].map(Rgb::luminance);
         greys.sort_by(f64::total_cmp);
         assert!(greys.windows(2).all(|pair| pair[1] - pair[0] >= SERIES_MARGIN), "{greys:?}");
     }

@@ -5,6 +5,7 @@
 mod arm_plane;
 mod ask;
 mod claims_by_axes;
+mod cost_over_time;
 mod draws;
 mod endpoint_pairs;
 mod grid_search;
@@ -171,6 +172,7 @@ pub fn caption(spec: &FigureSpec, run: &Run<'_>) -> String {
 pub static REGISTRY: &[&Entry] = &[
     &arm_plane::ENTRY,
     &claims_by_axes::ENTRY,
+    &cost_over_time::ENTRY,
     &draws::ENTRY,
     &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,

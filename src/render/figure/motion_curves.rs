@@ -140,9 +140,8 @@ impl Kind for MotionCurves {
             sheet = sheet.noted("Stored configurations follow each other at equal times.");
         }
         for (row, exhibit) in &found {
-            // Seconds and degrees are compared on one scale.
-            let all: Vec<&Exhibit> =
-                if timed { found.iter().map(|(_, exhibit)| *exhibit).collect() } else { vec![exhibit] };
+            // Motions are compared, on one scale.
+            let all: Vec<&Exhibit> = found.iter().map(|(_, exhibit)| *exhibit).collect();
             sheet.add(self.panel(row, exhibit, &all)?);
         }
         Ok(sheet)

@@ -106,7 +106,9 @@ impl PairedBoxes {
         let whiskers = values.iter().flat_map(|(_, columns)| columns).filter_map(|c| quantile(c, 0.95));
         let top = if self.has_strips() { top } else { whiskers.fold(0.0, f64::max) };
         let y = Axis::linear(self.metric.title(), 0.0, if top > 0.0 { top * 1.04 } else { 1.0 })?;
-        let mut panel = Panel::new("", Axis::names(&self.read.axis, names), y);
+        // One panel needs no title.
+        let title = if self.read.savings.is_some() { "of each contender" } else { "" };
+        let mut panel = Panel::new(title, Axis::names(&self.read.axis, names), y);
         let step = 0.8 / self.read.contenders.len() as f64;
         for (place, (_, columns)) in values.iter().enumerate() {
             for (index, column) in columns.iter().enumerate().filter(|(_, column)| !column.is_empty()) {
@@ -144,7 +146,12 @@ impl PairedBoxes {
         let low = savings.iter().flat_map(|(_, c)| &c[0]).copied().fold(0.0, f64::min);
         let names = savings.iter().map(|(name, _)| name);
         let y = Axis::linear("saving (%)", low - 5.0, 103.0)?;
-        let mut panel = Panel::new("", Axis::names(&self.read.axis, names), y);
+        let contenders = (self.read.contenders.first(), self.read.contenders.last());
+        let title = match contenders {
+            (Some(base), Some(other)) => format!("what {other} saves of what {base} takes"),
+            _ => String::new(),
+        };
+        let mut panel = Panel::new(&title, Axis::names(&self.read.axis, names), y);
         let dashed = Stroke::solid(GREY, 0.9).dashed(Dash::Dashed);
         let right = savings.len() as f64 - 0.5;
         for printed in &self.printed {

@@ -210,12 +210,29 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
             keys.push(Key::line(label, stroke));
         }
     }
-    let trail = points(ask::exhibit(scene, &row.key, "tip_trail")?);
-    if let Some(start) = trail.first() {
-        solids.capsule(*start, *start, 1.6, Paint::solid(GREEN));
-        keys.push(cell_key("start", GREEN));
+    if let Some(rod) = scene.run.exhibit(&row.key, "blocking_rod").map(|found| &found.values) {
+        solids.capsule([rod[0], rod[1], rod[2]], [rod[3], rod[4], rod[5]], rod[6], Paint::solid(VERMILLION));
+        keys.push(cell_key("rod that would touch at the next node", VERMILLION));
+    }
+    // The whole way, where it is stored: a trail that stops short does not show the goal.
+    let path = scene.run.exhibit(&row.key, "tip_path");
+    let way = points(path.map_or_else(|| ask::exhibit(scene, &row.key, "tip_trail"), Ok)?);
+    for (at, color, label) in [(way.first(), GREEN, "start"), (way.last(), PURPLE, "goal")] {
+        if let Some(at) = at {
+            solids.capsule(*at, *at, 2.2, Paint::solid(color));
+            solids.tag(*at, label);
+        }
     }
     Ok(keys)
+}
+
+/// Two paths whose lengths differ by less than this look the same.
+const SEEN_CM: f64 = 0.3;
+
+/// The length of a polyline.
+fn way(points: &[Vec3]) -> f64 {
+    let apart = |pair: &[Vec3]| (0..3).map(|i| (pair[1][i] - pair[0][i]).powi(2)).sum::<f64>().sqrt();
+    points.windows(2).map(apart).sum()
 }
 
 /// Adds the path as searched and as returned, with their ends.
@@ -227,9 +244,16 @@ fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, 
             keys.push(Key::line(label, stroke));
         }
     };
-    line(solids, "raw_path", "path as searched", Stroke::solid(BLUE, 0.8).dashed(Dash::Dashed));
-    line(solids, "path", "returned path", Stroke::solid(VERMILLION, 1.5));
     let path = points(ask::exhibit(scene, &row.key, "path")?);
+    let raw = scene.run.exhibit(&row.key, "raw_path").map(points);
+    // A path that was searched is told from the returned one only where straightening did something.
+    if raw.is_some_and(|raw| (way(&raw) - way(&path)).abs() > SEEN_CM) {
+        line(solids, "raw_path", "path as searched", Stroke::solid(BLUE, 0.8));
+    }
+    line(solids, "path", "returned path", Stroke::solid(VERMILLION, 1.5));
+    let hidden = Stroke::solid(VERMILLION, 0.7).dashed(Dash::Dashed);
+    solids.overlay(path.clone(), hidden);
+    keys.push(Key::line("the same behind an obstacle", hidden));
     for (at, color, label) in [(path.first(), GREEN, "start"), (path.last(), PURPLE, "goal")] {
         if let Some(at) = at {
             solids.capsule(*at, *at, 1.6, Paint::solid(color));
@@ -259,6 +283,9 @@ fn add_obstacles(
     }
     for (vertices, faces) in bodies(&vertices, faces.into_values().collect()) {
         solids.polyhedron(vertices, faces, Paint::sheer(SKY.mixed(WHITE, 0.25), 0.82));
+    }
+    if let Some(floor) = scene.run.exhibit(of, "floor") {
+        solids.sheet(points(floor), Paint::sheer(BLACK.mixed(WHITE, 0.88), 0.9));
     }
     if frame {
         let corners = points(ask::exhibit(scene, of, "domain")?);

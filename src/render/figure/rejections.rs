@@ -46,7 +46,7 @@ const BARS: [(&str, &str); 9] = [
     ("rejected_limits", "joint limits"),
     ("rejected_jump", "joint jumps"),
     ("rejected_speed", "joint too fast"),
-    ("rejected_end", "other end"),
+    ("rejected_end", "ends in other angles"),
     ("rejected_contact", "contact"),
 ];
 

@@ -64,11 +64,15 @@ impl Kind for SavingOver {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let note = "Each dot is one environment; the line joins the means.";
         let mut sheet = Sheet::new(Width::Double, self.settings.problems.len(), PLOT_PT).noted(note);
-        for group in &self.settings.problems {
-            let points = self.points(scene, group);
+        let all: Vec<Vec<[f64; 2]>> =
+            self.settings.problems.iter().map(|group| self.points(scene, group)).collect();
+        // Groups are compared, on one scale.
+        let along = |axis: usize| all.iter().flatten().map(move |point| point[axis]).collect::<Vec<f64>>();
+        let [over, saved] = [along(0), along(1)];
+        for (group, points) in self.settings.problems.iter().zip(all) {
             let label = format!("saving in {} (%)", self.metric.label.to_lowercase());
-            let y = Axis::over(label, points.iter().map(|point| point[1]));
-            let x = Axis::over(self.about, points.iter().map(|point| point[0]));
+            let y = Axis::over(label, saved.iter().copied());
+            let x = Axis::over(self.about, over.iter().copied());
             let mut panel = Panel::new(format!("{group}: {}", self.settings.contender), x, y);
             let means = means_along(&points);
             let single = Points::of(points, Marker::Circle, 1.1, GREY.mixed(WHITE, 0.35));

@@ -7,7 +7,7 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{
-    Fill, GREY, Stroke, VERMILLION, WHITE, Width, series_color, series_marker, series_stroke,
+    Dash, Fill, GREY, Stroke, VERMILLION, WHITE, Width, series_color, series_marker, series_stroke,
 };
 use crate::study::Study;
 use crate::study::key::SweepKey;
@@ -53,6 +53,17 @@ struct Read {
     /// Metrics on a logarithmic scale, one panel each, in place of shares of solved queries.
     #[serde(default)]
     metrics: Vec<String>,
+    /// A printed ratio of the other rows to the first one, drawn as a line over the first row's numbers of a metric.
+    printed_ratio: Option<PrintedRatio>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PrintedRatio {
+    /// Of which metric it is.
+    metric: String,
+    /// The ratio.
+    ratio: f64,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -212,7 +223,12 @@ impl SweepCurves {
             trials.iter().filter_map(point).collect()
         };
         let curves: Vec<_> = self.rows.iter().map(curve).collect();
-        let all = || curves.iter().flatten();
+        let asked = self.read.printed_ratio.as_ref().filter(|printed| printed.metric == metric.name);
+        let printed = asked.map(|PrintedRatio { ratio, .. }| {
+            let line = curves[0].iter().map(|[x, y]| [*x, y * ratio]).collect::<Vec<_>>();
+            (line, format!("printed: {ratio} times {}", self.rows[0].contender))
+        });
+        let all = || curves.iter().chain(printed.iter().map(|(line, _)| line)).flatten();
         let low = all().map(|point| point[1]).fold(f64::INFINITY, f64::min);
         let high = all().map(|point| point[1]).fold(0.0, f64::max);
         if !(low > 0.0 && high.is_finite()) {
@@ -223,6 +239,10 @@ impl SweepCurves {
         for (index, (curve, row)) in curves.into_iter().zip(&self.rows).enumerate() {
             let line = Line::through(curve, series_stroke(index)).marked(series_marker(index));
             panel.add(line.labelled(row.contender.clone()));
+        }
+        if let Some((line, label)) = printed {
+            let stroke = Stroke::solid(GREY, 1.0).dashed(Dash::Dashed);
+            panel.add(Line::through(line, stroke).labelled(label));
         }
         Ok(panel)
     }

@@ -9,18 +9,20 @@ use crate::render::RenderError;
 use crate::render::chart::labels::Labels;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{BLACK, SERIES, Stroke, WHITE, Width, series_color, series_marker};
+use crate::render::style::{BLACK, Marker, SERIES, Stroke, WHITE, Width, series_color, series_marker};
 use crate::study::record::Row;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Estimate;
+use stats::interval::Interval;
+use std::collections::BTreeSet;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "tradeoff",
     about: "one metric against another, a point a contender: means with intervals both ways, or all trials and their medians",
-    statistic: "Means over draws that every contender solves, or medians with failures at infinity, which are not drawn; {n}.",
+    statistic: "Means over draws that every contender solves, changes of means over pairs, or medians with failures at infinity, which are not drawn; {n}.",
     settings: Accepted::of::<Tradeoff>(),
     example: r#"
 x = "opened"
@@ -31,7 +33,8 @@ panels = [{ title = "simple", problems = ["simple cells", "simple rectangles", "
     build: |settings, study, _paper| {
         let read: Tradeoff = settings.read()?;
         let problems = read.panels.iter().flat_map(|panel| &panel.problems);
-        ask::known(settings, study, problems, &read.contenders)?;
+        let contenders: Vec<String> = read.contenders.iter().chain(&read.against).cloned().collect();
+        ask::known(settings, study, problems, &contenders)?;
         let metrics = [ask::produced(settings, study, &read.x)?, ask::produced(settings, study, &read.y)?];
         Ok(Box::new(Ready { read, metrics }))
     },
@@ -48,6 +51,9 @@ struct Tradeoff {
     contenders: Vec<String>,
     /// The panels, in their order.
     panels: Vec<PanelSpec>,
+    /// Changes in per cent of both metrics against this contender, paired over the problems that both solve, in place of means:
+    /// intervals of means hold what differs from problem to problem, which is no matter between contenders.
+    against: Option<String>,
     /// Every trial as a point and medians, failures infinite, on a logarithmic axis, in place of means.
     #[serde(default)]
     trials: bool,
@@ -90,17 +96,57 @@ impl Ready {
         for (contender, point) in self.read.contenders.iter().zip(&points) {
             let Some((a, b)) = point else { continue };
             let index = ask::place(scene, contender);
-            let cross = vec![
-                [a.interval.low, b.value],
-                [a.interval.high, b.value],
-                [f64::NAN, f64::NAN],
-                [a.value, b.interval.low],
-                [a.value, b.interval.high],
-            ];
             let point = marked(vec![[a.value, b.value]], 3.0, index, 0.0);
-            panel.add(Line::through(cross, Stroke::solid(point.color, 0.9)));
+            panel.add(Line::through(cross(a, b), Stroke::solid(point.color, 0.9)));
             panel.add(point.labelled(contender));
         }
+        panel
+    }
+
+    /// The change of one metric that a contender brings against another, in per cent.
+    fn change(
+        &self,
+        scene: &Scene<'_>,
+        spec: &PanelSpec,
+        [label, base]: [&String; 2],
+        axis: usize,
+    ) -> Option<Estimate> {
+        let metric = self.metrics[axis];
+        let all = Selection::of(scene.run.study, &spec.problems, std::slice::from_ref(label));
+        let draws =
+            Selection { metric: Some(metric), against: Some(base.clone()), ..all }.draws(scene.evidence);
+        let plan = plan(&[&scene.run.study.name, label, base, metric.name]);
+        let saved = OfAll::ReductionPercent.of(&draws, plan)?;
+        let interval = Interval::new(0.0 - saved.interval.high, 0.0 - saved.interval.low);
+        Some(Estimate { value: 0.0 - saved.value, interval, ..saved })
+    }
+
+    /// What each contender changes against `base`, which is the point without change.
+    fn changes(&self, scene: &Scene<'_>, spec: &PanelSpec, base: &String) -> Panel {
+        let others = self.read.contenders.iter().filter(|label| *label != base);
+        let both = |label: &String| {
+            let [x, y] = [0, 1].map(|axis| self.change(scene, spec, [label, base], axis));
+            Some((label.clone(), x?, y?))
+        };
+        let points: Vec<(String, Estimate, Estimate)> = others.filter_map(both).collect();
+        let ends = |axis: usize| {
+            let of = move |(_, a, b): &(String, Estimate, Estimate)| [a.interval, b.interval][axis];
+            points.iter().map(of).flat_map(|interval| [interval.low, interval.high]).chain([0.0])
+        };
+        let named = |axis: usize| format!("Change of {} (%)", self.metrics[axis].label.to_lowercase());
+        let [x, y] = [0, 1].map(|axis| Axis::over(named(axis), ends(axis)));
+        let units: BTreeSet<usize> = points.iter().map(|(_, a, _)| a.units).collect();
+        let units: Vec<String> = units.iter().map(usize::to_string).collect();
+        let mut panel = Panel::new(format!("{}, {} maps", spec.title, units.join(" or ")), x, y);
+        let mut names = vec![([0.0, 0.0], base.clone())];
+        panel.add(marked(vec![[0.0, 0.0]], 3.0, ask::place(scene, base), 0.0));
+        for (label, a, b) in &points {
+            let point = marked(vec![[a.value, b.value]], 3.0, ask::place(scene, label), 0.0);
+            panel.add(Line::through(cross(a, b), Stroke::solid(point.color, 0.9)));
+            panel.add(Points { marker: Marker::Circle, ..point });
+            names.push(([a.value, b.value], label.clone()));
+        }
+        panel.add(Labels { points: names });
         panel
     }
 
@@ -147,9 +193,28 @@ impl Kind for Ready {
         if self.read.trials {
             return sheet(190.0).with(panels.iter().map(|panel| self.trials(scene, panel)));
         }
+        if let Some(base) = &self.read.against {
+            let note = format!(
+                "Changes of the mean against {base} over the maps that both solved, with 95 % bootstrap intervals over pairs."
+            );
+            return sheet(190.0)
+                .noted(&note)
+                .with(panels.iter().map(|panel| Ok(self.changes(scene, panel, base))));
+        }
         let note = "Means over the maps that every contender solved, with 95 % bootstrap intervals of each mean over maps.";
         sheet(150.0).noted(note).with(panels.iter().map(|panel| Ok(self.means(scene, panel))))
     }
+}
+
+/// Both intervals of a point, as a line with a gap.
+fn cross(a: &Estimate, b: &Estimate) -> Vec<[f64; 2]> {
+    vec![
+        [a.interval.low, b.value],
+        [a.interval.high, b.value],
+        [f64::NAN, f64::NAN],
+        [a.value, b.interval.low],
+        [a.value, b.interval.high],
+    ]
 }
 
 /// The title with who fails: failures are at infinity and show nowhere else.

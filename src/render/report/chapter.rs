@@ -163,10 +163,11 @@ impl Page<'_> {
                 || "–".to_owned(),
                 |ours| format!("{} ({}; n = {})", short(ours), markdown(&ours.what), ours.n),
             );
-            let readings = judged.beside().map_or_else(String::new, |words| format!(" ({words})"));
+            let readings = judged.beside_if_other();
+            let readings = readings.map_or_else(String::new, |words| format!(" ({})", markdown(&words)));
             let claim = link(judged, &format!("`{}`", judged.claim), &details);
             let (said, class) = (markdown(&format!("{}: {}", judged.at, said(judged))), judged.outcome());
-            *text += &format!("| {claim} | {said} | {ours} | {class}{} |\n", markdown(&readings));
+            *text += &format!("| {claim} | {said} | {ours} | {class}{readings} |\n");
         }
         let all = verdicts.claims.len();
         let mut more = format!("{} More: [evidence of all {all} claims]({details})", self.counts());

@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 pub static ENTRY: Entry = Entry {
     name: "cell_queries",
     about: "queries of a six-axis arm in its cell, on roadmaps of free configurations drawn at random",
-    revision: 3,
+    revision: 4,
     prepared: nested_roadmap::ENTRY.name,
     columns: ARM_COLUMNS,
     settings: Accepted::of::<CellQueries>(),
@@ -343,7 +343,7 @@ impl Family for Posed {
     }
 
     fn extent(&self) -> Option<Extent> {
-        Some(Extent { samples: self.read.samples, radius_mm: self.read.radius_mm })
+        Some(Extent { samples: self.read.samples, radius_mm: Some(self.read.radius_mm) })
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<Stance> {

@@ -201,7 +201,7 @@ impl Family for Posed {
     }
 
     fn extent(&self) -> Option<Extent> {
-        Some(Extent { samples: self.read.samples, radius_mm: self.read.radius_mm })
+        Some(Extent { samples: self.read.samples, radius_mm: Some(self.read.radius_mm) })
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<Stance> {

@@ -173,7 +173,7 @@ impl Family for Drawn {
     }
 
     fn extent(&self) -> Option<Extent> {
-        Some(Extent { samples: self.read.samples, radius_mm: self.read.radius_mm })
+        Some(Extent { samples: self.read.samples, radius_mm: Some(self.read.radius_mm) })
     }
 
     fn inputs(&self) -> &[PathBuf] {

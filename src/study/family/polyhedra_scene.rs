@@ -54,10 +54,34 @@ struct SceneSettings {
     queries: Vec<QuerySettings>,
     /// Each draw's start and goal lie in balls of this radius about the written ones.
     scatter_cm: Option<f64>,
+    /// Whether a point on an obstacle's face is blocked.
+    #[serde(default)]
+    contact: Contact,
     /// The robot file of the arm whose tip the point is; a point alone if absent.
     robot: Option<String>,
     /// The body that stands for the robot's links.
     body: Option<String>,
+}
+
+/// What a point on an obstacle's face is: there T of eq. 2 in Tang, Zhou & Xu (2023) is 0.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Contact {
+    /// Blocked.
+    #[default]
+    Blocked,
+    /// Free.
+    Free,
+}
+
+impl Contact {
+    /// `world` with points on faces as this says.
+    pub(super) fn applied(self, world: PolyhedraWorld) -> PolyhedraWorld {
+        match self {
+            Self::Blocked => world,
+            Self::Free => world.touched_freely(),
+        }
+    }
 }
 
 /// A query as it is written.
@@ -115,7 +139,8 @@ impl SceneSettings {
     ) -> Result<PolyhedraWorld, SettingsError> {
         let domain = scene.domain;
         let world = |bodies| {
-            PolyhedraWorld::new(bodies, domain, self.step_cm, self.growth_cm).map_err(|error| {
+            let made = PolyhedraWorld::new(bodies, domain, self.step_cm, self.growth_cm);
+            made.map(|world| self.contact.applied(world)).map_err(|error| {
                 let key = match error {
                     PolyhedraError::Step { .. } => "step_cm",
                     PolyhedraError::Growth { .. } => "growth_cm",

@@ -67,6 +67,9 @@ pub(super) fn contender_hashes(
             let is_own = |of: &Option<String>| of.as_ref().is_none_or(|label| *label == contender.label);
             for trials in study.kept().filter(|trials| is_own(&trials.contender)) {
                 text += &format!("\n{} {} {:?}", trials.problems, trials.replicates, trials.repeats);
+                if let Some(exhibits) = &trials.exhibits {
+                    text += &format!(" {exhibits:?}");
+                }
             }
             let files = built.files_of(reading, &contender.label)?;
             if !files.is_empty() {

@@ -144,6 +144,12 @@ impl Paper {
 
     /// A study that is explored needs the paper's budget; a second seed is another one.
     fn check_explored(&self, faults: &mut Faults) {
+        let late = self.explore.iter().flat_map(|explore| &explore.where_compatible);
+        for name in late.filter(|name| self.study(name).is_none_or(|study| study.explore.is_none())) {
+            let explored = self.studies.iter().filter(|study| study.explore.is_some());
+            let message = none_called("explored study", name, explored.map(|study| study.name.as_str()));
+            faults.add(self.document.error_at("explore.where_compatible", message).about(name));
+        }
         for study in &self.studies {
             if study.explore.is_some() && self.explore.is_none() {
                 let message = format!(

@@ -249,13 +249,14 @@ fn counts(talk: &Talk) -> Counts {
     counts
 }
 
-/// The incumbents that are free by replan's own checks: when each came, in seconds, and its cost.
+/// The incumbents that are better than all before and free by replan's own checks: when each came, in seconds, and its cost.
 fn incumbents(talk: &Talk, space: &mut Space<'_>) -> Vec<Exhibit> {
-    let mut values = Vec::new();
-    for (passed_s, path) in &talk.incumbents {
-        let is_free = path.windows(2).all(|two| space.is_free(&two[0], &two[1]) == Ok(true));
-        if let Some(cost) = space.cost(path).filter(|_| is_free && !path.is_empty()) {
+    let (mut values, mut best) = (Vec::new(), f64::INFINITY);
+    for (passed_s, path) in talk.incumbents.iter().filter(|(_, path)| !path.is_empty()) {
+        let Some(cost) = space.length(path).filter(|cost| *cost < best) else { continue };
+        if path.windows(2).all(|two| space.is_free(&two[0], &two[1]) == Ok(true)) {
             values.extend([*passed_s, cost]);
+            best = cost;
         }
     }
     if values.is_empty() {

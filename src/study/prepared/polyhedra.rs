@@ -22,8 +22,29 @@ pub fn prepare(world: PolyhedraWorld) -> Prepared {
     let domain = [low, high].iter().flat_map(|corner| corner.as_slice().to_vec()).collect();
     let mut exhibits = vec![Exhibit { name: "domain".to_owned(), width: 3, values: domain }];
     exhibits.extend(solids("bodies", world.bodies()));
+    exhibits.extend(floor(&world));
     Prepared { world: World::Polyhedra(Box::new(world)), values, exhibits }
 }
+
+/// The part of the floor under the bodies and the arm's base, as a rectangle in order around it.
+fn floor(world: &PolyhedraWorld) -> Option<Exhibit> {
+    let arm = world.arm()?;
+    let (height, base) = (arm.floor_cm()?, arm.arm().chain().base().origin * 100.0);
+    let all = world.bodies().iter().flat_map(|body| [body.aabb().min, body.aabb().max]).chain([base]);
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for corner in all {
+        for axis in 0..2 {
+            low[axis] = low[axis].min(corner[axis] - FLOOR_CM);
+            high[axis] = high[axis].max(corner[axis] + FLOOR_CM);
+        }
+    }
+    let corners = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
+    let values = corners.iter().flat_map(|[x, y]| [*x, *y, height]).collect();
+    Some(Exhibit { name: "floor".to_owned(), width: 3, values })
+}
+
+/// How far the floor is drawn beyond what stands on it.
+const FLOOR_CM: f64 = 20.0;
 
 /// Vertices, and the numbers of the vertices of each face: (face, vertex) in order around it, counted through.
 fn solids(name: &str, solids: &[Convex]) -> [Exhibit; 2] {

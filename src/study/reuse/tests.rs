@@ -1,3 +1,4 @@
+use crate::study::key::Owner;
 use crate::study::lock::Lock;
 use crate::study::manifest::Manifest;
 use crate::study::paper::Paper;
@@ -5,7 +6,7 @@ use crate::study::record::Row;
 use crate::study::session::{Options, Report, run};
 use crate::study::store::{Columns, Exhibits, Records, Staged, read_records, stage_records};
 use crate::study::{Inputs, Study, runner::Unwatched};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -211,4 +212,23 @@ fn a_papers_folder_spelled_otherwise_reruns_nothing_and_another_map_reruns_its_g
     let other = house.run(STUDY, "runs");
     assert_eq!(other.why, ["problem group `drawn` has changed under 2 of 2 readings"]);
     assert_eq!((other.reused, other.units), (12, 14));
+}
+
+#[test]
+fn of_a_trial_only_the_exhibits_that_are_named_are_kept() {
+    let house = House::new();
+    let named = STUDY.replace("replicates = 2", "replicates = 2\nexhibits = ['path']");
+    let names = |out: &str| -> BTreeSet<String> {
+        let kept = house.records(out).batch.kept.into_iter();
+        let of_trials = kept.filter(|kept| matches!(kept.of, Owner::Trial(_)));
+        of_trials.map(|kept| kept.exhibit.name).collect()
+    };
+    house.run(STUDY, "runs");
+    house.run(&named, "named");
+    assert!(names("runs").len() > 1 && names("runs").contains("path"));
+    assert_eq!(names("named"), BTreeSet::from(["path".to_owned()]));
+    assert!(house.records("runs").batch.rows == house.records("named").batch.rows);
+    let again = house.run(&named, "runs");
+    assert_eq!(again.reused, 0, "a spec that keeps other exhibits takes over none");
+    assert!(house.facts("runs") == house.facts("named"));
 }

@@ -30,7 +30,7 @@ const KEYS: [(&str, Option<&str>, &str); 16] = [
     (
         "status",
         None,
-        "how the trial ended: solved, no_path, budget_spent, rejected, invalid_problem or crashed",
+        "how the trial ended: solved, no_path, budget_spent, time_spent, rejected, invalid_problem or crashed",
     ),
     ("reason", None, "why it ended so; null if it is solved or built"),
     ("kind", None, "kind of prepared object"),

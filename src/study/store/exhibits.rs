@@ -1,10 +1,11 @@
 //! Exhibits on disk, written and read group by group: whoever puts parts together holds one group of each at a time.
 
+use super::Exhibits;
 use super::read::{Draws, Stored, UNREADABLE, touched, unpanicked};
 use super::table;
 use crate::study::StudyError;
 use crate::study::key::{KeyColumns, Owner, SweepKey};
-use crate::study::record::Kept;
+use crate::study::record::{Kept, Row};
 use polars::prelude::PolarsError;
 use polars_io::parquet::write::BatchedWriter;
 use polars_io::prelude::{ParquetReader, SerReader as _};
@@ -84,6 +85,31 @@ pub fn sweep_of(kept: &[Kept]) -> Option<SweepKey> {
     })
 }
 
+/// How many exhibits each group of the file at `path` has.
+///
+/// # Errors
+/// [`StudyError::Touched`].
+pub fn groups(path: &Path) -> Result<Vec<usize>, StudyError> {
+    let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
+    let metadata = unpanicked(|| ParquetReader::new(file).get_metadata().ok().cloned());
+    let metadata = metadata.flatten().ok_or_else(|| touched(path, UNREADABLE))?;
+    let mut counts = Vec::new();
+    for group in &metadata.row_groups {
+        counts.push(group.num_rows());
+    }
+    Ok(counts)
+}
+
+/// The exhibits in the file at `path` that stand in `rows`: the first row and how many there are.
+///
+/// # Errors
+/// [`StudyError::Touched`].
+pub fn read_group(path: &Path, rows: (usize, usize), draws: &mut Draws) -> Result<Vec<Kept>, StudyError> {
+    let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
+    let read = || ParquetReader::new(file).with_slice(Some(rows)).finish();
+    Stored::of(path.to_owned(), read)?.guarded(|file| file.exhibits(draws))
+}
+
 /// A file of exhibits that is read from its beginning, one group at a time.
 pub struct ExhibitReader {
     path: PathBuf,
@@ -100,13 +126,7 @@ impl ExhibitReader {
     /// # Errors
     /// [`StudyError::Stored`].
     pub fn open(path: &Path) -> Result<Self, StudyError> {
-        let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
-        let metadata = unpanicked(|| ParquetReader::new(file).get_metadata().ok().cloned());
-        let metadata = metadata.flatten().ok_or_else(|| touched(path, UNREADABLE))?;
-        let mut groups = Vec::new();
-        for group in metadata.row_groups.iter().rev() {
-            groups.push(group.num_rows());
-        }
+        let groups = groups(path)?.into_iter().rev().collect();
         let (path, read, draws) = (path.to_owned(), VecDeque::new(), Draws::default());
         Ok(Self { path, groups, row: 0, read, draws })
     }
@@ -119,11 +139,7 @@ impl ExhibitReader {
         while self.read.is_empty()
             && let Some(count) = self.groups.pop()
         {
-            let file = File::open(&self.path).map_err(StudyError::io(&self.path, "opening the file"))?;
-            let slice = Some((self.row, count));
-            let read = || ParquetReader::new(file).with_slice(slice).finish();
-            let stored = Stored::of(self.path.clone(), read)?;
-            self.read = stored.guarded(|file| file.exhibits(&mut self.draws))?.into();
+            self.read = read_group(&self.path, (self.row, count), &mut self.draws)?.into();
             self.row += count;
         }
         Ok(self.read.front())
@@ -132,6 +148,25 @@ impl ExhibitReader {
     /// Takes what [`peek`](Self::peek) has shown.
     pub fn take(&mut self) -> Option<Kept> {
         self.read.pop_front()
+    }
+
+    /// Takes the next exhibit.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`].
+    pub fn next_one(&mut self) -> Result<Option<Kept>, StudyError> {
+        self.peek()?;
+        Ok(self.take())
+    }
+
+    /// All that it has left, on their way to another file of the study with these rows.
+    ///
+    /// # Errors
+    /// [`StudyError::Stored`].
+    pub fn all(mut self, rows: &[Row]) -> Result<Exhibits<'static>, StudyError> {
+        let sweep = if self.has_trials()? { rows.first().map(|row| row.key.sweep.clone()) } else { None };
+        let each = std::iter::from_fn(move || self.next_one().transpose());
+        Ok(Exhibits { each: Box::new(each), sweep, group_values: GROUP_VALUES })
     }
 
     /// What is said of what it holds.

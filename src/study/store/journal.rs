@@ -1,15 +1,19 @@
 //! The journal of a run: one line a finished unit, so that a killed run goes on where it stopped.
 //!
 //! The first line names what the run depends on. A later line is a checksum and a JSON object; reading stops at the
-//! first line that is torn or damaged, and the file is cut there.
+//! first line that is torn or damaged, and the file is cut there. It is where exhibits wait as well: beyond the first few
+//! megabytes they are on disk alone until the run is over.
 
+use super::exhibits::{GROUP_VALUES, sweep_of};
 use crate::study::StudyError;
-use crate::study::record::Batch;
+use crate::study::key::SweepKey;
+use crate::study::record::{Batch, Kept};
 use base::hash::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
-use std::io::{Seek, SeekFrom, Write};
+use std::io::{self, BufRead as _, BufReader, ErrorKind, Read as _, Seek, SeekFrom, Write};
+use std::mem;
 use std::path::{Path, PathBuf};
 
 /// A journal that is open for writing.
@@ -17,9 +21,24 @@ use std::path::{Path, PathBuf};
 pub struct Journal {
     path: PathBuf,
     file: File,
+    /// How long the file is.
+    end: u64,
+    /// Where each unit's line begins, and how long it is.
+    lines: BTreeMap<usize, (u64, usize)>,
+    /// Exhibits that are in memory too, by their units.
+    held: BTreeMap<usize, Vec<Kept>>,
+    /// How many more of their numbers may be.
+    room: usize,
+    sweep: Option<SweepKey>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize)]
+struct NewLine<'b> {
+    unit: usize,
+    batch: &'b Batch,
+}
+
+#[derive(Deserialize)]
 struct Line {
     unit: usize,
     batch: Batch,
@@ -31,7 +50,7 @@ impl Journal {
         folder.join(format!("{study}.journal"))
     }
 
-    /// Opens the journal at `path` for a run that depends on `key`, and returns the units it holds.
+    /// Opens the journal at `path` for a run that depends on `key`, and returns the units it holds, without their exhibits.
     ///
     /// A journal of another run is emptied: its units answer another question.
     ///
@@ -39,27 +58,84 @@ impl Journal {
     /// [`StudyError::Io`].
     pub fn open(path: &Path, key: &str) -> Result<(Self, BTreeMap<usize, Batch>), StudyError> {
         let io = |doing| StudyError::io(path, doing);
-        let text = fs::read(path).unwrap_or_default();
-        let (kept_bytes, units) = read(&text, key);
-        let options = OpenOptions::new().create(true).write(true).truncate(false).open(path);
-        let mut file = options.map_err(io("opening the journal"))?;
-        file.set_len(kept_bytes as u64).map_err(io("cutting the journal"))?;
-        file.seek(SeekFrom::End(0)).map_err(io("seeking in the journal"))?;
-        let mut journal = Self { path: path.to_owned(), file };
-        if kept_bytes == 0 {
+        let options = OpenOptions::new().create(true).read(true).write(true).truncate(false).open(path);
+        let file = options.map_err(io("opening the journal"))?;
+        let mut journal = Self::new(path.to_owned(), file);
+        let units = journal.read(key).map_err(io("reading the journal"))?;
+        journal.file.set_len(journal.end).map_err(io("cutting the journal"))?;
+        journal.file.seek(SeekFrom::End(0)).map_err(io("seeking in the journal"))?;
+        if journal.end == 0 {
             journal.write(&format!("{key}\n"))?;
         }
         Ok((journal, units))
     }
 
-    /// Adds a finished unit.
+    fn new(path: PathBuf, file: File) -> Self {
+        let (lines, held) = (BTreeMap::new(), BTreeMap::new());
+        Self { path, file, end: 0, lines, held, room: GROUP_VALUES, sweep: None }
+    }
+
+    /// The units of a journal for `key`, up to the first line that is not sound.
+    fn read(&mut self, key: &str) -> io::Result<BTreeMap<usize, Batch>> {
+        let (mut units, mut line) = (BTreeMap::new(), Vec::new());
+        let mut reader = BufReader::new(self.file.try_clone()?);
+        reader.read_until(b'\n', &mut line)?;
+        if line != format!("{key}\n").as_bytes() {
+            return Ok(units);
+        }
+        self.end = line.len() as u64;
+        loop {
+            line.clear();
+            reader.read_until(b'\n', &mut line)?;
+            let Some(Line { unit, mut batch }) = parse(&line) else { return Ok(units) };
+            self.lines.insert(unit, (self.end, line.len()));
+            self.end += line.len() as u64;
+            self.hold(unit, mem::take(&mut batch.kept));
+            units.insert(unit, batch);
+        }
+    }
+
+    /// Adds a finished unit, and takes its exhibits out of `batch`.
     ///
     /// # Errors
     /// [`StudyError::Io`], for example when the disk is full; lines already written stay.
-    pub fn append(&mut self, unit: usize, batch: &Batch) -> Result<(), StudyError> {
-        let json = serde_json::to_string(&Line { unit, batch: batch.clone() })
-            .expect("a batch holds nothing that JSON cannot");
-        self.write(&format!("{} {json}\n", &sha256(json.as_bytes())[..16]))
+    pub fn append(&mut self, unit: usize, batch: &mut Batch) -> Result<(), StudyError> {
+        let json =
+            serde_json::to_string(&NewLine { unit, batch }).expect("a batch holds nothing that JSON cannot");
+        let begin = self.end;
+        self.write(&format!("{} {json}\n", &sha256(json.as_bytes())[..16]))?;
+        self.lines.insert(unit, (begin, (self.end - begin) as usize));
+        self.hold(unit, mem::take(&mut batch.kept));
+        Ok(())
+    }
+
+    fn hold(&mut self, unit: usize, kept: Vec<Kept>) {
+        self.sweep = self.sweep.take().or_else(|| sweep_of(&kept));
+        let numbers = kept.iter().map(|kept| kept.exhibit.values.len()).sum::<usize>();
+        if let Some(room) = self.room.checked_sub(numbers) {
+            self.room = room;
+            self.held.insert(unit, kept);
+        }
+    }
+
+    /// The sweep of an exhibit that belongs to a trial, if any does.
+    pub fn sweep(&self) -> Option<&SweepKey> {
+        self.sweep.as_ref()
+    }
+
+    /// Takes the exhibits of a unit; none if it is not here.
+    ///
+    /// # Errors
+    /// [`StudyError::Io`].
+    pub fn exhibits(&mut self, unit: usize) -> Result<Vec<Kept>, StudyError> {
+        if let Some(kept) = self.held.remove(&unit) {
+            return Ok(kept);
+        }
+        let Some((begin, length)) = self.lines.get(&unit) else { return Ok(Vec::new()) };
+        let mut line = vec![0; *length];
+        let read = self.file.seek(SeekFrom::Start(*begin)).and_then(|_| self.file.read_exact(&mut line));
+        let parsed = read.and_then(|()| parse(&line).ok_or_else(|| ErrorKind::InvalidData.into()));
+        Ok(parsed.map_err(StudyError::io(&self.path, "reading the journal"))?.batch.kept)
     }
 
     /// Removes the journal: the run is over and its records are in place.
@@ -72,7 +148,9 @@ impl Journal {
     }
 
     fn write(&mut self, line: &str) -> Result<(), StudyError> {
-        self.file.write_all(line.as_bytes()).map_err(StudyError::io(&self.path, "writing the journal"))
+        self.file.write_all(line.as_bytes()).map_err(StudyError::io(&self.path, "writing the journal"))?;
+        self.end += line.len() as u64;
+        Ok(())
     }
 }
 
@@ -80,23 +158,6 @@ impl Journal {
 pub fn journal_units(folder: &Path, study: &str) -> usize {
     let bytes = fs::read(Journal::path(folder, study)).unwrap_or_default();
     bytes.split(|byte| *byte == b'\n').count().saturating_sub(2)
-}
-
-/// The units in `text` if it is a journal for `key`, and how many of its bytes are sound.
-fn read(text: &[u8], key: &str) -> (usize, BTreeMap<usize, Batch>) {
-    let mut units = BTreeMap::new();
-    let mut lines = text.split_inclusive(|byte| *byte == b'\n');
-    let header = lines.next().unwrap_or_default();
-    if header != format!("{key}\n").as_bytes() {
-        return (0, units);
-    }
-    let mut sound = header.len();
-    for line in lines {
-        let Some(Line { unit, batch }) = parse(line) else { break };
-        units.insert(unit, batch);
-        sound += line.len();
-    }
-    (sound, units)
 }
 
 fn parse(line: &[u8]) -> Option<Line> {
@@ -120,6 +181,28 @@ mod tests {
         Batch { kept: vec![Kept { of, exhibit }], ..Batch::default() }
     }
 
+    fn kept(journal: &mut Journal, unit: usize) -> Vec<Kept> {
+        journal.exhibits(unit).unwrap()
+    }
+
+    #[test]
+    fn exhibits_that_there_is_no_room_for_come_back_from_disk() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.journal");
+        let (mut journal, _) = Journal::open(&path, "key").unwrap();
+        journal.room = 7;
+        for number in [0, 1, 2, 3] {
+            journal.append(number as usize, &mut batch(number)).unwrap();
+        }
+        assert_eq!(journal.held.len(), 2, "three numbers each, and room for seven");
+        for number in [3, 0, 2, 1] {
+            assert_eq!(kept(&mut journal, number as usize), batch(number).kept);
+        }
+        assert!(kept(&mut journal, 4).is_empty());
+        journal.remove().unwrap();
+        assert!(!path.exists());
+    }
+
     #[test]
     fn a_journal_cut_anywhere_gives_back_its_whole_lines_and_goes_on() {
         let folder = tempfile::tempdir().unwrap();
@@ -127,16 +210,19 @@ mod tests {
         let (mut journal, units) = Journal::open(&path, "key").unwrap();
         assert!(units.is_empty());
         for number in 0..3 {
-            journal.append(number as usize, &batch(number)).unwrap();
+            journal.append(number as usize, &mut batch(number)).unwrap();
         }
         let whole = fs::read(&path).unwrap();
         let mut counts = Vec::new();
         for cut in 0..=whole.len() {
             fs::write(&path, &whole[..cut]).unwrap();
             let (mut journal, units) = Journal::open(&path, "key").unwrap();
-            assert!(units.iter().all(|(unit, found)| *found == batch(*unit as u32)), "cut at {cut}");
             let next = units.len();
-            journal.append(next, &batch(next as u32)).unwrap();
+            assert!(
+                (0..next).all(|unit| kept(&mut journal, unit) == batch(unit as u32).kept),
+                "cut at {cut}"
+            );
+            journal.append(next, &mut batch(next as u32)).unwrap();
             assert_eq!(Journal::open(&path, "key").unwrap().1.len(), next + 1, "cut at {cut}");
             counts.push(next);
         }
@@ -148,8 +234,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.journal");
         let (mut journal, _) = Journal::open(&path, "key").unwrap();
-        journal.append(0, &batch(0)).unwrap();
-        journal.append(1, &batch(1)).unwrap();
+        journal.append(0, &mut batch(0)).unwrap();
+        journal.append(1, &mut batch(1)).unwrap();
         let text = fs::read_to_string(&path).unwrap();
         fs::write(&path, text.replacen("\"unit\":1", "\"unit\":2", 1)).unwrap();
         assert_eq!(Journal::open(&path, "key").unwrap().1.keys().collect::<Vec<_>>(), [&0]);
@@ -158,8 +244,8 @@ mod tests {
     #[test]
     fn a_full_disk_is_told_with_the_journals_place() {
         let file = OpenOptions::new().write(true).open("/dev/full").unwrap();
-        let mut journal = Journal { path: PathBuf::from("runs/a.journal"), file };
-        let error = journal.append(0, &batch(0)).unwrap_err().to_string();
+        let mut journal = Journal::new(PathBuf::from("runs/a.journal"), file);
+        let error = journal.append(0, &mut batch(0)).unwrap_err().to_string();
         assert!(error.starts_with("runs/a.journal: writing the journal: No space left on device"), "{error}");
     }
 }

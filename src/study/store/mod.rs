@@ -6,11 +6,13 @@
 mod describe;
 mod exhibits;
 mod journal;
+mod pick;
 mod read;
 mod table;
 
 pub use exhibits::{ExhibitReader, GROUP_VALUES};
 pub use journal::{Journal, journal_units};
+pub use pick::KeptExhibits;
 pub use read::quoted;
 
 use self::exhibits::ExhibitWriter;

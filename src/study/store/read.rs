@@ -245,7 +245,7 @@ impl Stored {
     }
 
     /// What names each row, a trial or the prepared object itself.
-    fn owners(&self, draws: &mut Draws) -> Result<Vec<Owner>, StudyError> {
+    pub fn owners(&self, draws: &mut Draws) -> Result<Vec<Owner>, StudyError> {
         let (on, sweep) = (self.draws(draws)?, self.sweeps()?);
         let (query, contender, repeat) =
             (self.texts("query")?, self.texts("contender")?, self.maybe_wholes("repeat")?);

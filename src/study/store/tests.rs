@@ -1,3 +1,4 @@
+use super::KeptExhibits;
 use super::describe::{Described, described};
 use super::exhibits::{self, ExhibitReader, ExhibitWriter, GROUP_VALUES};
 use super::read::{Draws, Stored};
@@ -6,8 +7,10 @@ use super::{Staged, remove_temporaries, write_whole};
 use crate::study::column;
 use crate::study::key::{DrawKey, KeyColumns, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
 use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
+use base::hash::sha256;
 use engine::planner::{Exhibit, Value};
 use polars_io::prelude::{ParquetReader, SerReader as _};
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::Cursor;
 use std::path::PathBuf;
@@ -135,18 +138,45 @@ fn measured_columns_are_told_from_those_of_keys_by_their_names() {
     }
 }
 
+/// The file of `kept` in groups of at most so many numbers.
+fn in_groups(kept: &[Kept], most: usize) -> Vec<u8> {
+    let (mut bytes, keys) = (Vec::new(), keys());
+    let mut file = ExhibitWriter::new(&mut bytes, &keys, exhibits::sweep_of(kept), most).unwrap();
+    for kept in kept {
+        file.add(kept.clone()).unwrap();
+    }
+    file.finish().unwrap();
+    bytes
+}
+
+#[test]
+fn only_the_groups_that_are_asked_for_are_read_and_one_at_a_time_by_who_takes_them() {
+    let (all, folder) = (kept(40), tempfile::tempdir().unwrap());
+    let path = folder.path().join("a.exhibits.parquet");
+    fs::write(&path, in_groups(&all, 7)).unwrap();
+    let hashes = |hash| BTreeMap::from([("exhibits".to_owned(), hash)]);
+    let sound = hashes(sha256(&fs::read(&path).unwrap()));
+    let stored = KeptExhibits::stored(folder.path(), "a", &sound).unwrap();
+    assert_eq!(stored.in_memory(), 0, "no group is read before one is asked for");
+    let (first, last) = (&all[0], &all[39]);
+    assert_eq!(stored.of(&last.of).collect::<Vec<_>>(), [&last.exhibit]);
+    assert_eq!(stored.in_memory(), 1);
+    assert_eq!(stored.owners().unwrap(), all.iter().map(|kept| &kept.of).collect::<Vec<_>>());
+    let mut stored = stored;
+    for kept in &all {
+        assert_eq!(stored.take(&kept.of).unwrap(), std::slice::from_ref(&kept.exhibit));
+        assert_eq!(stored.in_memory(), 1);
+    }
+    assert!(KeptExhibits::stored(folder.path(), "a", &hashes("0".repeat(64))).is_err());
+    let stored = KeptExhibits::stored(folder.path(), "a", &sound).unwrap();
+    fs::write(&path, "no Parquet").unwrap();
+    assert_eq!((stored.of(&first.of).count(), stored.damage().is_err()), (0, true));
+}
+
 #[test]
 fn exhibits_are_written_and_read_group_by_group_and_one_group_is_the_file_of_a_frame() {
     let (kept, keys) = (kept(40), keys());
-    let written = |most: usize| {
-        let mut bytes = Vec::new();
-        let mut file = ExhibitWriter::new(&mut bytes, &keys, exhibits::sweep_of(&kept), most).unwrap();
-        for kept in &kept {
-            file.add(kept.clone()).unwrap();
-        }
-        file.finish().unwrap();
-        bytes
-    };
+    let written = |most: usize| in_groups(&kept, most);
     assert!(written(GROUP_VALUES) == table::to_parquet(table::exhibits(&kept, &keys, None), &keys));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.exhibits.parquet");

@@ -3,7 +3,8 @@
 //! One row a draw: the counts of that draw's samples. A sample is separated if the exact distance is above 0; it is
 //! overestimated if the printed distance is longer by more than a millionth of the obstacle's extent, and a
 //! collision is missed if the printed distance is not 0. The clamped formula for two segments is compared with the
-//! exact one on pairs of segments of the same samples.
+//! exact one on pairs of segments of the same samples; so is the same formula to the letter, with s and t as eqs. 11 and 12 name
+//! them and the ends as the text after eq. 18 takes them. `overestimated_listed` has the diagonals that the text lists, not all.
 
 use super::{Entry, Task};
 use crate::study::key::TrialKey;
@@ -12,8 +13,8 @@ use crate::study::unit::Unit;
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Settings};
 use engine::geometry::{
-    Convex, Segment, Vec3, distance_segment_convex, distance_segment_segment, nearest_segment_convex_printed,
-    nearest_segment_segment_printed,
+    Convex, Segment, Vec3, distance_segment_convex, distance_segment_segment, nearest_segment_convex_listed,
+    nearest_segment_convex_printed, nearest_segment_segment_literal, nearest_segment_segment_printed,
 };
 use engine::planner::Value;
 use rand::RngExt as _;
@@ -24,14 +25,16 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "formula_error",
     about: "how often the printed distance of a segment and a polyhedron is wrong, on random segments",
-    revision: 1,
+    revision: 2,
     columns: &[
         "separated",
         "overestimated",
         "colliding",
         "missed",
+        "overestimated_listed",
         "segment_pairs",
         "segment_pairs_wrong",
+        "segment_pairs_wrong_literal",
         "largest_excess_cm",
     ],
     settings: Accepted::of::<FormulaError>(),
@@ -74,8 +77,10 @@ struct Counted {
     overestimated: u64,
     colliding: u64,
     missed: u64,
+    overestimated_listed: u64,
     pairs: u64,
     pairs_wrong: u64,
+    pairs_wrong_literal: u64,
     largest_excess: f64,
 }
 
@@ -87,6 +92,8 @@ impl Counted {
         if truth > 0.0 {
             self.separated += 1;
             self.overestimated += u64::from(printed > truth + SAME * extent);
+            let listed = nearest_segment_convex_listed(segment, convex).distance;
+            self.overestimated_listed += u64::from(listed > truth + SAME * extent);
             self.largest_excess = self.largest_excess.max(printed - truth);
         } else {
             self.colliding += 1;
@@ -96,6 +103,8 @@ impl Counted {
         let printed = nearest_segment_segment_printed(segment, other).distance;
         self.pairs += 1;
         self.pairs_wrong += u64::from((printed - truth).abs() > SAME * extent);
+        let literal = nearest_segment_segment_literal(segment, other).distance;
+        self.pairs_wrong_literal += u64::from((literal - truth).abs() > SAME * extent);
     }
 
     fn values(&self) -> Values {
@@ -104,8 +113,10 @@ impl Counted {
             ("overestimated", self.overestimated),
             ("colliding", self.colliding),
             ("missed", self.missed),
+            ("overestimated_listed", self.overestimated_listed),
             ("segment_pairs", self.pairs),
             ("segment_pairs_wrong", self.pairs_wrong),
+            ("segment_pairs_wrong_literal", self.pairs_wrong_literal),
         ];
         let counts = counts.into_iter().map(|(name, count)| (name, Value::Count(count)));
         counts.chain([("largest_excess_cm", Value::Real(self.largest_excess))]).collect()

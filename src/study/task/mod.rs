@@ -18,6 +18,12 @@ pub trait Task: Send + Sync {
     /// Does one unit of work: everything that shares one prepared object.
     fn run(&self, unit: &Unit<'_>) -> Batch;
 
+    /// Does several units of one family and seed, which differ in their contenders alone; as [`run`](Self::run) of each, but
+    /// what they share may be made once.
+    fn run_alike(&self, units: &[&Unit<'_>]) -> Vec<Batch> {
+        units.iter().map(|unit| self.run(unit)).collect()
+    }
+
     /// What names the unit's trials, in the order of records: one a query, entrant and repeat, unless the task does
     /// something else.
     fn trials(&self, unit: &Unit<'_>) -> Vec<TrialKey> {

@@ -30,19 +30,16 @@ struct PlanTask;
 
 impl Task for PlanTask {
     fn run(&self, unit: &Unit<'_>) -> Batch {
-        let prepared = unit.family.prepare(unit.seed);
-        let mut batch = Batch::default();
-        batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
-        if let Ok(prepared) = &prepared
-            && unit.is_kept(None, 0)
-        {
-            batch.keep(&(&unit.key).into(), prepared.exhibits.clone());
-        }
         let queries = unit.queries();
-        let guide = prepared.as_ref().map_or_else(|_| Guide::default(), |p| Guide::new(&p.world, &queries));
+        let prepared = unit.family.prepare(unit.seed);
+        let guide = guide(&prepared, &queries);
+        let mut batch = Batch::default();
+        begin(unit, &prepared, &mut batch);
         let run = |index: usize| {
             let mut batch = Batch::default();
-            run_query(unit, prepared.as_ref(), &guide, (index, &queries[index]), &mut batch);
+            let truth =
+                prepared.as_ref().ok().map(|p| verification::truth(&p.world, &queries[index], &guide));
+            run_query(unit, (prepared.as_ref(), truth.as_ref()), (index, &queries[index]), &mut batch);
             batch
         };
         // A roadmap numbers the ends of its queries as they come, so that their order matters; a lattice learns nothing.
@@ -58,22 +55,53 @@ impl Task for PlanTask {
         }
         batch
     }
+
+    fn run_alike(&self, units: &[&Unit<'_>]) -> Vec<Batch> {
+        let [first, _, ..] = units else { return units.iter().map(|unit| self.run(unit)).collect() };
+        let queries = first.queries();
+        let prepared = first.family.prepare(first.seed);
+        let guide = guide(&prepared, &queries);
+        let mut batches = vec![Batch::default(); units.len()];
+        for (unit, batch) in units.iter().zip(&mut batches) {
+            begin(unit, &prepared, batch);
+        }
+        for (index, query) in queries.iter().enumerate() {
+            // What the verifier learns about a query on one unit it need not work out again on the next.
+            let truth = prepared.as_ref().ok().map(|p| verification::truth(&p.world, query, &guide));
+            for (unit, batch) in units.iter().zip(&mut batches) {
+                run_query(unit, (prepared.as_ref(), truth.as_ref()), (index, query), batch);
+            }
+        }
+        batches
+    }
+}
+
+fn guide(prepared: &Result<Prepared, Invalid>, queries: &[Query]) -> Guide {
+    prepared.as_ref().map_or_else(|_| Guide::default(), |p| Guide::new(&p.world, queries))
+}
+
+/// Writes what is known of the prepared object itself.
+fn begin(unit: &Unit<'_>, prepared: &Result<Prepared, Invalid>, batch: &mut Batch) {
+    batch.prepared.push(super::prepared_row(unit, prepared.as_ref()));
+    if let Ok(prepared) = prepared
+        && unit.is_kept(None, 0)
+    {
+        batch.keep(&(&unit.key).into(), prepared.exhibits.clone());
+    }
 }
 
 /// Every contender on one query.
 fn run_query(
     unit: &Unit<'_>,
-    prepared: Result<&Prepared, &Invalid>,
-    guide: &Guide,
+    (prepared, truth): (Result<&Prepared, &Invalid>, Option<&Truth>),
     (index, query): (usize, &Query),
     batch: &mut Batch,
 ) {
     let known = unit.family.known(index);
-    let truth = prepared.ok().map(|p| verification::truth(&p.world, query, guide));
     for &entrant in &unit.entrants {
         for repeat in 0..entrant.contender.repeats {
             let trial = Trial { unit, query, entrant, repeat, known: &known };
-            match (prepared, &truth) {
+            match (prepared, truth) {
                 (Ok(prepared), Some(truth)) => trial.run(prepared, truth, batch),
                 (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
                 (Ok(_), None) => unreachable!("the truth is known wherever the world is"),
@@ -99,7 +127,8 @@ struct Trial<'a> {
 impl Trial<'_> {
     fn run(&self, prepared: &Prepared, truth: &Truth, batch: &mut Batch) {
         let seed = self.entrant.seed(self.unit.terms, &self.problem(), self.repeat);
-        let trace = self.unit.is_kept(Some(&self.entrant.contender.label), self.repeat);
+        let label = self.entrant.contender.label.as_str();
+        let trace = self.unit.is_kept(Some(label), self.repeat);
         let request = Request {
             world: &prepared.world,
             start: &self.query.start,
@@ -118,8 +147,10 @@ impl Trial<'_> {
                 row.values
                     .extend(plan.counts.iter().chain(&verified.values).map(|(name, value)| (*name, *value)));
                 if trace {
-                    batch.keep(&(&row.key).into(), std::mem::take(&mut plan.exhibits));
-                    batch.keep(&(&row.key).into(), verified.exhibits);
+                    let mut exhibits = std::mem::take(&mut plan.exhibits);
+                    exhibits.extend(verified.exhibits);
+                    exhibits.retain(|exhibit| self.unit.keeps(label, self.repeat, &exhibit.name));
+                    batch.keep(&(&row.key).into(), exhibits);
                     batch.keep(&(&row.key).into(), path_exhibit(&plan));
                 }
             }

@@ -1,8 +1,9 @@
+use crate::study::Inputs;
 use crate::study::lock::Lock;
 use crate::study::paper::Paper;
 use crate::study::rerun::rerun;
+use crate::study::runner::{BuiltStudy, Unwatched};
 use crate::study::session::{Options, run, run_one};
-use crate::study::{Inputs, runner::Unwatched};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -222,4 +223,25 @@ fn variants_that_never_lower_open_nodes_need_an_excess_and_one_shape_and_only_th
         assert!(error.contains(part), "{error}");
     }
     check("null_rate", "shape = 'square'", null).unwrap();
+}
+
+#[test]
+fn units_that_share_what_is_prepared_give_what_each_gives_alone() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let inputs = Inputs { roots: vec![root.to_owned()] };
+    let paper = Paper::load(&root.join("experiments/fu2018"), &inputs).unwrap();
+    for name in ["particle", "stages"] {
+        let study = paper.study(name).unwrap();
+        let points = study.trial_points().unwrap();
+        let built = BuiltStudy::new(study, &points[..1], &inputs).unwrap();
+        let first = built.units().remove(0);
+        // The other asks for less and in another order, so that what the first learned would show.
+        let mut other = first.clone();
+        other.entrants.reverse();
+        other.entrants.truncate(3);
+        let task = (study.task.build)(&study.task_settings).unwrap();
+        let together = task.run_alike(&[&first, &other]);
+        assert!(together == [built.run_unit(&first), built.run_unit(&other)], "{name}");
+        assert!(together[0].rows.len() > together[1].rows.len(), "{name}");
+    }
 }

@@ -1,18 +1,18 @@
 //! Plans among polyhedra: tip paths (three numbers a point) and joint paths (six) in the verifier's terms.
 
 use super::{Verified, outcome, refuse_ending};
-use engine::geometry::Vec3;
+use engine::geometry::{Segment, Vec3};
 use engine::kinematics::AXES;
 use engine::planner::{Counts, Ending, Plan, Request, Value};
 use engine::shorten::{TurnAngle, path_length, turn_sum_deg};
 use engine::space::PolyhedraWorld;
-use engine::space::polyhedra::CarriedArm;
+use engine::space::polyhedra::{CarriedArm, Motion, motion};
 use verify::polyhedra::{Case, Point, Solid};
 use verify::rods;
 
 /// The columns of every trial among polyhedra.
 pub const POLYHEDRA_COLUMNS: &[&str] =
-    &["path_length_cm", "turn_exterior_deg", "bends", "obstacles", "straight_line_cm"];
+    &["path_length_cm", "turn_exterior_deg", "bends", "obstacles", "straight_line_cm", "line_blocked"];
 
 /// The columns of every trial of an arm among polyhedra, besides.
 pub const CARRIED_COLUMNS: &[&str] = &[
@@ -21,15 +21,13 @@ pub const CARRIED_COLUMNS: &[&str] = &[
     "bends",
     "obstacles",
     "straight_line_cm",
+    "line_blocked",
     "joint_range_rad",
     "joint_travel_rad",
     "tip_jitter_cm",
     "posture_jitter_rad",
     "joint_jitter_rad",
 ];
-
-/// How many equal spans of time a joint path is looked at in, so that paths of other step lengths compare.
-const SPANS: usize = 200;
 
 /// A path turns where its direction changes by more than this.
 const BEND_DEG: f64 = 1e-3;
@@ -71,14 +69,16 @@ pub fn verify(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth:
         _ => None,
     });
     let straight = (Vec3::from(start) - Vec3::from(goal)).norm();
+    let line = Segment::new(start.into(), goal.into());
     let mut values = Counts::from([
         ("obstacles", Value::Count(world.obstacles().len() as u64)),
         ("straight_line_cm", Value::Real(straight)),
+        ("line_blocked", Value::Count(u64::from(!world.is_clear(&line)))),
     ]);
     if plan.ending == Ending::Solved && refusal.is_none() {
         let tips: Vec<Vec<f64>> = match (is_joints, world.arm()) {
             (true, Some(arm)) => {
-                motion(arm, &plan.path, &mut values);
+                values.extend(moved(&motion(arm, &plan.path)));
                 plan.path.iter().map(|q| arm.tip(&joints(q)).as_slice().to_vec()).collect()
             }
             _ => plan.path.clone(),
@@ -90,6 +90,18 @@ pub fn verify(world: &PolyhedraWorld, request: &Request<'_>, plan: &Plan, truth:
         }
     }
     Verified { outcome: outcome(request, plan, refusal), values, exhibits: Vec::new() }
+}
+
+/// What an arm did along its path, by column.
+fn moved(motion: &Motion) -> Counts {
+    let columns = [
+        ("joint_travel_rad", motion.joint_travel_rad),
+        ("joint_range_rad", motion.joint_range_rad),
+        ("tip_jitter_cm", motion.tip_jitter_cm),
+        ("posture_jitter_rad", motion.posture_jitter_rad),
+        ("joint_jitter_rad", motion.joint_jitter_rad),
+    ];
+    columns.into_iter().map(|(name, value)| (name, Value::Real(value))).collect()
 }
 
 /// Points at which a path turns; steps along a straight line that are off it by rounding do not.
@@ -129,55 +141,4 @@ fn arm(carried: &CarriedArm) -> rods::Arm {
         rods: carried.parts().iter().map(rod).collect(),
         floor: carried.floor_cm(),
     }
-}
-
-/// What the joints, the tip and its posture do, configurations following each other at equal times.
-fn motion(arm: &CarriedArm, path: &[Vec<f64>], values: &mut Counts) {
-    let travel: f64 =
-        path.windows(2).map(|pair| (0..AXES).map(|i| (pair[1][i] - pair[0][i]).abs()).sum::<f64>()).sum();
-    let range = |i: usize| {
-        let angles = path.iter().map(|q| q[i]);
-        angles.clone().fold(f64::NEG_INFINITY, f64::max) - angles.fold(f64::INFINITY, f64::min)
-    };
-    values.insert("joint_travel_rad", Value::Real(travel));
-    values.insert("joint_range_rad", Value::Real((0..AXES).map(range).sum()));
-    let even = resampled(path);
-    let tips: Vec<Vec3> = even.iter().map(|q| arm.tip(q)).collect();
-    let turns: Vec<Vec3> = even.windows(2).map(|pair| turn(arm, &pair[0], &pair[1])).collect();
-    let second = |a: f64, b: f64, c: f64| a - 2.0 * b + c;
-    let tip: f64 = tips.windows(3).map(|t| (t[0] - t[1] * 2.0 + t[2]).norm()).sum();
-    let posture: f64 = turns.windows(2).map(|t| (t[1] - t[0]).norm()).sum();
-    let joint: f64 = even
-        .windows(3)
-        .map(|q| (0..AXES).map(|i| second(q[0][i], q[1][i], q[2][i]).abs()).sum::<f64>())
-        .sum();
-    values.insert("tip_jitter_cm", Value::Real(tip));
-    values.insert("posture_jitter_rad", Value::Real(posture));
-    values.insert("joint_jitter_rad", Value::Real(joint));
-}
-
-/// The path at the ends of equal spans of time.
-fn resampled(path: &[Vec<f64>]) -> Vec<[f64; AXES]> {
-    let last = path.len() - 1;
-    let at = |k: usize| {
-        let place = k as f64 * last as f64 / SPANS as f64;
-        let index = (place as usize).min(last.saturating_sub(1));
-        let (from, to) = (&path[index], &path[(index + 1).min(last)]);
-        std::array::from_fn(|i| from[i] + (to[i] - from[i]) * (place - index as f64))
-    };
-    (0..=SPANS).map(at).collect()
-}
-
-/// The rotation vector from the tip's posture at `a` to that at `b`.
-fn turn(arm: &CarriedArm, a: &[f64; AXES], b: &[f64; AXES]) -> Vec3 {
-    let [from, to] = [a, b].map(|q| arm.arm().chain().forward(q).rotation);
-    let between = to * from.transpose();
-    let axis = Vec3::new(
-        between[(2, 1)] - between[(1, 2)],
-        between[(0, 2)] - between[(2, 0)],
-        between[(1, 0)] - between[(0, 1)],
-    );
-    let sine = axis.norm() / 2.0;
-    let angle = libm::atan2(sine, (between.trace() - 1.0) / 2.0);
-    if sine > 1e-12 { axis * (angle / (2.0 * sine)) } else { Vec3::zeros() }
 }

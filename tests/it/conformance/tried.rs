@@ -49,6 +49,13 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
     ("delete_inflections", &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'"]),
     ("direct", &[""]),
     ("joint_astar", &["delta_deg = 12.0\nneighbours = 12"]),
+    (
+        "joint_bspline",
+        &[
+            "control = 'trail'\nguarded = true\npoints_per_span = 2",
+            "control = 'off'\nguarded = true\npoints_per_span = 2",
+        ],
+    ),
     ("jps", &["", "preparation = 'each_query'"]),
     ("jps_plus", &["", "preparation = 'each_query'"]),
     (
@@ -57,6 +64,8 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
             "search = 'open_list'\ncluster = true\nlast_resort = true",
             "search = 'open_list'\ncluster = false\nlast_resort = false",
             "search = 'greedy'\ncluster = false\nlast_resort = false",
+            "search = 'greedy'\ncluster = false\nlast_resort = false\nlegs = 'last_joined'",
+            "search = 'open_list'\ncluster = true\nlast_resort = true\nlegs = 'first_refused'",
             "search = 'literal'\ncluster = false\nlast_resort = false",
         ],
     ),
@@ -106,7 +115,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
     ),
     ("shorten_best", &["least = 'length'", "least = 'nodes'"]),
     ("straighten", &["last = 'as_printed'", "last = 'goal'"]),
-    ("straighten_from_previous", &["resume = 'last_joined'", "resume = 'first_refused'"]),
+    ("straighten_from_previous", &["resume = 'last_joined'", "resume = 'first_refused'", "resume = 'off'"]),
     (
         "theta_star",
         &["line_of_sight = 'exact_interior'", "line_of_sight = 'closed_cells'\nties = 'larger_g'"],
@@ -131,8 +140,12 @@ pub const CUT_IN: &[Exception] = &[("bspline", "guarded", "false")];
 /// As printed, the walk may go round in circles until its budget is spent.
 pub const CIRCLE: &[Exception] = &[("keynode_astar", "search", "literal")];
 
-/// The tip drifts where joints follow the Jacobian, so that its path may be longer than the one it follows.
-pub const DRIFT: &[Exception] = &[("posture", "pose", "jacobian")];
+/// The tip drifts where joints follow the Jacobian or are smoothed, so that its path may be longer than the one it follows.
+pub const DRIFT: &[Exception] = &[("joint_bspline", "control", "trail"), ("posture", "pose", "jacobian")];
+
+/// Stages that are told to leave a path as it is.
+pub const OFF: &[Exception] =
+    &[("joint_bspline", "control", "off"), ("straighten_from_previous", "resume", "off")];
 
 /// Stages that take the paths of another kind of world's planners: `posture` makes joint angles of a tip's path.
 pub const FED_BY: &[(&str, WorldKind)] = &[("posture", WorldKind::Polyhedra)];

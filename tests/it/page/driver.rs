@@ -66,6 +66,9 @@ impl Browser {
             "goog:chromeOptions": { "binary": chromium, "args": args } });
         let made = browser.ask("POST", "/session", &json!({ "capabilities": { "alwaysMatch": wanted } }));
         made["sessionId"].as_str().unwrap_or_else(|| panic!("{made}")).clone_into(&mut browser.session);
+        // Chromium makes no window narrower than 500 pixels.
+        let exactly = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        browser.devtools("Emulation.setDeviceMetricsOverride", &exactly);
         Some(browser)
     }
 
@@ -116,6 +119,26 @@ impl Browser {
             std::thread::sleep(std::time::Duration::from_millis(100));
         }
         panic!("never true: {script}");
+    }
+
+    /// Presses and releases a key, as `WebDriver` writes it, on what has the focus.
+    pub fn press(&self, key: &str) {
+        let keys = ["keyDown", "keyUp"].map(|kind| json!({ "type": kind, "value": key }));
+        self.of_session(
+            "POST",
+            "/actions",
+            &json!({ "actions": [{ "type": "key", "id": "keys", "actions": keys }] }),
+        );
+    }
+
+    /// Shows pages on another medium, or to a reader with other wishes, as the `DevTools` protocol writes them.
+    pub fn emulate(&self, media: &Value) {
+        self.devtools("Emulation.setEmulatedMedia", media);
+    }
+
+    fn devtools(&self, command: &str, parameters: &Value) {
+        let command = json!({ "cmd": command, "params": parameters });
+        self.of_session("POST", "/goog/cdp/execute", &command);
     }
 
     /// What the page wrote to its console.

@@ -12,7 +12,8 @@ pub(super) fn document(rng: &mut SmallRng) -> String {
     let kinds = [
         sample, cells, cut_sum, total, parts, walk, straight, interval, p_value, grim, grimmer, ticks, rising,
     ];
-    let mut text = String::new();
+    // Few, since each is a search; with one decimal it takes a hundred times as long.
+    let mut text = if rng.random_bool(0.06) { any_angle_turns(rng) } else { String::new() };
     while text.is_empty() {
         for kind in kinds {
             if rng.random_bool(0.5) {
@@ -232,9 +233,9 @@ fn rising(rng: &mut SmallRng) -> String {
 }
 
 /// A polyline through cell centres whose length is near the straight line, with its turns.
-pub(super) fn any_angle_turns(rng: &mut SmallRng) -> String {
+fn any_angle_turns(rng: &mut SmallRng) -> String {
     let plain = Style::plain(rng);
-    let style = Style { decimals: 2, ..plain.clone() };
+    let styles = [(); 2].map(|()| Style { decimals: rng.random_range(2..4), ..plain.clone() });
     loop {
         let end = [rng.random_range(2..9), rng.random_range(0..6)];
         let mut cells = vec![[0, 0]];
@@ -251,11 +252,11 @@ pub(super) fn any_angle_turns(rng: &mut SmallRng) -> String {
         }
         let (convention, angles) =
             [(Convention::Exterior, "exterior"), (Convention::Interior, "interior")][rng.random_range(0..2)];
-        let printed = |value: f64| style.ratio((value * 1e9).round() as i128, 10_i128.pow(9));
+        let printed = |style: &Style, value: f64| style.ratio((value * 1e9).round() as i128, 10_i128.pow(9));
         let keys = format!(
             "turns = \"{}\"\nlength = \"{}\"\nfrom = \"0:0\"\nto = \"{}:{}\"\nangles = \"{angles}\"",
-            printed(turn_sum_deg(&cells, convention)),
-            printed(length),
+            printed(&styles[0], turn_sum_deg(&cells, convention)),
+            printed(&styles[1], length),
             end[0],
             end[1]
         );

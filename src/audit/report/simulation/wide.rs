@@ -158,7 +158,8 @@ fn lengths(rng: &mut SmallRng, sheet: &mut Sheet) {
     }
     sheet.add(format!("length [a+b√2, from=0:0, to={dx}:{dy}, turns=turn{}]", style.said()), lengths);
     sheet.add(format!("turn [value{}]", turned.said()), turns);
-    sheet.add(format!("short [a+b1.4, step=1/{step}{}]", turned.said()), short);
+    let ends = if step == 1 { format!(", from=0:0, to={dx}:{dy}") } else { String::new() };
+    sheet.add(format!("short [a+b1.4, step=1/{step}{ends}{}]", turned.said()), short);
 }
 
 /// Readings of a clock, and expansions.

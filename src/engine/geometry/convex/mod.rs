@@ -15,7 +15,10 @@ pub use distance::{
     distance_point_convex, distance_segment_convex, intersects_segment_convex, nearest_segment_convex,
 };
 pub use primitives::Axis;
-pub use printed::{nearest_segment_convex_printed, nearest_segment_segment_printed};
+pub use printed::{
+    nearest_segment_convex_listed, nearest_segment_convex_printed, nearest_segment_segment_literal,
+    nearest_segment_segment_printed,
+};
 
 use super::{Aabb, Vec3};
 

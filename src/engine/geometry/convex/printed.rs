@@ -19,28 +19,93 @@ use crate::geometry::{Nearest, Segment, Vec3};
 /// within the segment is never solved for again. Lines without one nearest pair (parallel ones, which the text
 /// leaves out) start from the first segment's start.
 pub fn nearest_segment_segment_printed(p: &Segment, q: &Segment) -> Nearest {
-    let (d1, d2, r) = (p.b - p.a, q.b - q.a, p.a - q.a);
-    let (a, b, e) = (d1.dot(&d1), d1.dot(&d2), d2.dot(&d2));
-    let (c, f) = (d1.dot(&r), d2.dot(&r));
-    let determinant = a * e - b * b;
-    let parallel = determinant <= 1e-12 * a * e;
-    let (s, t) =
-        if parallel { (0.0, f / e) } else { ((b * f - c * e) / determinant, (a * f - b * c) / determinant) };
+    let Lines { b, e, f, s, t, .. } = Lines::of(p, q);
     let clamped = s.clamp(0.0, 1.0);
     let t = if clamped == s { t } else { (b * clamped + f) / e };
     Nearest::between(p.at(clamped), q.at(t.clamp(0.0, 1.0)))
 }
 
+/// The products of eqs. 11 and 12 and the shares of both lines at their nearest points.
+struct Lines {
+    a: f64,
+    b: f64,
+    e: f64,
+    f: f64,
+    s: f64,
+    t: f64,
+}
+
+impl Lines {
+    fn of(p: &Segment, q: &Segment) -> Self {
+        let (d1, d2, r) = (p.b - p.a, q.b - q.a, p.a - q.a);
+        let (a, b, e) = (d1.dot(&d1), d1.dot(&d2), d2.dot(&d2));
+        let (c, f) = (d1.dot(&r), d2.dot(&r));
+        let determinant = a * e - b * b;
+        let parallel = determinant <= 1e-12 * a * e;
+        let (s, t) = if parallel {
+            (0.0, f / e)
+        } else {
+            ((b * f - c * e) / determinant, (a * f - b * c) / determinant)
+        };
+        Self { a, b, e, f, s, t }
+    }
+}
+
+/// The nearest points of two segments by eqs. 11 to 18 to the letter: `q` is the rod's segment, `p` the obstacle's.
+///
+/// Eqs. 11 and 12 give s to the point of the rod and t to that of the obstacle; after eq. 16 s is what places the obstacle's point
+/// at one of its ends, and the point of the rod, found anew, is put at the wrong end where it lies beyond one: at q1 for t > 1, at q2
+/// for t < 0. An s within 0 to 1 leaves the obstacle's point at t of eq. 12, wherever that is. Lines without one nearest pair start
+/// from the rod's first end.
+pub fn nearest_segment_segment_literal(rod: &Segment, side: &Segment) -> Nearest {
+    let Lines { a, s, t, .. } = Lines::of(rod, side);
+    let is_share = |share: f64| (0.0..=1.0).contains(&share);
+    if is_share(s) && is_share(t) {
+        return Nearest::between(rod.at(s), side.at(t));
+    }
+    let p = placed(s, [side.a, side.b], side.at(t));
+    let anew = (p - rod.a).dot(&(rod.b - rod.a)) / a;
+    let q = placed(anew, [rod.b, rod.a], rod.at(anew));
+    Nearest::between(q, p)
+}
+
+/// What a share below 0 or above 1 places at one of two ends, and any other `within`.
+fn placed(share: f64, [below, above]: [Vec3; 2], within: Vec3) -> Vec3 {
+    match share {
+        share if share > 1.0 => above,
+        share if share < 0.0 => below,
+        _ => within,
+    }
+}
+
 /// The nearest points of a segment and a polyhedron by the edges and diagonals of its faces, or where the segment
-/// pierces a face, as Tang et al. (2023) compute them.
+/// pierces a face, as Tang et al. (2023) compute them: all diagonals, of which the text lists fewer.
 pub fn nearest_segment_convex_printed(segment: &Segment, convex: &Convex) -> Nearest {
+    nearest_by_lines(segment, convex, |_, _, _| true)
+}
+
+/// The same with the diagonals that the text lists for a face of five corners, by the rule that they follow: those from the first
+/// two corners. Faces of three or four corners have no others.
+pub fn nearest_segment_convex_listed(segment: &Segment, convex: &Convex) -> Nearest {
+    nearest_by_lines(segment, convex, |i, j, count| i < 2 || j == i + 1 || (i, j + 1) == (0, count))
+}
+
+/// The same by the edges and diagonals for which `is_taken` holds, of the two corners' places and the number of corners.
+fn nearest_by_lines(
+    segment: &Segment,
+    convex: &Convex,
+    is_taken: impl Fn(usize, usize, usize) -> bool,
+) -> Nearest {
     let mut best = Nearest { distance: f64::INFINITY, on_a: segment.a, on_b: segment.a };
     for face in convex.faces() {
         if let Some(at) = pierced(segment, face, convex.vertices()) {
             return Nearest { distance: 0.0, on_a: at, on_b: at };
         }
         for (i, &from) in face.corners.iter().enumerate() {
-            for &to in &face.corners[i + 1..] {
+            for (j, &to) in face.corners.iter().enumerate().skip(i + 1) {
+                if !is_taken(i, j, face.corners.len()) {
+                    continue;
+                }
                 let side = Segment::new(convex.vertices()[from], convex.vertices()[to]);
                 let found = nearest_segment_segment_printed(segment, &side);
                 if found.distance < best.distance {
@@ -104,5 +169,35 @@ mod tests {
         let printed = nearest_segment_segment_printed(&p, &q).distance;
         let truth = crate::geometry::distance_segment_segment(&p, &q);
         assert!((truth - 5.0_f64.sqrt()).abs() < 1e-12 && printed > truth + 0.5, "{truth} {printed}");
+    }
+
+    #[test]
+    fn to_the_letter_the_rod_is_put_at_its_wrong_end_and_within_both_segments_nothing_changes() {
+        let side = Segment::new(Vec3::new(0.0, -1.0, 0.0), Vec3::new(0.0, 1.0, 0.0));
+        let crossing = Segment::new(Vec3::new(-1.0, 0.0, 2.0), Vec3::new(1.0, 0.0, 2.0));
+        assert!((nearest_segment_segment_literal(&crossing, &side).distance - 2.0).abs() < 1e-12);
+        // Nearest is the rod's end at x = 1; the letter takes the one at x = 5.
+        let aside = Segment::new(Vec3::new(1.0, 0.0, 0.0), Vec3::new(5.0, 0.0, 0.0));
+        let found = nearest_segment_segment_literal(&aside, &side);
+        assert!(found.distance >= 5.0, "{found:?}");
+        assert!((nearest_segment_segment_printed(&aside, &side).distance - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_listed_diagonals_are_all_of_a_box_and_not_of_a_pentagon() {
+        let segment = Segment::new(Vec3::new(-0.3, 0.4, 3.0), Vec3::new(-0.5, 0.1, 5.0));
+        let all = nearest_segment_convex_printed(&segment, &cube()).distance;
+        assert_eq!(nearest_segment_convex_listed(&segment, &cube()).distance, all);
+        let prism = Convex::prism(crate::geometry::Axis::Z, Vec3::zeros(), 1.0, 1.0, 5, 0.0).unwrap();
+        let longer = (0..200).filter(|k| {
+            let angle = f64::from(*k) * 0.0314;
+            let at = Vec3::new(0.4 * libm::cos(angle), 0.4 * libm::sin(angle), 0.6);
+            let segment = Segment::new(at, at + Vec3::z());
+            let [all, listed] = [nearest_segment_convex_printed, nearest_segment_convex_listed]
+                .map(|nearest| nearest(&segment, &prism).distance);
+            assert!(listed >= all);
+            listed > all + 1e-9
+        });
+        assert!((5..150).contains(&longer.count()));
     }
 }

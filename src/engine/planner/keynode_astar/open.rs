@@ -4,7 +4,7 @@ use super::{Tally, Walked};
 use crate::geometry::{Segment, Vec3, distance_segment_convex};
 use crate::planner::Ending;
 use crate::planner::key_nodes::{GUARDED, Key, key, keys};
-use crate::planner::polyhedra::{Posed, densified, steps};
+use crate::planner::polyhedra::{Posed, densified, is_within, steps};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, Stop, Terms, Ties, Update, sum};
 use crate::space::PolyhedraWorld;
 use std::cell::RefCell;
@@ -50,16 +50,23 @@ pub(super) fn search(posed: &Posed<'_>, cluster: bool, max_expansions: u64) -> W
     let report = search.run(terms, START, |node| node == GOAL, rules, &mut ());
     let mut tally = graph.tally;
     tally.expansions = report.counters.expansions;
-    let (ending, points) = match &report.outcome {
+    let (ending, corners) = match &report.outcome {
         Outcome::Solved(route) => {
             let states = states.borrow();
-            let corners: Vec<Vec3> = route.nodes.iter().map(|node| states.points[*node as usize]).collect();
-            (Ending::Solved, densified(&corners, posed.world.step()))
+            (Ending::Solved, route.nodes.iter().map(|node| states.points[*node as usize]).collect())
         }
         Outcome::NoPath => (Ending::NoPath, Vec::new()),
         Outcome::BudgetSpent => (Ending::BudgetSpent, Vec::new()),
     };
-    Walked { ending, points, tally }
+    let step = posed.world.step();
+    let walked = |pair: &[Vec3]| steps((pair[1] - pair[0]).norm(), step).max(1) as usize;
+    let mut at = 0;
+    let ends = corners.windows(2).map(|pair| {
+        at += walked(pair);
+        at
+    });
+    let keys = ends.take(corners.len().saturating_sub(2)).collect();
+    Walked { ending, points: densified(&corners, step), keys, tally }
 }
 
 impl Graph for Keys<'_> {
@@ -140,10 +147,11 @@ impl Keys<'_> {
         let known = states.known.get(&(obstacle, key.edge, bin)).copied();
         let point = known.map_or(key.point, |state| states.points[state as usize]);
         let length = (point - x).norm();
-        if length <= 1e-9 {
+        // At a wall of the domain a key node may stand off its edge and out of the domain: there is no way over it.
+        if length <= 1e-9 || !is_within(world, &point) {
             return Ok(None);
         }
-        if let Some(holder) = world.obstacles().iter().position(|convex| convex.contains(&point)) {
+        if let Some(holder) = world.obstacles().iter().position(|convex| world.holds(convex, &point)) {
             return Err(holder);
         }
         if let Some(hit) = world.first_hit(&Segment::new(*x, point)) {

@@ -208,3 +208,37 @@ fn without_obstacles_everything_is_straight_and_a_start_in_one_is_refused() {
     let refusal = planner("keynode_astar", OPEN).plan(&request).unwrap_err();
     assert_eq!(refusal.to_string(), "the start [20.0, 20.0, 5.0] is inside obstacle 1");
 }
+
+#[test]
+fn straightening_between_key_nodes_shortens_a_walk_and_no_more_than_over_the_whole_path() {
+    let world = world(vec![
+        cuboid([18.0, 20.0, 14.0], [16.0, 12.0, 6.0]),
+        cuboid([22.0, 20.0, 26.0], [18.0, 14.0, 4.0]),
+    ]);
+    let walk = |legs: &str| keynode(&format!("{GREEDY}\nlegs = '{legs}'"), &world, ACROSS);
+    let (walked, local) = (walk("as_walked"), walk("last_joined"));
+    let at = |point: &Vec<f64>| Vec3::new(point[0], point[1], point[2]);
+    let all = walked.path.iter().map(at).collect::<Vec<_>>();
+    let polyhedra = world.as_polyhedra().unwrap();
+    let can_join = |i: usize, j: usize| polyhedra.is_clear(&Segment::new(all[i], all[j]));
+    let whole =
+        crate::shorten::stepwise_straightening(all.len(), crate::shorten::Resume::LastJoined, can_join);
+    let whole: Vec<Vec<f64>> = whole.into_iter().map(|i| walked.path[i].clone()).collect();
+    let lengths = [&walked.path, &local.path, &whole].map(|path| path_length(path));
+    assert!(lengths[0] > lengths[1] + 1e-6, "{lengths:?}");
+    assert!(lengths[1] >= lengths[2] - 1e-9, "{lengths:?}");
+    assert!(local.path.len() < walked.path.len() / 2);
+}
+
+#[test]
+fn no_way_leaves_the_domain_over_an_edge_at_its_wall() {
+    // The box ends a thousandth before the wall that is nearest: the shortest way would go round it there.
+    let world = world(vec![cuboid([32.9995, 20.0, 20.0], [14.0, 20.0, 10.0])]);
+    let ends = [[39.0, 20.0, 5.0], [39.0, 20.0, 35.0]];
+    for settings in [GREEDY, OPEN, FULL] {
+        let plan = keynode(settings, &world, ends);
+        assert_eq!(plan.ending, Ending::Solved, "{settings}");
+        let off = plan.path.iter().find(|point| point.iter().any(|c| !(0.0..=40.0).contains(c)));
+        assert!(off.is_none(), "{settings}: {off:?}");
+    }
+}

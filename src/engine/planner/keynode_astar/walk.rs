@@ -4,7 +4,7 @@ use super::{Tally, Walked};
 use crate::geometry::{Segment, Vec3};
 use crate::planner::Ending;
 use crate::planner::key_nodes::{GUARDED, Key, PRINTED, keys};
-use crate::planner::polyhedra::{Posed, steps};
+use crate::planner::polyhedra::{Posed, is_within, steps};
 use crate::space::PolyhedraWorld;
 use std::collections::BTreeSet;
 
@@ -22,16 +22,23 @@ struct Walk<'a> {
     posed: &'a Posed<'a>,
     guarded: bool,
     points: Vec<Vec3>,
+    keys: Vec<usize>,
     used: BTreeSet<(usize, usize)>,
     tally: Tally,
 }
 
 /// Walks from start to goal, as printed or with the guards that keep it from stopping on the first edge.
 pub(super) fn walk(posed: &Posed<'_>, guarded: bool, max_legs: u64) -> Walked {
-    let mut walk =
-        Walk { posed, guarded, points: vec![posed.start], used: BTreeSet::new(), tally: Tally::default() };
+    let mut walk = Walk {
+        posed,
+        guarded,
+        points: vec![posed.start],
+        keys: Vec::new(),
+        used: BTreeSet::new(),
+        tally: Tally::default(),
+    };
     let ending = walk.run(max_legs);
-    Walked { ending, points: walk.points, tally: walk.tally }
+    Walked { ending, points: walk.points, keys: walk.keys, tally: walk.tally }
 }
 
 impl Walk<'_> {
@@ -44,7 +51,10 @@ impl Walk<'_> {
             self.tally.expansions += 1;
             match self.advance(target) {
                 Leg::Arrived if target == self.posed.goal => return Ending::Solved,
-                Leg::Arrived => target = self.posed.goal,
+                Leg::Arrived => {
+                    self.keys.push(self.points.len() - 1);
+                    target = self.posed.goal;
+                }
                 Leg::Blocked { obstacle } => match self.choose(obstacle) {
                     Some(key) => target = key.point,
                     None => return Ending::NoPath,
@@ -94,6 +104,7 @@ impl Walk<'_> {
             !self.guarded
                 || ((key.point - here).norm() > SAME_PLACE
                     && world.is_free(&key.point)
+                    && is_within(world, &key.point)
                     && !self.used.contains(&(obstacle, key.edge)))
         };
         let best = found.iter().filter(is_allowed).min_by(|a, b| a.detour.total_cmp(&b.detour)).copied()?;

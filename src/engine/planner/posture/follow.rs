@@ -3,21 +3,17 @@
 use super::potential::{direction, field, inverse};
 use super::rotation::{exp, log};
 use super::settings::{Bounds, Pose, Posture};
-use crate::geometry::Vec3;
+use crate::geometry::{Capsule, Vec3};
 use crate::kinematics::ik::Branch;
 use crate::kinematics::{AXES, Joints};
 use crate::space::PolyhedraWorld;
 use crate::space::polyhedra::{CarriedArm, DOWN};
 use nalgebra::{Matrix3, Vector6};
 
-/// Rods nearer than this are taken to touch.
-pub(super) const LEAST_CM: f64 = 0.1;
 /// A joint that moves more than this between two stored configurations has jumped.
 const JUMP_RAD: f64 = 0.35;
 /// Between stored configurations rods are checked at least this often.
 const CHECK_RAD: f64 = 0.01;
-/// How often a step that does not help is halved.
-const HALVINGS: u32 = 5;
 
 /// The arm on its way.
 pub(super) struct Follower<'a> {
@@ -48,8 +44,10 @@ impl Follower<'_> {
             return self.advance(next, self.rotation);
         }
         let recovered = self.recovered();
-        let has_room =
-            self.clearance_at(next, &recovered).is_some_and(|clearance| clearance >= self.settings.act_cm);
+        let has_room = self.solve(next, &recovered, &self.q).is_some_and(|q| {
+            let printed = self.settings.uses_printed_distance();
+            self.arm.is_clear(&q, self.world.bodies(), self.settings.act_cm, printed)
+        });
         if has_room && self.turn_and_advance(here, next, recovered).is_some() {
             return Some(());
         }
@@ -67,9 +65,12 @@ impl Follower<'_> {
         self.arm.arm().inverse_on(&CarriedArm::target(tip, rotation), self.branch, reference)
     }
 
-    fn clearance_at(&self, tip: &Vec3, rotation: &Matrix3<f64>) -> Option<f64> {
-        let q = self.solve(tip, rotation, &self.q)?;
-        Some(field(self.settings, self.world, self.arm, &q).clearance)
+    /// The rod that is nearest to something where the arm would be at `next` with its present posture.
+    pub(super) fn blocking(&self, next: &Vec3) -> Option<Capsule> {
+        let q = self.solve(next, &self.rotation, &self.q)?;
+        let found = field(self.settings, self.world, self.arm, &q).contacts;
+        let nearest = found.iter().min_by(|a, b| a.clearance.total_cmp(&b.clearance))?;
+        Some(self.arm.rods(&q)[nearest.rod])
     }
 
     /// The posture for `next` after descending the potential there, within bounds; `None` if a rod still touches.
@@ -86,7 +87,7 @@ impl Follower<'_> {
                 break;
             }
             let Some(direction) = direction(self.settings, self.arm, &q, &now) else { break };
-            let tried = (0..=HALVINGS).find_map(|halving| {
+            let tried = (0..=self.settings.halvings).find_map(|halving| {
                 let length = self.settings.step_rad / f64::from(1 << halving);
                 let turned = self.bounded(&origin, &(exp(&(direction * length)) * rotation));
                 let solved = self.solve(next, &turned, &q)?;
@@ -99,7 +100,7 @@ impl Follower<'_> {
             self.adjustments += 1;
             (rotation, q, now) = (turned, solved, then);
         }
-        (now.clearance >= LEAST_CM).then_some(rotation)
+        (now.clearance >= self.settings.margin_cm).then_some(rotation)
     }
 
     /// `rotation` with its turn from `origin` cut to the bounds about each axis.
@@ -160,7 +161,7 @@ impl Follower<'_> {
             let share = f64::from(k) / f64::from(count);
             let between = std::array::from_fn(|i| self.q[i] + (q[i] - self.q[i]) * share);
             let printed = self.settings.uses_printed_distance();
-            if self.arm.clearance(&between, self.world.bodies(), 2.0 * LEAST_CM, printed) < LEAST_CM {
+            if !self.arm.is_clear(&between, self.world.bodies(), self.settings.margin_cm, printed) {
                 return None;
             }
         }

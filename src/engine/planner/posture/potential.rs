@@ -19,7 +19,7 @@ pub(super) struct Field {
     pub(super) potential: f64,
     /// The least clearance.
     pub(super) clearance: f64,
-    contacts: Vec<Contact>,
+    pub(super) contacts: Vec<Contact>,
 }
 
 /// The field at `q`.
@@ -46,6 +46,7 @@ fn gap(settings: &Posture, clearance: f64) -> f64 {
 /// print it. `None` where there is no gradient: at contact taken literally, in a singular pose without damping.
 pub(super) fn direction(settings: &Posture, arm: &CarriedArm, q: &Joints, field: &Field) -> Option<Vec3> {
     let mut gradient = RowVector6::zeros();
+    let frames = arm.arm().chain().frames(q);
     for contact in &field.contacts {
         let gap = gap(settings, contact.clearance);
         if gap >= settings.d0_cm {
@@ -53,7 +54,7 @@ pub(super) fn direction(settings: &Posture, arm: &CarriedArm, q: &Joints, field:
         }
         let slope = (1.0 / settings.d0_cm - 1.0 / gap) / (gap * gap);
         let Some(away) = (contact.on_rod - contact.on_obstacle).try_normalize(1e-9) else { continue };
-        let moves = arm.rod_jacobian(q, contact.rod, &contact.on_rod);
+        let moves = arm.rod_jacobian(&frames, contact.rod, &contact.on_rod);
         gradient += away.transpose() * moves.fixed_rows::<3>(0) * slope;
     }
     let turning = gradient * inverse(&arm.tip_jacobian(q), settings.damping)?;

@@ -34,10 +34,24 @@ pub(super) struct Posture {
     pub(super) bounds: Bounds,
     /// By how much the posture returns towards the first one at each node.
     pub(super) recovery_rad: f64,
+    /// Rods nearer than this are taken to touch.
+    #[serde(default = "millimetre")]
+    pub(super) margin_cm: f64,
+    /// How often a step that does not help is halved.
+    #[serde(default = "five")]
+    pub(super) halvings: u32,
     /// Which solutions of the inverse kinematics are tried at the start.
     pub(super) branches: Branches,
     /// Whether a failed node is searched for postures that would have done.
     pub(super) diagnose: bool,
+}
+
+fn millimetre() -> f64 {
+    0.1
+}
+
+fn five() -> u32 {
+    5
 }
 
 /// Which way the tip turns.
@@ -108,6 +122,7 @@ impl Posture {
         for (name, value, above) in [
             ("act_cm", read.act_cm, 0.0),
             ("d0_cm", read.d0_cm, 0.0),
+            ("margin_cm", read.margin_cm, 0.0),
             ("step_rad", read.step_rad, 0.0),
             ("damping", read.damping, -f64::MIN_POSITIVE),
             ("recovery_rad", read.recovery_rad, -f64::MIN_POSITIVE),
@@ -117,6 +132,10 @@ impl Posture {
                 let least = if above < 0.0 { "0 or more" } else { "more than 0" };
                 faults.add(settings.error_at(name, format!("{name} is {value}; {least} is accepted")));
             }
+        }
+        if read.halvings > 60 {
+            let message = format!("halvings is {}; 0 to 60 is accepted", read.halvings);
+            faults.add(settings.error_at("halvings", message));
         }
         faults.done()?;
         Ok(read)

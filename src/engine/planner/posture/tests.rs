@@ -109,7 +109,7 @@ fn a_box_beside_the_line_is_passed_with_adjustment_only_and_never_touched() {
         hindered += u32::from(with.ending != Ending::Solved && without.ending == Ending::Solved);
         for q in &with.path {
             let q: Joints = std::array::from_fn(|i| q[i]);
-            assert!(arm.clearance(&q, world.as_polyhedra().unwrap().bodies(), 5.0, false) >= LEAST_CM);
+            assert!(arm.clearance(&q, world.as_polyhedra().unwrap().bodies(), 5.0, false) >= 0.1);
         }
     }
     assert!(helped > 0 && hindered == 0, "helped {helped}, hindered {hindered}");

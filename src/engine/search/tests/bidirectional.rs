@@ -72,6 +72,34 @@ fn sides_alternate_and_the_budget_holds_for_both_together() {
 }
 
 #[test]
+fn closings_name_the_side_and_what_was_opened_by_then() {
+    let mut both = 0;
+    for case in cases(120, 0.2) {
+        let rules = rules(Meeting::ClosedByOther, SideChoice::Alternate);
+        let towards = |target| Combined { h: euclidean_to(&case.grid, target), combine: sum };
+        let (closings, mut search) = (Closings::default(), Bidirectional::new(Heap::default()));
+        let mut observers = [0, 1].map(|side| closings.of(side));
+        let estimates = [towards(case.ends[1]), towards(case.ends[0])];
+        let graph = &mut GridGraph::new(&case.moves);
+        let report = search.run(graph, &estimates, &mut observers, case.ends, rules);
+        let (seed, closings) = (case.seed, closings.all());
+        for (place, Closing { node, side, opened }) in closings.iter().enumerate() {
+            let by_then = |side: usize| &search.opened(side)[..opened[side] as usize];
+            assert_eq!(*side as usize, place % 2, "seed {seed}: sides take turns");
+            assert!(by_then(*side as usize).contains(node), "seed {seed}: closed before it was opened");
+            let other = closings[..place].iter().filter(|one| one.side != *side);
+            assert!(other.map(|one| one.node).all(|node| by_then(1 - *side as usize).contains(&node)));
+        }
+        for side in [0, 1] {
+            let count = closings.iter().filter(|one| one.side == side).count() as u64;
+            assert_eq!(count, report.sides[side as usize].closed, "seed {seed}");
+        }
+        both += u32::from(closings.len() > 10);
+    }
+    assert!(both > 30, "too few searches of some length: {both}");
+}
+
+#[test]
 fn a_start_that_is_the_goal_is_met_at_once() {
     for case in cases(20, 0.2) {
         let case = Case { ends: [case.ends[0]; 2], ..case };

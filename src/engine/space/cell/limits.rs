@@ -1,14 +1,20 @@
-//! Limits between two steps of a local path: a joint that bends there may leave its range and come back.
+//! Limits and reach between two steps of a local path: a joint that bends there may leave its range and come back, and a wrist
+//! that passes the edge of its reach may be beyond it.
 
 use super::lines::{Lines, Rejection};
 use crate::geometry::Frame;
 use crate::kinematics::ik::Branch;
 use crate::kinematics::serial::Joint;
 use crate::kinematics::{Joints, Missed};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
-/// The parts of a step at which limits are asked where they are near.
-const PARTS: [f64; 3] = [0.25, 0.5, 0.75];
+/// The parts of a step at which limits and reach are asked where they are near; the verifier stops there too.
+pub(super) const PARTS: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// How far the elbow is from being stretched or folded before the wrist cannot leave its reach between two steps. A way of
+/// 40 mm (20 mm of the tool and 4° of a hand of 300 mm) that begins and ends at the edge of a reach of 1.2 m bulges over it
+/// by 0.17 mm, which is 2° of the elbow; one around the hole of 80 mm in the middle by 2.5 mm, which is 2° too.
+const EDGE_RAD: f64 = 0.05;
 
 impl Lines {
     /// Whether a joint is nearer to a limit than it turns from `last` to `next`, or than that and `slack_rad`.
@@ -19,7 +25,20 @@ impl Lines {
         pairs.any(|(joint, (a, b))| is_near_limit(joint, *a, *b, slack_rad))
     }
 
-    /// Whether joints keep to their limits between two steps; `target` is where the tool is after a part of the step.
+    /// Whether the elbow is all but stretched or folded before or after a step, by [`EDGE_RAD`] and `slack_rad`.
+    #[inline]
+    pub(super) fn nears_reach(&self, last: &Joints, next: &Joints, slack_rad: f64) -> bool {
+        let (arm, edge_rad) = (self.cell().robot().arm(), EDGE_RAD + slack_rad);
+        let is_at_edge = |q: &&Joints| {
+            let fold_rad = arm.elbow_fold_rad(q).abs();
+            [0.0, PI, TAU].iter().any(|edge| (fold_rad - edge).abs() < edge_rad)
+        };
+        // A solver that is not complete does not know how its arm folds.
+        arm.solver().is_complete && [last, next].iter().any(is_at_edge)
+    }
+
+    /// Whether joints keep to their limits, and the wrist to its reach, between two steps; `target` is where the tool is after a
+    /// part of the step.
     ///
     /// A joint is asked about only if it is nearer to a limit than it turns in the step: it would have to turn back within it
     /// to do harm elsewhere.
@@ -33,7 +52,7 @@ impl Lines {
         branch: Branch,
         target: impl Fn(f64) -> Frame,
     ) -> Result<(), Rejection> {
-        if !self.nears_limit(last, next, 0.0) {
+        if !self.nears_limit(last, next, 0.0) && !self.nears_reach(last, next, 0.0) {
             return Ok(());
         }
         let arm = self.cell().robot().arm();

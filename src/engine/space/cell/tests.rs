@@ -307,3 +307,21 @@ fn a_joint_line_is_free_where_the_arm_is_and_not_where_it_is_not() {
     }
     assert!(counts.iter().all(|count| *count > 20), "one-sided sample: {counts:?}");
 }
+
+#[test]
+fn a_line_that_leaves_the_reach_between_two_steps_is_refused() {
+    // The wrist is within reach by 0.06 and 0.047 mm at steps 1 and 2 of 23, and beyond it by 0.017 mm between them.
+    let a = [-0.724_588_538_2, -1.228_950_403_911, -1.306_353_262_972];
+    let b = [-0.470_588_558_063, -1.733_793_051_461, -0.448_860_538_805];
+    let a = [a[0], a[1], a[2], -2.522_120_337_302, -1.843_187_340_938, 1.714_438_998_202];
+    let b = [b[0], b[1], b[2], -1.909_188_127_508, -1.486_004_828_643, 2.986_561_822_016];
+    let lines = Lines::new(Cell::new(robot(), Scene::empty(), false), rules());
+    let [from, to] = [a, b].map(|q| lines.pose(&q));
+    let way = way::Way::between(&from.tool, &to.tool);
+    let arm = lines.cell().robot().arm();
+    let is_within = |share: f64| arm.follow(&way.at(share), from.branch, &from.q).is_ok();
+    assert!((0..=23).all(|step| is_within(f64::from(step) / 23.0)) && !is_within(1.5 / 23.0));
+    let mut scratch = Scratch::default();
+    assert_eq!(lines.join(&from, &to, &mut scratch), Err(Rejection::Unreachable));
+    assert_eq!(lines.join_singly(&from, &to, &mut scratch), Err(Rejection::Unreachable));
+}

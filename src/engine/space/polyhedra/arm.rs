@@ -9,7 +9,7 @@ use crate::geometry::{
     nearest_segment_convex_printed, nearest_segment_half_space,
 };
 use crate::kinematics::{
-    Arm, Joints, Robot,
+    AXES, Arm, Joints, Robot,
     robot::{Body, Part},
 };
 use crate::space::Support;
@@ -94,9 +94,7 @@ impl CarriedArm {
         let mut rods = Vec::new();
         self.body.place(&self.arm.chain().frames(q), &mut rods);
         for rod in &mut rods {
-            let Segment { a, b } = rod.segment;
-            *rod =
-                Capsule { segment: Segment::new(a * CM_PER_M, b * CM_PER_M), radius: rod.radius * CM_PER_M };
+            *rod = in_cm(*rod);
         }
         rods
     }
@@ -113,7 +111,9 @@ impl CarriedArm {
                 if is_under && self.body.parts()[rod].link() <= 1 {
                     continue;
                 }
-                if !Aabb::of_capsule(capsule).grown(reach).overlaps(body.aabb()) {
+                if !Aabb::of_capsule(capsule).grown(reach).overlaps(body.aabb())
+                    || !printed && is_beyond(&capsule.segment, body, capsule.radius + reach)
+                {
                     continue;
                 }
                 let Nearest { distance, on_a, on_b } = nearest(&capsule.segment, body);
@@ -144,22 +144,54 @@ impl CarriedArm {
         contacts.iter().map(|contact| contact.clearance).fold(reach, f64::min)
     }
 
+    /// Whether every rod's surface is `least` or more from the obstacles: what [`clearance`](Self::clearance) says, without measuring
+    /// what a face's plane shows to be farther, and only up to the first that is not.
+    pub fn is_clear(&self, q: &Joints, bodies: &[Convex], least: f64, printed: bool) -> bool {
+        let frames = self.arm.chain().frames(q);
+        let nearest = if printed { nearest_segment_convex_printed } else { nearest_segment_convex };
+        self.parts().iter().all(|part| {
+            let Capsule { segment, radius } = in_cm(part.placed(&frames));
+            let is_off = |body: &Convex| {
+                let reach = radius + 2.0 * least;
+                !Aabb::of_segment(&segment).grown(reach).overlaps(body.aabb())
+                    || !printed && is_beyond(&segment, body, reach)
+                    || nearest(&segment, body).distance - radius >= least
+            };
+            let moves = part.link() > 1;
+            let among = if self.has_pedestal && !moves { &bodies[..bodies.len() - 1] } else { bodies };
+            let above =
+                |floor: &HalfSpace| nearest_segment_half_space(&segment, floor).distance - radius >= least;
+            among.iter().all(is_off) && (!moves || self.floor.as_ref().is_none_or(above))
+        })
+    }
+
     /// How a point of a rod's axis (in the world) moves with the joints: centimetres a radian, rows 0 to 2; rows 3 to
     /// 5 are the rod's rotation.
-    pub fn rod_jacobian(&self, q: &Joints, rod: usize, point: &Vec3) -> Matrix6<f64> {
-        let link = self.body.parts()[rod].link();
-        self.jacobian(q, link, point)
+    pub fn rod_jacobian(&self, frames: &[Frame; AXES + 1], rod: usize, point: &Vec3) -> Matrix6<f64> {
+        jacobian(frames, self.body.parts()[rod].link(), point)
     }
 
     /// How the tip moves with the joints, as [`rod_jacobian`](Self::rod_jacobian).
     pub fn tip_jacobian(&self, q: &Joints) -> Matrix6<f64> {
-        self.jacobian(q, crate::kinematics::AXES, &self.tip(q))
+        jacobian(&self.arm.chain().frames(q), AXES, &self.tip(q))
     }
+}
 
-    fn jacobian(&self, q: &Joints, link: usize, point: &Vec3) -> Matrix6<f64> {
-        let frames = self.arm.chain().frames(q);
-        let mut jacobian = crate::kinematics::Chain::jacobian(&frames, link, &(point / CM_PER_M));
-        jacobian.fixed_view_mut::<3, 6>(0, 0).scale_mut(CM_PER_M);
-        jacobian
-    }
+fn jacobian(frames: &[Frame; AXES + 1], link: usize, point: &Vec3) -> Matrix6<f64> {
+    let mut jacobian = crate::kinematics::Chain::jacobian(frames, link, &(point / CM_PER_M));
+    jacobian.fixed_view_mut::<3, 6>(0, 0).scale_mut(CM_PER_M);
+    jacobian
+}
+
+/// A capsule in metres, in centimetres.
+fn in_cm(Capsule { segment: Segment { a, b }, radius }: Capsule) -> Capsule {
+    Capsule { segment: Segment::new(a * CM_PER_M, b * CM_PER_M), radius: radius * CM_PER_M }
+}
+
+/// Whether the plane of some face shows that the segment is farther from the solid than `reach`, rounding included.
+fn is_beyond(segment: &Segment, body: &Convex, reach: f64) -> bool {
+    let reach = reach + 1e-6;
+    body.faces()
+        .iter()
+        .any(|face| face.plane.height(&segment.a) > reach && face.plane.height(&segment.b) > reach)
 }

@@ -1,17 +1,19 @@
 //! A point among convex polyhedra, on a cubic lattice and off it; and, if there is one, the arm that carries it.
 //!
-//! Obstacles are closed: a point of a face is in contact, so that two boxes that touch leave no gap. What the
+//! Obstacles are closed unless asked otherwise: a point of a face is in contact, so that two boxes that touch leave no gap. What the
 //! point must keep clear of are the obstacles grown by a margin, every plane moved out by it; the arm's rods must
 //! keep clear of the obstacles themselves. Lengths are centimetres.
 
 mod arm;
 mod error;
+mod motion;
 mod scene;
 #[cfg(test)]
 mod tests;
 
 pub use arm::{CarriedArm, Contact, DOWN};
 pub use error::PolyhedraError;
+pub use motion::{Motion, motion};
 pub use scene::{SCENE_FILE, Scene, read_scene};
 
 use crate::geometry::{Aabb, Convex, Segment, Vec3};
@@ -27,6 +29,7 @@ pub struct PolyhedraWorld {
     step: f64,
     grid: Grid3,
     near: Vec<bool>,
+    touching_blocks: bool,
     arm: Option<CarriedArm>,
 }
 
@@ -67,9 +70,20 @@ impl PolyhedraWorld {
         let size = sides.map(|side| ((side / step + 1e-9) as u32).saturating_add(1));
         let grid = Grid3::new(size.into())?;
         let near = vec![false; grid.node_count()];
-        let mut world = Self { obstacles, bodies, growth, domain, step, grid, near, arm: None };
+        let touching_blocks = true;
+        let mut world =
+            Self { obstacles, bodies, growth, domain, step, grid, near, touching_blocks, arm: None };
         world.rasterise();
         Ok(world)
+    }
+
+    /// The same world in which a point on an obstacle's face is free: only what lies behind all its planes is blocked.
+    #[must_use]
+    pub fn touched_freely(mut self) -> Self {
+        self.touching_blocks = false;
+        self.grid = Grid3::new(self.grid.size()).expect("a lattice of this size was made before");
+        self.rasterise();
+        self
     }
 
     /// The same world with an arm whose tip is the point.
@@ -95,12 +109,27 @@ impl PolyhedraWorld {
                     let at = [x as i32, y as i32, z as i32];
                     let node = self.grid.node(at).expect("the range was clamped to the lattice");
                     self.near[node as usize] = true;
-                    if self.obstacles[index].contains(&self.point(node)) {
+                    if self.holds(&self.obstacles[index], &self.point(node)) {
                         self.grid.block(node);
                     }
                 }
             }
         }
+    }
+
+    /// Whether `point` may not be where it is because of `obstacle`.
+    #[inline]
+    pub fn holds(&self, obstacle: &Convex, point: &Vec3) -> bool {
+        if self.touching_blocks {
+            return obstacle.contains(point);
+        }
+        obstacle.faces().iter().all(|face| face.plane.height(point) < 0.0)
+    }
+
+    /// The share of the way at which the segment enters the obstacle; `None` if it passes by.
+    #[inline]
+    fn entry(&self, segment: &Segment, obstacle: &Convex) -> Option<f64> {
+        if self.touching_blocks { entry(segment, obstacle) } else { inner_entry(segment, obstacle) }
     }
 
     /// What the point must keep clear of.
@@ -158,7 +187,7 @@ impl PolyhedraWorld {
 
     /// Whether `point` touches no obstacle.
     pub fn is_free(&self, point: &Vec3) -> bool {
-        !self.obstacles.iter().any(|obstacle| obstacle.contains(point))
+        !self.obstacles.iter().any(|obstacle| self.holds(obstacle, point))
     }
 
     /// The first obstacle that the segment touches on its way, the one listed first if several are met at once.
@@ -169,7 +198,7 @@ impl PolyhedraWorld {
             if !convex.aabb().overlaps(&reach) {
                 continue;
             }
-            if let Some(share) = entry(segment, convex)
+            if let Some(share) = self.entry(segment, convex)
                 && first.is_none_or(|hit| share < hit.share)
             {
                 first = Some(Hit { obstacle, share });
@@ -184,7 +213,7 @@ impl PolyhedraWorld {
         !self
             .obstacles
             .iter()
-            .any(|convex| convex.aabb().overlaps(&reach) && entry(segment, convex).is_some())
+            .any(|convex| convex.aabb().overlaps(&reach) && self.entry(segment, convex).is_some())
     }
 
     /// `point` as a start or goal, called `what` in the message.
@@ -200,7 +229,7 @@ impl PolyhedraWorld {
         if !(0..3).all(|axis| (min[axis]..=max[axis]).contains(&at[axis])) {
             return Err(error::outside(what, &at, min, max));
         }
-        match self.obstacles.iter().position(|obstacle| obstacle.contains(&at)) {
+        match self.obstacles.iter().position(|obstacle| self.holds(obstacle, &at)) {
             Some(index) if self.growth > 0.0 => {
                 let grown = format!("grown by {} cm", self.growth);
                 Err(format!("the {what} {point:?} is inside obstacle {} {grown}", index + 1))
@@ -241,4 +270,21 @@ fn entry(segment: &Segment, convex: &Convex) -> Option<f64> {
         }
     }
     (enter <= leave).then_some(enter)
+}
+
+/// As [`entry`], of the solid without its faces: a segment that only touches it passes by.
+fn inner_entry(segment: &Segment, convex: &Convex) -> Option<f64> {
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    for face in convex.faces() {
+        let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
+        if a >= 0.0 && b >= 0.0 {
+            return None;
+        }
+        if a > 0.0 {
+            enter = enter.max(a / (a - b));
+        } else if b > 0.0 {
+            leave = leave.min(a / (a - b));
+        }
+    }
+    (enter < leave).then_some(enter)
 }

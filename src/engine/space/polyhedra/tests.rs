@@ -160,7 +160,7 @@ fn rods_and_tip_move_as_their_jacobians_say() {
     let q = [0.3, -0.7, 1.1, 0.4, 0.9, -0.2];
     for rod in 0..arm.parts().len() {
         let at = arm.rods(&q)[rod].segment.b;
-        let jacobian = arm.rod_jacobian(&q, rod, &at);
+        let jacobian = arm.rod_jacobian(&arm.arm().chain().frames(&q), rod, &at);
         for joint in 0..6 {
             let moved = |by: f64| {
                 let mut other = q;
@@ -176,4 +176,23 @@ fn rods_and_tip_move_as_their_jacobians_say() {
     let mut other = q;
     other[1] += 1e-6;
     assert!(((arm.tip(&other) - arm.tip(&q)) / 1e-6 - column).norm() < 1e-3);
+}
+
+#[test]
+fn where_touching_is_free_a_path_glides_along_a_face_and_still_enters_nothing() {
+    let body = Convex::cuboid(Vec3::new(5.0, 5.0, 5.0), Vec3::repeat(4.0)).unwrap();
+    let domain = Aabb { min: Vec3::zeros(), max: Vec3::repeat(10.0) };
+    let closed = PolyhedraWorld::new(vec![body], domain, 1.0, 0.0).unwrap();
+    let open = closed.clone().touched_freely();
+    let way = |height: f64| Segment::new(Vec3::new(1.0, 5.0, height), Vec3::new(9.0, 5.0, height));
+    for (height, by_closed, by_open) in [(7.0, false, true), (7.0 - 1e-6, false, false), (7.1, true, true)] {
+        let found = [&closed, &open].map(|world| world.is_clear(&way(height)));
+        assert_eq!(found, [by_closed, by_open], "{height}");
+        let found = [&closed, &open].map(|world| world.first_hit(&way(height)).is_none());
+        assert_eq!(found, [by_closed, by_open], "{height}");
+    }
+    // 27 nodes lie inside the cube, 125 in it or on its faces.
+    assert_eq!(open.grid().free_count() - closed.grid().free_count(), 125 - 27);
+    assert!(open.free_point("start", &[7.0, 5.0, 5.0]).is_ok());
+    assert!(closed.free_point("start", &[7.0, 5.0, 5.0]).is_err());
 }

@@ -44,20 +44,21 @@ pub enum Counted {
 pub struct Extent {
     /// How many samples, or draws where draws are counted.
     pub samples: u32,
-    /// How far apart neighbours may be.
-    pub radius_mm: f64,
+    /// How far apart neighbours may be; none for a planner that takes a share of what was built.
+    pub radius_mm: Option<f64>,
 }
 
 impl Extent {
     /// Why a roadmap of this size does not do for what is `wanted`; `None` if it does.
     pub fn lacks(&self, wanted: &Self) -> Option<String> {
-        let (Self { samples, radius_mm }, asked) = (self, wanted.radius_mm);
-        if wanted.samples > *samples {
+        let samples = self.samples;
+        if wanted.samples > samples {
             let asked = wanted.samples;
             return Some(format!("{asked} samples are asked for; the roadmap was built with {samples}"));
         }
-        (asked > *radius_mm).then(|| {
-            format!("neighbours up to {asked} mm are asked for; the roadmap was built up to {radius_mm} mm")
+        let (asked, built) = wanted.radius_mm.zip(self.radius_mm)?;
+        (asked > built).then(|| {
+            format!("neighbours up to {asked} mm are asked for; the roadmap was built up to {built} mm")
         })
     }
 }
@@ -90,13 +91,16 @@ pub struct Tally {
     pub checked: u64,
 }
 
+/// What was found out about a pair, and at how many configurations contact was checked for it.
+type Joined = (Result<(), Rejection>, u64);
+
 /// Ends of queries and pairs that are no edges of the roadmap itself.
 #[derive(Debug, Default)]
 struct Memory {
     scratch: Scratch,
     ends: Vec<End>,
     numbers: BTreeMap<Vec<u64>, u32>,
-    joins: BTreeMap<(u32, u32), Result<(), Rejection>>,
+    joins: BTreeMap<(u32, u32), Joined>,
     parts: BTreeMap<(u32, u64), Arc<Vec<u32>>>,
 }
 
@@ -112,9 +116,13 @@ fn bits(config: &[f64]) -> Vec<u64> {
     config.iter().map(|x| x.to_bits()).collect()
 }
 
-fn distance_mm(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+fn square_mm2(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let [x, y, z] = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-    (x * x + y * y + z * z).sqrt()
+    x * x + y * y + z * z
+}
+
+fn distance_mm(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    square_mm2(a, b).sqrt()
 }
 
 impl Roadmap {
@@ -128,8 +136,13 @@ impl Roadmap {
         let numbers = samples.iter().zip(0..).map(|(sample, i)| (bits(&sample.config), i)).collect();
         let (mut tally, mut scratch) = (Tally::default(), Scratch::default());
         let mut links = vec![Vec::new(); samples.len()];
+        let beyond_mm2 = radius_mm * radius_mm * (1.0 + 1e-12);
         for to in 0..samples.len() {
             for from in 0..to {
+                // The square is a bound: most pairs are far beyond it and need no root.
+                if square_mm2(&places_mm[from], &places_mm[to]) > beyond_mm2 {
+                    continue;
+                }
                 let gap_mm = distance_mm(&places_mm[from], &places_mm[to]);
                 if gap_mm > radius_mm {
                     continue;
@@ -254,6 +267,11 @@ impl Roadmap {
     /// # Errors
     /// The first reason against it.
     pub fn join(&self, a: u32, b: u32) -> Result<(), Rejection> {
+        self.join_counted(a, b).0
+    }
+
+    /// As [`join`](Self::join), with how many configurations were checked for contact when it was first asked.
+    pub fn join_counted(&self, a: u32, b: u32) -> (Result<(), Rejection>, u64) {
         let key = (a.min(b), a.max(b));
         let mut guard = self.remember();
         let memory = &mut *guard;
@@ -265,7 +283,9 @@ impl Roadmap {
             let sample = self.nodes.get(number as usize);
             sample.unwrap_or_else(|| &ends[number as usize - self.samples.len()].node)
         };
+        let before = memory.scratch.checked();
         let found = self.local.join(node(key.0), node(key.1), &mut memory.scratch);
+        let found = (found, memory.scratch.checked() - before);
         memory.joins.insert(key, found);
         found
     }

@@ -4,6 +4,7 @@ use crate::geometry::lanes::{LANES, Row, SLACK, dispatch, level};
 use crate::kinematics::angle::nearest_copy;
 use crate::kinematics::ik::{Branch, LaneSolutions};
 use crate::kinematics::{AXES, Joint, Joints};
+use crate::space::cell::limits::PARTS;
 use crate::space::cell::lines::{EdgeEnd, Pace, SAME_RAD, largest_change};
 use crate::space::cell::way::Way;
 use crate::space::cell::{Lines, Pose, Rejection};
@@ -73,6 +74,8 @@ impl Lines {
             let found = self.cell.robot.arm().solve_lanes(&poses, from.branch)?;
             for step in first..=steps.min(first + LANES as u32 - 1) {
                 let sure = self.sure_step(&found, (step - first) as usize, &pace, step, &last.q);
+                let keeps = |q: &Joints| self.surely_keeps(way, from.branch, &pace, step, [&last.q, q]);
+                let sure = sure.filter(|taken| taken.as_ref().map_or(true, keeps));
                 let taken = sure.map(|taken| taken.map(|q| Reached { q, is_exact: false }));
                 match taken.unwrap_or_else(|| self.exact_step(way, from.branch, &pace, step, &last)) {
                     Ok(reached) => last = reached,
@@ -142,8 +145,37 @@ impl Lines {
         if self.is_too_fast(pace, step, last, &q)? {
             return Some(Err(Rejection::Speed));
         }
-        // Near a limit the way between the two is looked at too.
-        (!self.nears_limit(last, &q, 3.0 * SLACK)).then_some(Ok(q))
+        Some(Ok(q))
+    }
+
+    /// Whether [`keeps_limits_between`](Lines::keeps_limits_between) surely holds; where it does not, the scalar code says why.
+    #[inline]
+    fn surely_keeps(
+        &self,
+        way: &Way,
+        branch: Branch,
+        pace: &Pace,
+        step: u32,
+        [last, q]: [&Joints; 2],
+    ) -> bool {
+        let slack_rad = 3.0 * SLACK;
+        if !self.nears_limit(last, q, slack_rad) && !self.nears_reach(last, q, slack_rad) {
+            return true;
+        }
+        let share = |lane: usize| pace.share(step) - (1.0 - PARTS[lane % PARTS.len()]) / pace.steps;
+        let shares: Row = std::array::from_fn(share);
+        let poses = dispatch!(level(), simd => way.at_lanes(simd, shares));
+        let arm = self.cell.robot().arm();
+        let Some(found) = arm.solve_lanes(&poses, branch) else { return false };
+        // A joint that could go on only by a turn back is none of which a copy surely is the nearest.
+        let keeps = |lane: usize| {
+            let mut joints = arm.chain().joints().iter().enumerate();
+            joints.all(|(i, joint)| {
+                let copy = allowed_copy(joint, found.q[i][lane], last[i]);
+                copy.and_then(Result::ok).is_some_and(|copy| (copy - last[i]).abs() < PI - SLACK)
+            })
+        };
+        (0..PARTS.len()).all(|lane| found.solved >> lane & 1 == 1 && keeps(lane))
     }
 
     /// Whether a joint is faster than it can be in this step; `None` in doubt.

@@ -1,0 +1,317 @@
+"""The class of a claim across readings, from a paper's stored exploration and that on its second seed."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from statistics_judge.classes import SPEAKS, WEIGHT
+from statistics_judge.records import Paper, toml
+
+# Of ten results that speak or leave open, so many must speak.
+TENTHS = 9
+
+Options = dict[str, str]
+
+
+@dataclass
+class Axis:
+    """A reading of a paper, put together from its studies."""
+
+    id: str
+    default: str
+    fitted: bool
+    bounds: tuple[float, float] | None
+    options: dict[str, dict[str, Any]]
+
+    def option(self, reading: Options) -> str:
+        """The option that a reading takes here."""
+        return reading.get(self.id, self.default)
+
+    def votes(self, reading: Options) -> bool:
+        """Whether the option cites the paper or a practice, or is a number within sourced bounds."""
+        name = self.option(reading)
+        if any(self.is_cited(option) for option in self.options.values()):
+            return self.is_cited(self.options[name])
+        return name == self.default
+
+    def is_cited(self, option: dict[str, Any]) -> bool:
+        """Whether one option has a source."""
+        if "paper" in option or "practice" in option:
+            return True
+        return self.bounds is not None and "value" in option and within(option["value"], self.bounds)
+
+
+@dataclass
+class Result:
+    """What was found about a claim under the readings that count of those that give one result."""
+
+    readings: list[int]
+    stored: str
+    vote: str
+
+
+@dataclass
+class Counted:
+    """The readings that count for a claim."""
+
+    results: list[Result]
+    looked: int
+    not_looked_at: int
+    incompatible: int
+    none_compatible: bool
+    existential: bool
+
+
+def within(value: float, bounds: tuple[float, float]) -> bool:
+    """Whether a number lies between two, both included."""
+    return bounds[0] <= value <= bounds[1]
+
+
+def axes(paper: Paper) -> list[Axis]:
+    """The readings of all studies; what the first table of one leaves out, a later one may say."""
+    found: dict[str, Axis] = {}
+    for study in paper.studies.values():
+        for table in study.readings:
+            bounds = table.get("bounds")
+            ends = (bounds["least"], bounds["greatest"]) if bounds else None
+            fitted = table.get("fitted", False)
+            options = {name: dict(option) for name, option in table["option"].items()}
+            known = found.setdefault(table["id"], Axis(table["id"], table["default"], fitted, ends, options))
+            known.fitted |= fitted
+            known.bounds = known.bounds or ends
+            for name, own in known.options.items():
+                for key in ("paper", "practice", "value"):
+                    if key in options.get(name, {}):
+                        own.setdefault(key, options[name][key])
+    return list(found.values())
+
+
+class Across:
+    """A paper's exploration, held against its verdicts."""
+
+    def __init__(self, paper: Paper, verdicts: dict[str, Any]) -> None:
+        """Read what is stored."""
+        self.paper, self.axes = paper, axes(paper)
+        self.first, self.second = paper.explorations
+        note = verdicts.get("explored", {})
+        # Whether a spec has changed since is for the hashes of replan; its word is taken for it.
+        self.stale = [set(note.get(key, [])) for key in ("stale", "second_stale")]
+        self.verdicts = {one["claim"]: one for one in verdicts.get("claim", [])}
+        self.default = {
+            name: one["across"]["default"] if "across" in one else one["verdict"]
+            for name, one in self.verdicts.items()
+        }
+        self.calibration = {
+            name for study in paper.studies.values() for name in study.spec.get("fitted_to", [])
+        }
+
+    def result(self, exploration: dict[str, Any], claim: str, place: int) -> dict[str, Any] | None:
+        """What an exploration found about a claim under one of its readings."""
+        return exploration["claims"].get(claim, {"at": {}})["at"].get(place)
+
+    def second_class(self, claim: str) -> str | None:
+        """The class under the defaults on the second seed."""
+        if self.second is None or claim in self.stale[1]:
+            return None
+        found = self.result(self.second, claim, 0)
+        return found["class"] if found and found["sight"] == "looked" else None
+
+    def expected(self, claim: str) -> dict[str, Any] | None:
+        """What verdicts.toml should say of a claim across readings; none if it should say nothing."""
+        if self.first is None or claim in self.stale[0] or "theorem" in self.verdicts[claim]:
+            return None
+        counted = self.counted(claim)
+        if counted.looked < 2:
+            return None
+        self.confirm(claim, counted.results)
+        votes = [one.vote for one in counted.results]
+        found = combined(votes, counted.existential)
+        ways = [SPEAKS[vote] for vote in votes]
+        return {
+            "class": found,
+            "said": self.said(counted, found),
+            "counted": len(votes),
+            "looked": counted.looked,
+            "holds": ways.count(1),
+            "open": ways.count(0),
+            "fails": ways.count(-1),
+            "unconfirmed": sum(one.vote != one.stored for one in counted.results),
+            "not_looked_at": counted.not_looked_at,
+            "incompatible": counted.incompatible,
+            "none_compatible": counted.none_compatible,
+        }
+
+    def counted(self, claim: str) -> Counted:
+        """The readings that vote and are compatible, with equal results once."""
+        assert self.first is not None
+        readings = self.first["readings"]
+        voting = [at for at, one in enumerate(readings) if all(axis.votes(one) for axis in self.axes)]
+        judged = self.compatible(voting, self.calibrating(claim))
+        none_compatible = bool(voting) and not judged
+        judged = voting if none_compatible else judged
+        found = Counted([], 0, 0, len(voting) - len(judged), none_compatible, existential=False)
+        stored = self.first["claims"].get(claim)
+        if stored is None:
+            return Counted([], 0, 0, 0, none_compatible=False, existential=False)
+        found.existential = stored.get("existential", False)
+        for one in stored["results"]:
+            own = [at for at in one["readings"] if at in judged]
+            # The default run stands for the default reading, whatever the exploration had of it.
+            seen = own if one["sight"] == "looked" else [at for at in own if at == 0]
+            found.looked += len(seen)
+            found.not_looked_at += len(own) - len(seen)
+            if seen:
+                now = self.default[claim] if 0 in own else one["class"]
+                found.results.append(Result(seen, now, now))
+        found.results.sort(key=lambda one: one.readings[0])
+        return found
+
+    def calibrating(self, claim: str) -> list[str]:
+        """The claims that make a reading incompatible for a claim: not itself, its parts or its sentence."""
+        kinds = ("all_of", "any_of", "means_one_of", "cells")
+        parts = {
+            one["id"]: {part for kind in kinds for part in one.get(kind, [])} for one in self.paper.claims
+        }
+        whole = next((name for name, of in parts.items() if claim in of), None)
+        own = {claim, whole} | parts[claim]
+        return sorted(self.calibration - own - self.stale[0])
+
+    def compatible(self, voting: list[int], calibration: list[str]) -> list[int]:
+        """The readings that contradict no calibration claim; of those alike but for fitted axes the best."""
+        fits = {at: fit for at in voting if (fit := self.fit(at, calibration)) is not None}
+        alike: dict[tuple[str, ...], int] = {}
+        for at, fit in fits.items():
+            alike[self.unfitted(at)] = max(fit, alike.get(self.unfitted(at), 0))
+        return [at for at, fit in fits.items() if fit == alike[self.unfitted(at)]]
+
+    def fit(self, place: int, calibration: list[str]) -> int | None:
+        """How many calibration claims hold under a reading; none if one is contradicted or has no power."""
+        assert self.first is not None
+        holds = 0
+        for claim in calibration:
+            found = self.result(self.first, claim, place)
+            if found is None or found["sight"] == "unexplored":
+                continue
+            full = self.default.get(claim) if place == 0 else None
+            way = SPEAKS[full or found["class"]]
+            if way < 0 or (found["sight"] == "powerless" and full is None):
+                return None
+            holds += way > 0
+        return holds
+
+    def unfitted(self, place: int) -> tuple[str, ...]:
+        """The options of a reading where nothing is fitted."""
+        assert self.first is not None
+        return tuple(axis.option(self.first["readings"][place]) for axis in self.axes if not axis.fitted)
+
+    def confirm(self, claim: str, results: list[Result]) -> None:
+        """Leaves open what speaks against most results and does not do so on the second seed."""
+        assert self.first is not None
+        for one in flips(results):
+            again = None
+            if self.second is not None and claim not in self.stale[1]:
+                reading = self.first["readings"][one.readings[0]]
+                if reading in self.second["readings"]:
+                    again = self.result(self.second, claim, self.second["readings"].index(reading))
+            if again is None or SPEAKS[again["class"]] != SPEAKS[one.stored]:
+                one.vote = "undecided"
+
+    def said(self, counted: Counted, found: str) -> str:
+        """What stands beside the class."""
+        votes = [SPEAKS[one.vote] for one in counted.results]
+        holds, fails, left, every = votes.count(1), votes.count(-1), votes.count(0), len(votes)
+        tail = f", open under {left}" if left else ""
+        if every == 1:
+            return "no reading moves it"
+        if counted.existential and holds:
+            return f"met under {holds} of {every}, {self.name(counted.results[votes.index(1)])} among them"
+        if holds and fails:
+            return self.hangs(counted.results)
+        for speaks, verb, way in ((holds, "holds", 1), (fails, "fails", -1)):
+            if speaks:
+                firm = SPEAKS[found] == way
+                return f"{verb} under {speaks} of {every}{tail if firm else f' only, open under {left}'}"
+        return f"open under {left} of {every}"
+
+    def name(self, result: Result) -> str:
+        """The first reading of a result by what differs from the defaults."""
+        assert self.first is not None
+        reading = self.first["readings"][result.readings[0]]
+        return ", ".join(f"{axis} = {option}" for axis, option in sorted(reading.items())) or "the default"
+
+    def hangs(self, results: list[Result]) -> str:
+        """What a claim hangs on: the axis whose options part the results best."""
+        assert self.first is not None
+        splits = []
+        for axis in self.axes:
+            split: dict[str, list[int]] = {}
+            for one in results:
+                counts = split.setdefault(axis.option(self.first["readings"][one.readings[0]]), [0, 0])
+                if SPEAKS[one.vote]:
+                    counts[SPEAKS[one.vote] < 0] += 1
+            splits.append((sum(map(max, split.values())), axis.id, dict(sorted(split.items()))))
+        right, axis_id, split = max(splits, key=lambda one: one[0])
+        votes = [one.vote for one in results]
+        holds, fails = (sum(SPEAKS[vote] == way for vote in votes) for way in (1, -1))
+        found = max((vote for vote in votes if SPEAKS[vote] == 1), key=WEIGHT.index).replace("_", " ")
+        every = len(results)
+        if right == holds + fails:
+            where = " or ".join(option for option, counts in split.items() if counts[0])
+            return f"hangs on {axis_id}: {found} if {where} ({holds} of {every})"
+        if right > max(holds, fails):
+            shares = ", ".join(
+                f"{option} {own[0]} of {sum(own)}" for option, own in split.items() if sum(own)
+            )
+            return f"hangs on {axis_id} and others: {found} under {holds} of {every} ({shares})"
+        return f"hangs on several readings: {found} under {holds} of {every}"
+
+
+def flips(results: list[Result]) -> list[Result]:
+    """The results that speak against what most say; of as many, against the first."""
+    ways = [SPEAKS[one.stored] for one in results]
+    holds, fails = ways.count(1), ways.count(-1)
+    if not (holds and fails):
+        return []
+    most = 1 if holds > fails or (holds == fails and ways[0] != -1) else -1
+    return [one for one, way in zip(results, ways, strict=True) if way == -most]
+
+
+def combined(votes: list[str], existential: bool) -> str:
+    """The class of several results, one vote each."""
+    of = {way: sorted((one for one in votes if SPEAKS[one] == way), key=WEIGHT.index) for way in (1, 0, -1)}
+    if existential and of[1]:
+        return of[1][0]
+    speaks = of[1] or of[-1]
+    if of[1] and of[-1]:
+        return "undecided"
+    if not speaks:
+        return "untestable" if votes and set(votes) == {"untestable"} else "undecided"
+    if len(speaks) * 10 < TENTHS * (len(speaks) + len(of[0])):
+        return "undecided"
+    if of[1]:
+        return of[1][-1]
+    return "impossible" if set(votes) == {"impossible"} else "not_reproduced"
+
+
+def differences(paper: Paper, verdicts: dict[str, Any]) -> Iterator[str | None]:
+    """For every claim that was explored nothing, or what verdicts.toml says otherwise than is recomputed."""
+    own = Across(paper, verdicts)
+    if own.first is None and own.second is None:
+        return
+    for claim, stored in own.verdicts.items():
+        expected, said = own.expected(claim), stored.get("across")
+        where = f"{paper.id}: `{claim}` across readings"
+        if (expected is None) != (said is None):
+            has = "nothing" if said is None else "something"
+            yield f"{where}: verdicts.toml says {has}; recomputed it is {expected and expected['said']}"
+        elif expected is not None and said is not None:
+            wrong = [key for key, value in expected.items() if said.get(key, False) != value]
+            for key in wrong:
+                yield f"{where}: `{key}` is {said.get(key)!r}; recomputed it is {expected[key]!r}"
+            if not wrong:
+                yield None
+        if stored.get("second") != own.second_class(claim):
+            yield (
+                f"{where}: its class on the second seed is {stored.get('second')}; "
+                f"recomputed it is {own.second_class(claim)}"
+            )

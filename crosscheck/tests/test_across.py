@@ -1,0 +1,172 @@
+"""The second judge of classes across readings: what is stored agrees, and wrong combinations are noticed."""
+
+from __future__ import annotations
+
+import copy
+import gzip
+import shutil
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from statistics_judge.across import Result, axes, combined, differences, flips
+from statistics_judge.records import Paper
+
+ROOT = Path(__file__).parents[2]
+EXPLORED = [path.parent.name for path in sorted(ROOT.glob("data/runs/*/explored.toml.gz"))]
+
+
+def paper(name: str, runs: Path | None = None) -> Paper:
+    return Paper(ROOT / "experiments" / name, runs or ROOT / "data/runs" / name, [])
+
+
+def stored(of: Paper) -> dict[str, Any]:
+    return tomllib.loads((of.runs / "verdicts.toml").read_text(encoding="utf-8"))
+
+
+def said(of: Paper, verdicts: dict[str, Any]) -> list[str]:
+    return [line for line in differences(of, verdicts) if line is not None]
+
+
+@pytest.mark.parametrize("name", EXPLORED)
+def test_what_is_stored_across_readings_agrees(name: str) -> None:
+    of = paper(name)
+    lines = list(differences(of, stored(of)))
+    assert len(lines) > 10
+    assert [line for line in lines if line is not None] == []
+
+
+def test_some_paper_is_explored() -> None:
+    assert EXPLORED
+
+
+def another(value: bool | int | str) -> bool | int | str:
+    """A value other than this."""
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int):
+        return value + 1
+    return "undecided" if value != "undecided" else "reproduced"
+
+
+KEYS = [
+    "class",
+    "said",
+    "counted",
+    "looked",
+    "holds",
+    "open",
+    "fails",
+    "unconfirmed",
+    "not_looked_at",
+    "incompatible",
+]
+
+
+@pytest.mark.parametrize("name", EXPLORED)
+@pytest.mark.parametrize("key", KEYS)
+def test_a_combination_made_wrong_is_noticed_wherever_it_stands(name: str, key: str) -> None:
+    of = paper(name)
+    verdicts = stored(of)
+    explored = [claim for claim in verdicts["claim"] if "across" in claim]
+    for claim in explored:
+        claim["across"][key] = another(claim["across"][key])
+    lines = said(of, verdicts)
+    for claim in explored:
+        assert any(f"`{claim['claim']}`" in line and f"`{key}`" in line for line in lines), claim["claim"]
+    assert len(lines) == len(explored)
+
+
+@pytest.mark.parametrize("name", EXPLORED)
+def test_a_combination_that_is_missing_and_a_second_class_made_wrong_are_noticed(name: str) -> None:
+    of = paper(name)
+    verdicts = stored(of)
+    wrong = copy.deepcopy(verdicts)
+    claim = next(claim for claim in wrong["claim"] if "across" in claim)
+    # What the default run says stays where it is.
+    claim["verdict"] = claim.pop("across")["default"]
+    assert any("verdicts.toml says nothing" in line for line in said(of, wrong))
+    wrong = copy.deepcopy(verdicts)
+    claim = next(claim for claim in wrong["claim"] if "second" in claim)
+    claim["second"] = another(claim["second"])
+    assert any("on the second seed" in line for line in said(of, wrong))
+
+
+@pytest.mark.parametrize("name", EXPLORED)
+def test_an_exploration_that_was_changed_no_longer_agrees(name: str, tmp_path: Path) -> None:
+    """A class is turned in what was explored, where all results of a claim say the same."""
+    runs = tmp_path / name
+    runs.mkdir()
+    for file in ("explored.toml.gz", "second_seed.toml.gz", "verdicts.toml"):
+        if (ROOT / "data/runs" / name / file).is_file():
+            shutil.copy(ROOT / "data/runs" / name / file, runs / file)
+    text = gzip.decompress((runs / "explored.toml.gz").read_bytes()).decode()
+    turned = text.replace('class = "reproduced"', 'class = "not_reproduced"')
+    assert turned != text
+    (runs / "explored.toml.gz").write_bytes(gzip.compress(turned.encode()))
+    of = paper(name, runs)
+    assert said(of, stored(of))
+
+
+def test_a_vote_made_a_probe_changes_what_is_counted() -> None:
+    of = paper(EXPLORED[-1])
+    sourced = next(
+        (study, table, name)
+        for study in of.studies.values()
+        for table in study.readings
+        for name, option in table["option"].items()
+        if "practice" in option and name != table["default"]
+    )
+    _, table, name = sourced
+    for study in of.studies.values():
+        for known in study.readings:
+            if known["id"] == table["id"]:
+                known["option"][name].pop("practice", None)
+                known["option"][name].pop("paper", None)
+    axis = next(axis for axis in axes(of) if axis.id == table["id"])
+    assert not axis.votes({axis.id: name})
+    assert said(of, stored(of))
+
+
+GOOD, FITTED, NO, BAD, NEVER, LACKING = (
+    "reproduced",
+    "fitted",
+    "undecided",
+    "not_reproduced",
+    "impossible",
+    "untestable",
+)
+
+
+def test_classes_combine_as_the_rules_say() -> None:
+    for votes, existential, expected in [
+        ([GOOD] * 3, False, GOOD),
+        ([GOOD, FITTED], False, FITTED),
+        ([GOOD, FITTED], True, GOOD),
+        ([GOOD] * 9 + [NO], False, GOOD),
+        ([GOOD] * 8 + [NO], False, NO),
+        ([BAD] * 9 + [LACKING], False, BAD),
+        ([BAD] * 8 + [NO], False, NO),
+        ([NEVER] * 2, False, NEVER),
+        ([NEVER, BAD], False, BAD),
+        ([NEVER] * 9 + [NO], False, BAD),
+        ([GOOD] * 40 + [BAD], False, NO),
+        ([NO] * 43 + [GOOD], True, GOOD),
+        ([LACKING] * 2, False, LACKING),
+        ([LACKING, NO], False, NO),
+        ([], False, NO),
+    ]:
+        assert combined(votes, existential) == expected, votes
+
+
+def test_what_speaks_against_most_is_a_flip_and_of_as_many_what_speaks_against_the_default() -> None:
+    def of(*votes: str) -> list[int]:
+        return [one.readings[0] for one in flips([Result([at], vote, vote) for at, vote in enumerate(votes)])]
+
+    assert of(GOOD, BAD, GOOD) == [1]
+    assert of(GOOD, BAD, BAD) == [0]
+    assert of(BAD, GOOD) == [1]
+    assert of(NO, BAD, GOOD) == [1]
+    assert of(GOOD, NO) == []

@@ -1,0 +1,201 @@
+//! What planners have found by each moment: the median cost of the best path so far, over all queries of all draws.
+
+use super::{CurveLine, Curves, Entry, Kind, Scene, Shown, ask};
+use crate::analysis::metric::Metric;
+use crate::analysis::statistic::plan;
+use crate::render::RenderError;
+use crate::render::chart::marks::{Band, Line};
+use crate::render::chart::{Axis, Panel, Sheet};
+use crate::render::style::{Fill, Width, series_color, series_stroke};
+use crate::study::record::Row;
+use base::settings::Accepted;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use stats::bootstrap::Estimate;
+use stats::pooled::median;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "cost_over_time",
+    about: "cost of the best path found so far by planners from outside, over time: medians with intervals, failures infinite",
+    statistic: "Medians over all queries with 95 % bootstrap intervals over draws; a query without a path by then costs infinitely much, \
+                and a curve begins where half of the queries have one; {n}.",
+    settings: Accepted::of::<Read>(),
+    example: r#"
+problems = "cell"
+contenders = ["RRT*", "BIT*"]
+metric = "path_length_mm"
+until_s = 1.0
+"#,
+    build: |settings, study, _paper| {
+        let read: Read = settings.read()?;
+        ask::known(settings, study, [&read.problems], &read.contenders)?;
+        let metric = ask::produced(settings, study, &read.metric)?;
+        let group = study.groups.iter().find(|group| group.label == read.problems);
+        Ok(Box::new(CostOverTime { draws: group.map_or(0, |group| group.replicates), read, metric }))
+    },
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Read {
+    /// The problem group, by its label.
+    problems: String,
+    /// The planners from outside, by their labels.
+    contenders: Vec<String>,
+    /// The metric that is the cost of the path returned, in the unit of incumbents.
+    metric: String,
+    /// The last moment, in seconds.
+    #[schemars(range(min = 0.01, max = 3600.0))]
+    until_s: f64,
+}
+
+struct CostOverTime {
+    read: Read,
+    metric: &'static Metric,
+    draws: u32,
+}
+
+/// How many moments a curve has.
+const MOMENTS: u32 = 50;
+/// Nanoseconds in a second.
+const NS_PER_S: f64 = 1e9;
+
+/// The least cost of what was found at `passed_s` or before; infinite if nothing was.
+fn best_by(found: &[[f64; 2]], passed_s: f64) -> f64 {
+    let by_then = found.iter().filter(|[at, _]| *at <= passed_s).map(|[_, cost]| *cost);
+    by_then.fold(f64::INFINITY, f64::min)
+}
+
+/// The median at each moment over the queries of all draws; none where it is infinite.
+fn medians(draws: &[Vec<Vec<[f64; 2]>>], moments: &[f64], names: &[&str]) -> Vec<Option<Estimate>> {
+    let at = |passed_s: &f64| {
+        let by = |found: &Vec<[f64; 2]>| best_by(found, *passed_s);
+        let costs: Vec<Vec<f64>> = draws.iter().map(|draw| draw.iter().map(by).collect()).collect();
+        median(&costs, plan(names)).filter(|estimate| estimate.value.is_finite())
+    };
+    moments.iter().map(at).collect()
+}
+
+impl CostOverTime {
+    fn moments(&self) -> Vec<f64> {
+        (1..=MOMENTS).map(|k| self.read.until_s * f64::from(k) / f64::from(MOMENTS)).collect()
+    }
+
+    /// When a trial found what: its incumbents, and the path that it returned.
+    fn found(&self, scene: &Scene<'_>, row: &Row) -> Vec<[f64; 2]> {
+        let kept = scene.run.exhibit(&row.key, "incumbents").filter(|kept| kept.width == 2);
+        let mut found: Vec<[f64; 2]> = kept.map(ask::points).unwrap_or_default();
+        let returned = row.value("solve_wall_ns").zip(scene.run.value(row, self.metric));
+        found.extend(returned.filter(|_| row.is_solved()).map(|(ns, cost)| [ns / NS_PER_S, cost]));
+        found
+    }
+
+    /// What each query of each draw found.
+    fn draws(&self, scene: &Scene<'_>, contender: &str) -> Vec<Vec<Vec<[f64; 2]>>> {
+        let rows = scene.run.rows(&self.read.problems, contender);
+        let of_draw = |rows: &[&Row]| rows.iter().map(|row| self.found(scene, row)).collect();
+        rows.chunk_by(|a, b| a.draw() == b.draw()).map(of_draw).collect()
+    }
+
+    fn all(&self, scene: &Scene<'_>) -> Vec<(&String, Vec<Option<Estimate>>)> {
+        let moments = self.moments();
+        let of = |contender| {
+            let names = [scene.run.study.name.as_str(), "cost over time", contender];
+            medians(&self.draws(scene, contender), &moments, &names)
+        };
+        self.read.contenders.iter().map(|contender| (contender, of(contender))).collect()
+    }
+}
+
+/// What stands below the figure: what an open interval looks like, and who has no curve.
+fn note(until_s: f64, all: &[(&String, Vec<Option<Estimate>>)]) -> String {
+    let has_none = |medians: &[Option<Estimate>]| medians.iter().all(Option::is_none);
+    let without: Vec<&str> =
+        all.iter().filter(|(_, medians)| has_none(medians)).map(|(label, _)| label.as_str()).collect();
+    let open = "An interval that has no upper end goes to the top.";
+    match without.as_slice() {
+        [] => open.to_owned(),
+        _ => format!("{open} No path for half of the queries within {until_s} s: {}.", without.join(", ")),
+    }
+}
+
+impl Kind for CostOverTime {
+    fn shown(&self) -> Vec<Shown<'_>> {
+        let of = |contender| {
+            let problems = self.read.problems.as_str();
+            (0..self.draws).map(move |draw| Shown { problems, contender: Some(contender), draw })
+        };
+        self.read.contenders.iter().flat_map(|contender| of(contender.as_str())).collect()
+    }
+
+    fn curves(&self, scene: &Scene<'_>, caption: &str) -> Option<Curves> {
+        let line = |(of, (contender, medians)): (usize, (&String, Vec<Option<Estimate>>))| CurveLine {
+            label: contender.clone(),
+            of,
+            values: medians.iter().map(|median| median.as_ref().map(|median| median.value)).collect(),
+            band: None,
+            is_printed: false,
+        };
+        Some(Curves {
+            title: caption.to_owned(),
+            axis: "time (s)".to_owned(),
+            value: self.metric.title(),
+            at: self.moments(),
+            lines: self.all(scene).into_iter().enumerate().map(line).collect(),
+        })
+    }
+
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let (moments, all) = (self.moments(), self.all(scene));
+        let found = || all.iter().flat_map(|(_, medians)| medians).flatten();
+        let ends = found().flat_map(|median| [median.interval.low, median.interval.high]);
+        let ends: Vec<f64> = ends.filter(|end| end.is_finite()).collect();
+        let top = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let x = Axis::linear("time (s)", 0.0, self.read.until_s)?;
+        let mut panel = Panel::new("", x, Axis::over(self.metric.title(), ends));
+        for (place, (contender, medians)) in all.iter().enumerate() {
+            let index = ask::series(scene, contender, place);
+            let both = || moments.iter().zip(medians).filter_map(|(x, median)| Some((*x, (*median)?)));
+            let edges = both().map(|(x, m)| [x, m.interval.low.min(top), m.interval.high.min(top)]).collect();
+            panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.2), label: String::new() });
+            let points: Vec<[f64; 2]> = both().map(|(x, m)| [x, m.value]).collect();
+            panel.add(Line::through(points, series_stroke(index)).labelled((*contender).clone()));
+        }
+        Sheet::new(Width::Double, 1, 190.0).noted(note(self.read.until_s, &all)).with([Ok(panel)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_query_without_a_path_by_then_costs_infinitely_much() {
+        let found = [[0.2, 9.0], [0.5, 4.0], [0.7, 5.0]];
+        let by = [0.1, 0.2, 0.6, 0.9].map(|passed_s| best_by(&found, passed_s));
+        assert_eq!(by, [f64::INFINITY, 9.0, 4.0, 4.0]);
+    }
+
+    #[test]
+    fn a_curve_begins_where_half_of_the_queries_have_a_path_and_never_rises() {
+        let of = |at: f64| vec![vec![[at, 10.0], [at + 0.3, 8.0]]];
+        let draws: Vec<_> = [0.1, 0.2, 0.3, 9.0, 9.0].map(of).into();
+        let moments = [0.15, 0.25, 0.35, 0.45, 0.65];
+        let found = medians(&draws, &moments, &["a test"]);
+        let values: Vec<Option<f64>> = found.iter().map(|median| median.map(|m| m.value)).collect();
+        assert_eq!(values, [None, None, Some(10.0), Some(10.0), Some(8.0)]);
+        assert!(found[2].unwrap().interval.high.is_infinite(), "two of five never find a path");
+    }
+
+    #[test]
+    fn who_finds_no_path_for_half_of_the_queries_is_named_below_the_figure() {
+        let (fast, slow) = ("BIT*".to_owned(), "RRT*".to_owned());
+        let draws: Vec<_> = [0.1, 0.2, 0.3].map(|at| vec![vec![[at, 10.0]]]).into();
+        let all =
+            [(&fast, medians(&draws, &[0.5], &["a test"])), (&slow, medians(&draws, &[0.05], &["a test"]))];
+        let said = note(0.5, &all);
+        assert!(said.ends_with("No path for half of the queries within 0.5 s: RRT*."), "{said}");
+        assert!(!note(0.5, &all[..1]).contains("No path"), "everyone has a curve");
+    }
+}

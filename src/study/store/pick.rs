@@ -1,0 +1,166 @@
+//! Exhibits that are read when they are asked for: the group of the file that holds them, and no other.
+
+use super::exhibits::{groups, read_group};
+use super::read::{Draws, Stored};
+use super::{check, hash_of, part_path};
+use crate::study::StudyError;
+use crate::study::key::Owner;
+use crate::study::record::Kept;
+use engine::planner::Exhibit;
+use polars_io::prelude::{ParquetReader, SerReader as _};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// The exhibits of one study's records.
+#[derive(Debug, Default)]
+pub struct KeptExhibits {
+    /// The file that holds them; none if they are in memory already.
+    path: Option<PathBuf>,
+    found: OnceLock<Found>,
+    damage: OnceLock<String>,
+}
+
+/// Where each exhibit stands, and those that were read.
+#[derive(Debug, Default)]
+struct Found {
+    /// Its group and its place there.
+    places: BTreeMap<Owner, Vec<(usize, usize)>>,
+    groups: Vec<Group>,
+}
+
+/// A group of the file: its first row and how many it has.
+#[derive(Debug)]
+struct Group {
+    rows: (usize, usize),
+    read: OnceLock<Vec<Exhibit>>,
+}
+
+impl KeptExhibits {
+    /// Those of a run that is in memory.
+    pub fn held(kept: Vec<Kept>) -> Self {
+        let mut places: BTreeMap<Owner, Vec<(usize, usize)>> = BTreeMap::new();
+        let mut all = Vec::with_capacity(kept.len());
+        for (place, Kept { of, exhibit }) in kept.into_iter().enumerate() {
+            places.entry(of).or_default().push((0, place));
+            all.push(exhibit);
+        }
+        let groups = vec![Group { rows: (0, all.len()), read: OnceLock::from(all) }];
+        Self { found: OnceLock::from(Found { places, groups }), ..Self::default() }
+    }
+
+    /// Those of `study` in `folder`, whose file must have its hash among `hashes`; none of them is read yet.
+    ///
+    /// # Errors
+    /// [`StudyError::Touched`].
+    pub fn stored(folder: &Path, study: &str, hashes: &BTreeMap<String, String>) -> Result<Self, StudyError> {
+        let path = part_path(folder, study, "exhibits");
+        check(&path, &hash_of(&path)?, hashes.get("exhibits"))?;
+        Ok(Self { path: Some(path), ..Self::default() })
+    }
+
+    /// The exhibits of `owner`, in the order in which they were kept; none where the file cannot be read, which
+    /// [`damage`](Self::damage) tells.
+    pub fn of<'s>(&'s self, owner: &Owner) -> impl Iterator<Item = &'s Exhibit> + use<'s> {
+        let found = self.found();
+        let places = found.places.get(owner).map_or(&[][..], Vec::as_slice);
+        places.iter().filter_map(|(group, place)| {
+            let Group { rows, read } = &found.groups[*group];
+            once(read, || self.or_damage(|path| Self::group(path, *rows))).get(*place)
+        })
+    }
+
+    fn found(&self) -> &Found {
+        once(&self.found, || self.or_damage(Self::find))
+    }
+
+    /// The exhibits of `owner`, of a file that is read from one end to the other: no other group stays in memory.
+    ///
+    /// # Errors
+    /// [`StudyError::Touched`].
+    pub fn take(&mut self, owner: &Owner) -> Result<Vec<Exhibit>, StudyError> {
+        let exhibits = self.of(owner).cloned().collect();
+        if let Some(found) = self.found.get_mut() {
+            let own = found.places.get(owner).and_then(|places| places.last()).map(|(group, _)| *group);
+            for (number, group) in found.groups.iter_mut().enumerate() {
+                if own.is_some_and(|own| own != number) {
+                    group.read.take();
+                }
+            }
+        }
+        self.damage().map(|()| exhibits)
+    }
+
+    /// Whose they are, in the order of the file.
+    ///
+    /// # Errors
+    /// [`StudyError::Touched`].
+    pub fn owners(&self) -> Result<Vec<&Owner>, StudyError> {
+        let found = self.found();
+        let mut owners: Vec<(&(usize, usize), &Owner)> =
+            found.places.iter().filter_map(|(owner, places)| Some((places.first()?, owner))).collect();
+        owners.sort_unstable_by_key(|(place, _)| **place);
+        self.damage().map(|()| owners.into_iter().map(|(_, owner)| owner).collect())
+    }
+
+    /// What was wrong with the file where it was read.
+    ///
+    /// # Errors
+    /// [`StudyError::Touched`].
+    pub fn damage(&self) -> Result<(), StudyError> {
+        self.damage.get().map_or(Ok(()), |found| Err(StudyError::Touched(found.clone())))
+    }
+
+    /// How many groups are in memory.
+    #[cfg(test)]
+    pub fn in_memory(&self) -> usize {
+        let groups = self.found.get().into_iter().flat_map(|found| &found.groups);
+        groups.filter(|group| group.read.get().is_some()).count()
+    }
+
+    fn or_damage<T: Default>(&self, read: impl FnOnce(&Path) -> Result<T, StudyError>) -> T {
+        let Some(path) = &self.path else { return T::default() };
+        read(path).unwrap_or_else(|error| {
+            self.damage.get_or_init(|| error.to_string());
+            T::default()
+        })
+    }
+
+    /// Whose the exhibits in the file at `path` are, without reading them.
+    fn find(path: &Path) -> Result<Found, StudyError> {
+        let mut found = Found::default();
+        let file = File::open(path).map_err(StudyError::io(path, "opening the file"))?;
+        let read = || {
+            let mut reader = ParquetReader::new(file);
+            let names = reader.schema()?.iter_names().map(ToString::to_string).collect::<Vec<_>>();
+            reader.with_columns(Some(names.into_iter().filter(|name| name != "values").collect())).finish()
+        };
+        let stored = Stored::of(path.to_owned(), read)?;
+        let mut owners = stored.guarded(|file| file.owners(&mut Draws::default()))?.into_iter();
+        let mut first = 0;
+        for (number, count) in groups(path)?.into_iter().enumerate() {
+            for (place, owner) in owners.by_ref().take(count).enumerate() {
+                found.places.entry(owner).or_default().push((number, place));
+            }
+            found.groups.push(Group { rows: (first, count), read: OnceLock::new() });
+            first += count;
+        }
+        Ok(found)
+    }
+
+    fn group(path: &Path, rows: (usize, usize)) -> Result<Vec<Exhibit>, StudyError> {
+        let kept = read_group(path, rows, &mut Draws::default())?;
+        Ok(kept.into_iter().map(|kept| kept.exhibit).collect())
+    }
+}
+
+/// What is in `cell`, made if nothing is. Nothing is locked while `make` reads: polars waits for threads of its own, and rayon has
+/// whoever waits take up other work, which may ask for the same. Two may read then; the first one's is kept.
+fn once<T>(cell: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
+    if let Some(found) = cell.get() {
+        return found;
+    }
+    let made = make();
+    cell.get_or_init(|| made)
+}

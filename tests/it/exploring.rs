@@ -1,0 +1,212 @@
+//! How `explore` and `confirm` spend their budget of trials, and how they go on after they were stopped.
+
+use crate::across::{CITED, RUNS, Toy, pair};
+use crate::paper::Said;
+use replan::analysis::across::stored::Exploration;
+use replan::analysis::class::Polarity;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command};
+use std::thread::sleep;
+use std::time::Duration;
+
+const MORE: (&str, &str) = ("[explore]\ndraws = 20", "[explore]\ndraws = 12\nmore_draws = 30");
+/// What the default reading gives, so that no claim is open under it.
+const MET: (&str, &str) = ("printed = \"24\"", "printed = \"4\"");
+
+/// How many draws the claim `fewer` was judged by, with and without a weight.
+fn draws(first: &Exploration) -> [BTreeSet<usize>; 2] {
+    let has_weight = |place: &usize| !first.readings[*place].contains_key("hurry");
+    let of = |wanted: bool| {
+        let is_of = |readings: &[usize]| readings.iter().all(|at| has_weight(at) == wanted);
+        let results = first.claims["fewer"].results.iter();
+        results.filter(|result| is_of(&result.readings)).map(|result| result.n).collect()
+    };
+    [of(true), of(false)]
+}
+
+#[test]
+fn a_second_round_draws_more_only_where_a_class_is_near_a_flip() {
+    let toy = Toy::unexplored(&[CITED, MORE, MET]);
+    let plan = toy.0.done(&["explore", "./toy", "--plan"]);
+    let first_round: u64 =
+        plan.split([',', ' ']).find_map(|word| word.parse().ok().filter(|n| *n > 10)).unwrap();
+    toy.0.done(&["explore", "./toy"]);
+    let explored = toy.stored("explored.toml.gz");
+    assert_eq!(draws(&explored), [BTreeSet::from([12]), BTreeSet::from([30])]);
+    // One reading once more: three contenders on 30 draws, and one on the room.
+    assert_eq!(explored.trials, first_round + 3 * 30 + 1);
+    // Without room in the budget there is no second round.
+    let toy =
+        Toy::unexplored(&[CITED, MORE, MET, ("trials = 100_000", &format!("trials = {}", first_round + 90))]);
+    toy.0.done(&["explore", "./toy"]);
+    let explored = toy.stored("explored.toml.gz");
+    assert_eq!(
+        (draws(&explored), explored.trials),
+        ([BTreeSet::from([12]), BTreeSet::from([12])], first_round)
+    );
+}
+
+#[test]
+fn a_confirmation_keeps_to_the_budget_of_trials_and_says_what_it_left_out() {
+    let toy = Toy::new(&[CITED]);
+    // The default on the second seed: three contenders on 40 draws, and one on the room.
+    let budget = |trials: u64| {
+        let text = fs::read_to_string(toy.0.at("toy/paper.toml")).unwrap();
+        let line = text.lines().find(|line| line.starts_with("trials = ")).unwrap();
+        fs::write(toy.0.at("toy/paper.toml"), text.replace(line, &format!("trials = {trials}"))).unwrap();
+    };
+    budget(120);
+    let said = toy.0.run(&["confirm", "./toy"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    let refused =
+        "./toy/paper.toml:7:10: the default reading takes 121 trials on the second seed; `trials` is 120";
+    assert!(said.err.contains(refused), "{}", said.err);
+    assert!(!toy.0.at("target/replan/confirm").exists(), "trials were run");
+    budget(181);
+    let said = toy.0.done(&["confirm", "./toy"]);
+    assert!(
+        said.contains("toy: readings that turn a claim and for which the budget has no room: 1\n"),
+        "{said}"
+    );
+    assert_eq!(toy.stored("second_seed.toml.gz").trials, 121);
+    assert_eq!(toy.claim("fewer").across.unwrap().unconfirmed, 1);
+    budget(182);
+    toy.0.done(&["confirm", "./toy"]);
+    assert_eq!(toy.stored("second_seed.toml.gz").trials, 121 + 61);
+    assert_eq!(toy.said("fewer"), pair("undecided", "hangs on hurry: reproduced if three (1 of 2)"));
+}
+
+/// Enough trials that a command can be caught at work.
+const SLOW: [(&str, &str); 4] =
+    [CITED, ("[12, 12]", "[60, 60]"), ("[11, 9]", "[59, 50]"), ("replicates = 40", "replicates = 200")];
+
+/// Sends Ctrl-C once `file` has `bytes`, or says that the command was over before.
+fn interrupt(toy: &Toy, mut child: Child, file: &Path, bytes: u64) -> Said {
+    while fs::metadata(file).map_or(0, |file| file.len()) < bytes {
+        assert!(child.try_wait().unwrap().is_none(), "over before {} was seen", file.display());
+        sleep(Duration::from_micros(200));
+    }
+    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
+    assert!(sent.success());
+    toy.0.said(&child.wait_with_output().unwrap())
+}
+
+/// The units that a message says are kept.
+fn kept(said: &Said) -> u32 {
+    let (before, _) =
+        said.err.split_once(" units of study `draws` are kept").unwrap_or_else(|| panic!("{}", said.err));
+    before.split_whitespace().rev().nth(2).unwrap().parse().unwrap()
+}
+
+#[test]
+fn an_exploration_and_a_confirmation_that_are_interrupted_go_on_and_end_with_the_same_bytes() {
+    let calm = Toy::new(&SLOW);
+    calm.0.done(&["confirm", "./toy"]);
+    let toy = Toy::unexplored(&SLOW);
+    for (command, journal, file) in [
+        ("explore", "explore/toy/round-1/draws.journal", "explored.toml.gz"),
+        ("confirm", "confirm/toy/default/draws.journal", "second_seed.toml.gz"),
+    ] {
+        let child = toy.0.command(&[command, "./toy"]).spawn().unwrap();
+        let said = interrupt(&toy, child, &toy.0.at("target/replan").join(journal), 10_000);
+        assert_eq!(said.code, Some(130), "{}", said.err);
+        assert!(kept(&said) > 0 && !toy.0.at(RUNS).join(file).exists(), "{}", said.err);
+        toy.0.done(&[command, "./toy"]);
+        let bytes = |toy: &Toy| fs::read(toy.0.at(RUNS).join(file)).unwrap();
+        assert!(bytes(&toy) == bytes(&calm), "{command} gives other bytes after an interruption");
+    }
+}
+
+#[test]
+fn an_exploration_that_is_interrupted_while_readings_are_judged_runs_no_trial_again() {
+    let toy = noisy();
+    let child = toy.0.command(&["explore", "./toy"]).spawn().unwrap();
+    let said = interrupt(&toy, child, &toy.0.at("target/replan/explore/toy/round-1/room.manifest.toml"), 1);
+    assert_eq!(said.code, Some(130), "{}", said.err);
+    assert!(
+        said.err.ends_with("interrupted: the trials are kept; the same command goes on from there\n"),
+        "{}",
+        said.err
+    );
+    let trials = toy.0.at("target/replan/explore/toy/round-1/draws.trials.parquet");
+    let written = fs::metadata(&trials).unwrap().modified().unwrap();
+    toy.0.done(&["explore", "./toy"]);
+    assert_eq!(fs::metadata(&trials).unwrap().modified().unwrap(), written);
+}
+
+/// A claim that asks for a polyline, which takes a search.
+const ROW: (&str, &str) = (
+    "[[claim]]\nid = \"fewer\"",
+    "[[claim]]\nid = \"length\"\nat = \"table 1\"\nprinted = \"4.00\"\nunit = \"cells\"\nuntestable = \"no map\"\n\
+     [[claim]]\nid = \"turn\"\nat = \"table 1\"\nprinted = \"90.0\"\nunit = \"deg\"\nuntestable = \"no map\"\n\
+     [[claim]]\nid = \"row\"\nat = \"table 1\"\nsays = \"one path has both\"\n\
+     rule.joint_length_turn = { size = [5, 5], start = [0, 0], goal = [2, 2], length = \"length\", turn = \"turn\", \
+     metric = \"turn_exterior_deg\", exterior = \"turn_exterior_deg\", interior = \"turn_interior_deg\", longest = 6.0 }\n\
+     [[claim]]\nid = \"fewer\"",
+);
+
+#[test]
+fn polylines_that_were_found_are_kept_and_not_searched_for_again() {
+    let toy = Toy::unexplored(&[ROW]);
+    let cache = toy.0.at("target/replan/cache/polylines.json");
+    let class = || {
+        toy.0.done(&["explore", "./toy"]);
+        toy.stored("explored.toml.gz").claims["row"].results[0].class.polarity()
+    };
+    assert_eq!(class(), Polarity::Open);
+    // What was kept is believed: an exploration that searched anew would find the path.
+    let kept: serde_json::Map<String, serde_json::Value> =
+        serde_json::from_slice(&fs::read(&cache).unwrap()).unwrap();
+    assert!(kept.values().any(|answer| !answer.is_null()));
+    let none: serde_json::Map<_, _> =
+        kept.into_iter().map(|(name, _)| (name, serde_json::Value::Null)).collect();
+    fs::write(&cache, serde_json::to_vec(&none).unwrap()).unwrap();
+    assert_eq!(class(), Polarity::Against);
+}
+
+/// A claim that one unlucky map breaks, under a hundred sizes of the map, which only draw other maps.
+fn noisy() -> Toy {
+    let mut world =
+        "[[reading]]\nid = \"world\"\nwhy = \"the size is not printed\"\ndefault = \"w10\"\n".to_owned();
+    for width in 10..110 {
+        world += &format!(
+            "[reading.option.w{width}]\npaper = \"section 1\"\nproblem = {{ size_cells = [{width}, 12] }}\n"
+        );
+    }
+    let claim = "[[claim]]\nid = \"near\"\nat = \"section 4\"\nsays = \"the search from two sides costs at most a tenth more\"\n\
+         check.on_every = { of = { study = \"draws\", problems = \"drawn\", metric = \"path_cost_cells\", \
+         contender = \"Two-sided\", against = \"A*\" }, that = \"at_most_times\", bound = 1.1 }\n[[claim]]\nid = \"fewer\"";
+    let edits = [
+        ("[[claim]]\nid = \"fewer\"", claim),
+        ("[[contender]]\nlabel = \"Lazy\"", &*format!("{world}[[contender]]\nlabel = \"Lazy\"")),
+        ("goal = [11, 9]", "goal = [9, 9]"),
+        ("draws = 20", "draws = 10"),
+        ("size_cells = [12, 12]", "size_cells = [10, 12]"),
+        ("settings = { weight = 3, ties = \"fifo\" }", "settings = { weight = 1, ties = \"fifo\" }"),
+    ];
+    Toy::unexplored(&edits)
+}
+
+#[test]
+fn noise_among_a_hundred_readings_does_not_flip_a_class() {
+    let toy = noisy();
+    toy.0.done(&["explore", "./toy"]);
+    let first = toy.stored("explored.toml.gz");
+    let against = |all: &Exploration| {
+        let results = all.claims["near"].results.iter();
+        results.filter(|found| found.class.polarity() == Polarity::Against).count()
+    };
+    let flips = against(&first);
+    assert!((1..9).contains(&flips), "the sample shows nothing: {flips} of 100 maps break the claim");
+    let class = |toy: &Toy| {
+        let across = toy.claim("near").across.unwrap();
+        (across.class.name(), across.fails, across.unconfirmed)
+    };
+    assert_eq!(class(&toy), ("reproduced", 0, flips));
+    toy.0.done(&["confirm", "./toy"]);
+    let second = toy.stored("second_seed.toml.gz");
+    assert_eq!((second.readings.len(), against(&second)), (1 + flips, 0), "each was asked once more");
+    assert_eq!(class(&toy), ("reproduced", 0, flips));
+}

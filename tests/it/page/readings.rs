@@ -1,0 +1,105 @@
+//! What the page lets readers see of readings: the class of each claim under one, and what each option does to a claim.
+
+use super::driver::Browser;
+use super::{SHOWN, page};
+use crate::paper::Bench;
+use replan::analysis::across::stored::Exploration;
+use replan::analysis::verdict::{Effect, Judged, Verdicts};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+fn runs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs/zhang")
+}
+
+fn explored() -> Exploration {
+    Exploration::read(&Exploration::first(&runs())).unwrap().unwrap()
+}
+
+/// The class of each claim under the reading that is chosen, by the claim's id.
+const UNDER: &str = "return Object.fromEntries([...document.getElementById('claimed').tBodies]
+    .map((line) => [line.id.slice('claim='.length), line.dataset.under]))";
+
+#[test]
+fn a_reading_that_is_chosen_shows_each_claims_class_under_it() {
+    let (bench, explored) = (Bench::empty(), explored());
+    let Some(browser) = Browser::open([1280, 800]) else { return };
+    let file = page(&bench, "zhang");
+    let mut moved = 0;
+    for place in [3, explored.readings.len() / 2, explored.readings.len() - 1] {
+        let options: Vec<String> =
+            explored.readings[place].iter().map(|(id, option)| format!("{id}:{option}")).collect();
+        browser.go(&file, &format!("reading={}", options.join(",")));
+        let shown = browser.run(UNDER);
+        let shown: Vec<(&String, &str)> = shown
+            .as_object()
+            .unwrap()
+            .iter()
+            .map(|(id, class)| (id, class.as_str().unwrap()))
+            .filter(|(_, class)| !class.is_empty())
+            .collect();
+        assert!(shown.len() > 20, "{options:?}: {} claims", shown.len());
+        for (id, class) in shown {
+            // The default run has more draws than an exploration.
+            let Some(result) = explored.result(id, place).filter(|result| !result.readings.contains(&0))
+            else {
+                continue;
+            };
+            assert_eq!(class, result.class.name(), "{id} under {options:?}");
+            moved += 1;
+        }
+        browser.run("const f = document.getElementById('filter'); f.elements.under.value = 'differs'; f.dispatchEvent(new Event('input'))");
+        let differing = browser
+            .run("return document.querySelectorAll('#claimed tbody[data-differs]:not([data-part])').length");
+        assert_eq!(browser.run(SHOWN), differing, "{options:?}");
+    }
+    assert!(moved > 20, "one-sided sample: {moved} results differ from the default's");
+    browser.picture("zhang-reading-1280");
+    assert_eq!(browser.console(), json!([]));
+}
+
+#[test]
+fn a_combination_that_was_not_explored_is_said_and_leads_to_those_that_were() {
+    let bench = Bench::empty();
+    let Some(browser) = Browser::open([390, 844]) else { return };
+    browser.go(&page(&bench, "zhang"), "reading=meeting:both_closed,ties:lifo,nodes:closed,end:contact");
+    let said = "return document.querySelector('#reading output').textContent";
+    assert!(browser.run(said).as_str().unwrap().starts_with("This combination was not explored."));
+    browser.run("document.querySelector('#reading output button').click()");
+    assert!(browser.run(said).as_str().unwrap().starts_with("Reading "), "{}", browser.run(said));
+    browser.run("document.querySelector('#reading [name=defaults]').click()");
+    assert_eq!(browser.run("return location.hash"), json!("#reading="));
+    browser.picture("zhang-reading-390");
+    assert_eq!(browser.console(), json!([]));
+}
+
+#[test]
+fn a_claim_that_is_opened_shows_what_each_option_does_and_lines_filter_by_what_they_hang_on() {
+    let (bench, verdicts) = (Bench::empty(), Verdicts::read(&runs()).unwrap());
+    let Some(browser) = Browser::open([1280, 800]) else { return };
+    let file = page(&bench, "zhang");
+    let effects = |judged: &Judged| judged.across.clone().map(|across| across.effects).unwrap_or_default();
+    let turns =
+        verdicts.claims.iter().find(|judged| effects(judged).values().any(|of| of.effect == Effect::Turns));
+    let turned = turns.expect("some reading turns some claim");
+    browser.go(&file, &format!("claim={}", turned.claim));
+    let options = browser.run(&format!(
+        "return [...document.getElementById('claim={}').querySelectorAll('.options tbody tr')].map((row) => [...row.cells].map((cell) => cell.textContent))",
+        turned.claim
+    ));
+    for (axis, of) in effects(turned).iter().filter(|(_, of)| of.effect == Effect::Turns) {
+        let row = |row: &&Value| row[0] == json!(format!("{axis} = {}", of.option));
+        let row = options.as_array().unwrap().iter().find(row).unwrap_or_else(|| panic!("{axis}: {options}"));
+        assert_eq!((&row[1], &row[2]), (&json!("turns it"), &json!(of.class.name())), "{options}");
+    }
+    for axis in ["meeting", "nodes"] {
+        let hangs = |judged: &&Judged| {
+            judged.part_of.is_none() && effects(judged).get(axis).is_some_and(|of| of.effect >= Effect::Opens)
+        };
+        let count = verdicts.claims.iter().filter(hangs).count();
+        browser.go(&file, &format!("hangs={axis}"));
+        assert_eq!(browser.run(SHOWN), json!(count), "{axis}");
+        assert!(count > 0, "no claim hangs on {axis}");
+    }
+    assert_eq!(browser.console(), json!([]));
+}
