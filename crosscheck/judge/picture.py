@@ -10,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 WIDTH, HEIGHT = 1200, 900
+# What a letter of a label takes in the picture, and how far labels stand above each other, in pixels.
+LETTER, LINE = 10.0, 24.0
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,41 @@ def draw(model_path: Path, to: Path, key: str, view: View) -> None:
     camera.distance = radius / np.sin(np.deg2rad(model.vis.global_.fovy / 2)) / view.zoom
     with mujoco.Renderer(model, HEIGHT, WIDTH) as renderer:
         renderer.update_scene(data, camera)
+        name_obstacles(model, data, renderer.scene)
         to.write_bytes(png(renderer.render()))
+
+
+def name_obstacles(model: mujoco.MjModel, data: mujoco.MjData, scene: mujoco.MjvScene) -> None:
+    """Write at each obstacle its name in the scene's file; one that would cover another stands above it."""
+    eye = scene.camera[0]
+    right, up = np.cross(eye.forward, eye.up), np.asarray(eye.up)
+    placed: list[tuple[float, float, float]] = []
+    named = [geom for geom in map(model.geom, range(model.ngeom)) if geom.name.startswith("still:")]
+    for geom in (geom for geom in named if model.geom_rbound[geom.id] > 0):
+        name = geom.name.removeprefix("still:")
+        beyond = data.geom_xpos[geom.id] - eye.pos
+        metres_per_pixel = beyond @ eye.forward * eye.frustum_top / eye.frustum_near / (HEIGHT / 2)
+        x, y = beyond @ right / metres_per_pixel, beyond @ up / metres_per_pixel
+        width, lift = LETTER * len(name), 0.0
+        while any(covers((x, y + lift, width), other) for other in placed):
+            lift += LINE / 4
+        placed.append((x, y + lift, width))
+        add_label(scene, data.geom_xpos[geom.id] + lift * metres_per_pixel * up, name)
+
+
+def covers(one: tuple[float, float, float], other: tuple[float, float, float]) -> bool:
+    """Whether two labels (left end, height, width; pixels) cover each other."""
+    (x, y, width), (left, height, wide) = one, other
+    return abs(y - height) < LINE and x < left + wide and left < x + width
+
+
+def add_label(scene: mujoco.MjvScene, at: npt.NDArray[np.float64], text: str) -> None:
+    """A text in the scene, and nothing else."""
+    label = scene.geoms[scene.ngeom]
+    ink = np.ones(4, dtype=np.float32)
+    mujoco.mjv_initGeom(label, mujoco.mjtGeom.mjGEOM_LABEL, np.zeros(3), at, np.eye(3).ravel(), ink)
+    label.label = text
+    scene.ngeom += 1
 
 
 def ball_around(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[npt.NDArray[np.float64], float]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from statistics_judge.classes import SPEAKS, WEIGHT
-from statistics_judge.records import Paper, toml
+from statistics_judge.records import Paper
 
 # Of ten results that speak or leave open, so many must speak.
 TENTHS = 9

@@ -13,7 +13,7 @@ import pytest
 
 from judge.answers import Answers, Questions, answer, answer_model
 from judge.model import load
-from judge.picture import View, ball_around, draw, png
+from judge.picture import View, ball_around, draw, name_obstacles, png
 from judge.tables import read_questions
 
 FIXTURES = Path(__file__).parent / "fixtures"
@@ -104,6 +104,22 @@ def test_the_camera_looks_at_the_middle_of_what_is_there() -> None:
     assert -0.2 < x - 0.3 < 0.1
     assert 0.1 < y < 0.4
     assert 0.5 < radius < 1.0
+
+
+def test_every_obstacle_says_its_name_and_no_name_covers_another() -> None:
+    judged = load(MINI)
+    mujoco.mj_forward(judged.model, judged.data)
+    judged.data.geom_xpos[judged.model.geom("still:ball").id] = judged.data.geom_xpos[
+        judged.model.geom("still:box").id
+    ]
+    scene = mujoco.MjvScene(judged.model, maxgeom=100)
+    camera, everything = mujoco.MjvCamera(), int(mujoco.mjtCatBit.mjCAT_ALL)
+    mujoco.mjv_defaultFreeCamera(judged.model, camera)
+    mujoco.mjv_updateScene(judged.model, judged.data, mujoco.MjvOption(), None, camera, everything, scene)
+    name_obstacles(judged.model, judged.data, scene)
+    labels = {shape.label: shape.pos for shape in scene.geoms[: scene.ngeom] if shape.label}
+    assert set(labels) == {"box", "ball"}
+    assert labels["ball"][2] > labels["box"][2] + 0.01
 
 
 def test_a_png_has_its_size_and_no_clock() -> None:

@@ -6,10 +6,11 @@ use super::{Entry, Kind, Scene};
 use crate::analysis::context::Context;
 use crate::analysis::criterion;
 use crate::render::RenderError;
-use crate::render::chart::marks::Line;
+use crate::render::canvas::{Align, Stand, Type};
+use crate::render::chart::marks::{Line, Note};
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{INK, Stroke, Width, series_stroke};
+use crate::render::style::{INK, Stroke, TextSize, Width, series_color, series_stroke};
 use crate::study::paper::{Claim, Paper};
 use base::settings::{Accepted, Settings, SettingsError, none_called};
 use schemars::JsonSchema;
@@ -90,9 +91,11 @@ impl Asked {
         // The outermost hundredth on either side would squeeze all the rest.
         let ends = sets.iter().flat_map(|set| [0.01, 0.99].map(|share| quantile(&set.values, share)));
         let x = Axis::over(&spec.axis, ends.flatten().chain(printed));
+        let corner = [x.ends()[0], 1.0];
         let mut panel = Panel::new(&spec.title, x, Axis::linear("share of maps", 0.0, 1.0)?);
         for (index, set) in sets.iter().enumerate() {
             panel.add(Line::through(cumulative(&set.values), series_stroke(index)).labelled(&set.label));
+            panel.add(how_many(corner, index, set.values.len()));
         }
         if let Some(printed) = printed {
             let marks = vec![(printed, format!("printed {printed}"))];
@@ -100,6 +103,14 @@ impl Asked {
         }
         Ok(panel)
     }
+}
+
+/// How many draws stand behind a curve, in its ink: no cumulative curve comes near the upper left corner.
+fn how_many(corner: [f64; 2], index: usize, draws: usize) -> Note {
+    let set = Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre);
+    let set = Type { color: series_color(index), rim: true, ..set };
+    let down_pt = (index as f64 + 1.0) * 1.25 * TextSize::TICK.pt();
+    Note { at: corner, shift_pt: [3.0, down_pt], text: format!("n = {draws}"), set }
 }
 
 /// The claim called `id`, whose criterion `one_draw` says what is to be shown.
