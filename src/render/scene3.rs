@@ -106,6 +106,8 @@ struct Chain {
 struct Tag {
     at: Vec3,
     text: String,
+    /// Whether the point itself is marked, with the text beside it; else the text stands on the point.
+    dotted: bool,
 }
 
 /// What there is to see.
@@ -153,7 +155,12 @@ impl Scene {
 
     /// Names a point; the text is never hidden.
     pub fn tag(&mut self, at: Vec3, text: impl Into<String>) {
-        self.tags.push(Tag { at, text: text.into() });
+        self.tags.push(Tag { at, text: text.into(), dotted: true });
+    }
+
+    /// Writes a text across a point; it is never hidden.
+    pub fn write(&mut self, at: Vec3, text: impl Into<String>) {
+        self.tags.push(Tag { at, text: text.into(), dotted: false });
     }
 
     /// All points that the picture must hold.

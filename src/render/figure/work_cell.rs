@@ -46,7 +46,10 @@ struct WorkCell {
     /// Ends of queries, as `name/start` or `name/goal`, each with what it is called.
     #[serde(default)]
     poses: Vec<[String; 2]>,
-    /// How many of them are shown in one picture.
+    /// What the scene's boxes are called, in their order, beside the first poses; an empty name is not written.
+    #[serde(default)]
+    boxes: Vec<String>,
+    /// How many poses are shown in one picture.
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 1000))]
     at_once: usize,
@@ -199,9 +202,12 @@ impl WorkCell {
             sheet = sheet.titled(said);
         }
         let named: Vec<(usize, &[String; 2])> = self.poses.iter().enumerate().collect();
-        for shown in named.chunks(self.at_once.max(1)) {
+        for (row, shown) in named.chunks(self.at_once.max(1)).enumerate() {
             for (title, camera) in VIEWS {
                 let mut solids = furnished(scene, draw)?;
+                if row == 0 {
+                    self.name_boxes(&mut solids, ask::exhibit(scene, draw, "boxes")?)?;
+                }
                 let mut keys = vec![cell_key("obstacles", OBSTACLE)];
                 for (place, (index, [pose, name])) in shown.iter().enumerate() {
                     let color = series_color(*index).mixed(WHITE, 0.35);
@@ -219,6 +225,21 @@ impl WorkCell {
             }
         }
         Ok(sheet)
+    }
+
+    /// Writes the names of boxes across their middles.
+    fn name_boxes(&self, solids: &mut Solids, boxes: &Exhibit) -> Result<(), RenderError> {
+        let all = boxes.values.chunks(boxes.width);
+        if self.boxes.len() > all.len() {
+            let what = format!("a box for each of the {} names in `boxes`: it has {}", self.boxes.len(), all.len());
+            return Err(RenderError::NotStored { what });
+        }
+        for (name, corners) in self.boxes.iter().zip(all).filter(|(name, _)| !name.is_empty()) {
+            let count = corners.len() as f64 / 3.0;
+            let middle = |axis: usize| corners.chunks(3).map(|corner| corner[axis]).sum::<f64>() / count;
+            solids.write([0, 1, 2].map(middle), name);
+        }
+        Ok(())
     }
 
     /// The ways of the tool, one column a contender.

@@ -218,8 +218,12 @@ impl Mark for SceneMark {
         let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
         for tag in &self.scene.tags {
             let [x, y] = lens.at(tag.at);
-            canvas.circle([x, y], 1.3, Some(Fill::solid(INK)), None);
-            canvas.text([x + 3.5, y - 3.0], &tag.text, &set);
+            if tag.dotted {
+                canvas.circle([x, y], 1.3, Some(Fill::solid(INK)), None);
+                canvas.text([x + 3.5, y - 3.0], &tag.text, &set);
+            } else {
+                canvas.text([x, y], &tag.text, &set.aligned(Align::Middle, Stand::Centre));
+            }
         }
     }
 
