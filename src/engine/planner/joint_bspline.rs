@@ -118,3 +118,6 @@ fn is_clear(world: &PolyhedraWorld, arm: &CarriedArm, a: &Joints, b: &Joints) ->
             arm.is_clear(&between, world.bodies(), LEAST_CM, false)
         })
 }
+
+#[cfg(test)]
+mod tests;

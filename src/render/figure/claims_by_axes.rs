@@ -15,8 +15,8 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "claims_by_axes",
     about: "which reading moves which claim: the greatest effect of an axis's voting options, one at a time",
-    statistic: "The greatest effect of each axis's voting options, one at a time beside the defaults; a row is a sentence or a table row; \
-                left out are axes and claims that nothing moves.",
+    statistic: "Of options that vote, one at a time beside the defaults; of several in one cell the greatest effect; what nothing moves is \
+                left out.",
     settings: Accepted::of::<ClaimsByAxes>(),
     example: r"
 claims = []

@@ -231,7 +231,8 @@ impl WorkCell {
     fn name_boxes(&self, solids: &mut Solids, boxes: &Exhibit) -> Result<(), RenderError> {
         let all = boxes.values.chunks(boxes.width);
         if self.boxes.len() > all.len() {
-            let what = format!("a box for each of the {} names in `boxes`: it has {}", self.boxes.len(), all.len());
+            let what =
+                format!("a box for each of the {} names in `boxes`: it has {}", self.boxes.len(), all.len());
             return Err(RenderError::NotStored { what });
         }
         for (name, corners) in self.boxes.iter().zip(all).filter(|(name, _)| !name.is_empty()) {

@@ -63,6 +63,42 @@ fn each_step_of_a_path_is_a_neighbour_and_the_tip_ends_at_the_goal() {
 }
 
 #[test]
+fn half_a_step_from_the_goal_takes_a_state_nearer_to_it_and_more_expansions() {
+    let world = world(Vec::new());
+    let found = [1.0, 0.5].map(|steps| {
+        let text = format!("delta_deg = 8.0\nneighbours = 12\ngoal_steps = {steps:.1}");
+        let plan = plan(&world, &text, 200_000);
+        assert_eq!(plan.ending, Ending::Solved, "{text}");
+        let [.., before, goal] = &plan.path[..] else { panic!("a path has two ends") };
+        let last_hop = (0..AXES).map(|i| (goal[i] - before[i]).abs()).fold(0.0, f64::max);
+        let Value::Count(expansions) = plan.counts["expansions"] else { panic!("expansions are counted") };
+        (last_hop.to_degrees() / 8.0, expansions)
+    });
+    let [(whole, few), (half, more)] = found;
+    assert!(half <= 0.5 + 1e-9 && whole > 0.5 && whole <= 1.0 + 1e-9, "{whole} and {half} steps");
+    assert!(more > few, "{more} expansions after {few}");
+}
+
+#[test]
+fn the_nearest_branch_moves_no_joint_farther_than_the_clearest_one_and_sometimes_less() {
+    let world = world(vec![Convex::cuboid(Vec3::new(40.0, -40.0, 60.0), Vec3::repeat(10.0)).unwrap()]);
+    let polyhedra = world.as_polyhedra().unwrap();
+    let arm = polyhedra.arm().unwrap();
+    let mut shorter = 0;
+    for y in [-30.0, -20.0, -10.0, 10.0, 25.0, 40.0] {
+        let (start, goal) = (Vec3::new(60.0, y, 50.0), Vec3::new(45.0, 12.0, 40.0));
+        let apart = [BranchSetting::Clearest, BranchSetting::Nearest].map(|rule| {
+            let [from, to] = ends(polyhedra, arm, [&start, &goal], rule).unwrap();
+            assert!((arm.tip(&from) - start).norm() < 1e-6 && (arm.tip(&to) - goal).norm() < 1e-6);
+            greatest_difference(&from, &to)
+        });
+        assert!(apart[1] <= apart[0], "{apart:?} at {y}");
+        shorter += u32::from(apart[1] < apart[0] - 1e-9);
+    }
+    assert!(shorter > 0, "both rules took the same branch everywhere");
+}
+
+#[test]
 fn a_small_budget_is_spent_and_a_box_on_the_goal_is_refused() {
     let small = plan(&world(Vec::new()), "delta_deg = 2.0\nneighbours = 12", 3);
     assert_eq!((small.ending, small.counts["expansions"]), (Ending::BudgetSpent, Value::Count(3)));
