@@ -103,6 +103,8 @@ pub struct Options {
     pub keeps_possible: bool,
     /// Whether power and mends are left out, which take most of the time.
     pub skips_power: bool,
+    /// Whether certificates are left out, which take most of the memory: some kilobytes a finding.
+    pub skips_certificates: bool,
     /// The search for data behind what is possible; none if it is not asked for.
     pub witness: Option<Budget>,
 }
@@ -250,7 +252,8 @@ impl Run<'_> {
             (Some(true), Some(budget)) => test.witness(prints, budget),
             _ => None,
         };
-        let certificate = proof.map(|proof| super::certificate::of(check, test, prints, &proof));
+        let written = proof.filter(|_| !self.options.skips_certificates);
+        let certificate = written.map(|proof| super::certificate::of(check, test, prints, &proof));
         let is_mended = answer == Some(false) && !self.options.skips_power;
         let mend = is_mended.then(|| mend::least(self.input, test, prints)).flatten();
         let mut premises = test.premises();
