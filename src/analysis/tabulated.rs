@@ -50,13 +50,8 @@ fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> St
     let number = |value: f64| {
         if value.is_finite() { format!("{value:.*}", cell.decimals) } else { "∞".to_owned() }
     };
-    // What the clock did not read has not failed.
-    let value = |row: &&Row| match (row.is_solved(), run.value(row, metric)) {
-        (true, value) => value,
-        (false, None) if metric.is_clock() => None,
-        (false, _) => Some(f64::INFINITY),
-    };
-    let values: Vec<f64> = rows.iter().filter_map(value).collect();
+    let measured: Vec<_> = rows.iter().map(|row| (row.is_solved(), run.value(row, metric))).collect();
+    let values = with_failures(&measured, metric.is_clock());
     let quantile = |share: f64| statistic::quantile(&values, share);
     let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     let found = match cell.show {
@@ -80,6 +75,19 @@ fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> St
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
     };
     found.unwrap_or_else(|| "–".to_owned())
+}
+
+/// The values of trials, of which each is solved or not and measured or not; a failure is infinite. What the clock did not read has
+/// not failed, nor has what was counted in no trial that was solved.
+fn with_failures(trials: &[(bool, Option<f64>)], is_clock: bool) -> Vec<f64> {
+    let solved = || trials.iter().filter(|(is_solved, _)| *is_solved);
+    let is_counted = solved().next().is_none() || solved().any(|(_, value)| value.is_some());
+    let value = |(is_solved, value): &(bool, Option<f64>)| match (is_solved, value) {
+        (true, value) => *value,
+        (false, None) if is_clock || !is_counted => None,
+        (false, _) => Some(f64::INFINITY),
+    };
+    trials.iter().filter_map(value).collect()
 }
 
 /// How many draws a figure is about, and of how many trials how many were solved.
@@ -159,4 +167,19 @@ pub fn own_values(
         Ok(own.zip(value(metric, base)?).map(|(own, base)| 100.0 * (base - own) / base))
     };
     ours.metrics.iter().map(cell).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_failures;
+
+    #[test]
+    fn a_failure_is_infinite_only_in_what_solved_trials_count() {
+        let (inf, solved, failed) = (f64::INFINITY, |value| (true, Some(value)), (false, None));
+        assert_eq!(with_failures(&[solved(2.0), failed], false), [2.0, inf]);
+        assert_eq!(with_failures(&[solved(2.0), (false, Some(1.0))], false), [2.0, inf]);
+        assert_eq!(with_failures(&[failed, failed], false), [inf, inf], "nothing is solved");
+        assert_eq!(with_failures(&[(true, None), failed], false), [0.0; 0], "nobody counts it");
+        assert_eq!(with_failures(&[solved(2.0), failed], true), [2.0], "the clock did not read it");
+    }
 }

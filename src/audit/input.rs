@@ -58,24 +58,30 @@ impl Input {
 }
 
 impl Named for Input {
-    fn cell(&self, name: &str) -> Option<Quoted> {
-        self.cells.get(name).cloned().or_else(|| {
-            self.tables.iter().enumerate().find_map(|(index, table)| {
-                let rest = name.strip_prefix(table.name.as_str())?.strip_prefix('/')?;
-                (0..table.rows.len()).find_map(|row| {
-                    let column =
-                        table.column(rest.strip_prefix(table.row_name(row).as_str())?.strip_prefix('/')?)?;
-                    quoted(index, table, row, column)
-                })
-            })
-        })
+    fn cells(&self, name: &str) -> Vec<Quoted> {
+        if let Some(cell) = self.cells.get(name) {
+            return vec![cell.clone()];
+        }
+        let mut found = Vec::new();
+        for (index, table) in self.tables.iter().enumerate() {
+            let Some(rest) = name.strip_prefix(table.name.as_str()).and_then(|rest| rest.strip_prefix('/'))
+            else {
+                continue;
+            };
+            for row in 0..table.rows.len() {
+                let column = rest.strip_prefix(table.row_name(row).as_str());
+                let Some(column) = column.and_then(|rest| rest.strip_prefix('/')) else { continue };
+                found.extend(table.columns_named(column).filter_map(|at| quoted(index, table, row, at)));
+            }
+        }
+        found
     }
 
-    fn sample(&self, name: &str) -> Option<Sample> {
-        let mut found = None;
+    fn samples(&self, name: &str) -> Vec<Sample> {
+        let mut found = Vec::new();
         self.each_sample(&mut |sample| {
             if sample.name == name || sample.path == name {
-                found = Some(sample.clone());
+                found.push(sample.clone());
             }
         });
         found

@@ -11,11 +11,11 @@ use toml::Value;
 
 /// What relations name.
 pub trait Named {
-    /// The cell of this name: one that was named, or `table/row/column`.
-    fn cell(&self, name: &str) -> Option<Quoted>;
+    /// The cells of this name: one that was named, or `table/row/column`, of which a table may have several.
+    fn cells(&self, name: &str) -> Vec<Quoted>;
 
-    /// The sample in a column of a table of statistics: `table/column`.
-    fn sample(&self, name: &str) -> Option<Sample>;
+    /// The samples of this name: those in a column of a table of statistics are called `table/column`.
+    fn samples(&self, name: &str) -> Vec<Sample>;
 
     /// Gives every sample: those written down, and those in the rows and columns of tables.
     fn each_sample(&self, give: &mut dyn FnMut(&Sample));
@@ -169,21 +169,36 @@ impl Relation {
     /// If the key is missing or names none.
     pub fn sample(&self, key: &str, named: &dyn Named) -> Result<Sample, Fault> {
         let name = self.text(key)?.unwrap_or_default();
-        named.sample(name).ok_or_else(|| {
-            let mut known = Vec::new();
-            named.each_sample(&mut |sample| known.push(sample.path.clone()));
-            known.truncate(20);
-            self.fault(format!("`{key}` is `{name}`, which names no sample; there are: {}", known.join(", ")))
-        })
+        let mut found = named.samples(name);
+        match (found.pop(), found.len()) {
+            (Some(sample), 0) => Ok(sample),
+            (Some(_), others) => Err(self.ambiguous(key, name, others + 1, "samples")),
+            (None, _) => {
+                let mut known = Vec::new();
+                named.each_sample(&mut |sample| known.push(sample.path.clone()));
+                known.truncate(20);
+                let known = known.join(", ");
+                Err(self.fault(format!("`{key}` is `{name}`, which names no sample; there are: {known}")))
+            }
+        }
+    }
+
+    fn ambiguous(&self, key: &str, name: &str, count: usize, what: &str) -> Fault {
+        self.fault(format!(
+            "`{key}` is `{name}`, which names {count} {what}; a name that stands once is accepted"
+        ))
     }
 
     /// The printed number that `text` under `key` is or names.
     ///
     /// # Errors
-    /// If it names no cell and is no number.
+    /// If it names no cell and is no number, or names several cells.
     pub fn resolve(&self, key: &str, text: &str, named: &dyn Named) -> Result<Quoted, Fault> {
-        if let Some(quoted) = named.cell(text) {
-            return Ok(quoted);
+        let mut cells = named.cells(text);
+        match (cells.pop(), cells.len()) {
+            (Some(quoted), 0) => return Ok(quoted),
+            (Some(_), others) => return Err(self.ambiguous(key, text, others + 1, "cells")),
+            (None, _) => {}
         }
         let name = if self.name.is_empty() { key.to_owned() } else { format!("{key} of {}", self.name) };
         match number(text) {

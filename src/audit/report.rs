@@ -1,6 +1,7 @@
 //! Runs every check on an input and says of each application what was found, under which readings of the digits, with
 //! which power, what would mend it, and whether the table's ranking hangs on it.
 
+mod doubt;
 mod mend;
 mod strength;
 mod unseen;
@@ -16,6 +17,7 @@ use super::input::Input;
 use super::printed::Digits;
 use super::table::{Fault, Place};
 use super::witness::{Budget, Witness};
+use doubt::doubts;
 use mend::Refusal;
 use std::collections::BTreeMap;
 use strength::power;
@@ -101,6 +103,8 @@ pub struct Options {
     pub keeps_possible: bool,
     /// Whether power and mends are left out, which take most of the time.
     pub skips_power: bool,
+    /// Whether certificates are left out, which take most of the memory: some kilobytes a finding.
+    pub skips_certificates: bool,
     /// The search for data behind what is possible; none if it is not asked for.
     pub witness: Option<Budget>,
 }
@@ -185,6 +189,7 @@ struct Told {
     readings: Vec<&'static str>,
     power: Option<Power>,
     proof: Option<Proof>,
+    slip: Option<String>,
 }
 
 impl Run<'_> {
@@ -197,8 +202,9 @@ impl Run<'_> {
         let is_free = prints.iter().all(|print| print.digits == Digits::Any);
         let is_odd =
             is_free && answer == Some(true) && test.is_about_digits() && !readings.contains(&"nearest");
-        let is_guess = unseen::rests_on_a_guess(self.input, test).is_some();
-        let proof = if answer == Some(false) && !is_guess { test.proof(&prints) } else { None };
+        let slip = if answer == Some(false) { test.float_slip(&prints) } else { None };
+        let is_doubted = answer != Some(false) || slip.is_some() || !doubts(self.input, test).is_empty();
+        let proof = if is_doubted { None } else { test.proof(&prints) };
         let class = match answer {
             None => Class::Unchecked,
             Some(false) if proof.is_some() => Class::Impossible,
@@ -217,7 +223,7 @@ impl Run<'_> {
         });
         self.count(entry.name, class, power);
         if class != Class::Possible || self.options.keeps_possible || self.options.witness.is_some() {
-            let told = Told { class, answer, is_odd, readings, power, proof };
+            let told = Told { class, answer, is_odd, readings, power, proof, slip };
             self.tell(entry.name, test, &prints, told);
         }
         if answer == Some(false) {
@@ -228,7 +234,7 @@ impl Run<'_> {
 
     /// Adds what was found about `test` to the findings.
     fn tell(&mut self, check: &'static str, test: &dyn Test, prints: &[Print], told: Told) {
-        let Told { class, answer, is_odd, readings, power, proof } = told;
+        let Told { class, answer, is_odd, readings, power, proof, slip } = told;
         let first = &test.numbers()[0];
         let mut said = match answer {
             Some(is_possible) => test.said(prints, is_possible),
@@ -237,6 +243,7 @@ impl Run<'_> {
         if answer == Some(false) {
             said += as_typed(test, prints);
         }
+        said.extend(slip.map(|slip| format!("; {slip}")));
         if is_odd {
             said += &format!("; not if digits are rounded to nearest, only by: {}", listed(&readings));
         }
@@ -245,11 +252,12 @@ impl Run<'_> {
             (Some(true), Some(budget)) => test.witness(prints, budget),
             _ => None,
         };
-        let certificate = proof.map(|proof| super::certificate::of(check, test, prints, &proof));
+        let written = proof.filter(|_| !self.options.skips_certificates);
+        let certificate = written.map(|proof| super::certificate::of(check, test, prints, &proof));
         let is_mended = answer == Some(false) && !self.options.skips_power;
         let mend = is_mended.then(|| mend::least(self.input, test, prints)).flatten();
         let mut premises = test.premises();
-        premises.extend(unseen::rests_on_a_guess(self.input, test));
+        premises.extend(doubts(self.input, test));
         self.report.findings.push(Finding {
             check,
             class,
@@ -318,6 +326,8 @@ fn listed(names: &[&str]) -> String {
 
 #[cfg(test)]
 mod boundaries;
+#[cfg(test)]
+mod false_alarms;
 #[cfg(test)]
 mod pages;
 #[cfg(test)]

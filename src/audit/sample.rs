@@ -6,7 +6,7 @@
 use super::exact::{Exact, Print, div, whole};
 use super::meaning::{Count, Divisor, Kind, Meaning};
 use super::statistic::Statistic;
-use super::table::{Column, Quoted, Table, quoted};
+use super::table::{Column, Quoted, Table, named_by, quoted};
 
 /// Values behind printed statistics.
 #[derive(Debug, Clone, PartialEq)]
@@ -226,18 +226,18 @@ fn in_row(
             numbers.extend(table.columns[*at].meaning.spread.zip(spread));
         }
         if !numbers.is_empty() {
-            let n = count(table, row, meaning);
+            let n = count(table, row, group.columns[0].0, meaning);
             give(&of_meaning(&format!("{} of {}", group.name, table.row_name(row)), meaning, n, numbers));
         }
     }
 }
 
 /// How many trials or values: written in the header, or in a column of the row.
-fn count(table: &Table, row: usize, meaning: &Meaning) -> Option<u64> {
+fn count(table: &Table, row: usize, by: usize, meaning: &Meaning) -> Option<u64> {
     match meaning.n.as_ref()? {
         Count::Number(n) => Some(*n),
         Count::Column(name) => {
-            let value = table.rows[row].get(table.column(name)?)?.value?;
+            let value = table.rows[row].get(named_by(&table.columns, by, name)?)?.value?;
             (value.decimals() == 0).then(|| u64::try_from(value.units()).ok()).flatten().filter(|n| *n > 0)
         }
     }

@@ -22,6 +22,9 @@ pub enum Statistic {
 }
 
 impl Statistic {
+    /// The words that are known, for messages.
+    pub const WORDS: &str = "mean, sd, se, min, q1, median, q3, max, total, and quantiles as 5% or q95";
+
     /// The statistic that a word such as `mean`, `std`, `25%`, `q95` names; `q1` to `q3` are quartiles.
     pub fn named(word: &str) -> Option<Self> {
         let word = word.trim().to_lowercase();

@@ -119,10 +119,19 @@ impl Table {
         }
     }
 
-    /// The column of this name.
-    pub fn column(&self, name: &str) -> Option<usize> {
-        self.columns.iter().position(|column| column.name == name)
+    /// The columns of this name.
+    pub fn columns_named<'a>(&'a self, name: &'a str) -> impl Iterator<Item = usize> + 'a {
+        (0..self.columns.len()).filter(move |at| self.columns[*at].name == name)
     }
+}
+
+/// The column that the annotation of the column `by` names: the only one of that name, or of them the only one of the same kind.
+/// None if there is none, or if it may be one of two.
+pub fn named_by(columns: &[Column], by: usize, name: &str) -> Option<usize> {
+    let only = |found: Vec<usize>| (found.len() == 1).then(|| found[0]);
+    let all: Vec<usize> = (0..columns.len()).filter(|at| columns[*at].name == name).collect();
+    let is_alike = |at: &usize| columns[*at].meaning.kind == columns[by].meaning.kind;
+    only(all.clone()).or_else(|| only(all.into_iter().filter(is_alike).collect()))
 }
 
 /// A printed number with its name and place.

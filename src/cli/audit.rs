@@ -87,7 +87,9 @@ impl Audit {
         }
         let witness =
             self.witness.map(|most| Budget { most: most.get(), steps: self.budget, seed: self.seed });
-        let options = Options { keeps_possible: self.json, witness, ..Options::default() };
+        let skips_certificates = !self.json && self.certificates.is_none();
+        let options =
+            Options { keeps_possible: self.json, skips_certificates, witness, ..Options::default() };
         let report = audit::report::audit(&input, &options).map_err(told)?;
         if let Some(folder) = &self.certificates {
             write_certificates(folder, &report)?;

@@ -1,5 +1,6 @@
 //! Planners from outside: whatever one does is the outcome of its own trial and of no other.
 
+mod arm;
 mod law;
 mod scripts;
 

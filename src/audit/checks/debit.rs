@@ -100,10 +100,11 @@ impl Test for Debit {
         });
         let shown_ones: Vec<String> = shown_ones.collect();
         let verb = if is_possible { "is" } else { "is not" };
+        let seeds = if is_possible { "" } else { "; if it is over seeds, `seeds=S` says so" };
         let detail =
             if shown_ones.is_empty() { "no count prints the mean".to_owned() } else { shown_ones.join("; ") };
         format!(
-            "deviation {sd} {verb} that of {} values of 0 or {} with mean {mean}: {detail}",
+            "deviation {sd} {verb} that of {} values of 0 or {} with mean {mean}: {detail}{seeds}",
             self.n,
             shown(self.all, 0)
         )

@@ -4,6 +4,7 @@ use super::arguments::{count, digits, gap, multiple, shown};
 use super::{Entry, FromRelation, Proof, Test, Window};
 use crate::exact::{Exact, Print, Span, div, mul, spelled, whole};
 use crate::input::Input;
+use crate::printed::Digits;
 use crate::relation::{Named as _, Relation};
 use crate::sample::Sample;
 use crate::statistic::Statistic;
@@ -89,6 +90,26 @@ impl Grim {
     }
 }
 
+/// What programs make of a mean of `count` grains in floats, by the order in which they multiply and divide.
+fn floats(count: Exact, grim: &Grim) -> [f64; 2] {
+    let float = |value: Exact| *value.numer() as f64 / *value.denom() as f64;
+    let (count, n, grain) = (float(count), grim.n as f64, float(grim.grain));
+    [count / n * grain, count * grain / n]
+}
+
+/// Whether digits that are cut off, or rounded up or down, end as `print` does if floats move the point.
+fn is_printed_by(float: f64, print: Print) -> bool {
+    let (scaled, units) = (float * print.printed.scale() as f64, print.printed.units() as f64);
+    let [cut, down, up] = [scaled.trunc(), scaled.floor(), scaled.ceil()].map(|end| end == units);
+    match print.digits {
+        Digits::Any => cut || down || up,
+        Digits::Truncated | Digits::Unknown => cut,
+        Digits::Floor => down,
+        Digits::Ceiling => up,
+        Digits::Rounded | Digits::HalfUp | Digits::HalfEven => false,
+    }
+}
+
 impl Test for Grim {
     fn numbers(&self) -> &[Quoted] {
         &self.numbers
@@ -130,6 +151,19 @@ impl Test for Grim {
 
     fn power_key(&self) -> Option<String> {
         self.window().map(|window| format!("{} {window:?}", self.step))
+    }
+
+    fn float_slip(&self, prints: &[Print]) -> Option<String> {
+        let print = prints[0];
+        let unit = Exact::new(1, i128::from(print.printed.scale()));
+        [unit, -unit].into_iter().find_map(|by| {
+            let mean = print.value() + by;
+            let count = div(mean, self.step).filter(|count| *count.denom() == 1 && !self.is_count)?;
+            let is_inside = Span::point(mean).cut(self.ends) == Span::point(mean);
+            let float = floats(count, self).into_iter().find(|float| is_inside && is_printed_by(*float, print))?;
+            let mean = shown(mean, 6);
+            Some(format!("no proof: a program that cuts off or rounds up {float}, which floats make of {mean}, prints it"))
+        })
     }
 
     fn proof(&self, prints: &[Print]) -> Option<Proof> {

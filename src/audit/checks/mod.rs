@@ -92,6 +92,11 @@ pub trait Test {
         None
     }
 
+    /// How floats may have ended digits as no exact number ends: a cut 57 of 0.58 × 100 = 57.99999999999999, in words.
+    fn float_slip(&self, _prints: &[Print]) -> Option<String> {
+        None
+    }
+
     /// Whether another reading of the digits could matter.
     fn is_about_digits(&self) -> bool {
         true

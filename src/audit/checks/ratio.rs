@@ -8,7 +8,7 @@ use crate::form::Form;
 use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
-use crate::table::{Fault, Quoted, Table, quoted};
+use crate::table::{Fault, Quoted, Table, named_by, quoted};
 use serde_json::{Value, json};
 
 /// The registry's entry.
@@ -49,7 +49,8 @@ fn in_row(index: usize, table: &Table, row: usize, at: usize) -> Option<Formed> 
     // A mean, or an extreme, of quotients is not the quotient of the means.
     let [a, b] = meaning.ratio.as_ref().filter(|_| !matches!(meaning.kind, Kind::Of(_)))?;
     let cell = |at| quoted(index, table, row, at);
-    let numbers = [cell(at)?, cell(table.column(a)?)?, cell(table.column(b)?)?];
+    let numbers =
+        [cell(at)?, cell(named_by(&table.columns, at, a)?)?, cell(named_by(&table.columns, at, b)?)?];
     Some(Formed { numbers, forms: vec![Form::Quotient], premise: ENTRY.premises })
 }
 

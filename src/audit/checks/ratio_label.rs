@@ -4,10 +4,10 @@ use super::arguments::{count, digits, shown};
 use super::{Entry, FromRelation, Proof, Test};
 use crate::exact::{Exact, Print, add, div, mul, spelled, sub, whole};
 use crate::input::Input;
-use crate::relation::{Named as _, Relation};
-use crate::sample::Sample;
+use crate::relation::Relation;
+use crate::sample::{self, Sample};
 use crate::statistic::Statistic;
-use crate::table::{Fault, Quoted};
+use crate::table::{Fault, Quoted, named_by};
 use serde_json::json;
 
 /// The registry's entry.
@@ -31,17 +31,36 @@ struct RatioLabel {
 }
 
 fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
-    for table in &input.tables {
-        for column in &table.columns {
+    for (index, table) in input.tables.iter().enumerate().filter(|(_, table)| table.statistics().is_some()) {
+        let mut samples = Vec::new();
+        sample::each(index, table, &mut |sample| samples.push(sample.clone()));
+        for (at, column) in table.columns.iter().enumerate() {
             let Some([a, b]) = &column.meaning.ratio else { continue };
-            let sample = |name: &str| input.sample(&format!("{}/{name}", table.name));
-            if let (Some(r), Some(a), Some(b)) = (sample(&column.name), sample(a), sample(b))
-                && let Some(test) = of_samples([r, a, b])
-            {
-                give(Box::new(test));
+            let named = |name: &str| named_by(&table.columns, at, name);
+            let (Some(a), Some(b)) = (named(a), named(b)) else { continue };
+            for r in samples.iter().filter(|sample| stands(sample)[0][1] == at) {
+                let (Some(a), Some(b)) = (beside(r, a, &samples), beside(r, b, &samples)) else { continue };
+                if let Some(test) = of_samples([r.clone(), a.clone(), b.clone()]) {
+                    give(Box::new(test));
+                }
             }
         }
     }
+}
+
+/// The row and the column of each of a sample's numbers.
+fn stands(sample: &Sample) -> Vec<[usize; 2]> {
+    sample
+        .numbers
+        .iter()
+        .filter_map(|(_, number)| number.cell.map(|[_, row, column]| [row, column]))
+        .collect()
+}
+
+/// The sample in `column` of which a number stands beside one of `r`; a table may hold statistics of several contenders.
+fn beside<'a>(r: &Sample, column: usize, samples: &'a [Sample]) -> Option<&'a Sample> {
+    let rows: Vec<usize> = stands(r).iter().map(|[row, _]| *row).collect();
+    samples.iter().find(|sample| stands(sample).iter().any(|[row, at]| *at == column && rows.contains(row)))
 }
 
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {

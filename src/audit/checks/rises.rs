@@ -47,7 +47,8 @@ fn in_column(
 ) {
     let rows = (0..table.rows.len()).filter_map(|row| {
         let count = table.print(row, samples)?.value();
-        let name = table.rows[row].iter().find(|cell| cell.value.is_none()).map(|cell| cell.text.clone());
+        let labels = (0..table.columns.len()).filter(|at| table.columns[*at].meaning.kind == Kind::Skip);
+        let name: Vec<&str> = labels.map(|at| table.rows[row][at].text.as_str()).collect();
         Some((name, count, quoted(index, table, row, at)?))
     });
     let mut rows: Vec<_> = rows.collect();

@@ -8,7 +8,7 @@ use crate::input::Input;
 use crate::meaning::Kind;
 use crate::relation::Relation;
 use crate::statistic::Statistic;
-use crate::table::{Fault, Quoted, Table, quoted};
+use crate::table::{Fault, Quoted, Table, named_by, quoted};
 use serde_json::json;
 
 /// The registry's entry.
@@ -50,8 +50,9 @@ fn is_additive(table: &Table, row: usize, column: usize) -> bool {
 }
 
 fn in_row(index: usize, table: &Table, row: usize, total: usize) -> Option<SumOfMeans> {
-    let parts =
-        table.columns[total].meaning.sum.iter().map(|name| quoted(index, table, row, table.column(name)?));
+    let columns = &table.columns;
+    let parts = columns[total].meaning.sum.iter();
+    let parts = parts.map(|name| quoted(index, table, row, named_by(columns, total, name)?));
     let numbers =
         std::iter::once(quoted(index, table, row, total)).chain(parts).collect::<Option<Vec<_>>>()?;
     Some(SumOfMeans { numbers, cut: None })

@@ -9,7 +9,7 @@ use crate::input::Input;
 use crate::lattice::Octile;
 use crate::meaning::{Kind, Lattice};
 use crate::relation::Relation;
-use crate::table::{Fault, Quoted, Table, quoted};
+use crate::table::{Fault, Quoted, Table, named_by, quoted};
 use crate::turns::{Convention, octile::octile_turn_sums};
 use serde_json::{Value, json};
 use std::cell::RefCell;
@@ -48,7 +48,7 @@ fn tests(input: &Input, give: &mut dyn FnMut(Box<dyn Test>)) {
 
 fn in_row(index: usize, table: &Table, row: usize, length: usize) -> Option<TurnSum> {
     let meaning = &table.columns[length].meaning;
-    let turns = table.column(meaning.turns.as_deref()?)?;
+    let turns = named_by(&table.columns, length, meaning.turns.as_deref()?)?;
     let displacement = super::lattice::displacement(meaning).filter(|_| meaning.kind == Kind::Value)?;
     let numbers = [quoted(index, table, row, turns)?, quoted(index, table, row, length)?];
     Some(TurnSum { numbers, displacement, sums: RefCell::default() })

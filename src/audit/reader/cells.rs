@@ -50,6 +50,10 @@ pub fn plain(text: &str) -> (String, bool) {
             ("<b>", "</b>", true),
             ("\\textbf{", "}", true),
             ("$", "$", false),
+            ("*", "*", false),
+            ("_", "_", false),
+            ("<u>", "</u>", false),
+            ("\\underline{", "}", false),
         ]
         .into_iter()
         .find_map(|(open, close, bold)| Some((text.strip_prefix(open)?.strip_suffix(close)?, bold)));

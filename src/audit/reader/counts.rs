@@ -2,13 +2,13 @@
 
 use super::FAULTS;
 use crate::meaning::{Count, natural};
-use crate::table::{Cell, Column, Fault};
+use crate::table::{Cell, Column, Fault, named_by};
 
 /// Refuses rows in which a number is printed and its n is missing, 0, negative or not whole.
 pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fault>) {
     for (at, column) in columns.iter().enumerate() {
         let Some(Count::Column(name)) = &column.meaning.n else { continue };
-        let Some(of) = columns.iter().position(|column| column.name == *name) else { continue };
+        let Some(of) = named_by(columns, at, name) else { continue };
         for row in rows {
             let (Some(number), Some(n)) = (row.get(at), row.get(of)) else { continue };
             let is_count = natural(&n.text).is_some();

@@ -121,7 +121,33 @@ fn share(name: &str, n: &str, texts: &[&str]) -> &'static str {
     }
 }
 
+/// Whether a word names a statistic that no check knows, which must not be taken for a mean: `variance`, `95th`, `p95`, `110%`.
+fn is_other_statistic(word: &str) -> bool {
+    const OTHERS: [&str; 13] = [
+        "ci",
+        "cv",
+        "geomean",
+        "geometric",
+        "harmonic",
+        "iqr",
+        "mode",
+        "range",
+        "rms",
+        "rmse",
+        "var",
+        "variance",
+        "worst",
+    ];
+    let is_number = |text: &str| text.parse::<f64>().is_ok();
+    let has_unknown_share = word.strip_suffix('%').is_some_and(is_number) && Statistic::named(word).is_none();
+    let is_percentile = word.strip_prefix('p').or(word.strip_suffix("th")).is_some_and(is_number);
+    OTHERS.contains(&word) || has_unknown_share || is_percentile
+}
+
 fn kind(name: &str, texts: &[&str]) -> String {
+    if words(name).any(is_other_statistic) {
+        return "value".to_owned();
+    }
     let statistic = words(name).find_map(Statistic::named);
     let is_mean = matches!(statistic, None | Some(Statistic::Mean));
     let n = n(name);

@@ -18,7 +18,7 @@ use super::meaning::{Kind, Meaning, contradiction};
 use super::printed::Printed;
 use super::sample::groups;
 use super::statistic::Statistic;
-use super::table::{Cell, Column, Fault, Place, Table};
+use super::table::{Cell, Column, Fault, Place, Table, named_by};
 
 /// How a text is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -148,8 +148,9 @@ fn column(raw: &Raw, index: usize, header: &str) -> Result<Column, String> {
     if let Some((before, annotation)) = plain.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
         let annotation = annotation.trim();
         match Meaning::parse(annotation) {
-            Ok(meaning) => {
+            Ok(mut meaning) => {
                 let (name, annotation) = (before.trim().to_owned(), annotation.to_owned());
+                meaning.unit = meaning.unit.or_else(|| unit_of(&name));
                 return Ok(Column { name, meaning, written: Some(annotation.clone()), annotation });
             }
             Err(_) if cells::is_unit(annotation) => (name, unit) = (before.trim(), annotation),
@@ -160,6 +161,12 @@ fn column(raw: &Raw, index: usize, header: &str) -> Result<Column, String> {
     let annotation = guess::annotation(name, unit, &texts.take(1000).collect::<Vec<_>>());
     let meaning = Meaning::parse(&annotation).unwrap_or_default();
     Ok(Column { name: name.to_owned(), meaning, written: None, annotation })
+}
+
+/// The unit that a name ends in: `time (ms)`. The word `min` may be the least value.
+fn unit_of(name: &str) -> Option<String> {
+    let unit = name.strip_suffix(')')?.rsplit_once('(')?.1.trim();
+    (cells::is_unit(unit) && Statistic::named(unit).is_none()).then(|| unit.to_owned())
 }
 
 /// Columns of the same values, or parts of one whole, must not contradict each other.
@@ -195,15 +202,20 @@ fn check_groups(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
     }
 }
 
-/// Every column that an annotation names must be there, and be another one.
+/// Every column that an annotation names must be there, be one alone, and be another one.
 fn check_references(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
     for (index, column) in columns.iter().enumerate() {
         for name in column.meaning.named_columns() {
             let why = if !names.contains(&name) {
                 format!("names the column `{name}`; there are: {}", names.join(", "))
-            } else if name == column.name {
+            } else if named_by(columns, index, name) == Some(index) {
                 "names itself; another column is accepted".to_owned()
+            } else if named_by(columns, index, name).is_none() {
+                let count = names.iter().filter(|other| **other == name).count();
+                format!(
+                    "names the column `{name}`, of which there are {count}; a name that stands once is accepted"
+                )
             } else {
                 continue;
             };
@@ -262,12 +274,13 @@ pub fn stub(table: &Table) -> Vec<String> {
     table.columns.iter().map(header).collect()
 }
 
-/// Whether the texts of a column name statistics: `mean`, `std`, `25%`. Queries may be called `q1`, `q2`, so that one word of
-/// another kind is needed.
+/// Whether the texts of a column name statistics: `mean`, `std`, `25%`. Queries may be called `q1`, `q2`, and shares are printed as
+/// `75%`, so that one word of another kind is needed.
 fn are_statistics(texts: &[&str]) -> bool {
     let named = |text: &&&str| Statistic::named(&cells::plain(text).0).is_some();
     let count = texts.iter().filter(named).count();
+    let is_word = |c: char| c.is_alphabetic() && c != 'q';
     let has_word =
-        texts.iter().filter(named).any(|text| !cells::plain(text).0.to_lowercase().starts_with('q'));
+        texts.iter().filter(named).any(|text| cells::plain(text).0.to_lowercase().starts_with(is_word));
     count >= 3 && 2 * count > texts.len() && has_word
 }

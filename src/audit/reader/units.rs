@@ -3,7 +3,7 @@
 use super::FAULTS;
 use super::cells;
 use crate::meaning::Kind;
-use crate::table::{Cell, Column, Fault};
+use crate::table::{Cell, Column, Fault, named_by};
 
 /// Refuses columns of which cells have other units than their header or each other, and sums of columns in different units:
 /// such numbers do not compare.
@@ -18,7 +18,7 @@ pub(super) fn check(columns: &[Column], rows: &[Vec<Cell>], faults: &mut Vec<Fau
             said.unwrap_or_else(|| cells::unit(&cell.text).1.to_owned())
         };
         for name in &column.meaning.sum {
-            let Some(part) = columns.iter().position(|column| column.name == *name) else { continue };
+            let Some(part) = named_by(columns, at, name) else { continue };
             let (Some(total), Some(of)) = (first(at), first(part)) else { continue };
             let [own, other] = [unit(at, total), unit(part, of)];
             let is_said = columns[at].meaning.unit.is_some() || columns[part].meaning.unit.is_some();

@@ -71,6 +71,11 @@ fn an_impossible_finding_has_a_certificate_and_a_signal_has_none() {
         assert_eq!(finding.certificate.is_some(), finding.class == Class::Impossible, "{finding:?}");
         assert!(!finding.premises.is_empty());
     }
+    let skipped =
+        audited(EXAMPLES, Format::Toml, &Options { skips_certificates: true, ..Options::default() });
+    let classes = |report: &Report| report.findings.iter().map(|finding| finding.class).collect::<Vec<_>>();
+    assert_eq!(classes(&skipped), classes(&report));
+    assert!(skipped.findings.iter().all(|finding| finding.certificate.is_none()));
 }
 
 #[test]

@@ -1,13 +1,13 @@
-//! What no check looked at, so that silence is no pass; and what rests on a guess, so that it is no proof.
+//! What no check looked at, so that silence is no pass.
 
 use crate::checks::Test;
 use crate::input::Input;
 use crate::meaning::{Kind, Meaning};
 use crate::statistic::Statistic;
 use crate::table::{Place, Quoted, Table};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// A column, or a sample of a TOML file, that no check looked at.
+/// A column, a row of a statistic, or a sample of a TOML file, that no check looked at.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unseen {
     /// Where it starts.
@@ -44,6 +44,7 @@ impl Seen {
         for (index, table) in input.tables.iter().enumerate() {
             let columns = (0..table.columns.len()).filter(|at| !self.columns.contains(&[index, *at]));
             all.extend(columns.filter_map(|at| of_column(table, at)));
+            all.extend(of_rows(table));
         }
         for sample in &input.samples {
             let is_seen = sample
@@ -57,6 +58,26 @@ impl Seen {
         }
         all
     }
+}
+
+/// Rows of a table of statistics whose first word names none, each word once.
+fn of_rows(table: &Table) -> Vec<Unseen> {
+    let Some(names) = table.statistics() else { return Vec::new() };
+    let mut unknown: BTreeMap<&str, Place> = BTreeMap::new();
+    for row in &table.rows {
+        let Some(name) = row.get(names).filter(|name| Statistic::named(&name.text).is_none()) else {
+            continue;
+        };
+        if row.iter().any(|cell| cell.value.is_some()) {
+            unknown.entry(&name.text).or_insert(name.place);
+        }
+    }
+    let told = |(name, place): (&str, Place)| Unseen {
+        place,
+        name: format!("row `{name}`"),
+        advice: format!("no statistic is called so; there are {}", Statistic::WORDS),
+    };
+    unknown.into_iter().map(told).collect()
 }
 
 fn of_column(table: &Table, at: usize) -> Option<Unseen> {
@@ -79,21 +100,4 @@ fn of_column(table: &Table, at: usize) -> Option<Unseen> {
         Kind::Value => "say what it is, as `mean`, `% of N`, `a+b√2`, or `skip` (`--list` has all)",
     };
     Some(Unseen { place: cell.place, name: format!("column `{}`", column.name), advice: advice.to_owned() })
-}
-
-/// That a test rests on what was guessed of a column, in words. Where rows name statistics, that alone is no guess.
-pub(super) fn rests_on_a_guess(input: &Input, test: &dyn Test) -> Option<String> {
-    let guessed = |number: &Quoted| {
-        let [table, _, column] = number.cell?;
-        let table = &input.tables[table];
-        let column = &table.columns[column];
-        let says_little = column.meaning.n.is_none() && column.meaning.grain.is_none();
-        let is_plain = says_little && (table.statistics().is_some() || column.meaning.kind == Kind::Value);
-        (column.written.is_none() && !is_plain).then_some(column)
-    };
-    let column = test.numbers().iter().find_map(guessed)?;
-    Some(format!(
-        "that `{}` is `{}` was guessed, so that this is no proof: correct the header",
-        column.name, column.annotation
-    ))
 }

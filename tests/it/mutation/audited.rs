@@ -25,6 +25,7 @@ fn audited(name: &str, bytes: &[u8]) -> Result<(), String> {
         keeps_possible: true,
         // Its polylines are searched for, a dozen times each for their power.
         skips_power: name == "zhang.toml",
+        skips_certificates: false,
         witness: Some(Budget { most: 3, steps: 1000, seed: Some(7) }),
     };
     let done = read(text, format).and_then(|input| audit(&input, &options));
