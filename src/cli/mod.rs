@@ -20,6 +20,7 @@ mod compare;
 mod confirm;
 mod conformance;
 mod crosscheck;
+mod drawn;
 mod example;
 mod explain;
 mod explore;
