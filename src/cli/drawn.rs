@@ -15,7 +15,7 @@ use base::hash::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::os::unix::fs::MetadataExt as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 /// All that the files of a paper are made from, and the files.
@@ -23,8 +23,10 @@ use std::{env, fs, io};
 #[serde(deny_unknown_fields)]
 struct Stamp {
     made_from: String,
-    /// SHA-256 of each file.
-    files: BTreeMap<PathBuf, String>,
+    /// SHA-256 of each file in the paper's folder of plots, by its name.
+    files: BTreeMap<String, String>,
+    /// SHA-256 of the report.
+    report: String,
 }
 
 /// Where the stamp of what is drawn of one run of a paper lies, and what would be drawn from it now.
@@ -47,40 +49,39 @@ impl Drawn {
         // The chapter leads to it where there is one.
         from.push(places.plots.join(CROSSCHECK).is_file().to_string());
         let hashes: Vec<String> = from.iter().map(|text| sha256(text.as_bytes())).collect();
-        let run = sha256(format!("{:?} {:?}", fs::canonicalize(".")?, places.plots).as_bytes());
+        // However the paper is named, and from wherever: one place of one run.
+        fs::create_dir_all(&places.plots)?;
+        let run = sha256(fs::canonicalize(&places.plots)?.as_os_str().as_encoded_bytes());
         let name = format!("drawn-{}-{}.json", paper.id, &run[..12]);
         let path = places.home.join("target/replan/cache").join(name);
         Ok(Self { path, made_from: sha256(hashes.concat().as_bytes()) })
     }
 
     /// Whether that is what was drawn, and every file is as it was.
-    pub fn is_current(&self) -> bool {
-        let stamp: Option<Stamp> =
-            fs::read(&self.path).ok().and_then(|text| serde_json::from_slice(&text).ok());
-        stamp.is_some_and(|stamp| {
-            let is_same = |(path, hash): (&PathBuf, &String)| hash_of(path).is_ok_and(|found| found == *hash);
-            stamp.made_from == self.made_from && stamp.files.iter().all(is_same)
-        })
+    pub fn is_current(&self, places: &Places) -> bool {
+        let text = fs::read(&self.path).unwrap_or_default();
+        let Ok(stamp) = serde_json::from_slice::<Stamp>(&text) else { return false };
+        stamp.made_from == self.made_from
+            && stamp.files.iter().all(|(name, hash)| is_as(&places.plots.join(name), hash))
+            && is_as(&places.report, &stamp.report)
     }
 
     /// Keeps that `outputs` and the report were made from it. What cannot be kept is drawn again another time.
     pub fn keep(&self, places: &Places, outputs: &Outputs) {
-        let drawn = outputs.files.iter().map(|output| places.plots.join(&output.name));
-        let hashed = |path: PathBuf| {
-            let hash = hash_of(&path)?;
-            Ok((path, hash))
-        };
-        let files = drawn.chain([places.report.clone()]).map(hashed).collect::<io::Result<_>>();
-        let text = files
-            .ok()
-            .and_then(|files| serde_json::to_vec(&Stamp { made_from: self.made_from.clone(), files }).ok());
-        if let Some(text) = text.filter(|_| outputs.undrawn.is_empty()) {
+        let files = outputs.files.iter().map(|output| (output.name.clone(), sha256(&output.bytes))).collect();
+        let stamp = |report| Stamp { made_from: self.made_from.clone(), files, report };
+        let stamp = hash_of(&places.report).ok().filter(|_| outputs.undrawn.is_empty()).map(stamp);
+        if let Some(text) = stamp.and_then(|stamp| serde_json::to_vec(&stamp).ok()) {
             let _ = write_whole(&self.path, &text);
         }
     }
 }
 
-fn hash_of(path: &PathBuf) -> io::Result<String> {
+fn is_as(path: &Path, hash: &str) -> bool {
+    hash_of(path).is_ok_and(|found| found == hash)
+}
+
+fn hash_of(path: &Path) -> io::Result<String> {
     fs::read(path).map(|bytes| sha256(&bytes))
 }
 

@@ -68,7 +68,7 @@ fn draw(
     stop: &AtomicBool,
 ) -> Result<Outputs, Failure> {
     let drawn = Drawn::of(paper, places, judged)?;
-    if !again.fresh && drawn.is_current() {
+    if !again.fresh && drawn.is_current(places) {
         say!("nothing to draw: figures, tables and the report are as they were drawn from this");
         return Ok(Outputs::default());
     }

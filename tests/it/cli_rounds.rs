@@ -36,7 +36,9 @@ fn shard(toy: &Toy, command: &str, number: usize, of: usize, parts: &str) {
 fn rounds(toy: &Toy, command: &str, numbers: &[usize], parts: &str) -> Vec<String> {
     let mut planned = Vec::new();
     loop {
-        numbers.iter().for_each(|number| shard(toy, command, *number, numbers.len(), parts));
+        for number in numbers {
+            shard(toy, command, *number, numbers.len(), parts);
+        }
         let said = toy.0.done(&["merge", parts]);
         if said.contains("what was found is in ") {
             return planned;
@@ -68,7 +70,9 @@ fn explorations_and_confirmations_in_shards_find_what_one_machine_finds() {
         toy.0.done(&["merge", &parts("explore")]);
         toy.0.done(&["merge", &parts("confirm")]);
         assert!(found(&toy) == calm, "a second merge finds something else");
-        FOUND.iter().for_each(|name| fs::remove_file(toy.0.at(RUNS).join(name)).unwrap());
+        for name in FOUND {
+            fs::remove_file(toy.0.at(RUNS).join(name)).unwrap();
+        }
     }
 }
 
@@ -88,7 +92,9 @@ fn parts_of_a_round_that_are_missing_double_or_of_another_exploration_are_refuse
             toy.0.write(&format!("{to}/{}", path.file_name().unwrap().to_string_lossy()), &bytes);
         }
     };
-    [1, 3].into_iter().for_each(|number| shard(&toy, "explore", number, 3, "parts"));
+    for number in [1, 3] {
+        shard(&toy, "explore", number, 3, "parts");
+    }
     merge(
         "parts/round-1: the parts cannot be put together:\n  2-of-3: study `draws` is not done; 0 units are kept\n",
     );

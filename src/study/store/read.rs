@@ -47,18 +47,21 @@ impl<T: Ord + Clone> Numbered<T> {
         let mut last = 0;
         for cell in cells {
             // Rows follow each other in order: a cell mostly equals the one before, or goes on as it did when that stood last.
-            let is_it = |number: &usize| values.get(*number).is_some_and(|value| *value == cell);
-            let guessed = [Some(last), after.get(last).copied()].into_iter().flatten().find(is_it);
-            let number = guessed.unwrap_or_else(|| {
+            if last < values.len() && values[last] == cell {
+                numbers.push(last);
+                continue;
+            }
+            let next = if last < after.len() { after[last] } else { last };
+            let number = if next != last && values[next] == cell {
+                next
+            } else {
                 *known.entry(cell.clone()).or_insert_with(|| {
                     values.push(cell);
                     after.push(values.len() - 1);
                     values.len() - 1
                 })
-            });
-            if number != last {
-                after[last] = number;
-            }
+            };
+            after[last] = number;
             numbers.push(number);
             last = number;
         }
