@@ -94,8 +94,14 @@ fn main() {
     let built = BuiltStudy::new(study, &points, &inputs).unwrap();
     let manifest = Manifest::new(study, &points, &built, String::new(), String::new(), false).unwrap();
     let studies = [(built, manifest)];
-    let wanted =
-        Wanted { paper: "large".to_owned(), shards: SHARDS, quick: false, seed: None, readings: None };
+    let wanted = Wanted {
+        paper: "large".to_owned(),
+        shards: SHARDS,
+        quick: false,
+        seed: None,
+        readings: None,
+        round: None,
+    };
     let (planning, plan) = clock::timed(|| Plan::agreed(&parts, &wanted, &studies).unwrap());
     let values: Vec<&'static str> = study.columns().into_iter().collect();
     let columns = Columns { keys: study.key_columns(), values: &values };

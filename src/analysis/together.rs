@@ -5,7 +5,7 @@
 //! of its problems. Every choice of problems is looked at.
 
 use super::context::Context;
-use super::criterion::{Attained, EXISTS};
+use super::criterion::{Attained, EXISTS, Seen};
 use super::evidence::Evidence;
 use super::verdict::Together;
 use crate::study::record::Row;
@@ -54,10 +54,13 @@ fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e st
     let mut all: BTreeMap<&str, (Met<'e>, BTreeMap<_, (Contenders<'e>, &'e Row)>)> = BTreeMap::new();
     for attained in asked {
         // A claim about the printed row of another contender is not met on a map without that row.
-        let eligible: BTreeSet<_> =
-            attained.eligible(view).iter().map(|seen| (seen.problem(), seen.contender)).collect();
+        let eligible: Option<BTreeSet<_>> = (!attained.is_unconditional())
+            .then(|| attained.eligible(view).iter().map(|seen| (seen.problem(), seen.contender)).collect());
+        let is_eligible = |seen: &Seen<'_>| {
+            eligible.as_ref().is_none_or(|eligible| eligible.contains(&(seen.problem(), seen.contender)))
+        };
         for seen in attained.seen(view) {
-            let is_met = attained.is_met(seen.value) && eligible.contains(&(seen.problem(), seen.contender));
+            let is_met = attained.is_met(seen.value) && is_eligible(&seen);
             let (study, group, draw, query) = seen.problem();
             let (met, problems) = all.entry(study).or_default();
             if !met.readings.contains_key(seen.contender) {

@@ -1,18 +1,19 @@
 //! `replan confirm`: a paper's claims on the second seed.
 
-use super::explore::{Explorer, judged, most_draws, scratch, within};
-use super::judge;
+use super::explorer::{Explorer, judged, most_draws, scratch, within};
 use super::load::load;
 use super::places::Places;
-use super::{Failure, How, Which, command_line, verdicts};
+use super::rounds::{Halt, OneShard, Round, Rounds, unless_planned};
+use super::{Failure, How, Which, command_line, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::to_confirm;
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::Verdicts;
+use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
-use crate::study::{ReadingChoice, Study};
+use crate::study::shard;
 use clap::Args;
 use std::collections::BTreeMap;
 
@@ -31,36 +32,58 @@ pub struct Confirm {
     /// Threads for the trials; the machine's number if absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
+    /// Run this shard of N of the round that is at work alone and keep it below --out, as a part for `replan merge`
+    #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
+    shard: Option<(usize, usize)>,
 }
 
 impl Confirm {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
-        let how = How { quick: false, seed: None, readings: None, threads: self.threads };
-        let places = Places::find(&self.which, "")?;
-        let paper = load(&places, &how)?;
-        check_seeds(&paper)?;
-        let _lock = Lock::take(&places.runs)?;
-        let explorer = Explorer {
-            paper: &paper,
-            places: &places,
-            threads: self.threads.map(|threads| threads as usize),
-            folder: scratch(&places, &paper, "confirm"),
-            second_seed: true,
-        };
-        let second = confirmed(&explorer)?;
-        let path = Exploration::second(&places.runs);
-        second.write(&path)?;
-        verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
-        say!(
-            "{} trials on the second seed, {} readings besides the default; what was found is in {}",
-            second.trials,
-            second.readings.len() - 1,
-            path.display()
-        );
-        Ok(())
+        if let (Some(shard), Some(parts)) = (self.shard, &self.which.out) {
+            let one = OneShard { paper: &self.which.paper, shard, parts, threads: self.threads };
+            return one.run(Round::Default, first_points);
+        }
+        confirm(&self.which, self.threads, None, command_line())
     }
+}
+
+/// The point of the first round, if the paper can be confirmed.
+pub fn first_points(explorer: &Explorer<'_>) -> Result<Vec<ReadingChoice>, Failure> {
+    check_seeds(explorer.paper)?;
+    affordable(explorer)?;
+    Ok(vec![default_point(explorer.paper)])
+}
+
+/// Confirms the paper that `which` names on this machine, or as far as the parts in `rounds` go; `command` is kept with what
+/// is found.
+pub fn confirm(
+    which: &Which,
+    threads: Option<u32>,
+    rounds: Option<Rounds>,
+    command: String,
+) -> Result<(), Failure> {
+    let places = Places::find(which, "")?;
+    let paper = load(&places, &How::plain(threads))?;
+    check_seeds(&paper)?;
+    let _lock = Lock::take(&places.runs)?;
+    let folder = rounds
+        .as_ref()
+        .map_or_else(|| scratch(&places, &paper, "confirm"), |rounds| Rounds::merged(&rounds.parts));
+    let explorer = Explorer { rounds, second_seed: true, ..Explorer::new(&paper, &places, threads, folder) };
+    let found = unless_planned(confirmed(&explorer))?;
+    let Some(second) = found.map(|found| Exploration { command, ..found }) else { return Ok(()) };
+    let path = Exploration::second(&places.runs);
+    second.write(&path)?;
+    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
+    say!(
+        "{} trials on the second seed, {} readings besides the default; what was found is in {}",
+        second.trials,
+        second.readings.len() - 1,
+        path.display()
+    );
+    Ok(())
 }
 
 /// Refuses a paper of which a study has no second seed.
@@ -82,15 +105,15 @@ fn check_seeds(paper: &Paper) -> Result<(), Failure> {
 }
 
 /// Every claim on the second seed: under the default reading with all draws, and under readings that turn a claim.
-fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Failure> {
+fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Halt> {
     let (paper, places) = (explorer.paper, explorer.places);
     let default = default_point(paper);
-    let again: Vec<Study> = paper.studies.iter().map(reseeded).collect();
-    let mut all_trials = affordable(explorer, &again)?;
+    let mut all_trials = affordable(explorer)?;
     let verdicts = judged(paper, places)?;
+    explorer.put_together(Round::Default, std::slice::from_ref(&default))?;
     let mut stored = BTreeMap::new();
-    for study in &again {
-        let run = explorer.run(study, std::slice::from_ref(&default), &explorer.folder.join("default"))?;
+    for study in paper.studies.iter().map(|study| study.clone().reseeded()) {
+        let run = explorer.run(&study, std::slice::from_ref(&default), Round::Default)?;
         stored.insert(study.name.clone(), run);
     }
     let evidence = Evidence::of(paper, default.clone(), stored);
@@ -105,18 +128,20 @@ fn confirmed(explorer: &Explorer<'_>) -> Result<Exploration, Failure> {
             let why = "readings that turn a claim and for which the budget has no room";
             say!("{}: {why}: {}", paper.id, all.len() - some.len());
         }
-        found.extend(explorer.look(&some, "turned", &most_draws)?.0);
-        points.extend(some);
+        if !some.is_empty() {
+            found.extend(explorer.look(&some, Round::Turned)?.0);
+            points.extend(some);
+        }
     }
     let all = Exploration::of(paper, &points, &found, &BTreeMap::new());
-    Ok(Exploration { command: command_line(), trials: all_trials, ..all })
+    Ok(Exploration { trials: all_trials, ..all })
 }
 
 /// How many trials the default reading takes on the second seed; refused if the paper's budget has no room for them.
-fn affordable(explorer: &Explorer<'_>, again: &[Study]) -> Result<u64, Failure> {
+fn affordable(explorer: &Explorer<'_>) -> Result<u64, Failure> {
     let mut needed = 0;
-    for study in again {
-        needed += explorer.trials_of(study)?;
+    for study in explorer.paper.studies.iter().map(|study| study.clone().reseeded()) {
+        needed += explorer.trials_of(&study)?;
     }
     match &explorer.paper.explore {
         Some(budget) if needed > budget.trials => {
@@ -136,14 +161,4 @@ fn turned(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> Vec<Readin
     let places = to_confirm(paper, verdicts, first).into_iter().filter(|place| *place > 0);
     // A reading that the specs no longer have belongs to an exploration that is stale.
     places.filter_map(|place| ReadingChoice::new(&readings, &first.readings[place]).ok()).collect()
-}
-
-/// The study on its second seed; no clock is read and nothing is kept for figures.
-fn reseeded(study: &Study) -> Study {
-    let mut again = study.clone();
-    again.seed = study.second_seed.unwrap_or(study.seed);
-    again.timing = None;
-    again.keeps.clear();
-    again.figures.clear();
-    again
 }

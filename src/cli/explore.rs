@@ -1,29 +1,17 @@
 //! `replan explore`: a paper's claims under every reading that is explored.
 
-use super::judge;
+use super::explorer::{Explorer, budget, judged, scratch};
 use super::load::load;
 use super::places::Places;
-use super::progress::{Bar, doing, safe_point, stop_flag};
-use super::{Failure, How, Which, command_line, verdicts};
-use crate::analysis::across::glance::{Glance, glances};
+use super::rounds::{OneShard, Round, Rounds, unless_planned};
+use super::{Failure, How, Which, command_line, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
-use crate::analysis::across::{compatible, near_a_flip};
-use crate::analysis::claims;
-use crate::analysis::evidence::{Evidence, default_point};
-use crate::analysis::together::{greatest, together};
-use crate::analysis::verdict::{Together, Verdicts};
-use crate::study::explore::{ExplorePaper, Points, points};
+use crate::analysis::evidence::default_point;
+use crate::study::ReadingChoice;
 use crate::study::lock::Lock;
-use crate::study::manifest::{MadeBy, Manifest};
-use crate::study::paper::Paper;
-use crate::study::runner::BuiltStudy;
-use crate::study::session::{self, Options};
-use crate::study::store::{Records, read_numbers};
-use crate::study::{ReadingChoice, Study};
-use base::seed;
+use crate::study::manifest::MadeBy;
+use crate::study::shard;
 use clap::Args;
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
 
 /// Explores a paper's readings: runs what each study says under the defaults, every other option by itself and a sample of
 /// their product, within the paper's budget of trials, and judges every claim under each.
@@ -40,357 +28,69 @@ pub struct Explore {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
     /// Say what would run, and run nothing
-    #[arg(long)]
+    #[arg(long, conflicts_with = "shard")]
     plan: bool,
-}
-
-/// What every claim is found to be under one reading.
-pub type Glances = BTreeMap<String, Glance>;
-
-/// A study cut down to what is explored of it, and the study whose claims it answers.
-struct Ran<'p> {
-    study: Study,
-    answers: &'p Study,
-}
-
-/// A paper whose readings are explored.
-pub struct Explorer<'p> {
-    /// The paper.
-    pub paper: &'p Paper,
-    /// Its places.
-    pub places: &'p Places,
-    /// Threads for the trials.
-    pub threads: Option<usize>,
-    /// Where trials are kept.
-    pub folder: PathBuf,
-    /// Every seed is the second one.
-    pub second_seed: bool,
+    /// Run this shard of N of the round that is at work alone and keep it below --out, as a part for `replan merge`
+    #[arg(long, value_name = "K/N", value_parser = shard::parse, requires = "out")]
+    shard: Option<(usize, usize)>,
 }
 
 impl Explore {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
-        let how = How { quick: false, seed: None, readings: None, threads: self.threads };
-        let places = Places::find(&self.which, "")?;
-        let paper = load(&places, &how)?;
-        let budget = budget(&paper)?;
-        let explorer = Explorer {
-            paper: &paper,
-            places: &places,
-            threads: self.threads.map(|threads| threads as usize),
-            folder: scratch(&places, &paper, "explore"),
-            second_seed: false,
-        };
-        let (points, trials) = explorer.affordable(&budget)?;
-        say!("{}: {} readings, {trials} trials of at most {}", paper.id, points.len(), budget.trials);
+        if let (Some(shard), Some(parts)) = (self.shard, &self.which.out) {
+            let one = OneShard { paper: &self.which.paper, shard, parts, threads: self.threads };
+            return one.run(Round::First, first_points);
+        }
         if self.plan {
-            return Ok(());
+            return plan(&self.which);
         }
-        let _lock = Lock::take(&places.runs)?;
-        let verdicts = judged(&paper, &places)?;
-        let exploration = explorer.explore(&points, &budget, trials, &verdicts)?;
-        let path = Exploration::first(&places.runs);
-        exploration.write(&path)?;
-        verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
-        say!(
-            "{} trials under {} readings; what was found is in {}",
-            exploration.trials,
-            points.len(),
-            path.display()
-        );
-        Ok(())
+        explore(&self.which, self.threads, None, command_line())
     }
 }
 
-/// The paper's budget.
-fn budget(paper: &Paper) -> Result<ExplorePaper, Failure> {
-    let missing = || {
-        let path = paper.folder.join("paper.toml");
-        Failure::input(format!(
-            "{}: explores no readings; `[explore]` with `sample` and `trials`, and `[explore]` with `draws` in a study, are accepted",
-            path.display()
-        ))
-    };
-    let budget = paper.explore.clone().ok_or_else(missing)?;
-    if paper.studies.iter().all(|study| study.explore.is_none()) {
-        return Err(missing());
-    }
-    Ok(budget)
+/// The points of the first round.
+pub fn first_points(explorer: &Explorer<'_>) -> Result<Vec<ReadingChoice>, Failure> {
+    Ok(explorer.affordable(&budget(explorer.paper)?)?.0)
 }
 
-/// Where the trials of `command` are kept: they are large, and what was found in them is not.
-pub fn scratch(places: &Places, paper: &Paper, command: &str) -> PathBuf {
-    places.home.join("target/replan").join(command).join(&paper.id)
+/// Says what would run.
+fn plan(which: &Which) -> Result<(), Failure> {
+    let places = Places::find(which, "")?;
+    let paper = load(&places, &How::plain(None))?;
+    let explorer = Explorer::new(&paper, &places, None, scratch(&places, &paper, "explore"));
+    explorer.affordable(&budget(&paper)?).map(drop)
 }
 
-/// The claims' verdicts by the stored default run.
-pub fn judged(paper: &Paper, places: &Places) -> Result<Verdicts, Failure> {
-    doing(&format!("{}: judging {} claims", paper.id, paper.claims.len()));
-    let evidence = judge::read(paper, default_point(paper), places)?.remembering(&judge::polylines(places));
-    let verdicts = claims::judge(&evidence)?;
-    evidence.keep_polylines();
-    Ok(verdicts)
-}
-
-impl<'p> Explorer<'p> {
-    /// The points that the budget has room for, and how many trials they take: all that must be, and drawn ones in order.
-    fn affordable(&self, budget: &ExplorePaper) -> Result<(Vec<ReadingChoice>, u64), Failure> {
-        let paper = self.paper;
-        let seed = seed::derive(0, &[&paper.id, "explore"]);
-        let refuse = |message: String| Failure::from(paper.document.error_at("explore", message));
-        let Points { alone, drawn } = points(&paper.readings(), budget.sample, seed).map_err(refuse)?;
-        let each = self.trials_each(first_draws, |study| !budget.is_late(study))?;
-        let mut chosen = alone;
-        let mut trials = trials(&each, &chosen);
-        if trials > budget.trials {
-            let message = format!(
-                "the defaults and every other option by itself take {trials} trials under {} readings; `trials` is {}: fewer \
-                 draws or a larger budget are accepted",
-                chosen.len(),
-                budget.trials
-            );
-            return Err(paper.document.error_at("explore.trials", message).into());
-        }
-        for more in drawn {
-            let with = [&chosen[..], &more[..]].concat();
-            let needed = self::trials(&each, &with);
-            if needed > budget.trials {
-                break;
-            }
-            (chosen, trials) = (with, needed);
-        }
-        Ok((chosen, trials))
-    }
-
-    /// The studies that are explored, cut down to `draws` of each group.
-    fn studies(&self, draws: impl Fn(&Study) -> u32) -> Vec<Ran<'p>> {
-        let ran = |study: &'p Study| {
-            let explore = study.explore.as_ref()?;
-            let answers =
-                explore.stands_for.as_ref().and_then(|name| self.paper.study(name)).unwrap_or(study);
-            let mut cut = study.clone().explored(explore, draws(study));
-            if self.second_seed {
-                cut.seed = study.second_seed?;
-            }
-            Some(Ran { study: cut, answers })
-        };
-        self.paper.studies.iter().filter_map(ran).collect()
-    }
-
-    /// How many trials each explored study that `is_meant` runs under one reading.
-    pub fn trials_each(
-        &self,
-        draws: impl Fn(&Study) -> u32,
-        is_meant: impl Fn(&Study) -> bool,
-    ) -> Result<Vec<(&'p Study, u64)>, Failure> {
-        let mut each = Vec::new();
-        for ran in self.studies(draws).into_iter().filter(|ran| is_meant(&ran.study)) {
-            let study = self.paper.study(&ran.study.name).expect("it is a study of the paper");
-            each.push((study, self.trials_of(&ran.study)?));
-        }
-        Ok(each)
-    }
-
-    /// How many trials `study` runs under one reading.
-    pub fn trials_of(&self, study: &Study) -> Result<u64, Failure> {
-        let points = [default_point(self.paper).for_trials(&study.readings)];
-        let built = BuiltStudy::new(study, &points, &self.places.inputs)?;
-        Ok(built.units().iter().map(|unit| built.trials(unit).len() as u64).sum())
-    }
-
-    /// Runs and judges `points`; what runs where readings are compatible, under those; and once more with more draws where a
-    /// class is near a flip.
-    fn explore(
-        &self,
-        points: &[ReadingChoice],
-        budget: &ExplorePaper,
-        spent: u64,
-        verdicts: &Verdicts,
-    ) -> Result<Exploration, Failure> {
-        let (early, late) =
-            self.studies(first_draws).into_iter().partition(|ran| !budget.is_late(&ran.study));
-        let (early, late): (Vec<Ran<'_>>, Vec<Ran<'_>>) = (early, late);
-        let (mut found, mut sets) = self.judge_run(vec![self.stored(&early, points, "round-1")?], points)?;
-        let mut first = Exploration::of(self.paper, points, &found, &BTreeMap::new());
-        first.trials = spent;
-        if !late.is_empty() {
-            let each = self.trials_each(first_draws, |study| budget.is_late(study))?;
-            let fits = compatible(self.paper, verdicts, &first);
-            let (places, some) = within(budget.trials, &mut first.trials, &each, points, fits);
-            let runs =
-                vec![self.stored(&early, points, "round-1")?, self.stored(&late, &some, "compatible")?];
-            let (glances, more) = self.judge_run(runs, &some)?;
-            sets.extend(more);
-            places.into_iter().zip(glances).for_each(|(place, glances)| found[place] = glances);
-            first = Exploration {
-                trials: first.trials,
-                ..Exploration::of(self.paper, points, &found, &BTreeMap::new())
-            };
-        }
-        let (with_more, trials) = self.once_more(points, budget, verdicts, &first)?;
-        let (together, command) = (greatest(sets), command_line());
-        let all = Exploration::of(self.paper, points, &found, &with_more);
-        Ok(Exploration { command, trials, together, ..all })
-    }
-
-    /// What is found with more draws, by the places of readings near a flip, and how many trials it took in all.
-    fn once_more(
-        &self,
-        points: &[ReadingChoice],
-        budget: &ExplorePaper,
-        verdicts: &Verdicts,
-        first: &Exploration,
-    ) -> Result<(BTreeMap<usize, Glances>, u64), Failure> {
-        if self.paper.studies.iter().all(|study| most_draws(study) <= first_draws(study)) {
-            return Ok((BTreeMap::new(), first.trials));
-        }
-        let (mut trials, near) = (first.trials, near_a_flip(self.paper, verdicts, first));
-        let each = self.trials_each(most_draws, |_| true)?;
-        let (places, again) = within(budget.trials, &mut trials, &each, points, near);
-        if again.is_empty() {
-            return Ok((BTreeMap::new(), trials));
-        }
-        let (found, _) = self.look(&again, "round-2", &most_draws)?;
-        Ok((places.into_iter().zip(found).collect(), trials))
-    }
-
-    /// What every claim is under each of `points`, with so many draws, and which claims hold jointly there.
-    pub fn look(
-        &self,
-        points: &[ReadingChoice],
-        round: &str,
-        draws: &dyn Fn(&Study) -> u32,
-    ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
-        let studies = self.studies(draws);
-        self.judge_run(vec![self.stored(&studies, points, round)?], points)
-    }
-
-    /// The records of `studies` under `points`, run where they are not stored.
-    fn stored<'r>(
-        &self,
-        studies: &'r [Ran<'r>],
-        points: &[ReadingChoice],
-        round: &str,
-    ) -> Result<Vec<(&'r Study, &'r Study, Manifest, Records)>, Failure> {
-        let folder = self.folder.join(round);
-        let run = |ran: &'r Ran<'r>| {
-            let (manifest, records) = self.run(&ran.study, points, &folder)?;
-            Ok((&ran.study, ran.answers, manifest, records))
-        };
-        studies.iter().map(run).collect()
-    }
-
-    /// Judges every claim under each of `points` by these records and the stored default run.
-    fn judge_run<'r>(
-        &'r self,
-        runs: Vec<Vec<(&'r Study, &'r Study, Manifest, Records)>>,
-        points: &[ReadingChoice],
-    ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
-        let evidence = judge::read(self.paper, default_point(self.paper), self.places)?;
-        self.judge_under(evidence.with(runs.into_iter().flatten().collect()), points)
-    }
-
-    /// Judges every claim of `evidence` under each of `points`; polylines that are found are kept for the next command,
-    /// after Ctrl-C as well.
-    pub fn judge_under(
-        &self,
-        evidence: Evidence<'_>,
-        points: &[ReadingChoice],
-    ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
-        let evidence = evidence.remembering(&judge::polylines(self.places));
-        let found = self.judge_each(&evidence, points);
-        evidence.keep_polylines();
-        found
-    }
-
-    fn judge_each(
-        &self,
-        evidence: &Evidence<'_>,
-        points: &[ReadingChoice],
-    ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
-        let (mut found, mut sets) = (Vec::new(), Vec::new());
-        let bar = Bar::default();
-        crate::study::runner::Progress::begin(
-            &bar,
-            &format!("{}: judging readings", self.paper.id),
-            points.len(),
-        );
-        for point in points {
-            safe_point(stop_flag(), "the trials are kept")?;
-            let view = evidence.under(point.clone());
-            found.push(glances(&view)?);
-            sets.extend(together(&view)?);
-            crate::study::runner::Progress::step(&bar);
-        }
-        crate::study::runner::Progress::end(&bar);
-        Ok((found, sets))
-    }
-
-    /// Runs what is not stored of `study` under `points`.
-    pub fn run(
-        &self,
-        study: &Study,
-        points: &[ReadingChoice],
-        folder: &std::path::Path,
-    ) -> Result<(Manifest, Records), Failure> {
-        let lock = Lock::take(folder)?;
-        let report = session::run(
-            study,
-            &Options {
-                lock: &lock,
-                points: &study.as_trials_see(points),
-                inputs: &self.places.inputs,
-                command: command_line(),
-                claims: claims::claims_hash(self.paper),
-                portion: None,
-                quick: false,
-                record: false,
-                fresh: false,
-                threads: self.threads,
-                stop: stop_flag(),
-                progress: &Bar::default(),
-            },
-        )?;
-        let records = read_numbers(folder, &study.name, &report.manifest.files)?;
-        Ok((report.manifest, records))
-    }
-}
-
-/// The draws that an explored study begins with.
-fn first_draws(study: &Study) -> u32 {
-    study.explore.as_ref().map_or(0, |explore| explore.draws)
-}
-
-/// The draws that it ends with, where a class is near a flip or turned.
-pub fn most_draws(study: &Study) -> u32 {
-    study.explore.as_ref().map_or(0, |explore| explore.more_draws.unwrap_or(explore.draws))
-}
-
-/// Of `points` at these places, in order, those for which `budget` has room beside what is `spent`, which grows by them.
-pub fn within(
-    budget: u64,
-    spent: &mut u64,
-    each: &[(&Study, u64)],
-    points: &[ReadingChoice],
-    places: BTreeSet<usize>,
-) -> (Vec<usize>, Vec<ReadingChoice>) {
-    let (mut chosen, mut some, mut needed) = (Vec::new(), Vec::new(), 0);
-    for place in places {
-        some.push(points[place].clone());
-        let with = trials(each, &some);
-        if with + *spent > budget {
-            some.pop();
-            continue;
-        }
-        needed = with;
-        chosen.push(place);
-    }
-    *spent += needed;
-    (chosen, some)
-}
-
-/// How many trials `points` take, each study running those apart that it tells apart.
-fn trials(each: &[(&Study, u64)], points: &[ReadingChoice]) -> u64 {
-    each.iter().map(|(study, count)| study.as_trials_see(points).len() as u64 * count).sum()
+/// Explores the paper that `which` names on this machine, or as far as the parts in `rounds` go; `command` is kept with what
+/// is found.
+pub fn explore(
+    which: &Which,
+    threads: Option<u32>,
+    rounds: Option<Rounds>,
+    command: String,
+) -> Result<(), Failure> {
+    let places = Places::find(which, "")?;
+    let paper = load(&places, &How::plain(threads))?;
+    let budget = budget(&paper)?;
+    let folder = rounds
+        .as_ref()
+        .map_or_else(|| scratch(&places, &paper, "explore"), |rounds| Rounds::merged(&rounds.parts));
+    let explorer = Explorer { rounds, ..Explorer::new(&paper, &places, threads, folder) };
+    let (points, trials) = explorer.affordable(&budget)?;
+    let _lock = Lock::take(&places.runs)?;
+    let verdicts = judged(&paper, &places)?;
+    let found = unless_planned(explorer.explore(&points, &budget, trials, &verdicts))?;
+    let Some(exploration) = found.map(|found| Exploration { command, ..found }) else { return Ok(()) };
+    let path = Exploration::first(&places.runs);
+    exploration.write(&path)?;
+    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?);
+    say!(
+        "{} trials under {} readings; what was found is in {}",
+        exploration.trials,
+        points.len(),
+        path.display()
+    );
+    Ok(())
 }

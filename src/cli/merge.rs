@@ -1,41 +1,51 @@
-//! `replan merge`: the parts of a run that was cut into shards, put together.
+//! `replan merge`: the parts of a run, or of a round of an exploration, that was cut into shards, put together.
 
-use super::Failure;
+use super::confirm::confirm;
+use super::explore::explore;
+use super::rounds::{Rounds, at_work};
 use super::sharded::Sharded;
-use crate::study::lock::Lock;
+use super::{Failure, Which};
 use crate::study::manifest::MadeBy;
-use crate::study::merge::Parts;
 use crate::study::plan::Plan;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Puts parts together.
+/// Puts parts together; those of an exploration or a confirmation are judged as well, and the next round is planned.
 #[derive(Args)]
 pub struct Merge {
     /// The folder that the shards were run into
     parts: PathBuf,
-    /// Write below this folder, as `replan run --out` would
+    /// Write below this folder, as `replan run --out` would; what is explored or confirmed has its default run there, and
+    /// without --out in the committed places
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: Option<PathBuf>,
 }
 
 impl Merge {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
-        let plan = Plan::read(&self.parts)?;
-        let sharded = Sharded::of_plan(&plan, self.out.clone())?;
-        let studies = sharded.studies()?;
-        let parts = Parts::checked(&plan, &self.parts, &studies)?;
-        let runs = &sharded.places.runs;
-        let lock = Lock::take(runs)?;
-        for ((place, study), (built, manifest)) in sharded.paper.studies.iter().enumerate().zip(&studies) {
-            let trials = parts.merge((place, study), built, manifest.clone(), lock.folder())?;
-            say!("{}: {trials} trials of {} parts", study.name, plan.shards);
+        let plan = Plan::read(&at_work(&self.parts))?;
+        let Some(round) = &plan.round else { return self.merge_run(&plan) };
+        let which = Which { paper: plan.paper.clone(), out: self.out.clone() };
+        // The findings bear the command that would have made them on one machine.
+        let command = format!("replan {}", plan.unsharded(self.out.as_deref()).join(" "));
+        let rounds = Some(Rounds::of(&plan, &self.parts));
+        match round.command.as_str() {
+            "explore" => explore(&which, None, rounds, command),
+            _ => confirm(&which, None, rounds, command),
         }
-        say!("records are in {}", runs.display());
-        if sharded.paper.studies.iter().any(|study| study.timing.is_some()) {
-            let command = plan.unsharded(&self.out);
+    }
+
+    /// Puts a run together.
+    fn merge_run(&self, plan: &Plan) -> Result<(), Failure> {
+        let Some(out) = &self.out else {
+            return Err(Failure::input("--out <DIR> is missing: where `replan run --out` would write"));
+        };
+        let sharded = Sharded::of_plan(plan, out.clone())?;
+        sharded.put_together(plan, &self.parts, &sharded.places.runs)?;
+        if sharded.runs.iter().any(|(study, _)| study.timing.is_some()) {
+            let command = plan.unsharded(Some(out));
             say!("no clock was read; one machine reads it: replan {}", command.join(" "));
         }
         Ok(())

@@ -20,9 +20,11 @@ mod compare;
 mod confirm;
 mod conformance;
 mod crosscheck;
+mod drawn;
 mod example;
 mod explain;
 mod explore;
+mod explorer;
 mod export;
 pub mod file_schema;
 mod judge;
@@ -35,6 +37,7 @@ mod progress;
 mod render;
 mod report;
 mod repro;
+mod rounds;
 mod run;
 mod schema;
 mod shard;
@@ -81,9 +84,9 @@ enum Command {
     Check(check::Check),
     /// Run the studies of a paper; stored trials are reused where nothing they depend on has changed
     Run(run::Run),
-    /// Put the parts of a run that was cut into shards together
+    /// Put the parts of a run, an exploration or a confirmation that was cut into shards together
     Merge(merge::Merge),
-    /// Say what of a run that was cut into shards is done, at work, stopped and left
+    /// Say what of a run or a round that was cut into shards is done, at work, stopped and left
     Status(status::Status),
     /// Cut a run into shards and write the script that runs them: for Slurm, GNU parallel or Python
     Shard(shard::Shard),
@@ -142,6 +145,13 @@ struct How {
     /// Threads for the trials; the machine's number if absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
+}
+
+impl How {
+    /// As the specs say.
+    fn plain(threads: Option<u32>) -> Self {
+        Self { quick: false, seed: None, readings: None, threads }
+    }
 }
 
 /// What of the stored trials runs again although nothing it depends on has changed.

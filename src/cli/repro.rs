@@ -1,14 +1,19 @@
 //! `replan repro`: from the spec to the verdicts.
 
+use super::drawn::Drawn;
 use super::load::load;
 use super::places::Places;
 use super::progress::{safe_point, stop_flag};
 use super::run::{run_studies, summary};
 use super::{Again, Failure, How, Which, trial, verdicts};
 use super::{judge, render};
+use crate::analysis::verdict::Verdicts;
+use crate::render::output::Outputs;
 use crate::study::lock::Lock;
 use crate::study::manifest::MadeBy;
+use crate::study::paper::Paper;
 use clap::Args;
+use std::sync::atomic::AtomicBool;
 
 /// Reproduces a paper.
 #[derive(Args)]
@@ -43,13 +48,31 @@ impl Repro {
         let point = self.how.point(&paper.readings())?;
         let judged = judge::judge(&paper, point, &places)?;
         verdicts::print(&judged);
-        let drawn = render::write(&paper, &places, stop)?;
+        let outputs = draw(&paper, &places, &judged, self.again, stop)?;
         say!(
             "records and verdicts are in {}, figures and tables in {}, the report in {}",
             places.runs.display(),
             places.plots.display(),
             places.report.display()
         );
-        render::all_drawn(&drawn)
+        render::all_drawn(&outputs)
     }
+}
+
+/// Draws what is not drawn yet of what was `judged`.
+fn draw(
+    paper: &Paper,
+    places: &Places,
+    judged: &Verdicts,
+    again: Again,
+    stop: &AtomicBool,
+) -> Result<Outputs, Failure> {
+    let drawn = Drawn::of(paper, places, judged)?;
+    if !again.fresh && drawn.is_current(places) {
+        say!("nothing to draw: figures, tables and the report are as they were drawn from this");
+        return Ok(Outputs::default());
+    }
+    let outputs = render::write(paper, places, stop)?;
+    drawn.keep(places, &outputs);
+    Ok(outputs)
 }

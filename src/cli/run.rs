@@ -3,6 +3,7 @@
 use super::load::load;
 use super::places::Places;
 use super::progress::{Bar, stop_flag};
+use super::rounds::at_work;
 use super::sharded::Sharded;
 use super::{Again, Failure, How, Which, command_line};
 use crate::analysis::claims;
@@ -11,7 +12,7 @@ use crate::study::manifest::MadeBy;
 use crate::study::paper::Paper;
 use crate::study::plan::Plan;
 use crate::study::session::{self, Options, Report, UnexpectedStatus};
-use crate::study::shard::{self, Portion};
+use crate::study::shard;
 use crate::study::{ReadingChoice, Study};
 use clap::Args;
 use std::path::Path;
@@ -41,7 +42,9 @@ impl Run {
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
         if let (Some((number, of)), Some(folder)) = (self.shard, &self.which.out) {
-            return self.run_shard(number, of, folder);
+            check_is_run(folder)?;
+            let sharded = Sharded::load(&self.which.paper, &self.how)?;
+            return sharded.run_shard((number, of), folder, self.again, self.why);
         }
         let places = Places::find(&self.which, &self.how.variant())?;
         let paper = load(&places, &self.how)?;
@@ -56,25 +59,19 @@ impl Run {
         say!("records are in {}", places.runs.display());
         Ok(())
     }
+}
 
-    /// Runs the shard `number` of `of` into its own part of `folder`.
-    fn run_shard(&self, number: usize, of: usize, folder: &Path) -> Result<(), Failure> {
-        let sharded = Sharded::load(&self.which.paper, &self.how)?;
-        let (plan, portions) = {
-            let studies = sharded.studies()?;
-            let plan = Plan::agreed(folder, &sharded.wanted(of), &studies)?;
-            let portions = plan.portions(&studies, number);
-            (plan, portions)
-        };
-        let lock = Lock::take(&plan.part(folder, number))?;
-        let Sharded { paper, places, how, .. } = &sharded;
-        for (study, portion) in paper.studies.iter().zip(&portions) {
-            let report = run_study(paper, study, places, how, &lock, self.again, Some(portion))?;
-            say!("{}", summary(&report, self.why));
-        }
-        say!("shard {number}/{of} is in {}", lock.folder().display());
-        Ok(())
+/// Refuses a folder that holds parts of an exploration or a confirmation.
+pub fn check_is_run(parts: &Path) -> Result<(), Failure> {
+    let folder = at_work(parts);
+    if folder == parts {
+        return Ok(());
     }
+    let plan = Plan::path(&folder);
+    Err(Failure::input(format!(
+        "{}: the parts here are of another command than `run`; another folder is accepted",
+        plan.display()
+    )))
 }
 
 /// Runs what is stale of every study of `paper`; and what `again` names.
@@ -85,10 +82,10 @@ pub fn run_studies(
     lock: &Lock,
     again: Again,
 ) -> Result<Vec<Report>, Failure> {
-    paper.studies.iter().map(|study| run_study(paper, study, places, how, lock, again, None)).collect()
+    paper.studies.iter().map(|study| run_study(paper, study, places, how, lock, again)).collect()
 }
 
-/// Runs what is stale of one study, or of a portion of it.
+/// Runs what is stale of one study.
 fn run_study(
     paper: &Paper,
     study: &Study,
@@ -96,11 +93,10 @@ fn run_study(
     how: &How,
     lock: &Lock,
     again: Again,
-    portion: Option<&Portion>,
 ) -> Result<Report, Failure> {
     let (points, bar) = (how.points(study)?, Bar::default());
     let options = options(paper, (&points, &bar), places, how, lock);
-    Ok(session::run(study, &Options { portion, fresh: again.fresh, record: again.record, ..options })?)
+    Ok(session::run(study, &Options { fresh: again.fresh, record: again.record, ..options })?)
 }
 
 /// How a whole run of a study of `paper` is to be done, reusing what is stored.

@@ -1,7 +1,10 @@
 //! `replan shard`: a run cut into shards, and the script that runs them on one machine or many.
 
+use super::explorer::Explorer;
+use super::rounds::{self, Round};
+use super::run::check_is_run;
 use super::sharded::Sharded;
-use super::{Failure, How};
+use super::{Failure, How, confirm, explore};
 use crate::study::manifest::MadeBy;
 use crate::study::plan::Plan;
 use crate::study::store::write_whole;
@@ -15,6 +18,12 @@ pub struct Shard {
     paper: String,
     #[command(flatten)]
     how: How,
+    /// Cut what `replan explore` runs, round by round
+    #[arg(long, conflicts_with_all = ["quick", "seed", "readings", "confirm"])]
+    explore: bool,
+    /// Cut what `replan confirm` runs, round by round
+    #[arg(long, conflicts_with_all = ["quick", "seed", "readings"])]
+    confirm: bool,
     /// What runs the shards
     #[arg(long)]
     engine: Engine,
@@ -24,9 +33,9 @@ pub struct Shard {
     /// The folder that the shards are run into, where the plan and the script are left
     #[arg(long, value_name = "PARTS")]
     out: PathBuf,
-    /// Where the script puts the parts together
-    #[arg(long, value_name = "DIR")]
-    merge: PathBuf,
+    /// Where the script puts the parts together; what is explored or confirmed needs none, for it is kept beside the default run
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["explore", "confirm"])]
+    merge: Option<PathBuf>,
     /// The most tasks of a Slurm array; each then runs several shards
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     tasks: u32,
@@ -46,16 +55,16 @@ impl Shard {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
-        let sharded = Sharded::load(&self.paper, &self.how)?;
-        let shards = self.shards as usize;
-        let plan = Plan::agreed(&self.out, &sharded.wanted(shards), &sharded.studies()?)?;
+        let (sharded, shards) = (self.sharded()?, self.shards as usize);
+        let folder = sharded.folder(&self.out);
+        let plan = Plan::agreed(&folder, &sharded.wanted(shards), &sharded.studies()?)?;
         let (name, template, start) = match self.engine {
             Engine::Hyperqueue => ("run_hyperqueue.py", include_str!("shard/hyperqueue.py"), "python3"),
             Engine::Slurm => ("run_slurm.sh", include_str!("shard/slurm.sh"), "bash"),
             Engine::Parallel => ("run_parallel.sh", include_str!("shard/parallel.sh"), "bash"),
         };
         let path = self.out.join(name);
-        write_whole(&path, self.filled(template, &plan)?.as_bytes())?;
+        write_whole(&path, self.filled(template, &plan, &folder)?.as_bytes())?;
         let (all, most) = (plan.cost_ns.iter().sum::<u64>(), plan.cost_ns.iter().max().copied().unwrap_or(0));
         say!(
             "{} units in {shards} shards: about {:.0} s of one core in all, {:.1} s in the longest shard",
@@ -67,8 +76,32 @@ impl Shard {
         Ok(())
     }
 
+    /// What is cut.
+    fn sharded(&self) -> Result<Sharded, Failure> {
+        let of_round = |first, points: fn(&Explorer<'_>) -> _| {
+            rounds::sharded(&self.paper, self.how.threads, &self.out, first, points)
+        };
+        match (self.explore, self.confirm) {
+            (true, _) => of_round(Round::First, explore::first_points),
+            (_, true) => of_round(Round::Default, confirm::first_points),
+            _ => {
+                check_is_run(&self.out)?;
+                Sharded::load(&self.paper, &self.how)
+            }
+        }
+    }
+
+    /// How many rounds there are at most: what is left of them over finds nothing to do.
+    fn rounds(&self) -> usize {
+        match (self.explore, self.confirm) {
+            (true, _) => 3,
+            (_, true) => 2,
+            _ => 1,
+        }
+    }
+
     /// The script: `template` with what stands in capitals between `@` filled in.
-    fn filled(&self, template: &str, plan: &Plan) -> Result<String, Failure> {
+    fn filled(&self, template: &str, plan: &Plan, folder: &Path) -> Result<String, Failure> {
         let shards = plan.shards;
         let here = std::env::current_dir()?;
         let program = std::env::current_exe()?;
@@ -78,9 +111,10 @@ impl Shard {
             Engine::Slurm => "$shard",
             Engine::Parallel => "{}",
         };
-        let mut run = plan.arguments(&self.out, &format!("{number}/{shards}"));
+        let mut run = plan.arguments(folder, &format!("{number}/{shards}"));
         run.extend(["--threads".to_owned(), threads.to_string()]);
-        let merge = ["merge", &shown(&self.out), "--out", &shown(&self.merge)].map(str::to_owned);
+        let mut merge = ["merge", &shown(&self.out)].map(str::to_owned).to_vec();
+        merge.extend(self.merge.iter().flat_map(|out| ["--out".to_owned(), shown(out)]));
         let in_shell = |word: &String| {
             // The script itself fills the number in.
             if word.starts_with(number) { format!("\"{word}\"") } else { quoted(word) }
@@ -101,6 +135,7 @@ impl Shard {
             ("@PARTS@", word(shown(&self.out))),
             ("@RUN@", words(&run)),
             ("@MERGE@", words(&merge)),
+            ("@ROUNDS@", self.rounds().to_string()),
             ("@SHARDS@", plan.shards.to_string()),
             ("@TASKS@", plan.shards.min(self.tasks as usize).to_string()),
             ("@THREADS@", threads.to_string()),

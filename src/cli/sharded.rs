@@ -1,25 +1,32 @@
-//! A paper whose run is cut into shards: its studies as they would run.
+//! What is cut into shards: the studies of a run, or of one round of an exploration, as they would run whole.
 
 use super::load::load;
 use super::places::Places;
-use super::{Failure, How, Which, command_line};
+use super::progress::{Bar, stop_flag};
+use super::run::summary;
+use super::{Again, Failure, How, Which, command_line};
 use crate::analysis::claims::claims_hash;
-use crate::study::ReadingChoice;
+use crate::study::lock::Lock;
 use crate::study::manifest::Manifest;
+use crate::study::merge::Parts;
 use crate::study::paper::Paper;
-use crate::study::plan::{Plan, Wanted};
+use crate::study::plan::{Plan, PlannedRound, Wanted};
 use crate::study::runner::BuiltStudy;
+use crate::study::session::{self, Options};
+use crate::study::{ReadingChoice, Study};
+use std::path::{Path, PathBuf};
 
-/// A paper, how it is run, and the readings of each of its studies.
+/// Studies, how they are run, and the readings of each.
 pub struct Sharded {
-    /// The paper.
-    pub paper: Paper,
-    /// Where it is read from.
+    /// Where they are read from.
     pub places: Places,
-    /// How it is run.
+    /// How they are run.
     pub how: How,
+    /// The studies with their readings.
+    pub runs: Vec<(Study, Vec<ReadingChoice>)>,
+    claims: String,
     named: String,
-    points: Vec<Vec<ReadingChoice>>,
+    round: Option<PlannedRound>,
 }
 
 impl Sharded {
@@ -37,7 +44,7 @@ impl Sharded {
     ///
     /// # Errors
     /// Those of loading the paper.
-    pub fn of_plan(plan: &Plan, out: std::path::PathBuf) -> Result<Self, Failure> {
+    pub fn of_plan(plan: &Plan, out: PathBuf) -> Result<Self, Failure> {
         let how = How { quick: plan.quick, seed: plan.seed, readings: plan.readings.clone(), threads: None };
         let which = Which { paper: plan.paper.clone(), out: Some(out) };
         let places = Places::find(&which, &how.variant())?;
@@ -46,14 +53,34 @@ impl Sharded {
 
     fn at(named: &str, how: &How, places: Places) -> Result<Self, Failure> {
         let paper = load(&places, how)?;
-        let points = paper.studies.iter().map(|study| how.points(study)).collect::<Result<_, _>>()?;
-        Ok(Self { paper, places, how: how.clone(), named: named.to_owned(), points })
+        let run = |study: &Study| Ok((study.clone(), how.points(study)?));
+        let runs = paper.studies.iter().map(run).collect::<Result<_, Failure>>()?;
+        let (claims, named) = (claims_hash(&paper), named.to_owned());
+        Ok(Self { places, how: how.clone(), runs, claims, named, round: None })
+    }
+
+    /// One round of an exploration of `paper`, which the command line called `named`.
+    pub fn of_round(
+        (named, paper): (&str, &Paper),
+        places: &Places,
+        threads: Option<usize>,
+        round: PlannedRound,
+        runs: Vec<(Study, Vec<ReadingChoice>)>,
+    ) -> Self {
+        let how = How::plain(threads.and_then(|threads| threads.try_into().ok()));
+        let (claims, named) = (claims_hash(paper), named.to_owned());
+        Self { places: places.clone(), how, runs, claims, named, round: Some(round) }
     }
 
     /// What is asked of a plan that cuts it into so many shards.
     pub fn wanted(&self, shards: usize) -> Wanted {
         let How { quick, seed, readings, .. } = self.how.clone();
-        Wanted { paper: self.named.clone(), shards, quick, seed, readings }
+        Wanted { paper: self.named.clone(), shards, quick, seed, readings, round: self.round.clone() }
+    }
+
+    /// Where its plan and its parts lie within `parts`.
+    pub fn folder(&self, parts: &Path) -> PathBuf {
+        self.round.as_ref().map_or_else(|| parts.to_owned(), |round| parts.join(&round.name))
     }
 
     /// Every study with everything built, and what its records would depend on.
@@ -61,14 +88,68 @@ impl Sharded {
     /// # Errors
     /// Those of families, pipelines and input files.
     pub fn studies(&self) -> Result<Vec<(BuiltStudy<'_>, Manifest)>, Failure> {
-        let claims = claims_hash(&self.paper);
         let mut studies = Vec::new();
-        for (study, points) in self.paper.studies.iter().zip(&self.points) {
+        for (study, points) in &self.runs {
             let built = BuiltStudy::new(study, points, &self.places.inputs)?;
-            let manifest =
-                Manifest::new(study, points, &built, claims.clone(), command_line(), self.how.quick)?;
+            let (claims, command) = (self.claims.clone(), command_line());
+            let manifest = Manifest::new(study, points, &built, claims, command, self.how.quick)?;
             studies.push((built, manifest));
         }
         Ok(studies)
+    }
+
+    /// Runs the shard `number` of `of` into its own part of `folder`.
+    ///
+    /// # Errors
+    /// Parts of another run; those of running.
+    pub fn run_shard(
+        &self,
+        (number, of): (usize, usize),
+        folder: &Path,
+        again: Again,
+        why: bool,
+    ) -> Result<(), Failure> {
+        let (plan, portions) = {
+            let studies = self.studies()?;
+            let plan = Plan::agreed(folder, &self.wanted(of), &studies)?;
+            let portions = plan.portions(&studies, number);
+            (plan, portions)
+        };
+        let lock = Lock::take(&plan.part(folder, number))?;
+        for ((study, points), portion) in self.runs.iter().zip(&portions) {
+            let options = Options {
+                lock: &lock,
+                points,
+                inputs: &self.places.inputs,
+                command: command_line(),
+                claims: self.claims.clone(),
+                portion: Some(portion),
+                quick: self.how.quick,
+                fresh: again.fresh,
+                record: again.record,
+                threads: self.how.threads.map(|threads| threads as usize),
+                stop: stop_flag(),
+                progress: &Bar::default(),
+            };
+            say!("{}", summary(&session::run(study, &options)?, why));
+        }
+        say!("shard {number}/{of} is in {}", lock.folder().display());
+        Ok(())
+    }
+
+    /// Puts the parts of `plan` in `folder` together below `runs`.
+    ///
+    /// # Errors
+    /// Parts that are missing, double or of another run; those of the file system.
+    pub fn put_together(&self, plan: &Plan, folder: &Path, runs: &Path) -> Result<(), Failure> {
+        let studies = self.studies()?;
+        let parts = Parts::checked(plan, folder, &studies)?;
+        let lock = Lock::take(runs)?;
+        for ((place, (study, _)), (built, manifest)) in self.runs.iter().enumerate().zip(&studies) {
+            let trials = parts.merge((place, study), built, manifest.clone(), lock.folder())?;
+            say!("{}: {trials} trials of {} parts", study.name, plan.shards);
+        }
+        say!("records are in {}", runs.display());
+        Ok(())
     }
 }

@@ -1,10 +1,11 @@
 //! `replan status`: how far a run is that was cut into shards.
 
 use super::Failure;
+use super::rounds::at_work;
 use crate::study::plan::{Plan, Progressed, State};
 use clap::Args;
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Says how far the shards are.
 #[derive(Args)]
@@ -19,6 +20,9 @@ pub struct Status {
 /// How far the shards are.
 #[derive(Serialize)]
 struct Found {
+    /// The round that is at work, of an exploration or a confirmation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    round: Option<String>,
     shards: usize,
     done: Vec<usize>,
     running: Vec<usize>,
@@ -33,9 +37,10 @@ struct Found {
 impl Status {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
-        let plan = Plan::read(&self.parts)?;
+        let parts = at_work(&self.parts);
+        let plan = Plan::read(&parts)?;
         let found: Vec<Progressed> =
-            (1..=plan.shards).map(|number| plan.progressed(&self.parts, number)).collect();
+            (1..=plan.shards).map(|number| plan.progressed(&parts, number)).collect();
         let with = |state: State| -> Vec<usize> {
             (1..=plan.shards).filter(|number| found[number - 1].state == state).collect()
         };
@@ -45,6 +50,7 @@ impl Status {
             share * plan.cost_ns[number - 1] as f64 / 1e9
         };
         let found = Found {
+            round: plan.round.as_ref().map(|round| round.name.clone()),
             shards: plan.shards,
             done: with(State::Done),
             running: with(State::Running),
@@ -57,18 +63,20 @@ impl Status {
         if self.json {
             say!("{}", serde_json::to_string(&found).expect("a state is numbers"));
         } else {
-            say!("{}", said(&found, &plan, &self.parts));
+            say!("{}", said(&found, &plan, &self.parts, &parts));
         }
         Ok(())
     }
 }
 
-fn said(found: &Found, plan: &Plan, parts: &std::path::Path) -> String {
+/// It in words, of the parts in `folder`, which is that of the round at work in `all`.
+fn said(found: &Found, plan: &Plan, all: &Path, folder: &Path) -> String {
     let listed = |numbers: &[usize]| match numbers.len() {
         1..=20 => format!(" ({})", numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
         0 | 21.. => String::new(),
     };
-    let mut text = format!(
+    let mut text = found.round.as_ref().map_or_else(String::new, |round| format!("round `{round}`: "));
+    text += &format!(
         "{} of {} shards are done, {} running{}, {} stopped{}, {} waiting; {} of {} units",
         found.done.len(),
         found.shards,
@@ -81,7 +89,8 @@ fn said(found: &Found, plan: &Plan, parts: &std::path::Path) -> String {
         found.units
     );
     if found.done.len() == found.shards {
-        return text + &format!("\nput together by: replan merge {} --out DIR", parts.display());
+        let out = if plan.round.is_some() { "" } else { " --out DIR" };
+        return text + &format!("\nput together by: replan merge {}{out}", all.display());
     }
     text += &format!("\nabout {} of one core left", duration(found.core_seconds_left));
     if !found.running.is_empty() {
@@ -90,7 +99,7 @@ fn said(found: &Found, plan: &Plan, parts: &std::path::Path) -> String {
     }
     if let Some(first) = found.stopped.first() {
         let shard = format!("{first}/{}", plan.shards);
-        text += &format!("\nto go on: replan {}", plan.arguments(parts, &shard).join(" "));
+        text += &format!("\nto go on: replan {}", plan.arguments(folder, &shard).join(" "));
     }
     text
 }

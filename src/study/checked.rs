@@ -102,6 +102,16 @@ impl Study {
         seen
     }
 
+    /// The study on its second seed, if it has one; no clock is read and nothing is kept for figures.
+    #[must_use]
+    pub fn reseeded(mut self) -> Self {
+        self.seed = self.second_seed.unwrap_or(self.seed);
+        self.timing = None;
+        self.keeps.clear();
+        self.figures.clear();
+        self
+    }
+
     /// The study cut down to what is explored of it under each reading: no clock is read, and nothing is kept for figures.
     #[must_use]
     pub fn explored(mut self, explore: &ExploreSpec, draws: u32) -> Self {

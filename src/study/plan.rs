@@ -36,9 +36,24 @@ pub struct Plan {
     pub cost_ns: Vec<u64>,
     /// The program that the plan was made by, and with which its parts must run.
     pub made_by: MadeBy,
+    /// Which round of an exploration or a confirmation it is, if it is no plain run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub round: Option<PlannedRound>,
     /// The studies, in the order of their names.
     #[serde(rename = "study")]
     pub studies: Vec<PlannedStudy>,
+}
+
+/// A round of an exploration or a confirmation: what runs in one hangs on what was judged after the one before it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlannedRound {
+    /// The command.
+    pub command: String,
+    /// The name of the round, which is that of the plan's folder within the folder of all parts.
+    pub name: String,
+    /// The readings that run: the options of each that differ from the defaults.
+    pub readings: Vec<BTreeMap<String, String>>,
 }
 
 /// One study of a plan.
@@ -72,6 +87,8 @@ pub struct Wanted {
     pub seed: Option<u64>,
     /// The readings asked for.
     pub readings: Option<String>,
+    /// The round of an exploration or a confirmation.
+    pub round: Option<PlannedRound>,
 }
 
 /// What is known of one shard from its folder alone.
@@ -127,12 +144,21 @@ impl Plan {
             units: built.units().len(),
             cost_ns: costs(built),
         };
-        let Wanted { paper, shards, quick, seed, readings } = wanted.clone();
-        let (units, cost_ns, made_by) = (Vec::new(), Vec::new(), MadeBy::here().clone());
+        let Wanted { paper, shards, quick, seed, readings, round } = wanted.clone();
+        let (units, cost_ns, made_by) = (vec![0; shards], vec![0; shards], MadeBy::here().clone());
         let studies_planned = studies.iter().map(planned).collect();
-        let mut plan =
-            Self { paper, shards, quick, seed, readings, units, cost_ns, made_by, studies: studies_planned };
-        (plan.units, plan.cost_ns) = (vec![0; plan.shards], vec![0; plan.shards]);
+        let mut plan = Self {
+            paper,
+            shards,
+            quick,
+            seed,
+            readings,
+            units,
+            cost_ns,
+            made_by,
+            round,
+            studies: studies_planned,
+        };
         let costs = plan.unit_costs(studies);
         for (shard, cost) in shard::cut(&costs, plan.shards).into_iter().zip(costs) {
             plan.units[shard - 1] += 1;
@@ -184,15 +210,19 @@ impl Plan {
         folder.join(format!("{number}-of-{}", self.shards))
     }
 
-    /// The command that runs a shard: what follows the program's name.
+    /// The command that runs a shard into `folder`, where the plan lies: what follows the program's name.
     pub fn arguments(&self, folder: &Path, shard: &str) -> Vec<String> {
+        // Rounds have folders of their own in that of all parts.
+        let parts = if self.round.is_some() { folder.parent().unwrap_or(folder) } else { folder };
         let shard = ["--shard", shard].map(str::to_owned);
-        [self.unsharded(folder), shard.to_vec()].concat()
+        [self.unsharded(Some(parts)), shard.to_vec()].concat()
     }
 
-    /// The command that runs the same, whole: what follows the program's name.
-    pub fn unsharded(&self, out: &Path) -> Vec<String> {
-        let mut words = ["run", &self.paper, "--out", &out.display().to_string()].map(str::to_owned).to_vec();
+    /// The command that does the same whole, on one machine: what follows the program's name.
+    pub fn unsharded(&self, out: Option<&Path>) -> Vec<String> {
+        let command = self.round.as_ref().map_or("run", |round| &round.command);
+        let mut words = [command, &self.paper].map(str::to_owned).to_vec();
+        words.extend(out.iter().flat_map(|out| ["--out".to_owned(), out.display().to_string()]));
         if self.quick {
             words.push("--quick".to_owned());
         }
@@ -242,6 +272,7 @@ impl Plan {
         let mut differs = |what: &str, planned: String, asked: String| other.note(what, &planned, &asked);
         let shown = |readings: &Option<String>| readings.clone().unwrap_or_else(|| "the default".to_owned());
         let names = |names: &mut dyn Iterator<Item = &str>| names.collect::<Vec<_>>().join(", ");
+        differs("command", command(self.round.as_ref()), command(wanted.round.as_ref()));
         differs("shards", self.shards.to_string(), wanted.shards.to_string());
         differs("quick", self.quick.to_string(), wanted.quick.to_string());
         differs("readings", shown(&self.readings), shown(&wanted.readings));
@@ -284,6 +315,16 @@ impl Plan {
         };
         Progressed { state, units: self.studies.iter().map(done).sum::<usize>().min(units) }
     }
+}
+
+/// What a plan is of, in words.
+fn command(round: Option<&PlannedRound>) -> String {
+    let of = |round: &PlannedRound| {
+        let readings = sha256(format!("{:?}", round.readings).as_bytes());
+        let PlannedRound { command, name, readings: each } = round;
+        format!("`{command}`, round `{name}` under {} readings ({})", each.len(), brief(&readings))
+    };
+    round.map_or_else(|| "`run`".to_owned(), of)
 }
 
 /// What differs from what is wanted.

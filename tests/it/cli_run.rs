@@ -293,3 +293,30 @@ fn a_figure_that_cannot_be_drawn_costs_that_figure_alone() {
     let said = bench.run(&["render", "./mini", "--check"]);
     assert!(said.code == Some(3) && said.err.contains(why), "{}", said.err);
 }
+
+#[test]
+fn what_is_drawn_is_drawn_again_only_where_something_changed() {
+    let bench = Bench::new();
+    let is_drawn = || !bench.done(&["repro", "./mini"]).contains("\nnothing to draw: ");
+    assert!(is_drawn() && !is_drawn());
+    let (plots, figure) = (bench.tree("target/replan/mini/plots"), "target/replan/mini/plots/mini/fig1.svg");
+    // A file that was touched, or is gone, is drawn again.
+    bench.write(figure, b"<svg/>");
+    assert!(is_drawn() && bench.tree("target/replan/mini/plots") == plots);
+    std::fs::remove_file(bench.at(figure)).unwrap();
+    assert!(is_drawn() && bench.tree("target/replan/mini/plots") == plots && !is_drawn());
+    bench.edit("target/replan/mini/paper_repro.md", "\n", "\n\n");
+    assert!(is_drawn() && !is_drawn());
+    // So is what is made from something else: a caption, a claim, records.
+    bench.edit("mini/room.toml", "A search in a room.", "A search in one room.");
+    assert!(is_drawn() && !is_drawn());
+    bench.edit("mini/paper.toml", "two sides open fewer nodes", "two sides open no more nodes");
+    assert!(is_drawn() && !is_drawn());
+    bench.edit("mini/draws.toml", "blocked_share = 0.3", "blocked_share = 0.2");
+    assert!(is_drawn() && !is_drawn());
+    // A check believes no stamp, and `--fresh` and `render` draw whatever was drawn.
+    bench.write(figure, b"<svg/>");
+    assert_eq!(bench.run(&["render", "./mini", "--check"]).code, Some(3));
+    assert!(bench.done(&["render", "./mini"]).contains(" files are in "));
+    assert!(!bench.done(&["repro", "./mini", "--fresh"]).contains("nothing to draw"));
+}

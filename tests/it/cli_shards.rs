@@ -222,19 +222,19 @@ fn full_disk(bench: &Bench) {
 }
 
 /// A folder of programs that stand in for a scheduler.
-fn stub(bench: &Bench, name: &str, text: &str) {
+pub fn stub(bench: &Bench, name: &str, text: &str) {
     let path = format!("bin/{name}");
     bench.write(&path, text.as_bytes());
     fs::set_permissions(bench.at(&path), fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-const SBATCH: &str = r#"#!/usr/bin/env bash
+pub const SBATCH: &str = r#"#!/usr/bin/env bash
 # Runs a job at once, task after task, as Slurm would.
 set -euo pipefail
 echo "sbatch $*" >> sbatch.log
 for word in "$@"; do
   case $word in
-    --wrap=*) exec bash -c "${word#--wrap=}" >&2 ;;
+    --wrap=*) bash -c "${word#--wrap=}" >&2; echo '18;cluster'; exit ;;
     --*) ;;
     *) script=$word ;;
   esac
@@ -246,7 +246,7 @@ done
 echo '17;cluster'
 "#;
 
-const PARALLEL: &str = r#"#!/usr/bin/env bash
+pub const PARALLEL: &str = r#"#!/usr/bin/env bash
 # Runs a command for each line of its input, one after another.
 set -euo pipefail
 while [[ $1 == --* ]]; do shift 2; done
@@ -282,7 +282,7 @@ fn scripts_of_slurm_and_parallel_run_every_shard_and_merge() {
 }
 
 /// Asks shellcheck, where there is one.
-fn checked(script: &Path) {
+pub fn checked(script: &Path) {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/replan/cluster/venv/bin/shellcheck");
     let program = if own.is_file() { own } else { PathBuf::from("shellcheck") };
     match Command::new(program).arg(script).output() {

@@ -11,9 +11,9 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::Duration;
 
-const MORE: (&str, &str) = ("[explore]\ndraws = 20", "[explore]\ndraws = 12\nmore_draws = 30");
+pub const MORE: (&str, &str) = ("[explore]\ndraws = 20", "[explore]\ndraws = 12\nmore_draws = 30");
 /// What the default reading gives, so that no claim is open under it.
-const MET: (&str, &str) = ("printed = \"24\"", "printed = \"4\"");
+pub const MET: (&str, &str) = ("printed = \"24\"", "printed = \"4\"");
 
 /// How many draws the claim `fewer` was judged by, with and without a weight.
 fn draws(first: &Exploration) -> [BTreeSet<usize>; 2] {

@@ -12,6 +12,7 @@ mod cli_compare;
 mod cli_explains;
 mod cli_input;
 mod cli_places;
+mod cli_rounds;
 mod cli_run;
 mod cli_shards;
 mod cli_stop;

@@ -112,8 +112,8 @@ pub fn by_reading(paper: &Paper, verdicts: &Verdicts, stored: &Stored) -> Option
     let classes = default_classes(verdicts);
     let claim = |judged: &Judged| {
         let id = &judged.claim;
-        let explored = first.claims.get(id).filter(|_| first.is_current(paper, id))?;
-        let second = stored.second.as_ref().filter(|second| second.is_current(paper, id));
+        let explored = first.claims.get(id).filter(|_| first.is_current(&counting.now, id))?;
+        let second = stored.second.as_ref().filter(|second| second.is_current(&counting.now, id));
         let counted = counting.counted(paper, first, id, &classes);
         let votes = counted_as(first, second, id, &counted.groups);
         let found = |result: &ExploredResult| {

@@ -4,7 +4,7 @@
 use super::super::class::{Polarity, Verdict};
 use super::super::verdict::{Fit, SettingFit};
 use super::glance::Sight;
-use super::stored::{Exploration, ExploredResult};
+use super::stored::{Exploration, ExploredResult, Now};
 use crate::study::Reading;
 use crate::study::paper::Paper;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,6 +15,8 @@ pub struct Axes {
     pub readings: Vec<Reading>,
     /// The claims that some study was calibrated to.
     calibration: BTreeSet<String>,
+    /// The paper as it is now.
+    pub now: Now,
 }
 
 /// Readings that give one result for a claim.
@@ -68,7 +70,7 @@ impl Axes {
     /// Those of `paper`.
     pub fn of(paper: &Paper) -> Self {
         let calibration = paper.studies.iter().flat_map(|study| study.fitted_to.iter().cloned()).collect();
-        Self { readings: paper.readings(), calibration }
+        Self { readings: paper.readings(), calibration, now: Now::of(paper) }
     }
 
     /// The option that `reading`, by what differs from the defaults, takes on `axis`.
@@ -110,31 +112,21 @@ impl Axes {
     }
 
     /// The readings of `first` that vote and are compatible with every calibration claim; all that vote if none is.
-    pub fn fitting(
-        &self,
-        paper: &Paper,
-        first: &Exploration,
-        default: &BTreeMap<String, Verdict>,
-    ) -> Vec<usize> {
+    pub fn fitting(&self, first: &Exploration, default: &BTreeMap<String, Verdict>) -> Vec<usize> {
         let voting: Vec<usize> =
             (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place])).collect();
         let all = self.calibration.iter().map(String::as_str);
-        let calibration: Vec<&str> = all.filter(|id| first.is_current(paper, id)).collect();
+        let calibration: Vec<&str> = all.filter(|id| first.is_current(&self.now, id)).collect();
         let compatible = self.compatible(first, &voting, &calibration, default);
         if compatible.is_empty() { voting } else { compatible }
     }
 
     /// How each setting of the readings that are not fitted agrees with the calibration claims under each option of the one
     /// that is; none if no reading is fitted.
-    pub fn fits(
-        &self,
-        paper: &Paper,
-        first: &Exploration,
-        default: &BTreeMap<String, Verdict>,
-    ) -> Vec<SettingFit> {
+    pub fn fits(&self, first: &Exploration, default: &BTreeMap<String, Verdict>) -> Vec<SettingFit> {
         let Some(fitted) = self.readings.iter().find(|axis| axis.fitted) else { return Vec::new() };
         let voting = (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place]));
-        let best: BTreeSet<usize> = self.fitting(paper, first, default).into_iter().collect();
+        let best: BTreeSet<usize> = self.fitting(first, default).into_iter().collect();
         let calibration: Vec<&str> = self.calibration.iter().map(String::as_str).collect();
         let mut all: Vec<SettingFit> = Vec::new();
         for place in voting {
@@ -164,7 +156,7 @@ impl Axes {
         let is_own =
             |other: &str| other == id || whole == Some(other) || parts.iter().any(|part| part == other);
         let all = self.calibration.iter().map(String::as_str);
-        all.filter(|other| !is_own(other) && first.is_current(paper, other)).collect()
+        all.filter(|other| !is_own(other) && first.is_current(&self.now, other)).collect()
     }
 
     /// The voting readings under which no calibration claim is contradicted and each has power; of those that differ in

@@ -51,20 +51,20 @@ pub fn apply(paper: &Paper, verdicts: &mut Verdicts, stored: &Stored) {
     if let Some(first) = &stored.first {
         note.readings = first.readings.len();
         note.trials = first.trials;
-        note.stale = first.stale(paper);
+        note.stale = first.stale(&axes.now);
         if note.stale.is_empty() {
-            note.fits = axes.fits(paper, first, &classes);
+            note.fits = axes.fits(first, &classes);
         }
     }
     if let Some(second) = &stored.second {
         note.second_seed = true;
-        note.second_stale = second.stale(paper);
+        note.second_stale = second.stale(&axes.now);
     }
     for judged in &mut verdicts.claims {
-        let second = stored.second.as_ref().filter(|second| second.is_current(paper, &judged.claim));
+        let second = stored.second.as_ref().filter(|second| second.is_current(&axes.now, &judged.claim));
         let own = second.and_then(|second| second.result(&judged.claim, 0));
         judged.second = own.filter(|own| own.sight == glance::Sight::Looked).map(|own| own.class);
-        let first = stored.first.as_ref().filter(|first| first.is_current(paper, &judged.claim));
+        let first = stored.first.as_ref().filter(|first| first.is_current(&axes.now, &judged.claim));
         let Some(first) = first else { continue };
         let counted = axes.counted(paper, first, &judged.claim, &classes);
         note.none_compatible |= counted.none_compatible;
@@ -149,7 +149,7 @@ pub fn near_a_flip(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> B
 /// The readings, by their places in `first`, that vote and are compatible with what the studies were fitted to; all that vote
 /// if none is, and the defaults.
 pub fn compatible(paper: &Paper, verdicts: &Verdicts, first: &Exploration) -> BTreeSet<usize> {
-    Axes::of(paper).fitting(paper, first, &default_classes(verdicts)).into_iter().chain([0]).collect()
+    Axes::of(paper).fitting(first, &default_classes(verdicts)).into_iter().chain([0]).collect()
 }
 
 fn turned(

@@ -7,7 +7,7 @@ use super::glance::{Glance, Sight};
 use crate::study::explore::stamp;
 use crate::study::paper::Paper;
 use crate::study::store::write_whole;
-use crate::study::{ReadingChoice, StudyError};
+use crate::study::{ReadingChoice, Study, StudyError};
 use base::settings::Document;
 use flate2::Compression;
 use flate2::read::GzDecoder;
@@ -188,26 +188,49 @@ impl Exploration {
         self.claims.get(id)?.results.iter().find(|result| result.readings.contains(&place))
     }
 
-    /// Whether what is stored of the claim called `id` is of the claim and the studies as they are.
-    pub fn is_current(&self, paper: &Paper, id: &str) -> bool {
-        let Some((stored, claim)) = self.claims.get(id).zip(paper.claim(id)) else { return false };
-        let is_as = |name: &String| {
-            paper.study(name).is_some_and(|study| self.studies.get(name) == Some(&stamp(study)))
-        };
+    /// Whether what is stored of the claim called `id` is of the claim and the studies as they are `now`.
+    pub fn is_current(&self, now: &Now, id: &str) -> bool {
+        let Some((stored, asked)) = self.claims.get(id).zip(now.asked.get(id)) else { return false };
+        let is_as =
+            |name: &String| now.studies.contains_key(name) && self.studies.get(name) == now.studies.get(name);
         // What stands for a study answers for it.
-        let stands = paper.studies.iter().filter(|study| {
-            let other = study.explore.as_ref().and_then(|explore| explore.stands_for.as_ref());
-            other.is_some_and(|other| stored.studies.contains(other))
-        });
-        stored.asked == claim_hash(paper, claim)
-            && stored.studies.iter().all(is_as)
-            && stands.map(|study| &study.name).all(is_as)
+        let stands = now.stands_for.iter().filter(|(_, other)| stored.studies.contains(other));
+        stored.asked == *asked && stored.studies.iter().all(is_as) && stands.map(|(name, _)| name).all(is_as)
     }
 
-    /// The claims of `paper` that it no longer speaks of.
-    pub fn stale(&self, paper: &Paper) -> Vec<String> {
-        let ids = paper.claims.iter().map(|claim| &claim.id);
-        ids.filter(|id| !self.is_current(paper, id)).cloned().collect()
+    /// The claims that it no longer speaks of.
+    pub fn stale(&self, now: &Now) -> Vec<String> {
+        now.ids.iter().filter(|id| !self.is_current(now, id)).cloned().collect()
+    }
+}
+
+/// What a paper is now, by hashes: all that tells whether what was stored of it is of it as it is. It is made once and asked
+/// for every claim.
+#[derive(Debug)]
+pub struct Now {
+    /// The claims in their order.
+    ids: Vec<String>,
+    /// What each says and how it is judged.
+    asked: BTreeMap<String, String>,
+    /// The studies.
+    studies: BTreeMap<String, String>,
+    /// The studies that stand for another one, and that one.
+    stands_for: Vec<(String, String)>,
+}
+
+impl Now {
+    /// That of `paper`.
+    pub fn of(paper: &Paper) -> Self {
+        let stands = |study: &Study| {
+            let other = study.explore.as_ref()?.stands_for.clone()?;
+            Some((study.name.clone(), other))
+        };
+        Self {
+            ids: paper.claims.iter().map(|claim| claim.id.clone()).collect(),
+            asked: paper.claims.iter().map(|claim| (claim.id.clone(), claim_hash(paper, claim))).collect(),
+            studies: paper.studies.iter().map(|study| (study.name.clone(), stamp(study))).collect(),
+            stands_for: paper.studies.iter().filter_map(stands).collect(),
+        }
     }
 }
 

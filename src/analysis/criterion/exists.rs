@@ -17,7 +17,7 @@ use base::settings::{Accepted, Faults, SettingsError, none_called};
 use differs::Differs;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The registry's entry.
@@ -257,13 +257,21 @@ impl<'a> Attained<'a> {
     pub fn eligible<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
         let mut eligible = self.seen(evidence);
         for given in &self.given {
-            let mut met: BTreeMap<Problem<'_>, bool> = BTreeMap::new();
-            for seen in given.seen(evidence) {
-                *met.entry(seen.problem()).or_default() |= given.is_met(seen.value);
+            if eligible.is_empty() {
+                break;
             }
-            eligible.retain(|seen| met.get(&seen.problem()).copied().unwrap_or(false));
+            // A number is met exactly on few problems of many.
+            let seen = given.seen(evidence);
+            let met = seen.iter().filter(|seen| given.is_met(seen.value));
+            let met: BTreeSet<Problem<'_>> = met.map(Seen::problem).collect();
+            eligible.retain(|seen| met.contains(&seen.problem()));
         }
         eligible
+    }
+
+    /// Whether nothing else must be met where it is looked for.
+    pub fn is_unconditional(&self) -> bool {
+        self.given.is_empty()
     }
 
     /// What the value is, with its unit.

@@ -15,7 +15,7 @@ mod share;
 mod trend;
 mod within;
 
-pub use exists::{Attained, ENTRY as EXISTS};
+pub use exists::{Attained, ENTRY as EXISTS, Seen};
 pub use one_draw::{Draws, draws};
 
 use super::context::Context;

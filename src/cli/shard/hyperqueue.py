@@ -24,6 +24,7 @@ FOLDER = pathlib.Path(@FOLDER@)
 PROGRAM = os.environ.get("REPLAN", @PROGRAM@)
 PARTS = FOLDER / @PARTS@
 SHARDS = @SHARDS@
+ROUNDS = @ROUNDS@
 RUN = @RUN@
 MERGE = @MERGE@
 THREADS = @THREADS@
@@ -68,6 +69,19 @@ def run(client):
     return not left
 
 
+def run_rounds(client):
+    """Runs and merges round after round: a merge may leave shards of another round to run. The exit code."""
+    for number in range(1, ROUNDS + 1):
+        if number > 1 and not not_done():
+            break
+        if not run(client):
+            return 1
+        code = subprocess.run([PROGRAM] + MERGE, cwd=FOLDER).returncode
+        if code:
+            return code
+    return 0
+
+
 def main():
     with contextlib.ExitStack() as stack:
         if len(sys.argv) > 1:
@@ -76,10 +90,7 @@ def main():
             cluster = stack.enter_context(LocalCluster())
             cluster.start_worker(WorkerConfig())
             client = cluster.client()
-        is_done = run(client)
-    if not is_done:
-        return 1
-    return subprocess.run([PROGRAM] + MERGE, cwd=FOLDER).returncode
+        return run_rounds(client)
 
 
 if __name__ == "__main__":

@@ -6,5 +6,9 @@ set -euo pipefail
 program=${REPLAN:-@PROGRAM@}
 cd @FOLDER@
 mkdir -p @PARTS@
-seq @SHARDS@ | parallel --retries 3 --joblog @PARTS@/parallel.log "$@" "$program" @RUN@
-exec "$program" @MERGE@
+for ((round = 1; round <= @ROUNDS@; round++)); do
+  # A merge may leave shards of another round to run.
+  if ((round > 1)) && "$program" status @PARTS@ --json | grep -q '"running":\[\],"stopped":\[\],"waiting":0'; then break; fi
+  seq @SHARDS@ | parallel --retries 3 --joblog @PARTS@/parallel.log "$@" "$program" @RUN@
+  "$program" @MERGE@
+done

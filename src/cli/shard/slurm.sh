@@ -10,9 +10,15 @@ program=${REPLAN:-@PROGRAM@}
 if [[ -z ${SLURM_ARRAY_TASK_ID:-} ]]; then
   cd @FOLDER@
   mkdir -p @PARTS@/logs
-  job=$(sbatch --parsable --output=@PARTS@/logs/%a.out "$@" @PARTS@/run_slurm.sh)
   merge=$(printf '%q ' "$program" @MERGE@)
-  sbatch --job-name=replan-merge --dependency="afterok:${job%%;*}" --output=@PARTS@/logs/merge.out --wrap="$merge"
+  after=()
+  # A merge may leave shards of another round to run; where it does not, they find nothing to do.
+  for ((round = 1; round <= @ROUNDS@; round++)); do
+    job=$(sbatch --parsable --output=@PARTS@/logs/%a.out "${after[@]}" "$@" @PARTS@/run_slurm.sh)
+    job=$(sbatch --parsable --job-name=replan-merge --dependency="afterok:${job%%;*}" --output=@PARTS@/logs/merge.out --wrap="$merge")
+    echo "round $round: ${job%%;*} merges"
+    after=(--dependency="afterok:${job%%;*}")
+  done
   exit
 fi
 cd @FOLDER@

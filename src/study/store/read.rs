@@ -41,22 +41,29 @@ struct Numbered<T> {
 
 impl<T: Ord + Clone> Numbered<T> {
     fn new(cells: impl Iterator<Item = T>) -> Self {
-        let (mut known, mut values, mut numbers) = (BTreeMap::new(), Vec::new(), Vec::new());
-        let mut last: Option<(T, usize)> = None;
+        let (mut known, mut values, mut numbers) = (BTreeMap::new(), Vec::<T>::new(), Vec::new());
+        // What came after each number the last time.
+        let mut after: Vec<usize> = Vec::new();
+        let mut last = 0;
         for cell in cells {
-            // Rows follow each other in order, so that a cell mostly equals the one before.
-            if let Some((before, number)) = &last
-                && *before == cell
-            {
-                numbers.push(*number);
+            // Rows follow each other in order: a cell mostly equals the one before, or goes on as it did when that stood last.
+            if last < values.len() && values[last] == cell {
+                numbers.push(last);
                 continue;
             }
-            let number = *known.entry(cell.clone()).or_insert_with(|| {
-                values.push(cell.clone());
-                values.len() - 1
-            });
+            let next = if last < after.len() { after[last] } else { last };
+            let number = if next != last && values[next] == cell {
+                next
+            } else {
+                *known.entry(cell.clone()).or_insert_with(|| {
+                    values.push(cell);
+                    after.push(values.len() - 1);
+                    values.len() - 1
+                })
+            };
+            after[last] = number;
             numbers.push(number);
-            last = Some((cell, number));
+            last = number;
         }
         Self { numbers, values }
     }
@@ -69,8 +76,11 @@ impl<T: Ord + Clone> Numbered<T> {
 impl<T: Clone> Numbered<T> {
     /// Each cell with that of `other` in the same row.
     fn with<U: Clone>(&self, other: &Numbered<U>) -> Numbered<(T, U)> {
-        let pairs = Numbered::new(self.numbers.iter().copied().zip(other.numbers.iter().copied()));
-        pairs.map(|(one, two)| (self.values[one].clone(), other.values[two].clone()))
+        // A pair of numbers as one: a loop over these, which are cheap to compare, runs for every row of a file.
+        let width = other.values.len();
+        let pairs =
+            Numbered::new(self.numbers.iter().zip(&other.numbers).map(|(one, two)| one * width + two));
+        pairs.map(|pair| (self.values[pair / width].clone(), other.values[pair % width].clone()))
     }
 
     fn of(&self, row: usize) -> &T {
