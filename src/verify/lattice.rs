@@ -5,12 +5,11 @@
 //! between two diagonal cells, the corner rule decides by the two cells that flank it.
 
 mod landmarks;
+mod optimum;
 
 pub use landmarks::Landmarks;
 
 use base::grid::{CornerRule, Grid2};
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 
 /// How far a claimed cost may be from the recomputed one, relative: room for another order of summation.
 const COST_TOLERANCE: f64 = 1e-9;
@@ -44,70 +43,6 @@ pub struct Answer<'a> {
 }
 
 impl Case<'_> {
-    /// The least cost of an 8-connected path from start to goal, straight moves costing 1 and diagonal ones √2;
-    /// `None` if there is no path, or if start or goal is not a free cell.
-    pub fn optimal_cost(&self) -> Option<f64> {
-        self.optimal_cost_by(None)
-    }
-
-    /// The same, found sooner with landmarks of the map.
-    ///
-    /// A* over (straight, diagonal) counts, which opens a cell again whenever it is reached at less cost. Costs are compared as the
-    /// floats they round to. Two counts of one cost are the same counts, and others differ by more than bounds are off by
-    /// rounding, so that the first time the goal is taken out its cost is the least. Of equal estimates the one that is farthest on
-    /// its way goes first.
-    pub fn optimal_cost_by(&self, landmarks: Option<&Landmarks>) -> Option<f64> {
-        let (start, goal) = (self.cell(self.start)?, self.cell(self.goal)?);
-        if !self.grid.is_free_xy(start[0], start[1]) || !self.grid.is_free_xy(goal[0], goal[1]) {
-            return None;
-        }
-        let to = self.index(goal);
-        let bound = |[x, y]: [i32; 2]| {
-            let (dx, dy) = (x.abs_diff(goal[0]), y.abs_diff(goal[1]));
-            let straight = octile(dx.abs_diff(dy), dx.min(dy));
-            landmarks.map_or(straight, |landmarks| straight.max(landmarks.bound(self.index([x, y]), to)))
-        };
-        if bound(start).is_infinite() {
-            return None;
-        }
-        // The bits of the least cost so far and one more, so that memory that is all zero knows no cell.
-        let mut best = vec![0_u64; self.grid.cell_count() as usize];
-        let mut queue = BinaryHeap::from([(key(bound(start)), 0_u64, 0_u32, 0_u32, start)]);
-        best[self.index(start)] = 1;
-        while let Some((.., straight, diagonal, at)) = queue.pop() {
-            let cost = octile(straight, diagonal);
-            if at == goal {
-                return Some(cost);
-            }
-            if cost.to_bits() + 1 > best[self.index(at)] {
-                continue;
-            }
-            self.steps(at, |next, is_diagonal| {
-                let (a, b) = (straight + 1 - is_diagonal, diagonal + is_diagonal);
-                let (cost, known) = (octile(a, b), &mut best[self.index(next)]);
-                if *known == 0 || cost.to_bits() + 1 < *known {
-                    *known = cost.to_bits() + 1;
-                    queue.push((key(cost + bound(next)), cost.to_bits(), a, b, next));
-                }
-            });
-        }
-        None
-    }
-
-    /// Hands every free cell that a move from `at` leads to, with 1 for a diagonal move, to `take`.
-    fn steps(&self, at: [i32; 2], mut take: impl FnMut([i32; 2], u32)) {
-        for [dx, dy] in neighbours() {
-            let next = [at[0] + dx, at[1] + dy];
-            if self.grid.is_free_xy(next[0], next[1]) && self.may_step(at, [dx, dy]) {
-                take(next, u32::from(dx != 0 && dy != 0));
-            }
-        }
-    }
-
-    fn index(&self, [x, y]: [i32; 2]) -> usize {
-        (y * self.grid.width() as i32 + x) as usize
-    }
-
     /// Why `answer` is not a path as claimed; `None` if it is.
     pub fn refuse_path(&self, answer: &Answer<'_>, optimal: Option<f64>) -> Option<String> {
         let Some(optimal) = optimal else {
@@ -223,20 +158,6 @@ fn enters(from: [i32; 2], to: [i32; 2], cell: [i32; 2]) -> bool {
     let strictly_left = corners.iter().any(|s| *s > 0);
     let strictly_right = corners.iter().any(|s| *s < 0);
     from == to || (strictly_left && strictly_right)
-}
-
-/// The order of estimates, the least last. Estimates within 2^-24 are equal: rounding parts them by less, and two costs of paths of
-/// fewer than a million moves by more.
-fn key(estimate: f64) -> Reverse<u64> {
-    Reverse((estimate * 16_777_216.0) as u64)
-}
-
-fn neighbours() -> impl Iterator<Item = [i32; 2]> {
-    (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| [dx, dy])).filter(|step| *step != [0, 0])
-}
-
-fn octile(straight: u32, diagonal: u32) -> f64 {
-    f64::from(straight) + f64::from(diagonal) * std::f64::consts::SQRT_2
 }
 
 fn distance(a: [i32; 2], b: [i32; 2]) -> f64 {

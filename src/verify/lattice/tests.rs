@@ -1,5 +1,5 @@
 use super::*;
-use base::grid::parse_text_map;
+use base::grid::{maze, parse_text_map, rooms};
 use base::seed::{derive, stream};
 use rand::RngExt as _;
 
@@ -181,18 +181,28 @@ fn corner_rules_judge_the_same_diagonal_differently() {
     }
 }
 
+/// Maps whose ways are short, winding and roundabout.
+fn large_grid(seed: u64) -> Grid2 {
+    let mut stream = stream(derive(seed, &["large"]));
+    match seed % 3 {
+        0 => grid(seed, 41, 0.35),
+        1 => maze(&mut stream, [41, 41]).unwrap(),
+        _ => rooms(&mut stream, [41, 41], 6, 0.6).unwrap(),
+    }
+}
+
 #[test]
 fn landmarks_change_no_optimum_and_know_where_there_is_no_path() {
-    let (mut solved, mut unsolved) = (0, 0);
+    let (mut solved, mut unsolved, mut longest) = (0, 0, 0.0_f64);
     for seed in 100..112 {
-        let grid = grid(seed, 40, 0.35);
+        let grid = large_grid(seed);
         let mut stream = stream(derive(seed, &["queries"]));
         for rule in RULES {
-            let mut point = || [stream.random_range(0..40), stream.random_range(0..40)].map(f64::from);
+            let mut point = || [stream.random_range(0..41), stream.random_range(0..41)].map(f64::from);
             let first = point();
             let landmarks =
                 Landmarks::new(&Case { grid: &grid, corner_rule: rule, start: &first, goal: &first });
-            for _ in 0..60 {
+            for query in 0..60 {
                 let (start, goal) = (point(), point());
                 let case = Case { grid: &grid, corner_rule: rule, start: &start, goal: &goal };
                 let (with, without) = (case.optimal_cost_by(landmarks.as_ref()), case.optimal_cost());
@@ -201,8 +211,19 @@ fn landmarks_change_no_optimum_and_know_where_there_is_no_path() {
                     (solved, unsolved) =
                         (solved + u32::from(with.is_some()), unsolved + u32::from(with.is_none()));
                 }
+                if query < 4 {
+                    let [from, to] = [&start, &goal].map(|[x, y]| grid.cell(*x as i32, *y as i32).unwrap());
+                    let truth = relaxed(&grid, rule, from)[to as usize];
+                    let is_free = grid.is_free(from) && grid.is_free(to);
+                    let truth = Some(truth).filter(|cost| is_free && cost.is_finite());
+                    let off = with.zip(truth).map_or(0.0, |(with, truth)| (with - truth).abs());
+                    let place = format!("seed {seed}: {start:?} to {goal:?}: {with:?}, not {truth:?}");
+                    assert!(with.is_some() == truth.is_some() && off < 1e-9, "{place}");
+                    longest = longest.max(truth.unwrap_or_default());
+                }
             }
         }
     }
     assert!(solved > 200 && unsolved > 200, "one-sided sample: {solved} with a path, {unsolved} without");
+    assert!(longest > 150.0, "no way is roundabout: {longest}");
 }
