@@ -202,23 +202,23 @@ fn landmarks_change_no_optimum_and_know_where_there_is_no_path() {
             let first = point();
             let landmarks =
                 Landmarks::new(&Case { grid: &grid, corner_rule: rule, start: &first, goal: &first });
-            for query in 0..60 {
-                let (start, goal) = (point(), point());
-                let case = Case { grid: &grid, corner_rule: rule, start: &start, goal: &goal };
-                let (with, without) = (case.optimal_cost_by(landmarks.as_ref()), case.optimal_cost());
-                assert_eq!(with, without, "seed {seed}: {start:?} to {goal:?}\n{grid:?}");
-                if landmarks.is_some() {
-                    (solved, unsolved) =
-                        (solved + u32::from(with.is_some()), unsolved + u32::from(with.is_none()));
-                }
-                if query < 4 {
-                    let [from, to] = [&start, &goal].map(|[x, y]| grid.cell(*x as i32, *y as i32).unwrap());
-                    let truth = relaxed(&grid, rule, from)[to as usize];
-                    let is_free = grid.is_free(from) && grid.is_free(to);
-                    let truth = Some(truth).filter(|cost| is_free && cost.is_finite());
+            for start in [point(), point(), point()] {
+                let cell = |[x, y]: [f64; 2]| grid.cell(x as i32, y as i32).unwrap();
+                let truth = relaxed(&grid, rule, cell(start));
+                for _ in 0..60 {
+                    let goal = point();
+                    let case = Case { grid: &grid, corner_rule: rule, start: &start, goal: &goal };
+                    let is_free = grid.is_free(cell(start)) && grid.is_free(cell(goal));
+                    let truth = Some(truth[cell(goal) as usize]).filter(|cost| is_free && cost.is_finite());
+                    let (with, without) = (case.optimal_cost_by(landmarks.as_ref()), case.optimal_cost());
                     let off = with.zip(truth).map_or(0.0, |(with, truth)| (with - truth).abs());
-                    let place = format!("seed {seed}: {start:?} to {goal:?}: {with:?}, not {truth:?}");
-                    assert!(with.is_some() == truth.is_some() && off < 1e-9, "{place}");
+                    let place =
+                        format!("seed {seed}, {rule:?}: {start:?} to {goal:?}: {with:?}, not {truth:?}");
+                    assert!(with == without && with.is_some() == truth.is_some() && off < 1e-9, "{place}");
+                    if landmarks.is_some() {
+                        (solved, unsolved) =
+                            (solved + u32::from(with.is_some()), unsolved + u32::from(with.is_none()));
+                    }
                     longest = longest.max(truth.unwrap_or_default());
                 }
             }
@@ -226,4 +226,24 @@ fn landmarks_change_no_optimum_and_know_where_there_is_no_path() {
     }
     assert!(solved > 200 && unsolved > 200, "one-sided sample: {solved} with a path, {unsolved} without");
     assert!(longest > 150.0, "no way is roundabout: {longest}");
+}
+
+/// One way of 82 straight moves and two around its corners, and one of 60 diagonal moves, which is longer by 0.0244: less than a
+/// bucket.
+#[test]
+fn of_two_ways_in_one_bucket_the_shorter_is_found() {
+    let mut grid = Grid2::new(61, 44).unwrap();
+    let diagonal = (0..=60).map(|x: i32| [x, 43 - (x - 30).abs()]);
+    let straight = (0..=60).map(|x| [x, 0]).chain((0..=13).flat_map(|y| [[0, y], [60, y]]));
+    let free: Vec<[i32; 2]> = diagonal.chain(straight).collect();
+    for cell in 0..grid.cell_count() {
+        let is_free = free.contains(&grid.xy(cell));
+        grid.set_blocked(cell, !is_free);
+    }
+    let (ends, least) = ([[0.0, 13.0], [60.0, 13.0]], Some(82.0 + 2.0 * std::f64::consts::SQRT_2));
+    for [start, goal] in [ends, [ends[1], ends[0]]] {
+        let case = Case { grid: &grid, corner_rule: CornerRule::Allow, start: &start, goal: &goal };
+        let landmarks = Landmarks::new(&case);
+        assert_eq!([case.optimal_cost(), case.optimal_cost_by(landmarks.as_ref())], [least; 2]);
+    }
 }
