@@ -7,7 +7,7 @@
 mod attached;
 mod file;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 mod urdf;
 
 pub use file::ROBOT_FILE;

@@ -11,7 +11,7 @@ use crate::{
 use base::seed;
 
 mod hull;
-mod urdf;
+pub(in crate::kinematics) mod urdf;
 
 const FILE: &str = include_str!("../../../../data/robots/motoman_up6.toml");
 

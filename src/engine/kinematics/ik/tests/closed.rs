@@ -7,6 +7,7 @@ use super::{
     },
     *,
 };
+use crate::kinematics::{Joint, robot::tests::urdf::read_back};
 use base::seed::Stream;
 
 /// How far two poses are apart: metres and radians.
@@ -14,8 +15,9 @@ pub fn residual(a: &Frame, b: &Frame) -> (f64, f64) {
     ((a.origin - b.origin).norm(), (a.rotation - b.rotation).norm() / 2_f64.sqrt())
 }
 
-fn published() -> [(&'static str, Arm, &'static str); 7] {
-    [
+/// Arms by their published rows, and three of them as read from a URDF file.
+fn published() -> Vec<(&'static str, Arm, &'static str)> {
+    let mut arms = vec![
         ("puma", arm(&PUMA), "spherical_wrist"),
         ("puma, d2", arm(&PUMA_D2), "spherical_wrist"),
         ("puma, d2 and d3", arm(&PUMA_SHARED), "spherical_wrist"),
@@ -23,7 +25,21 @@ fn published() -> [(&'static str, Arm, &'static str); 7] {
         ("ur5", arm(&UR5), "offset_wrist"),
         ("ur5, modified", modified_arm(&UR5_MODIFIED), "offset_wrist"),
         ("ur5, turned", arm(&UR5_TURNED), "offset_wrist"),
-    ]
+        ("up6", up6(), "spherical_wrist"),
+    ];
+    let by_urdf = [("puma, urdf", arm(&PUMA)), ("ur5, urdf", arm(&UR5)), ("up6, urdf", up6())];
+    arms.extend(by_urdf.map(|(name, arm)| (name, read_back(&arm), arm.solver().name)));
+    arms
+}
+
+/// The rows of the shipped UP6, whose shoulder is offset, with joints that turn half a turn either way.
+fn up6() -> Arm {
+    let rows = robot("motoman_up6").arm().chain().joints().map(|joint| Joint {
+        lower_rad: -PI,
+        upper_rad: PI,
+        ..joint
+    });
+    Arm::new(Chain::new(rows, Frame::IDENTITY, Frame::IDENTITY).unwrap(), None).unwrap()
 }
 
 /// Every solution leads to the pose of `q`, and is also found alone; returns how many there are.

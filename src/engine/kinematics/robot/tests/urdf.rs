@@ -4,26 +4,28 @@ use super::super::urdf;
 use super::*;
 use crate::geometry::{Solid, Sphere, Vec3, intersects_capsule_solid};
 use crate::kinematics::open_chain::OpenChain;
-use crate::kinematics::{AXES, Chain};
+use crate::kinematics::{AXES, Arm, Chain};
 use base::robot::parse_urdf;
 use base::settings::Document;
 use rand::RngExt as _;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::fmt::Write as _;
 
-/// The chain's rows as URDF: each joint turns about the z of its frame, and a row's length, offset and twist lead to the next.
+/// The chain's rows as URDF: a link welded on is turned by a row's offset, each joint turns about the z of its frame, and a row's
+/// length and twist lead to the next.
 fn urdf(chain: &Chain, solids: &str) -> String {
     let mut text = "<robot name=\"rows\"><link name=\"l0\"/>".to_owned();
     let (mut xyz, mut roll) = ([0.0; 3], 0.0);
     for (i, joint) in chain.joints().iter().enumerate() {
-        assert_eq!(joint.offset_rad, 0.0, "the angle of a row would need a frame of its own");
         let [x, y, z] = xyz;
         let (lower, upper, speed) = (joint.lower_rad, joint.upper_rad, joint.speed_rad_s);
-        let next = i + 1;
+        let (next, offset) = (i + 1, joint.offset_rad);
         let _ = write!(
             text,
-            "<joint name=\"j{next}\" type=\"revolute\"><parent link=\"l{i}\"/><child link=\"l{next}\"/>\
-             <origin xyz=\"{x:?} {y:?} {z:?}\" rpy=\"{roll:?} 0 0\"/><axis xyz=\"0 0 1\"/>\
+            "<joint name=\"w{next}\" type=\"fixed\"><parent link=\"l{i}\"/><child link=\"w{next}\"/>\
+             <origin xyz=\"{x:?} {y:?} {z:?}\" rpy=\"{roll:?} 0 0\"/></joint><link name=\"w{next}\"/>\
+             <joint name=\"j{next}\" type=\"revolute\"><parent link=\"w{next}\"/><child link=\"l{next}\"/>\
+             <origin rpy=\"0 0 {offset:?}\"/><axis xyz=\"0 0 1\"/>\
              <limit lower=\"{lower:?}\" upper=\"{upper:?}\" velocity=\"{speed:?}\"/></joint><link name=\"l{next}\">{solids}</link>"
         );
         (xyz, roll) = ([joint.a_m, 0.0, joint.d_m], joint.alpha_rad);
@@ -35,6 +37,11 @@ fn urdf(chain: &Chain, solids: &str) -> String {
          rpy=\"{roll:?} 0 0\"/></joint><link name=\"tip\"/></robot>"
     );
     text
+}
+
+/// The arm, which stands at the origin without a tool, as a URDF file of it is read.
+pub fn read_back(arm: &Arm) -> Arm {
+    urdf::robot(&parsed(urdf(arm.chain(), ""))).unwrap().arm().clone()
 }
 
 fn parsed(text: String) -> base::robot::Robot {
@@ -50,21 +57,27 @@ const SOLIDS: &str = r#"<collision><origin xyz="0.01 0.02 0.03" rpy="0.3 -0.2 0.
 
 #[test]
 fn shipped_arms_written_as_urdf_keep_their_kinematics_and_their_closed_form() {
-    for (seed, name, solver) in [(1, "ur5", "offset_wrist"), (2, "puma560", "spherical_wrist")] {
+    let shipped_arms = [
+        (1, "ur5", "offset_wrist"),
+        (2, "puma560", "spherical_wrist"),
+        (3, "motoman_up6", "spherical_wrist"),
+        (4, "aubo_i10", "offset_wrist"),
+    ];
+    for (seed, name, solver) in shipped_arms {
         let bare = shipped(name).arm().with_tool(Frame::IDENTITY);
         let chain = bare.chain();
-        let robot = urdf::robot(&parsed(urdf(chain, SOLIDS))).unwrap();
-        assert_eq!((robot.arm().solver().name, robot.arm().solver().is_complete), (solver, true), "{name}");
+        let read = read_back(&bare);
+        assert_eq!((read.solver().name, read.solver().is_complete), (solver, true), "{name}");
         let mut stream = seed::stream(seed);
-        for case in 0..2_000 {
+        for case in 0..100_000 {
             let [q, reference] = [draw(&mut stream, chain), draw(&mut stream, chain)];
-            let (ours, theirs) = (robot.arm().chain().forward(&q), chain.forward(&q));
+            let (ours, theirs) = (read.chain().forward(&q), chain.forward(&q));
             let off = (ours.origin - theirs.origin).norm() + (ours.rotation - theirs.rotation).norm();
             assert!(off < 1e-12, "{name}, seed {seed} case {case}: off by {off}");
-            let all = robot.arm().inverse(&theirs, &reference);
+            let all = read.inverse(&theirs, &reference);
             assert!(all.iter().count() > 0, "{name}, seed {seed} case {case}: no configuration");
             for (_, found) in all.iter() {
-                let again = robot.arm().chain().forward(found);
+                let again = read.chain().forward(found);
                 let off = (again.origin - theirs.origin).norm() + (again.rotation - theirs.rotation).norm();
                 assert!(off < 1e-9, "{name}, seed {seed} case {case}: off by {off}");
             }
