@@ -3,11 +3,13 @@
 use super::load::gather;
 use super::places::{Places, papers};
 use super::{Failure, Which, all};
+use crate::analysis::evidence::default_point;
 use crate::crosscheck::Spec;
 use crate::study::paper::Paper;
 use crate::study::rerun;
 use base::settings::Faults;
 use clap::Args;
+use std::collections::BTreeSet;
 
 /// Checks papers and specs.
 #[derive(Args)]
@@ -53,6 +55,9 @@ impl Check {
             paper.claims.len(),
             paper.ledger.len()
         );
+        for note in notes(&paper, &places) {
+            say!("  {note}");
+        }
         for (path, kind) in &paper.others {
             say!("  {} is taken for a {kind}, not for a study", path.display());
         }
@@ -61,6 +66,18 @@ impl Check {
         }
         Ok(())
     }
+}
+
+/// How input files were taken, each sentence once.
+fn notes(paper: &Paper, places: &Places) -> BTreeSet<String> {
+    let mut notes = BTreeSet::new();
+    for study in &paper.studies {
+        let point = default_point(paper).for_trials(&study.readings);
+        // A family that cannot be built was told of before.
+        let families = study.groups.iter().filter_map(|group| group.family(&point, &places.inputs).ok());
+        notes.extend(families.flat_map(|family| family.notes()));
+    }
+    notes
 }
 
 /// Runs a sample of each study's stored trials again.

@@ -1,5 +1,6 @@
 //! The URDF robots that are shipped: MuJoCo's frames are ours, and the UR5 is the one of the robot file.
 
+use crate::paper::Bench;
 use base::robot::read_urdf;
 use engine::kinematics::open_chain::OpenChain;
 use engine::kinematics::{AXES, Robot};
@@ -51,6 +52,67 @@ fn forward_kinematics_of_every_urdf_robot_are_those_of_mujoco_to_a_billionth() {
         }
     }
     assert!(compared >= 600, "only {compared} frames");
+}
+
+#[test]
+fn robots_by_rows_are_all_given_to_mujoco_by_the_cross_check_of_some_paper() {
+    let papers = fs::read_dir(root().join("experiments")).unwrap();
+    let specs =
+        papers.filter_map(|entry| fs::read_to_string(entry.unwrap().path().join("crosscheck.toml")).ok());
+    let specs: Vec<toml::Table> = specs.map(|text| toml::from_str(&text).unwrap()).collect();
+    let robots = specs.iter().filter_map(|spec| spec.get("robot")?.as_array());
+    let given: Vec<&str> = robots.flatten().map(|robot| robot["file"].as_str().unwrap()).collect();
+    let mut files = 0;
+    for entry in fs::read_dir(root().join("data/robots")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if name.ends_with(".toml") {
+            assert!(
+                given.contains(&format!("data/robots/{name}").as_str()),
+                "{name} is in no crosscheck.toml"
+            );
+            files += 1;
+        }
+    }
+    assert!(files >= 4, "only {files} robots by rows");
+}
+
+/// A UR5 whose fifth axis is turned by 0.1 rad, so that no closed form fits, with a box and a mesh at the wrist.
+fn skewed_ur5(bench: &Bench) {
+    let text = fs::read_to_string(root().join("data/robots/ur5.urdf")).unwrap();
+    let solids = "<link name=\"wrist_3\"><collision><geometry><box size=\"0.02 0.02 0.01\"/></geometry></collision>\
+                  <collision><geometry><mesh filename=\"tool.stl\"/></geometry></collision></link>";
+    let skewed = text
+        .replace(
+            "<origin xyz=\"0 0 0.10915\" rpy=\"1.5707963267948966 0 0\"/>",
+            "<origin xyz=\"0 0 0.10915\" rpy=\"1.47 0 0\"/>",
+        )
+        .replace("<link name=\"wrist_3\"/>", solids);
+    assert!(skewed.contains("1.47") && skewed.contains("tool.stl"), "ur5.urdf is written otherwise");
+    bench.write("toy/my.urdf", skewed.as_bytes());
+    let stl = "solid\nvertex 0 0 0\nvertex 0.02 0 0\nvertex 0 0.02 0\nvertex 0 0 0.02\nendsolid\n";
+    bench.write("toy/tool.stl", stl.as_bytes());
+}
+
+#[test]
+fn check_tells_what_capsules_stand_for_and_that_a_search_may_miss_configurations() {
+    let bench = Bench::empty();
+    bench.done(&["new", "toy", "--from", "cell"]);
+    assert!(!bench.done(&["check", "./toy"]).contains("robot.toml"), "rows and capsules are as written");
+    skewed_ur5(&bench);
+    bench.edit("toy/cell.toml", "robot = \"robot.toml\"", "robot = \"my.urdf\"");
+    bench.edit(
+        "toy/cell.toml",
+        "obstacles = true\nself_collision = true",
+        "obstacles = false\nself_collision = false",
+    );
+    let said = bench.done(&["check", "./toy"]);
+    for note in [
+        "  my.urdf: the capsules around them stand for its solids (boxes: 1; cylinders: 9; meshes, by the hulls of their STL \
+         vertices: 1); contact is never missed and sometimes seen too early\n",
+        "  my.urdf: inverse kinematics by `numerical`, which may miss configurations; ",
+    ] {
+        assert!(said.contains(note), "no `{note}` in\n{said}");
+    }
 }
 
 #[test]

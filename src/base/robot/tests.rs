@@ -27,7 +27,7 @@ const ARM: &str = r#"<?xml version="1.0"?>
     <origin xyz="0 0 0.4"/><axis xyz="0 1 0"/><limit effort="1" velocity="1"/>
   </joint>
   <link name="arm"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
-  <joint name="flange" type="fixed"><parent link="arm"/><child link="hand"/><origin xyz="0 0 0.5"/></joint>
+  <joint name="flange" type="fixed"><parent link="arm"/><child link="hand"/><origin xyz="0 0 0.5" rpy="0 1.5708 0"/></joint>
   <link name="hand"/>
   <joint name="cam" type="fixed"><parent link="arm"/><child link="camera"/></joint>
   <link name="camera"/>
@@ -55,6 +55,7 @@ fn welded_links_are_one_and_everything_is_placed_in_the_frame_of_its_joint() {
     let names: Vec<(usize, &str)> =
         robot.solids.iter().map(|(link, solid)| (*link, solid.name.as_str())).collect();
     assert_eq!(names, [(0, "base"), (1, "mast"), (1, "mast 2"), (2, "arm")]);
+    assert_eq!(robot.solids[0].1.form, Form::Box([0.1, 0.1, 0.05]), "half of its sides");
     assert_eq!(robot.solids[1].1.pose.origin_m, [0.3, 0.0, 0.2]);
     assert_eq!(robot.solids[1].1.form, Form::Cylinder(0.05, 0.4));
     assert!(
@@ -64,7 +65,11 @@ fn welded_links_are_one_and_everything_is_placed_in_the_frame_of_its_joint() {
     assert_eq!((turn.axis, turn.limits_rad, turn.speed_rad_s), ([0.0, 0.0, 1.0], [-1.0, 2.0], 3.0));
     assert_eq!(turn.before.point([1.0, 0.0, 0.0]), [0.0, 1.0, 0.1], "1.5708 is a right angle");
     assert_eq!((nod.before.origin_m, nod.limits_rad[1]), ([0.3, 0.0, 0.4], std::f64::consts::PI));
-    assert_eq!(robot.tip.origin_m, [0.0, 0.0, 0.6], "the link that the most joints lead to");
+    assert_eq!(
+        robot.tip.origin_m,
+        [0.1, 0.0, 0.5],
+        "the link that the most joints lead to, ahead of the turned hand"
+    );
     assert_eq!(robot.files.len(), 1);
 }
 

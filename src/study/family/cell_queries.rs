@@ -350,6 +350,11 @@ impl Family for Posed {
         picture::stance(&self.cell, q_rad)
     }
 
+    fn notes(&self) -> Vec<String> {
+        let notes = self.cell.robot().notes();
+        notes.into_iter().map(|note| format!("{}: {note}", self.read.robot)).collect()
+    }
+
     fn inputs(&self) -> &[PathBuf] {
         &self.inputs
     }

@@ -89,6 +89,11 @@ pub trait Family: Send + Sync {
         None
     }
 
+    /// What a reader of results should know of how its files were taken, a sentence each.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The files that were read for it.
     fn inputs(&self) -> &[PathBuf] {
         &[]

@@ -208,6 +208,15 @@ impl Family for Posed {
         picture::stance(&self.space, q_rad)
     }
 
+    fn notes(&self) -> Vec<String> {
+        let solids = &self.space.robot().solids;
+        let meshes = solids.iter().filter(|(_, solid)| matches!(solid.form, Form::Hull(_))).count();
+        let note = || {
+            format!("{}: the convex hulls of their STL vertices stand for {meshes} meshes", self.read.robot)
+        };
+        (meshes > 0).then(note).into_iter().collect()
+    }
+
     fn inputs(&self) -> &[PathBuf] {
         &self.inputs
     }

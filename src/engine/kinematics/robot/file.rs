@@ -145,7 +145,15 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Robot, KinematicsError> {
     })?;
     let links = Links { chain: arm.chain(), far, tool_length_m };
     let bodies = bodies(&source, &file.body, &links)?;
-    Ok(Robot { name: file.name, arm, flange: Frame::IDENTITY, tool_length_m, bodies, files: Vec::new() })
+    Ok(Robot {
+        name: file.name,
+        arm,
+        flange: Frame::IDENTITY,
+        tool_length_m,
+        bodies,
+        files: Vec::new(),
+        enclosed: None,
+    })
 }
 
 /// What capsules are fixed to.
@@ -184,7 +192,43 @@ fn joints(
         faults.add(source.fault(&span, format!("{count} joints were given; accepted: {AXES}")));
     }
     let joints = faults.keep_each(entries.get_ref().iter().map(|entry| joint(source, entry)));
+    for fault in other_units(source, entries.get_ref()) {
+        faults.add(fault);
+    }
     faults.or(joints.try_into().ok())
+}
+
+/// What is said of an arm that is a thousandth of its size, or does not turn: it is written in metres or radians.
+fn other_units(source: &Source, entries: &[Spanned<JointEntry>]) -> Vec<SettingsError> {
+    // The longest link of an arm is longer, and some joint turns farther; metres and radians are less.
+    const SHORT_MM: f64 = 10.0;
+    const LITTLE_DEG: f64 = 7.0;
+    let greatest = |of: fn(&JointEntry) -> [f64; 2]| {
+        let sizes = entries.iter().map(|entry| {
+            let [a, b] = of(entry.get_ref()).map(f64::abs);
+            (a.max(b), entry.span())
+        });
+        sizes.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(size, _)| *size > 0.0)
+    };
+    let mut faults = Vec::new();
+    if let Some((size, at)) = greatest(|joint| [joint.a_mm, joint.d_mm]).filter(|(size, _)| *size < SHORT_MM)
+    {
+        let message = format!(
+            "no link is longer than {size} mm; are lengths in metres? millimetres are accepted ({size} m is {} mm)",
+            size * 1e3
+        );
+        faults.push(source.fault(&at, message));
+    }
+    if let Some((size, at)) =
+        greatest(|joint| [joint.lower_deg, joint.upper_deg]).filter(|(size, _)| *size < LITTLE_DEG)
+    {
+        let message = format!(
+            "no joint turns beyond {size}°; are limits in radians? degrees are accepted ({size} rad is {:.1}°)",
+            size.to_degrees()
+        );
+        faults.push(source.fault(&at, message));
+    }
+    faults
 }
 
 /// The chain, and the file's frames in its frames if they differ.

@@ -28,6 +28,8 @@ pub struct Robot {
     tool_length_m: f64,
     bodies: Vec<Body>,
     files: Vec<PathBuf>,
+    /// What capsules of ours stand for, if the file has other solids.
+    enclosed: Option<String>,
 }
 
 /// Capsules that stand for an arm and its tool.
@@ -84,6 +86,14 @@ impl Robot {
         &self.files
     }
 
+    /// What a reader of results should know of how the file was taken, a sentence each: solids that capsules stand for, and a
+    /// solver that may miss configurations.
+    pub fn notes(&self) -> Vec<String> {
+        let solver = self.arm.solver();
+        let incomplete = (!solver.is_complete).then(|| solver.to_string());
+        self.enclosed.iter().cloned().chain(incomplete).collect()
+    }
+
     /// The arm, with the tool.
     pub fn arm(&self) -> &Arm {
         &self.arm
@@ -124,6 +134,7 @@ impl Robot {
             tool_length_m,
             name: self.name.clone(),
             files: self.files.clone(),
+            enclosed: self.enclosed.clone(),
         })
     }
 }

@@ -86,6 +86,32 @@ fn a_file_that_cannot_be_is_refused_with_its_place_and_what_is_accepted() {
     }
 }
 
+/// The file with the numbers of some keys of its joints multiplied.
+fn scaled(keys: [&str; 2], by: f64) -> String {
+    let joints = FILE.find("[tool]").unwrap();
+    let line = |line: &str| match line.split_once(" = ") {
+        Some((key, number)) if keys.contains(&key) => {
+            format!("{key} = {:?}", number.parse::<f64>().unwrap() * by)
+        }
+        _ => line.to_owned(),
+    };
+    let rows: Vec<String> = FILE[..joints].lines().map(line).collect();
+    rows.join("\n") + "\n" + &FILE[joints..]
+}
+
+#[test]
+fn rows_in_metres_and_limits_in_radians_are_guessed_and_asked_about() {
+    let said = |text: &str| Robot::parse(text, Path::new("up6.toml")).map_err(|error| error.to_string());
+    let metres = said(&scaled(["a_mm", "d_mm"], 1e-3)).unwrap_err();
+    let asked =
+        "no link is longer than 0.64 mm; are lengths in metres? millimetres are accepted (0.64 m is 640 mm)";
+    assert!(metres.starts_with("up6.toml:") && metres.contains(asked), "{metres}");
+    let radians = said(&scaled(["lower_deg", "upper_deg"], 1_f64.to_radians())).unwrap_err();
+    let asked = "are limits in radians? degrees are accepted (6.28";
+    assert!(radians.starts_with("up6.toml:") && radians.contains(asked), "{radians}");
+    assert!(said(&scaled(["a_mm", "d_mm"], 0.1)).is_ok_and(|robot| robot.notes().is_empty()), "a small arm");
+}
+
 #[test]
 fn an_arm_has_six_joints_and_a_robot_a_body() {
     let joint = &FILE[FILE.find("[[joint]]").unwrap()..FILE.find("[tool]").unwrap()];

@@ -56,6 +56,28 @@ pub(super) fn robot(read: &base::robot::Robot) -> Result<Robot, KinematicsError>
         tool_length_m: 0.0,
         bodies: vec![body],
         files: read.files.clone(),
+        enclosed: enclosed(&read.solids),
+    })
+}
+
+/// What capsules stand for, unless every solid is a sphere.
+fn enclosed(solids: &[(usize, Solid)]) -> Option<String> {
+    let count = |is_it: fn(&Form) -> bool| solids.iter().filter(|(_, solid)| is_it(&solid.form)).count();
+    let kinds = [
+        ("boxes", count(|form| matches!(form, Form::Box(_)))),
+        ("cylinders", count(|form| matches!(form, Form::Cylinder(..)))),
+        ("meshes, by the hulls of their STL vertices", count(|form| matches!(form, Form::Hull(_)))),
+    ];
+    let found: Vec<String> = kinds
+        .iter()
+        .filter(|(_, count)| *count > 0)
+        .map(|(name, count)| format!("{name}: {count}"))
+        .collect();
+    (!found.is_empty()).then(|| {
+        format!(
+            "the capsules around them stand for its solids ({}); contact is never missed and sometimes seen too early",
+            found.join("; ")
+        )
     })
 }
 

@@ -5,6 +5,7 @@ use crate::space::SupportEntry;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::ops::Range;
 use std::path::Path;
 
 /// What stands still around a robot.
@@ -130,6 +131,41 @@ impl ConvexEntry {
     }
 }
 
+impl SceneFile {
+    /// Every number of the obstacles, with the place of its obstacle.
+    fn lengths_mm(&self) -> impl Iterator<Item = (Range<usize>, f64)> {
+        let boxes = self.boxes.iter().map(|e| (e.span(), [e.get_ref().min_mm, e.get_ref().max_mm].concat()));
+        let spheres = self.spheres.iter().map(|e| {
+            let SphereEntry { center_mm, radius_mm, .. } = e.get_ref();
+            (e.span(), [&center_mm[..], &[*radius_mm]].concat())
+        });
+        let capsules = self.capsules.iter().map(|e| {
+            let CapsuleEntry { from_mm, to_mm, radius_mm, .. } = e.get_ref();
+            (e.span(), [&from_mm[..], to_mm, &[*radius_mm]].concat())
+        });
+        let convexes = self.convexes.iter().map(|e| (e.span(), e.get_ref().vertices_mm.concat()));
+        let all = boxes.chain(spheres).chain(capsules).chain(convexes);
+        all.flat_map(|(at, lengths)| lengths.into_iter().map(move |length| (at.clone(), length.abs())))
+    }
+
+    /// That the scene is not a thousandth of its size, as one written in metres is.
+    fn millimetres(&self, document: &Document) -> Result<(), SettingsError> {
+        const NEAR_MM: f64 = 10.0;
+        let farthest = self.lengths_mm().max_by(|a, b| a.1.total_cmp(&b.1));
+        match farthest.filter(|(_, length)| (f64::MIN_POSITIVE..NEAR_MM).contains(length)) {
+            None => Ok(()),
+            Some((at, length)) => Err(document.error(
+                at,
+                format!(
+                    "no obstacle reaches farther than {length} mm from the origin; are lengths in metres? millimetres are \
+                     accepted ({length} m is {} mm)",
+                    length * 1e3
+                ),
+            )),
+        }
+    }
+}
+
 impl Scene {
     /// The scene in the file at `path`.
     ///
@@ -143,10 +179,11 @@ impl Scene {
     ///
     /// # Errors
     /// All of them at once: the line and column of an unknown key, a number that is not finite, a size that is not above 0, a shape that
-    /// encloses nothing, or a name that stands twice.
+    /// encloses nothing, a name that stands twice, or obstacles that all lie within 10 mm, as in a file in metres.
     pub fn parse(document: &Document) -> Result<Self, SettingsError> {
         let file: SceneFile = document.read()?;
         let (support, mut faults) = (&file.support, Faults::default());
+        faults.keep(file.millimetres(document));
         let read = support.get_ref().support().map_err(|message| document.error(support.span(), message))?;
         let mut scene = Self { name: file.name, base: *read.base(), obstacles: Vec::new(), under: 0 };
         for (name, solid) in read.solids().map_err(|e| document.error(support.span(), e.to_string()))? {
@@ -297,6 +334,10 @@ mod tests {
             (
                 "[[box]]\nname = 'b'\nmin_mm = [0, 0, 0]\nmax_mm = [1, -2, 3]\n",
                 ["s.toml:2:1", "`b`", "greater than 0"],
+            ),
+            (
+                "[[box]]\nname = 'b'\nmin_mm = [0.38, -0.04, 0]\nmax_mm = [0.9, 0.04, 0.55]\n",
+                ["s.toml:2:1", "than 0.9 mm from the origin; are lengths in metres?", "(0.9 m is 900 mm)"],
             ),
             (
                 "[[sphere]]\nname = 'k'\ncenter_mm = [0, nan, 0]\nradius_mm = 1\n",
