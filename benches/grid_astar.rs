@@ -8,7 +8,9 @@
 //! - `planner`: the planner of that name as studies call it, from request to plan, over the same search;
 //! - `general`: the kernel it specialises, over the same buckets;
 //! - `pathfinding_u32`: the crate with `u32` nodes and costs and successors from legal-move masks, unallocated;
-//! - `pathfinding_typical`: the crate with `(x, y)` nodes, `f64` costs and a `Vec` of successors.
+//! - `pathfinding_typical`: the crate with `(x, y)` nodes, `f64` costs and a `Vec` of successors;
+//! - `verifier`: the verifier's own optimum, by landmarks made before, and `verifier_dijkstra`: the crate's search without an
+//!   estimate, which is what such an optimum costs otherwise.
 
 use base::grid::{
     Components, CornerRule, DIRECTIONS, Grid2, components, independent_cells, read_movingai_map, rectangles,
@@ -21,9 +23,13 @@ use engine::search::{
     Best, Buckets, GridGraph, Octile, OctileAstar, Rules, ScaledOctile, Search, Terms, Update,
 };
 use engine::space::{LatticeWorld, World};
-use pathfinding::{num_traits::Zero, prelude::astar};
+use pathfinding::{
+    num_traits::Zero,
+    prelude::{astar, dijkstra},
+};
 use rand::RngExt as _;
 use std::{cmp::Ordering, hint::black_box, ops::Add, path::Path, time::Duration};
+use verify::lattice::{Case, Landmarks};
 
 /// An `f64` in total order, as the crate asks of costs.
 #[derive(Clone, Copy, PartialEq)]
@@ -137,6 +143,27 @@ impl Posed {
         self.queries.iter().map(solve).sum()
     }
 
+    /// A query as the verifier takes it.
+    fn case<'a>(&'a self, [start, goal]: &'a [Vec<f64>; 2]) -> Case<'a> {
+        Case { grid: self.lattice().grid(), corner_rule: self.lattice().corner_rule(), start, goal }
+    }
+
+    fn verified(&self, landmarks: &Landmarks) -> f64 {
+        self.ends.iter().map(|ends| self.case(ends).optimal_cost_by(Some(landmarks)).unwrap()).sum()
+    }
+
+    fn crate_dijkstra(&self) -> u64 {
+        let moves = self.lattice().moves();
+        let successors =
+            |&cell: &u32| moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393 } else { 985 }));
+        let solve = |&[start, goal]: &[u32; 2]| {
+            let (path, cost) = dijkstra(&start, successors, |&cell| cell == goal).unwrap();
+            black_box(path);
+            u64::from(cost)
+        };
+        self.queries.iter().map(solve).sum()
+    }
+
     fn crate_typical(&self) -> f64 {
         let grid = self.lattice().grid();
         let successors = |&(x, y): &(i32, i32)| {
@@ -183,11 +210,16 @@ fn compare(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {
     assert!((exact - posed.crate_typical()).abs() < 1e-6 * exact);
     let in_cells = truth as f64 / f64::from(ScaledOctile::STRAIGHT);
     assert!((exact - in_cells).abs() < 1e-5 * exact, "1393 / 985 is √2 to a millionth");
+    let landmarks = Landmarks::new(&posed.case(&posed.ends[0])).expect("a map of 4 million cells at most");
+    assert!((exact - posed.verified(&landmarks)).abs() < 1e-6 * exact);
+    assert_eq!(posed.crate_dijkstra(), truth);
     group.bench_function("astar_octile", |bencher| bencher.iter(|| posed.octile(&mut fast)));
     group.bench_function("planner", |bencher| bencher.iter(|| posed.planned(planner.as_ref())));
     group.bench_function("general", |bencher| bencher.iter(|| posed.general(&mut general)));
     group.bench_function("pathfinding_u32", |bencher| bencher.iter(|| posed.crate_best()));
     group.bench_function("pathfinding_typical", |bencher| bencher.iter(|| posed.crate_typical()));
+    group.bench_function("verifier", |bencher| bencher.iter(|| posed.verified(&landmarks)));
+    group.bench_function("verifier_dijkstra", |bencher| bencher.iter(|| posed.crate_dijkstra()));
 }
 
 fn grid_astar(criterion: &mut Criterion) {

@@ -149,12 +149,14 @@ fn straight_lines(scene: &Scene<'_>, draw: &Arc<DrawKey>) -> Option<String> {
             blocked.push(name.to_owned());
         }
     }
-    let (free, all) = (free.join(", "), free.len() + blocked.len());
-    let count = all - blocked.len();
-    Some(format!(
-        "{count} of {all} straight lines are free, with mm of clearance: {free}; blocked: {}",
-        blocked.join(", ")
-    ))
+    let mut said = format!("{} of {} straight lines are free", free.len(), free.len() + blocked.len());
+    for (what, names) in [(", with mm of clearance: ", free), ("; blocked: ", blocked)] {
+        if !names.is_empty() {
+            said += what;
+            said += &names.join(", ");
+        }
+    }
+    Some(said)
 }
 
 /// A pose in words: joint angles, where flange and tip are, and where the tool points.
