@@ -254,6 +254,22 @@ mod tests {
         assert!((turned[1] - 2.0 * H * H).abs() < 1e-12, "{turned:?}: x of the plank is y of the world");
     }
 
+    #[test]
+    fn a_quaternion_with_its_real_part_last_turns_as_one_with_its_real_part_first() {
+        let last = format!("\"orientation_quat_xyzw\": [0, 0, {H}, {H}]");
+        let text = VAMP.replacen("\"orientation_euler_xyz\": [0, 0, 1.5707963267948966]", &last, 1);
+        assert_ne!(text, VAMP);
+        let [one, other] = [VAMP, &text].map(|text| read(text, None, 0).unwrap().obstacles[0].pose);
+        let [at, by] = [one, other].map(|pose| pose.point([0.3, 0.2, 0.1]));
+        assert!(at.iter().zip(by).all(|(x, y)| (x - y).abs() < 1e-15), "{at:?} {by:?}");
+        let short = read(&text.replacen(&last, "\"orientation_quat_xyzw\": [0, 0, 0.7, 0.8]", 1), None, 0)
+            .unwrap_err();
+        assert!(
+            short.starts_with("p.json:2:") && short.contains("of length 1.0630; length 1 is accepted"),
+            "{short}"
+        );
+    }
+
     /// A change of the file, and what must be said of it.
     const WRONG: &[(&str, &str, &str)] = &[
         (

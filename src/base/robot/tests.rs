@@ -151,6 +151,7 @@ const WRONG: &[(&str, &str, &str)] = &[
         "xyz=\"300 0 0\"",
         "/two.urdf:11:85: xyz has the length 300 m; is it in millimetres? lengths in metres are accepted, up to",
     ),
+    ("rpy=\"0 1.5708 0\"", "rpy=\"0 90 0\"", "rpy has the angle 90; is it in degrees? radians are accepted"),
     ("xyz=\"0.3 0 0\"", "xyz=\"0.3 0\"", "/two.urdf:11:85: xyz is `0.3 0`; 3 numbers are accepted"),
     ("xyz=\"0.3 0 0\"", "xyz=\"0.3 inf 0\"", "xyz has the number inf; finite numbers are accepted"),
     (
