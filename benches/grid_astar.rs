@@ -154,8 +154,9 @@ impl Posed {
 
     fn crate_dijkstra(&self) -> u64 {
         let moves = self.lattice().moves();
-        let successors =
-            |&cell: &u32| moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393 } else { 985 }));
+        let successors = |&cell: &u32| {
+            moves.from_cell(cell).map(|(to, diagonal)| (to, if diagonal { 1393_u32 } else { 985 }))
+        };
         let solve = |&[start, goal]: &[u32; 2]| {
             let (path, cost) = dijkstra(&start, successors, |&cell| cell == goal).unwrap();
             black_box(path);

@@ -64,8 +64,9 @@ fn robots_by_rows_are_all_given_to_mujoco_by_the_cross_check_of_some_paper() {
     let given: Vec<&str> = robots.flatten().map(|robot| robot["file"].as_str().unwrap()).collect();
     let mut files = 0;
     for entry in fs::read_dir(root().join("data/robots")).unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
-        if name.ends_with(".toml") {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|end| end == "toml") {
+            let name = path.file_name().unwrap().to_string_lossy();
             assert!(
                 given.contains(&format!("data/robots/{name}").as_str()),
                 "{name} is in no crosscheck.toml"
