@@ -14,12 +14,15 @@
 //! On random cells every other cell is a jump point and little is jumped over: that group shows what the method costs
 //! where it has nothing to gain.
 
+mod cpu;
+
 use base::grid::{
     CornerRule, Grid2, components, independent_cells, read_movingai_map, rectangles, rooms, streets,
 };
 use base::seed;
 use base::settings::Settings;
-use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
+use cpu::CpuTime;
+use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
 use pathfinding::prelude::astar;
 use rand::RngExt as _;
 use replan_engine::planner::{self, Build, Planner, Request};
@@ -109,7 +112,7 @@ fn planner(name: &str) -> Box<dyn Planner> {
     build(&Settings::composed("a bench", toml::Table::new())).unwrap()
 }
 
-fn compare(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, posed: &Posed) {
+fn compare(group: &mut BenchmarkGroup<'_, CpuTime>, name: &str, posed: &Posed) {
     let (world, grid) = (posed.lattice(), posed.lattice().grid());
     let (lines, table) = (JumpLines::new(world), JumpTable::new(world));
     let mut walk = OctileAstar::new(world.moves()).unwrap();
@@ -145,7 +148,7 @@ fn compare(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, posed: &Posed) 
     group.bench_function("pathfinding", |bencher| bencher.iter(|| posed.by_the_crate()));
 }
 
-fn jps(criterion: &mut Criterion) {
+fn jps(criterion: &mut Criterion<CpuTime>) {
     let mut maps = vec![
         ("random", independent_cells(&mut seed::stream(2), SIZE_CELLS, 0.3, &[]).unwrap()),
         ("rectangles", rectangles(&mut seed::stream(3), SIZE_CELLS, 250, [4, 40], &[]).unwrap()),
@@ -167,5 +170,9 @@ fn jps(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, jps);
+criterion_group! {
+    name = benches;
+    config = cpu::criterion();
+    targets = jps
+}
 criterion_main!(benches);

@@ -84,7 +84,7 @@ impl<'a> Space<'a> {
         self.asked.motion += ask.motion.len() as u64;
         self.asked.fk += ask.fk.len() as u64;
         self.asked.ik += ask.ik.len() as u64;
-        let valid = ask.valid.iter().map(|at| self.is_valid(at)).collect::<Result<_, _>>()?;
+        let valid = self.are_valid(&ask.valid)?;
         let motion: Vec<bool> =
             ask.motion.iter().map(|[from, to]| self.is_free(from, to)).collect::<Result<_, _>>()?;
         let ends = ask.motion.iter().zip(&motion).filter(|_| ask.fractions);
@@ -113,6 +113,18 @@ impl<'a> Space<'a> {
                 }
             },
         })
+    }
+
+    /// Whether each of the configurations is free; those of a cell are looked at together.
+    ///
+    /// # Errors
+    /// As [`is_valid`](Self::is_valid).
+    fn are_valid(&self, asked: &[Vec<f64>]) -> Result<Vec<bool>, String> {
+        if let Some(lines) = &self.lines {
+            let states = asked.iter().map(|at| self.check(at).map(|()| joints(at).unwrap_or_default()));
+            return Ok(lines.cell().are_free(&states.collect::<Result<Vec<_>, _>>()?));
+        }
+        asked.iter().map(|at| self.is_valid(at)).collect()
     }
 
     /// Whether the motion between two configurations is free, both ends included.

@@ -93,9 +93,15 @@ fn one_step() -> f64 {
 
 type Cell = [i16; AXES];
 
+/// A state as one number: it is looked up for every neighbour, and numbers are compared at once.
+fn key(cell: &Cell) -> u128 {
+    cell.iter().fold(0, |key, steps| key << 16 | u128::from(steps.cast_unsigned()))
+}
+
 struct States {
     cells: Vec<Cell>,
-    numbers: BTreeMap<Cell, u32>,
+    /// By [`key`].
+    numbers: BTreeMap<u128, u32>,
     /// The least cost with which each was reached, as the search adds it up.
     reached: Vec<f64>,
 }
@@ -104,18 +110,18 @@ impl States {
     /// The start alone, as number 0.
     fn of_start() -> Self {
         let start: Cell = [0; AXES];
-        Self { cells: vec![start], numbers: BTreeMap::from([(start, 0)]), reached: vec![0.0] }
+        Self { cells: vec![start], numbers: BTreeMap::from([(key(&start), 0)]), reached: vec![0.0] }
     }
 
     /// Whether going to `to` at the cost `reached` would be of use.
     fn lowers(&self, to: &Cell, reached: f64) -> bool {
-        self.numbers.get(to).is_none_or(|known| reached < self.reached[*known as usize])
+        self.numbers.get(&key(to)).is_none_or(|known| reached < self.reached[*known as usize])
     }
 
     /// The number of `to`, reached at a cost that is lower than any before.
     fn reach(&mut self, to: Cell, reached: f64) -> u32 {
         let fresh = self.cells.len() as u32;
-        let number = *self.numbers.entry(to).or_insert(fresh);
+        let number = *self.numbers.entry(key(&to)).or_insert(fresh);
         if number == fresh {
             self.cells.push(to);
             self.reached.push(reached);

@@ -115,6 +115,7 @@ impl<'a> Part<'a> {
 
     fn has_direct_edge(&self) -> bool {
         self.map.gap_mm(self.start, self.goal) <= self.radius_mm
+            && self.map.are_near(self.start, self.goal)
             && self.map.join(self.start, self.goal).is_ok()
     }
 

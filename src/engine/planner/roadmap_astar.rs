@@ -141,10 +141,13 @@ impl RoadmapAstar {
             ("expansions", Value::Count(counters.expansions)),
             ("generated", Value::Count(counters.generated)),
             ("checked_states", Value::Count(checked)),
-            ("neighbour_mm", Value::Real(part.radius_mm)),
             ("used_samples", Value::Count(u64::from(part.prefix))),
             ("straight_mm", Value::Real(part.map.gap_mm(part.start, part.goal))),
         ]);
+        // Where configurations decide what is near, places need not.
+        if part.radius_mm.is_finite() {
+            counts.insert("neighbour_mm", Value::Real(part.radius_mm));
+        }
         if self.goal_shot != ShotSetting::Never {
             counts.insert("shots", Value::Count(shots));
         }

@@ -7,7 +7,8 @@ pub use groups::GROUPS_FILE;
 
 use super::input::{input, load_robot};
 use super::{Entry, Family, Query, Stance};
-use crate::study::prepared::{Prepared, nested_roadmap};
+use crate::study::prepared::Prepared;
+use crate::study::prepared::nested_roadmap::{self, Neighbours};
 use crate::study::verification::roadmap::ARM_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::seed;
@@ -17,7 +18,7 @@ use engine::kinematics::{AXES, Joints, Robot};
 use engine::planner::Invalid;
 use engine::space::WorldKind;
 use engine::space::cell::{self, Cell, EdgeEnd, LineRules, Lines, Scene, SpeedRule};
-use engine::space::roadmap::{Counted, Extent, Local, Sample};
+use engine::space::roadmap::{Counted, Extent, Local, Near, Sample};
 use groups::{posed, read_queries};
 use rand::RngExt as _;
 use schemars::JsonSchema;
@@ -56,6 +57,8 @@ tool_mm = 100
 
 /// Draws per wanted sample after which a cell counts as full.
 const DRAWS_PER_SAMPLE: u32 = 1000;
+/// How many configurations are drawn and looked at together.
+const DRAWN_TOGETHER: usize = 128;
 /// How far the region around the queries' poses reaches beyond them.
 const AROUND_DEG: f64 = 20.0;
 
@@ -88,9 +91,15 @@ struct CellQueries {
     /// Over how much of its range a joint is drawn that turns by more than half a turn either way.
     #[serde(default)]
     turns: Turns,
-    /// How far the tools of two samples may be apart to be tried as neighbours.
+    /// How far the tools of two samples may be apart to be tried as neighbours; given like this, as `radius_deg` or as `nearest`.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    radius_mm: f64,
+    radius_mm: Option<f64>,
+    /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    radius_deg: Option<f64>,
+    /// So many samples nearest in joint space are tried as a sample's neighbours.
+    #[schemars(range(min = 1))]
+    nearest: Option<u32>,
     /// What moves straight between neighbours.
     path: PathSetting,
     /// How far the tool may move between two configurations that are checked.
@@ -221,6 +230,7 @@ impl CellQueries {
 
 struct Posed {
     read: CellQueries,
+    near: Near,
     cell: Cell,
     bounds_rad: [[f64; 2]; AXES],
     branch: Option<Branch>,
@@ -232,6 +242,8 @@ struct Posed {
 impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
+        let CellQueries { radius_mm, radius_deg, nearest, .. } = read;
+        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
         let mut faults = Faults::default();
         let robot =
             faults.keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, file)));
@@ -252,7 +264,7 @@ impl Posed {
         let home: Joints = queries[0].start.as_slice().try_into().expect("a pose has six angles");
         let branch = (read.region == Region::OneBranch).then(|| cell.robot().arm().branch_of(&home));
         let inputs = files.into_iter().chain(cell.robot().files().iter().cloned()).collect();
-        Ok(Self { read, cell, bounds_rad, branch, queries, ends, inputs })
+        Ok(Self { read, near, cell, bounds_rad, branch, queries, ends, inputs })
     }
 
     /// Free configurations, as many as were asked for, and how many draws they took; fewer if the draws run out.
@@ -263,13 +275,22 @@ impl Posed {
             CountedSetting::Accepted => accepted >= wanted as usize || draws / DRAWS_PER_SAMPLE >= wanted,
             CountedSetting::Drawn => draws >= wanted,
         };
+        let mut draw =
+            || -> Joints { self.bounds_rad.map(|[low, high]| low + (high - low) * stream.random::<f64>()) };
+        let fits =
+            |q: &Joints| self.branch.is_none_or(|branch| self.cell.robot().arm().branch_of(q) == branch);
         while !is_done(samples.len(), draws) {
-            let q: Joints = self.bounds_rad.map(|[low, high]| low + (high - low) * stream.random::<f64>());
-            let fits = self.branch.is_none_or(|branch| self.cell.robot().arm().branch_of(&q) == branch);
-            if fits && self.cell.is_free(&q) {
-                samples.push(Sample { config: q.to_vec(), drawn_after: draws });
+            // What is drawn beyond the last sample is dropped: the stream serves nothing else.
+            let drawn: [Joints; DRAWN_TOGETHER] = std::array::from_fn(|_| draw());
+            for (q, is_free) in drawn.iter().zip(self.cell.are_free(&drawn)) {
+                if is_done(samples.len(), draws) {
+                    break;
+                }
+                if is_free && fits(q) {
+                    samples.push(Sample { config: q.to_vec(), drawn_after: draws });
+                }
+                draws += 1;
             }
-            draws += 1;
         }
         (samples, draws)
     }
@@ -325,7 +346,7 @@ impl Family for Posed {
         }
         let lines = Lines::new(self.cell.clone(), self.read.rules());
         let local = Local::Arm(Box::new(lines.clone()));
-        let mut prepared = nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, counted);
+        let mut prepared = nested_roadmap::prepare(local, samples, draws, self.near, counted);
         prepared.exhibits = picture::exhibits(&lines, &self.queries);
         Ok(prepared)
     }
@@ -343,7 +364,7 @@ impl Family for Posed {
     }
 
     fn extent(&self) -> Option<Extent> {
-        Some(Extent { samples: self.read.samples, radius_mm: Some(self.read.radius_mm) })
+        Some(nested_roadmap::extent(self.read.samples, self.near))
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<Stance> {

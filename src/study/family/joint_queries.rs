@@ -4,7 +4,8 @@ mod picture;
 
 use super::input::input;
 use super::{Entry, Family, Query, Stance};
-use crate::study::prepared::{Prepared, nested_roadmap};
+use crate::study::prepared::Prepared;
+use crate::study::prepared::nested_roadmap::{self, Neighbours};
 use crate::study::verification::roadmap::JOINT_COLUMNS;
 use crate::study::{Inputs, StudyError};
 use base::problem::{Ended, Problem, parse_problem};
@@ -14,7 +15,7 @@ use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use base::solid::{Form, Pose, Solid};
 use engine::geometry::Frame;
 use engine::planner::Invalid;
-use engine::space::roadmap::{Counted, Extent, Local, Sample};
+use engine::space::roadmap::{Counted, Extent, Local, Near, Sample};
 use engine::space::{JointSpace, Support, SupportEntry, WorldKind};
 use rand::RngExt as _;
 use schemars::JsonSchema;
@@ -64,9 +65,15 @@ struct JointQueries {
     /// How many samples the roadmap is built from, drawn evenly within the joints' limits.
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
-    /// How far the tips of two samples may be apart to be tried as neighbours.
+    /// How far the tips of two samples may be apart to be tried as neighbours; given like this, as `radius_deg` or as `nearest`.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    radius_mm: f64,
+    radius_mm: Option<f64>,
+    /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    radius_deg: Option<f64>,
+    /// So many samples nearest in joint space are tried as a sample's neighbours.
+    #[schemars(range(min = 1))]
+    nearest: Option<u32>,
     /// How far a joint may move between two configurations that are checked.
     #[schemars(extend("exclusiveMinimum" = 0))]
     step_deg: f64,
@@ -74,6 +81,7 @@ struct JointQueries {
 
 struct Posed {
     read: JointQueries,
+    near: Near,
     space: JointSpace,
     /// How high the floor is, if there is one.
     floor_m: Option<f64>,
@@ -85,6 +93,8 @@ struct Posed {
 impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: JointQueries = settings.read()?;
+        let JointQueries { radius_mm, radius_deg, nearest, .. } = read;
+        let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
         let mut faults = Faults::default();
         let robot = faults.keep(input(settings, inputs, "robot", &read.robot, read_urdf));
         let problem = faults.keep(input(settings, inputs, "problem", &read.problem, |file| {
@@ -111,7 +121,7 @@ impl Posed {
             unposed.keep(posed(&space, &document, what, end));
         }
         let floor_m = support.floor_m();
-        Ok(Self { read, space, floor_m, queries, ends: unposed.done(), inputs })
+        Ok(Self { read, near, space, floor_m, queries, ends: unposed.done(), inputs })
     }
 }
 
@@ -186,8 +196,7 @@ impl Family for Posed {
             draws += 1;
         }
         let local = Local::Joints(Box::new(self.space.clone()));
-        let mut prepared =
-            nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, Counted::Accepted);
+        let mut prepared = nested_roadmap::prepare(local, samples, draws, self.near, Counted::Accepted);
         prepared.exhibits = picture::exhibits(&self.space, self.floor_m, &self.queries);
         Ok(prepared)
     }
@@ -201,7 +210,7 @@ impl Family for Posed {
     }
 
     fn extent(&self) -> Option<Extent> {
-        Some(Extent { samples: self.read.samples, radius_mm: Some(self.read.radius_mm) })
+        Some(nested_roadmap::extent(self.read.samples, self.near))
     }
 
     fn stance(&self, q_rad: &[f64]) -> Option<Stance> {

@@ -10,7 +10,7 @@ use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
 use engine::planner::{Exhibit, Invalid};
 use engine::space::WorldKind;
-use engine::space::roadmap::{Counted, Extent, Local, PlaneMap, Sample};
+use engine::space::roadmap::{Counted, Extent, Local, Near, PlaneMap, Sample};
 use rand::RngExt as _;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -153,8 +153,13 @@ impl Family for Drawn {
         let corners =
             polygons.flat_map(|(i, p)| p.vertices().iter().flat_map(move |v| [i as f64, v.x, v.y])).collect();
         let local = Local::Plane(self.plane.clone());
-        let mut prepared =
-            nested_roadmap::prepare(local, samples, draws, self.read.radius_mm, Counted::Accepted);
+        let mut prepared = nested_roadmap::prepare(
+            local,
+            samples,
+            draws,
+            Near::Places(self.read.radius_mm),
+            Counted::Accepted,
+        );
         prepared.exhibits.push(Exhibit { name: "size_mm".to_owned(), width: 2, values: vec![width, height] });
         prepared.exhibits.push(Exhibit { name: "obstacles".to_owned(), width: 3, values: corners });
         Ok(prepared)

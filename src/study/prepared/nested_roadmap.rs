@@ -1,10 +1,12 @@
-//! A roadmap whose first N samples are a roadmap too, with what became of every pair it tried.
+//! A roadmap whose first N samples are a roadmap too, with what became of every pair it tried; neighbours are near by their places
+//! or by their configurations.
 
 use super::{Entry, Prepared};
+use base::settings::{Settings, SettingsError};
 use engine::planner::{Counts, Exhibit, Value};
 use engine::space::World;
 use engine::space::cell::Rejection;
-use engine::space::roadmap::{Counted, Local, Roadmap, Sample};
+use engine::space::roadmap::{Counted, Extent, Local, Near, Roadmap, Sample};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -42,11 +44,43 @@ fn column(reason: Rejection) -> &'static str {
     }
 }
 
-/// The roadmap of `samples`, joined up to `radius_mm`.
-pub fn prepare(local: Local, samples: Vec<Sample>, draws: u32, radius_mm: f64, counted: Counted) -> Prepared {
-    let roadmap = Roadmap::build(local, samples, radius_mm, counted);
+/// What settings say of neighbours, each perhaps.
+#[derive(Debug, Clone, Copy)]
+pub struct Neighbours {
+    /// How far apart their places may be.
+    pub radius_mm: Option<f64>,
+    /// How far apart their configurations may be.
+    pub radius_deg: Option<f64>,
+    /// How many nearest configurations are a sample's.
+    pub nearest: Option<u32>,
+}
+
+impl Neighbours {
+    /// The rule.
+    ///
+    /// # Errors
+    /// Not exactly one is given.
+    pub fn rule(self, settings: &Settings) -> Result<Near, SettingsError> {
+        match (self.radius_mm, self.radius_deg, self.nearest) {
+            (Some(radius_mm), None, None) => Ok(Near::Places(radius_mm)),
+            (None, Some(radius_deg), None) => Ok(Near::Configurations(radius_deg.to_radians())),
+            (None, None, Some(nearest)) => Ok(Near::Nearest(nearest as usize)),
+            _ => Err(settings.error("exactly one of radius_mm, radius_deg and nearest is accepted")),
+        }
+    }
+}
+
+/// How large a roadmap of so many samples is.
+pub fn extent(samples: u32, near: Near) -> Extent {
+    let radius_mm = if let Near::Places(radius_mm) = near { Some(radius_mm) } else { None };
+    Extent { samples, radius_mm }
+}
+
+/// The roadmap of `samples`, joined with those that are `near`.
+pub fn prepare(local: Local, samples: Vec<Sample>, draws: u32, near: Near, counted: Counted) -> Prepared {
+    let roadmap = Roadmap::build(local, samples, near, counted);
     let (tally, count) = (*roadmap.tally(), roadmap.samples().len());
-    let parts = roadmap.components(count as u32, radius_mm);
+    let parts = roadmap.components(count as u32, roadmap.radius_mm());
     let components = parts.iter().zip(0..).filter(|(part, node)| *part == node).count();
     let mut values = Counts::from([
         ("samples", Value::Count(count as u64)),

@@ -174,7 +174,7 @@ fn arm_case(lines: &Lines) -> cell::Case {
         pairs: cell.self_pairs().to_vec(),
     };
     let shapes: Vec<cell::Shape> = cell.scene().obstacles().iter().map(|o| shape(&o.solid)).collect();
-    let chain = cell::Chain { rows, base: matrix(chain.base()), tool: matrix(chain.tool()) };
+    let chain = cell::Chain::new(rows, matrix(chain.base()), matrix(chain.tool()));
     cell::Case::new(chain, body, &shapes, rules(lines.rules()))
 }
 

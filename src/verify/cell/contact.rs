@@ -1,6 +1,7 @@
 //! Contacts by parry3d, where it is exact: segments against boxes, polyhedra and points. Capsules against capsules are
 //! reduced to segments here, whose distance is the least of five candidates.
 
+use super::chain::Frames;
 use super::{Angles, Chain};
 use nalgebra::{Matrix4, Vector3, Vector4};
 use parry3d::bounding_volume::{Aabb, BoundingVolume as _};
@@ -96,12 +97,11 @@ impl Obstacles {
         Self { body, stills: shapes.iter().map(still).collect() }
     }
 
-    /// What the robot touches at `q`, or which joint is outside its limits.
-    pub(super) fn refusal(&self, chain: &Chain, q: &Angles) -> Option<String> {
+    /// What the robot touches at `q`, which puts its links at `frames`, or which joint is outside its limits.
+    pub(super) fn refusal(&self, chain: &Chain, q: &Angles, frames: &Frames) -> Option<String> {
         if let Some(refusal) = chain.limits_refusal(q) {
             return Some(refusal);
         }
-        let frames = chain.frames(q);
         let axis = |part: &Part| {
             let [a, b] = [part.from_m, part.to_m].map(|p| {
                 let placed = frames[part.link] * Vector4::new(p[0], p[1], p[2], 1.0);

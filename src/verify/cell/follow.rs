@@ -2,6 +2,7 @@
 //!
 //! The time law of every leg is rest to rest with `LAW`: it lets paths be compared, the paper prints none.
 
+use super::chain::{Frames, tip};
 use super::{Angles, Case, FINER, LegEnd};
 use nalgebra::{Matrix3, Quaternion, Vector3};
 use std::f64::consts::TAU;
@@ -87,29 +88,31 @@ pub(super) fn leg(case: &Case, from: &Angles, to: &Angles) -> Result<Leg, String
     };
     // What differs by rounding only must not fall on two sides of a whole number.
     let steps = (steps - 1e-9).ceil().max(1.0) as u32 * FINER;
-    let mut states = vec![*from];
+    let (mut states, mut places, mut frames) = (vec![*from], vec![ends.from.1], chain.frames(from));
     for step in 1..=steps {
         let share = f64::from(step) / f64::from(steps);
         let last = &states[states.len() - 1];
         let q = if rules.straight_joints {
-            std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share)
+            let q = std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share);
+            chain.write_frames(&q, &mut frames);
+            q
         } else {
-            let guess = guess(&states);
-            let found =
-                chain.near(&guess, &ends.at(share)).filter(|q| widest_change(q, last) < rules.jump_rad);
+            let found = chain.near(&guess(&states), &ends.at(share), &mut frames);
             let before = f64::from(step - 1) / f64::from(steps);
             found
-                .or_else(|| creep(case, &ends, last, [before, share], HALVINGS))
+                .filter(|q| widest_change(q, last) < rules.jump_rad)
+                .or_else(|| creep(case, &ends, last, [before, share], HALVINGS, &mut frames))
                 .ok_or_else(|| format!("the joints cannot follow the line at {:.1} %", share * 100.0))?
         };
-        if let Some(refusal) = case.obstacles.refusal(chain, &q) {
+        if let Some(refusal) = case.obstacles.refusal(chain, &q, &frames) {
             return Err(format!("{refusal} at {:.1} % of the way", share * 100.0));
         }
         states.push(q);
+        places.push(tip(&frames));
     }
     refuse_motion(case, &states, length_m.max(turn_rad / rules.step_rad * rules.step_m))?;
     refuse_end(rules.end, states.last().expect("a leg has two ends"), to)?;
-    Ok(measure(case, &states, length_m, turn_rad))
+    Ok(measure(case, &states, &places, [length_m, turn_rad]))
 }
 
 /// The joints at the second share of the way, from `last` at the first: in one step or, where Newton's method does not find them
@@ -120,15 +123,16 @@ fn creep(
     last: &Angles,
     [before, share]: [f64; 2],
     halvings: u32,
+    frames: &mut Frames,
 ) -> Option<Angles> {
-    let found =
-        case.chain.near(last, &ends.at(share)).filter(|q| widest_change(q, last) < case.rules.jump_rad);
+    let found = case.chain.near(last, &ends.at(share), frames);
+    let found = found.filter(|q| widest_change(q, last) < case.rules.jump_rad);
     if found.is_some() || halvings == 0 {
         return found;
     }
     let middle = 0.5 * (before + share);
-    let halfway = creep(case, ends, last, [before, middle], halvings - 1)?;
-    creep(case, ends, &halfway, [middle, share], halvings - 1)
+    let halfway = creep(case, ends, last, [before, middle], halvings - 1, frames)?;
+    creep(case, ends, &halfway, [middle, share], halvings - 1, frames)
 }
 
 /// Where the joints go if they go on as before.
@@ -157,7 +161,7 @@ fn refuse_motion(case: &Case, states: &[Angles], law_m: f64) -> Result<(), Strin
         let time = |step: usize| time_s(step as f64 / count * law_m, law_m, law);
         let duration_s = time(index + 1) - time(index);
         let too_fast = (0..6).find(|&i| {
-            (pair[1][i] - pair[0][i]).abs() > case.chain.rows[i].speed_rad_s * duration_s * (1.0 + 1e-6)
+            (pair[1][i] - pair[0][i]).abs() > case.chain.rows()[i].speed_rad_s * duration_s * (1.0 + 1e-6)
         });
         if let Some(joint) = too_fast {
             return Err(format!("joint {} is faster than it can be", joint + 1));
@@ -186,7 +190,7 @@ fn refuse_end(end: LegEnd, arrived: &Angles, wanted: &Angles) -> Result<(), Stri
     Ok(())
 }
 
-fn measure(case: &Case, states: &[Angles], length_m: f64, turn_rad: f64) -> Leg {
+fn measure(case: &Case, states: &[Angles], places: &[Vector3<f64>], [length_m, turn_rad]: [f64; 2]) -> Leg {
     // A turn without a way takes as long as the way that counts as much as it in the planner's step.
     let law_m = length_m.max(turn_rad / case.rules.step_rad * case.rules.step_m).max(1e-9);
     let count = (states.len() - 1) as f64;
@@ -203,7 +207,7 @@ fn measure(case: &Case, states: &[Angles], length_m: f64, turn_rad: f64) -> Leg 
         }
     }
     Leg {
-        length_m: states.windows(2).map(|w| case.straight_m(&w[0], &w[1])).sum(),
+        length_m: places.windows(2).map(|w| (w[0] - w[1]).norm()).sum(),
         travel_rad: travel_rad.sum(),
         peak_rad_s2,
         duration_s: time_s(law_m, law_m, LAW),

@@ -94,7 +94,7 @@ impl Case {
         let mut motion = Motion { length_m: 0.0, travel_rad: 0.0, peak_rad_s2: 0.0, stops: Vec::new() };
         let (mut at, mut time_s) = (*first, 0.0);
         self.obstacles
-            .refusal(&self.chain, &at)
+            .refusal(&self.chain, &at, &self.chain.frames(&at))
             .map_or(Ok(()), |refusal| Err(format!("at the start, {refusal}")))?;
         for (index, to) in path.iter().enumerate().skip(1) {
             let leg = self.leg(&at, to).map_err(|refusal| format!("leg {index}: {refusal}"))?;

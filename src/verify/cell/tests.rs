@@ -20,7 +20,7 @@ fn case(end: LegEnd) -> Case {
         row(0.0, 0.0, 0.095, -360.0, 360.0),
     ];
     let tool = Matrix4::new_translation(&nalgebra::Vector3::new(0.0, 0.0, 0.15));
-    let chain = Chain { rows, base: Matrix4::identity(), tool };
+    let chain = Chain::new(rows, Matrix4::identity(), tool);
     let finger = Part { link: 6, from_m: [0.0; 3], to_m: [0.0, 0.0, 0.15], radius_m: 0.02, exposed: true };
     let body = Body { parts: vec![finger], pairs: Vec::new() };
     let frame = Matrix4::new_translation(&nalgebra::Vector3::new(0.79, -0.3, 0.9));
@@ -46,7 +46,8 @@ fn moved(case: &Case, near: &Angles, by: [f64; 3]) -> Angles {
     let mut at = *near;
     for step in 1..=20 {
         let share = f64::from(step) / 20.0;
-        at = case.chain.near(&at, &(rotation, place + nalgebra::Vector3::from(by) * share)).unwrap();
+        let wanted = (rotation, place + nalgebra::Vector3::from(by) * share);
+        at = case.chain.near(&at, &wanted, &mut case.chain.frames(&at)).unwrap();
     }
     at
 }

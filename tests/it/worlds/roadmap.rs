@@ -6,7 +6,7 @@ use engine::geometry::Vec2;
 use engine::geometry::planar::ConvexPolygon;
 use engine::planner::Plan;
 use engine::space::World;
-use engine::space::roadmap::{Counted, Local, PlaneMap, Roadmap, Sample};
+use engine::space::roadmap::{Counted, Local, Near, PlaneMap, Roadmap, Sample};
 use rand::RngExt as _;
 use verify::plane;
 
@@ -67,7 +67,7 @@ pub fn roadmap(number: u64) -> Case {
     let samples: Vec<Sample> =
         (0..SAMPLES as u32).map(|drawn_after| Sample { config: free(&shut).to_vec(), drawn_after }).collect();
     let places = samples.iter().map(|sample| sample.config.clone()).collect();
-    let world = Roadmap::build(Local::Plane(shut), samples, RADIUS_MM, Counted::Accepted);
+    let world = Roadmap::build(Local::Plane(shut), samples, Near::Places(RADIUS_MM), Counted::Accepted);
     Case {
         name: format!("roadmap {number}, {start:?} to {goal:?}"),
         world: World::Roadmap(Box::new(world)),

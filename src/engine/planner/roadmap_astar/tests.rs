@@ -2,7 +2,7 @@ use super::*;
 use crate::geometry::Vec2;
 use crate::geometry::planar::ConvexPolygon;
 use crate::space::World;
-use crate::space::roadmap::{Counted, Local, PlaneMap, Sample};
+use crate::space::roadmap::{Counted, Local, Near, PlaneMap, Sample};
 use base::seed;
 use base::settings::{Settings, SettingsError};
 use rand::RngExt as _;
@@ -27,7 +27,12 @@ fn world(number: u64) -> World {
             samples.push(Sample { config: point.to_vec(), drawn_after: samples.len() as u32 });
         }
     }
-    World::Roadmap(Box::new(Roadmap::build(Local::Plane(map), samples, RADIUS_MM, Counted::Accepted)))
+    World::Roadmap(Box::new(Roadmap::build(
+        Local::Plane(map),
+        samples,
+        Near::Places(RADIUS_MM),
+        Counted::Accepted,
+    )))
 }
 
 fn built(text: &str) -> Result<Box<dyn Planner>, SettingsError> {

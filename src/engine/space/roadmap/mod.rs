@@ -1,20 +1,23 @@
 //! Probabilistic roadmaps: samples in the order they were drawn, and the local paths between them.
 //!
 //! A roadmap is built once. Its first N samples are a roadmap too, and so are its edges up to any smaller radius; both are
-//! read off, nothing is built again. A query adds its own start and goal and nothing else. What was found out about a
+//! read off, nothing is built again. (Where so many nearest samples are neighbours, a part keeps the edges among its own.) A query adds its own start and goal and nothing else. What was found out about a
 //! pair of configurations is remembered, so that queries, sizes and contenders share it; it
 //! depends on the pair alone.
 
 mod local;
+mod near;
 mod plane;
 #[cfg(test)]
 mod tests;
 
 pub use local::{Local, joints};
+pub use near::Near;
 pub use plane::PlaneMap;
 
 use super::cell::{Rejection, Scratch};
 use local::Node;
+use near::Samples;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard};
 
@@ -67,18 +70,17 @@ impl Extent {
 #[derive(Debug)]
 pub struct Roadmap {
     local: Local,
-    radius_mm: f64,
     counted: Counted,
     samples: Vec<Sample>,
     nodes: Vec<Node>,
-    places_mm: Vec<[f64; 3]>,
+    near: Samples,
     numbers: BTreeMap<Vec<u64>, u32>,
     links: Vec<Links>,
     tally: Tally,
     memory: Mutex<Memory>,
 }
 
-/// What became of the pairs of samples within the radius.
+/// What became of the pairs of samples that are near each other.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Pairs that were tried.
@@ -126,42 +128,32 @@ fn distance_mm(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 }
 
 impl Roadmap {
-    /// Joins every two samples whose places are at most `radius_mm` apart, if there is a local path.
+    /// Joins every two samples that are `near` each other, if there is a local path.
     ///
     /// # Panics
     /// If a sample is not a free configuration.
-    pub fn build(local: Local, samples: Vec<Sample>, radius_mm: f64, counted: Counted) -> Self {
+    pub fn build(local: Local, samples: Vec<Sample>, near: Near, counted: Counted) -> Self {
         let nodes: Vec<Node> = samples.iter().map(|sample| local.node(&sample.config)).collect();
-        let places_mm: Vec<[f64; 3]> = samples.iter().map(|sample| local.place_mm(&sample.config)).collect();
+        let places_mm = samples.iter().map(|sample| local.place_mm(&sample.config)).collect();
         let numbers = samples.iter().zip(0..).map(|(sample, i)| (bits(&sample.config), i)).collect();
+        let near = Samples::new(near, &samples, places_mm);
         let (mut tally, mut scratch) = (Tally::default(), Scratch::default());
         let mut links = vec![Vec::new(); samples.len()];
-        let beyond_mm2 = radius_mm * radius_mm * (1.0 + 1e-12);
-        for to in 0..samples.len() {
-            for from in 0..to {
-                // The square is a bound: most pairs are far beyond it and need no root.
-                if square_mm2(&places_mm[from], &places_mm[to]) > beyond_mm2 {
-                    continue;
+        near.each_pair(&samples, |from, to, gap_mm| {
+            tally.pairs += 1;
+            match local.join(&nodes[from], &nodes[to], &mut scratch) {
+                Ok(()) => {
+                    tally.edges += 1;
+                    links[from].push((to as u32, gap_mm));
+                    links[to].push((from as u32, gap_mm));
                 }
-                let gap_mm = distance_mm(&places_mm[from], &places_mm[to]);
-                if gap_mm > radius_mm {
-                    continue;
-                }
-                tally.pairs += 1;
-                match local.join(&nodes[from], &nodes[to], &mut scratch) {
-                    Ok(()) => {
-                        tally.edges += 1;
-                        links[from].push((to as u32, gap_mm));
-                        links[to].push((from as u32, gap_mm));
-                    }
-                    Err(reason) => tally.rejected[reason as usize] += 1,
-                }
+                Err(reason) => tally.rejected[reason as usize] += 1,
             }
-        }
+        });
         tally.checked = scratch.checked();
         let links = links.into_iter().map(Arc::new).collect();
         let memory = Mutex::new(Memory { scratch, ..Memory::default() });
-        Self { local, radius_mm, counted, samples, nodes, places_mm, numbers, links, tally, memory }
+        Self { local, counted, samples, nodes, near, numbers, links, tally, memory }
     }
 
     /// The robot and its local paths.
@@ -169,9 +161,14 @@ impl Roadmap {
         &self.local
     }
 
-    /// The radius up to which pairs were tried.
+    /// How far apart the places of two samples may be to be tried as neighbours; infinite where their configurations decide.
     pub fn radius_mm(&self) -> f64 {
-        self.radius_mm
+        self.near.radius_mm()
+    }
+
+    /// Whether two nodes that are no samples would be tried as neighbours if they were.
+    pub fn are_near(&self, a: u32, b: u32) -> bool {
+        self.near.are_near([&self.config(a), &self.config(b)], self.gap_mm(a, b))
     }
 
     /// The samples, in the order they were drawn.
@@ -214,12 +211,9 @@ impl Roadmap {
         }
         let (node, place_mm) = (self.local.node(config), self.local.place_mm(config));
         let mut links = Vec::new();
-        for (sample, place) in self.places_mm.iter().enumerate() {
-            let gap_mm = distance_mm(place, &place_mm);
-            if gap_mm <= self.radius_mm
-                && self.local.join(&self.nodes[sample], &node, &mut memory.scratch).is_ok()
-            {
-                links.push((sample as u32, gap_mm));
+        for (sample, gap_mm) in self.near.of(config, &place_mm) {
+            if self.local.join(&self.nodes[sample as usize], &node, &mut memory.scratch).is_ok() {
+                links.push((sample, gap_mm));
             }
         }
         let number = (self.samples.len() + memory.ends.len()) as u32;
@@ -233,7 +227,7 @@ impl Roadmap {
         self.samples.len() + self.remember().ends.len()
     }
 
-    /// The samples that a node is joined with, up to the radius.
+    /// The samples near a node that it is joined with.
     pub fn links(&self, node: u32) -> Links {
         match self.links.get(node as usize) {
             Some(links) => links.clone(),
@@ -251,7 +245,7 @@ impl Roadmap {
 
     /// The place of a node.
     pub fn place_mm(&self, node: u32) -> [f64; 3] {
-        match self.places_mm.get(node as usize) {
+        match self.near.places_mm().get(node as usize) {
             Some(place) => *place,
             None => self.remember().ends[node as usize - self.samples.len()].place_mm,
         }

@@ -27,7 +27,7 @@ fn samples(seed: u64, count: usize) -> Vec<Sample> {
 }
 
 fn built(samples: &[Sample], radius_mm: f64, counted: Counted) -> Roadmap {
-    Roadmap::build(Local::Plane(map()), samples.to_vec(), radius_mm, counted)
+    Roadmap::build(Local::Plane(map()), samples.to_vec(), Near::Places(radius_mm), counted)
 }
 
 #[test]
@@ -103,4 +103,92 @@ fn an_end_is_joined_with_the_samples_it_sees_and_known_again() {
     assert_eq!(refused, "the goal cannot be posed: [35.0, 5.0] is in obstacle 1");
     let refused = roadmap.number("goal", &[35.0]).unwrap_err();
     assert!(refused.contains("it has 1 numbers; a configuration has 2"), "{refused}");
+}
+
+/// The pairs of neighbours among `samples`, by looking at all of them.
+fn near_pairs(samples: &[Sample], near: Near) -> Vec<(u32, u32)> {
+    let gap = |a: usize, b: usize| -> f64 {
+        samples[a].config.iter().zip(&samples[b].config).map(|(a, b)| (a - b) * (a - b)).sum()
+    };
+    let chosen = |own: usize| -> Vec<usize> {
+        let mut others: Vec<usize> = (0..samples.len()).filter(|other| *other != own).collect();
+        match near {
+            Near::Nearest(count) => {
+                others.sort_by(|a, b| gap(own, *a).total_cmp(&gap(own, *b)));
+                others.truncate(count);
+            }
+            Near::Configurations(radius) | Near::Places(radius) => {
+                others.retain(|other| gap(own, *other) <= radius * radius)
+            }
+        }
+        others
+    };
+    let both = |(a, b): (usize, usize)| (a.min(b) as u32, a.max(b) as u32);
+    let mut pairs: Vec<_> = (0..samples.len())
+        .flat_map(|own| chosen(own).into_iter().map(move |other| both((own, other))))
+        .collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+#[test]
+fn neighbours_by_configuration_are_those_that_a_look_at_all_pairs_finds() {
+    let (mut edges, mut tried) = (0, 0);
+    for seed in 0..40 {
+        let count = [1, 2, 15, 16, 17, 40, 90, 300][seed as usize % 8];
+        let mut all = samples(seed, count);
+        if seed % 2 == 1 {
+            // Equal distances by the dozen.
+            for x in all.iter_mut().flat_map(|sample| &mut sample.config) {
+                *x = (*x / 9.0).round() * 9.0;
+            }
+            all.retain(|sample| map().refusal([sample.config[0], sample.config[1]]).is_none());
+        }
+        for near in [Near::Nearest(1), Near::Nearest(6), Near::Nearest(500), Near::Configurations(18.0)] {
+            let roadmap = Roadmap::build(Local::Plane(map()), all.clone(), near, Counted::Accepted);
+            let expected = near_pairs(&all, near);
+            let what = format!("seed {seed}, {} samples, {near:?}", all.len());
+            assert_eq!(roadmap.tally().pairs, expected.len() as u64, "{what}");
+            let joined = |(a, b): &(u32, u32)| roadmap.join(*a, *b).is_ok();
+            let free: Vec<_> = expected.into_iter().filter(joined).collect();
+            for own in 0..all.len() as u32 {
+                let others = free.iter().filter(|(a, b)| *a == own || *b == own).map(|(a, b)| a + b - own);
+                let mut others: Vec<u32> = others.collect();
+                others.sort_unstable();
+                let links: Vec<u32> = roadmap.links(own).iter().map(|(to, _)| *to).collect();
+                assert_eq!(links, others, "{what}, node {own}");
+            }
+            (edges, tried) = (edges + free.len(), tried + roadmap.tally().pairs);
+        }
+    }
+    assert!(edges > 10_000 && tried > edges as u64 + 10_000, "{edges} edges of {tried}");
+}
+
+#[test]
+fn an_end_is_joined_with_what_it_would_be_near_as_a_sample() {
+    let all = samples(3, 121);
+    let (rest, ends) = all.split_at(119);
+    for near in [Near::Nearest(6), Near::Configurations(18.0), Near::Places(18.0)] {
+        let roadmap = Roadmap::build(Local::Plane(map()), rest.to_vec(), near, Counted::Accepted);
+        let [start, goal] = [0, 1].map(|i| roadmap.number("end", &ends[i].config).unwrap());
+        for (end, sample) in [(start, &ends[0]), (goal, &ends[1])] {
+            let square = |a: &Sample| (0..2).map(|i| (a.config[i] - sample.config[i]).powi(2)).sum::<f64>();
+            let mut others: Vec<u32> = (0..119).collect();
+            others.sort_by(|a, b| square(&rest[*a as usize]).total_cmp(&square(&rest[*b as usize])));
+            match near {
+                Near::Nearest(count) => others.truncate(count),
+                _ => others.retain(|other| square(&rest[*other as usize]) <= 18.0 * 18.0),
+            }
+            others.retain(|other| roadmap.join(end, *other).is_ok());
+            others.sort_unstable();
+            let links: Vec<u32> = roadmap.links(end).iter().map(|(to, _)| *to).collect();
+            assert_eq!(links, others, "seed 3, {near:?}, end {end}");
+            assert!(links.len() > 2, "{links:?}");
+        }
+        let far = roadmap.number("end", &[1.0, 1.0]).unwrap();
+        let beside = roadmap.number("end", &[2.0, 1.0]).unwrap();
+        let across = roadmap.number("end", &[99.0, 1.0]).unwrap();
+        assert_eq!([roadmap.are_near(far, beside), roadmap.are_near(far, across)], [true, false], "{near:?}");
+    }
 }

@@ -2,7 +2,7 @@ use super::*;
 use crate::study::verification;
 use engine::planner::Plan;
 use engine::planner::{self, Build, Ending, Planner, Request};
-use engine::space::roadmap::Roadmap;
+use engine::space::roadmap::{Near, Roadmap};
 
 fn settings(over: &str) -> Settings {
     let text = r#"
@@ -132,7 +132,7 @@ fn the_first_samples_of_an_arm_and_a_smaller_radius_give_the_roadmap_that_is_bui
     let (samples, _) = posed.samples(11);
     let built = |count: usize, radius_mm: f64| {
         let local = Local::Arm(Box::new(Lines::new(posed.cell.clone(), posed.read.rules())));
-        Roadmap::build(local, samples[..count].to_vec(), radius_mm, Counted::Accepted)
+        Roadmap::build(local, samples[..count].to_vec(), Near::Places(radius_mm), Counted::Accepted)
     };
     let whole = built(300, 500.0);
     // An end of a query leaves its trace in the memory that attempts share, and in no edge.
@@ -210,4 +210,71 @@ fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
         }
     }
     assert!(solved[0] > 0 && solved[1] >= 8 && refused > 30, "{solved:?} {refused}");
+}
+
+#[test]
+fn samples_are_those_that_drawing_and_looking_one_by_one_gives() {
+    for (over, seed) in [
+        ("samples = 300", 21),
+        ("samples = 300\ncounted = 'drawn'", 22),
+        ("samples = 40\nregion = 'one_branch'", 23),
+    ] {
+        let posed = Posed::new(&settings(over), &inputs(None)).unwrap();
+        let (samples, draws) = posed.samples(seed);
+        let mut stream = seed::stream(seed);
+        let mut expected = Vec::new();
+        for drawn_after in 0..draws {
+            let q: Joints = posed.bounds_rad.map(|[low, high]| low + (high - low) * stream.random::<f64>());
+            let fits = posed.branch.is_none_or(|branch| posed.cell.robot().arm().branch_of(&q) == branch);
+            if fits && posed.cell.is_free(&q) {
+                expected.push(Sample { config: q.to_vec(), drawn_after });
+            }
+        }
+        assert_eq!(samples, expected, "{over}");
+        let wanted = posed.read.samples as usize;
+        match posed.read.counted {
+            CountedSetting::Accepted => assert!(samples.len() == wanted && draws > samples.len() as u32),
+            CountedSetting::Drawn => assert!(draws as usize == wanted && samples.len() < wanted),
+        }
+    }
+}
+
+/// Settings without a radius of places.
+fn by_configuration(over: &str) -> Settings {
+    let settings = settings(&format!("path = 'joints'\n{over}"));
+    let mut table = settings.table().clone();
+    table.remove("radius_mm");
+    Settings::composed("a test", table)
+}
+
+#[test]
+fn a_roadmap_in_joint_space_has_paths_that_the_verifier_accepts() {
+    for rule in std::iter::once("nearest = 12") {
+        let posed = Posed::new(&by_configuration(&format!("samples = 600\n{rule}")), &inputs(None)).unwrap();
+        let prepared = posed.prepare(3).unwrap();
+        let (planner, mut solved) = (planner("samples = 600\nneighbour_mm = 3000"), 0);
+        for query in posed.queries() {
+            let guide = crate::study::verification::Guide::default();
+            let verification::Truth::Roadmap(case) = verification::truth(&prepared.world, query, &guide)
+            else {
+                panic!("a roadmap")
+            };
+            let (start, goal) = (&query.start, &query.goal);
+            let request =
+                Request { world: &prepared.world, start, goal, expansions: 10_000, seed: 0, trace: false };
+            let plan = planner.plan(&request).unwrap();
+            if plan.ending == Ending::Solved {
+                assert_eq!(case.verify(&request, &plan).outcome.1, None, "{rule}, group {}", query.name);
+                solved += 1;
+            }
+        }
+        assert!(solved >= 3, "{rule}: {solved} solved");
+    }
+    for rule in ["", "nearest = 12\nradius_deg = 30", "nearest = 12\nradius_mm = 500"] {
+        let mut table = by_configuration("").table().clone();
+        table.extend(toml::from_str::<toml::Table>(rule).unwrap());
+        let refused = Posed::new(&Settings::composed("a test", table), &inputs(None));
+        let message = refused.err().expect(rule).to_string();
+        assert!(message.contains("exactly one of radius_mm, radius_deg and nearest"), "{rule}: {message}");
+    }
 }

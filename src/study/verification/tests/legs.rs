@@ -4,7 +4,7 @@ use super::super::roadmap::Case;
 use base::seed::{derive, stream};
 use engine::kinematics::{Joints, Robot};
 use engine::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Rejection, Scene, Scratch};
-use engine::space::roadmap::{Counted, Local, Roadmap};
+use engine::space::roadmap::{Counted, Local, Near, Roadmap};
 use rand::RngExt as _;
 use std::path::Path as FilePath;
 
@@ -26,7 +26,8 @@ fn lines() -> Lines {
 
 fn case() -> (Lines, Box<verify::cell::Case>) {
     let lines = lines();
-    let map = Roadmap::build(Local::Arm(Box::new(lines.clone())), Vec::new(), 1.0, Counted::Accepted);
+    let map =
+        Roadmap::build(Local::Arm(Box::new(lines.clone())), Vec::new(), Near::Places(1.0), Counted::Accepted);
     let Case::Arm(case) = Case::new(&map) else { panic!("the roadmap is an arm's") };
     (lines, case)
 }

@@ -10,6 +10,7 @@
 //! Halving can only confirm that a path is free. A configuration within the error band of near therefore counts as near,
 //! and a contact found between two configurations is handed to the scalar code.
 
+mod crowd;
 mod follow;
 mod outline;
 mod place;

@@ -56,7 +56,7 @@ impl Bits {
 
 /// Which intervals share a point with another.
 #[inline(always)]
-fn overlaps<S: Simd>(
+pub(super) fn overlaps<S: Simd>(
     [least, most]: [Point<Rough<S>>; 2],
     [other_least, other_most]: [Point<Rough<S>>; 2],
 ) -> u64 {

@@ -271,3 +271,66 @@ fn instructions_that_a_test_asks_for_are_those_that_lanes_run_on() {
         "{other} of {whole} paths differ in a last digit between {best:?} and {least:?}"
     );
 }
+
+#[test]
+fn a_crowd_is_as_free_as_each_of_it_by_itself() {
+    let cell = fu_cell();
+    let cells = [mixed_cell(cell.robot()), cell];
+    let mut stream = seed::stream(55);
+    let (mut free, mut doubts) = ([0_u32; 2], [0_u32; 2]);
+    for (which, cell) in cells.iter().enumerate() {
+        for round in 0..600 {
+            // Groups of every size, with joints beyond their limits and angles that have no lanes among them.
+            let mut states: Vec<Joints> = (0..round).map(|_| draw(&mut stream)).collect();
+            for q in states.iter_mut().skip(3).step_by(29) {
+                q[round % AXES] = [7.0, -7.0, f64::NAN, f64::INFINITY, 4.0][round % 5];
+            }
+            let expected: Vec<bool> = states.iter().map(|q| cell.is_free(q)).collect();
+            free[which] += expected.iter().map(|free| u32::from(*free)).sum::<u32>();
+            for level in levels() {
+                let (found, lanes) =
+                    on_level(level, || (cell.are_free(&states), cell.are_free_lanes(&states)));
+                assert_eq!(found, expected, "seed 55 cell {which} round {round} on {level:?}");
+                let differ = lanes
+                    .iter()
+                    .zip(&expected)
+                    .position(|(lanes, free)| lanes.is_some_and(|found| found != *free));
+                assert_eq!(differ, None, "seed 55 cell {which} round {round} on {level:?}");
+                doubts[which] += lanes.iter().map(|found| u32::from(found.is_none())).sum::<u32>();
+            }
+        }
+    }
+    assert!(
+        free.iter().all(|free| (20_000..160_000).contains(free)),
+        "one-sided sample: {free:?} of 179 700"
+    );
+    // The mixed cell has solids without lanes.
+    assert!(doubts[0] > 1_000 && doubts[1] < 100, "{doubts:?} of 359 400 in doubt");
+}
+
+#[test]
+fn states_of_a_crowd_a_micrometre_from_contact_are_left_to_the_scalar_code() {
+    let (cell, mut stream) = (fu_cell(), seed::stream(56));
+    let mut states = Vec::new();
+    while states.len() < 4_000 {
+        let [free, other] = [0; 2].map(|_| draw(&mut stream));
+        if !cell.is_free(&free) || cell.is_free(&other) {
+            continue;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..50 {
+            let share = f64::midpoint(low, high);
+            *(if cell.is_free(&between(&free, &other, share)) { &mut low } else { &mut high }) = share;
+        }
+        states.push(between(&free, &other, high + stream.random_range(-3e-7..3e-7)));
+    }
+    let expected: Vec<bool> = states.iter().map(|q| cell.is_free(q)).collect();
+    let contacts = expected.iter().filter(|free| !**free).count();
+    assert!((1_000..3_000).contains(&contacts), "one-sided sample: {contacts}");
+    for level in levels() {
+        let (found, lanes) = on_level(level, || (cell.are_free(&states), cell.are_free_lanes(&states)));
+        assert_eq!(found, expected, "seed 56 on {level:?}");
+        let doubts = lanes.iter().filter(|found| found.is_none()).count();
+        assert!(doubts > 3_000, "only {doubts} of {} were passed on, on {level:?}", states.len());
+    }
+}

@@ -3,30 +3,33 @@
 //! - `configuration/ours` and `/parry3d`: is a random configuration free? Both place the same capsules by the same forward
 //!   kinematics; parry3d's capsules are asked behind the same axis-aligned boxes. The two are held to equal answers
 //!   first, but for the false contacts between capsules that parry3d 0.31 reports, which are counted and printed.
+//! - `configuration/ours_4096` and `/ours_4096_at_once`: 4096 of them, one by one with their limits and all at once, in lanes.
 //! - `motion/ours` and `/parry3d`: a straight motion in joint space between near configurations, every state at even steps of
 //!   1/32 rad. Ours also covers what lies between the states (see `space::cell`), parry3d's states alone are asked, so
 //!   neither is a proof, and ours does more.
 //! - `motion/tool_line`: a local path with inverse kinematics between neighbours within 500 mm, contacts and all.
 //! - `forward`, `inverse_on`, `inverse_all`: kinematics.
 //! - `roadmap/task_space_1500`: 1500 samples, edges up to 500 mm that end in their own configuration.
-//! - `roadmap/joint_space_1500`: 1500 samples, each tried with its 12 nearest in joint space on a straight line there, in the
-//!   study's steps of 4°; the search for neighbours is part of it.
+//! - `roadmap/joint_space_1500`: 1500 samples, each tried with its 12 nearest in joint space on a straight line there at steps
+//!   of 1/32 rad; the search for neighbours is part of it.
 //! - `query/original` and `/improved`: one query on that roadmap, its local paths already known.
+
+mod cpu;
 
 use base::seed;
 use base::settings::Settings;
+use cpu::CpuTime;
 use criterion::{Criterion, criterion_group, criterion_main};
-use engine::geometry::{Aabb, Capsule, Solid, Vec3};
-use engine::kinematics::{Joints, Robot};
-use engine::planner::{self, Build, Planner, Request};
-use engine::space::World;
-use engine::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Pose, Scene, Scratch, Standing};
-use engine::space::roadmap::{Counted, Local, Roadmap, Sample};
-use fearless_simd::{Level, dispatch};
 use parry3d::math::{Pose as ParryPose, Vector};
 use parry3d::query::intersection_test;
 use parry3d::shape::{self, SharedShape};
 use rand::RngExt as _;
+use replan_engine::geometry::{Aabb, Capsule, Solid, Vec3};
+use replan_engine::kinematics::{Joints, Robot};
+use replan_engine::planner::{self, Build, Planner, Request};
+use replan_engine::space::World;
+use replan_engine::space::cell::{Cell, EdgeEnd, LineRules, Lines, Path, Pose, Scene, Scratch, Standing};
+use replan_engine::space::roadmap::{Counted, Local, Near, Roadmap, Sample};
 use std::f64::consts::PI;
 use std::hint::black_box;
 use std::time::Duration;
@@ -34,7 +37,7 @@ use std::time::Duration;
 const SEED: u64 = 5;
 
 fn cell() -> Cell {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data");
     let robot = Robot::load(&root.join("robots/motoman_up6.toml")).expect("the robot is there");
     let scene = Scene::load(&root.join("scenes/fu2018_cell.toml")).expect("the scene is there");
     Cell::new(robot, scene, true)
@@ -148,7 +151,7 @@ impl Parry {
     }
 }
 
-fn configurations(c: &mut Criterion) {
+fn configurations(c: &mut Criterion<CpuTime>) {
     let (cell, mut stream) = (cell(), seed::stream(SEED));
     let parry = Parry::new(&cell);
     let drawn: Vec<Joints> = (0..4096).map(|_| draw(&mut stream)).collect();
@@ -176,10 +179,14 @@ fn configurations(c: &mut Criterion) {
             black_box(parry.touches(&cell, &placed))
         });
     });
+    let singly = || drawn.iter().map(|q| cell.is_free(q)).collect::<Vec<_>>();
+    assert_eq!(cell.are_free(&drawn), singly());
+    group.bench_function("ours_4096", |b| b.iter(|| black_box(singly())));
+    group.bench_function("ours_4096_at_once", |b| b.iter(|| black_box(cell.are_free(&drawn))));
     group.finish();
 }
 
-fn kinematics(c: &mut Criterion) {
+fn kinematics(c: &mut Criterion<CpuTime>) {
     let (cell, mut stream) = (cell(), seed::stream(SEED));
     let arm = cell.robot().arm();
     let drawn: Vec<Joints> = (0..1024).map(|_| draw(&mut stream)).collect();
@@ -204,7 +211,7 @@ fn kinematics(c: &mut Criterion) {
     group.finish();
 }
 
-fn motions(c: &mut Criterion) {
+fn motions(c: &mut Criterion<CpuTime>) {
     let lines = Lines::new(cell(), rules());
     let samples = samples(lines.cell(), 400);
     let poses: Vec<Pose> =
@@ -252,94 +259,50 @@ fn motions(c: &mut Criterion) {
 
 /// How many of the nearest samples in joint space each is tried with.
 const NEIGHBOURS: usize = 12;
-/// How many samples are measured side by side.
-const GROUP: usize = 16;
 
-/// Writes the squares of the distances from `own` to the samples of each group, and the least of each group; a group holds
-/// their angles joint by joint.
-#[expect(clippy::inline_always, reason = "it is compiled for the instructions of its caller")]
-#[inline(always)]
-fn write_gaps(own: &Joints, groups: &[[[f64; GROUP]; 6]], gaps: &mut [[f64; GROUP]], least: &mut [f64]) {
-    for ((group, gaps), least) in groups.iter().zip(gaps).zip(least) {
-        let mut sums = [0.0; GROUP];
-        for (angles, own) in group.iter().zip(own) {
-            for (sum, angle) in sums.iter_mut().zip(angles) {
-                *sum += (own - angle) * (own - angle);
-            }
-        }
-        *gaps = sums;
-        let mut half = GROUP / 2;
-        while half > 0 {
-            for lane in 0..half {
-                sums[lane] = if sums[lane + half] < sums[lane] { sums[lane + half] } else { sums[lane] };
-            }
-            half /= 2;
-        }
-        *least = sums[0];
-    }
-}
-
-/// The angles of the samples, a group at a time, joint by joint; what fills the last group is infinitely far.
-fn groups(samples: &[Sample]) -> Vec<[[f64; GROUP]; 6]> {
-    let mut groups = vec![[[f64::INFINITY; GROUP]; 6]; samples.len().div_ceil(GROUP)];
-    for (i, sample) in samples.iter().enumerate() {
-        for (row, angle) in groups[i / GROUP].iter_mut().zip(&sample.config) {
-            row[i % GROUP] = *angle;
-        }
-    }
-    groups
-}
-
-/// Each sample with its 12 nearest in joint space, every pair once.
+/// Each sample with its nearest in joint space, every pair once.
 fn neighbours(samples: &[Sample]) -> Vec<[usize; 2]> {
-    let groups = groups(samples);
-    let (mut gaps, mut least) = (vec![[0.0; GROUP]; groups.len()], vec![0.0; groups.len()]);
-    let (mut ranked, mut nearest) = (Vec::new(), Vec::<(f64, usize)>::new());
-    let mut pairs = Vec::with_capacity(samples.len() * NEIGHBOURS);
+    let square = |a: &Sample, b: &Sample| -> f64 {
+        a.config.iter().zip(&b.config).map(|(a, b)| (a - b) * (a - b)).sum()
+    };
+    let mut pairs = Vec::new();
     for (i, sample) in samples.iter().enumerate() {
-        let own = sample.config.as_slice().try_into().expect("six angles");
-        dispatch!(Level::new(), _simd => write_gaps(own, &groups, &mut gaps, &mut least));
-        ranked.clear();
-        ranked.extend(least.iter().map(|gap| gap.to_bits()));
-        // So many groups hold a sample within the bound that the nearest are within it, and the sample itself.
-        let bound = f64::from_bits(*ranked.select_nth_unstable(NEIGHBOURS).1);
-        nearest.clear();
-        for (group, gaps) in gaps.iter().enumerate().filter(|(group, _)| least[*group] <= bound) {
-            let within = gaps.iter().enumerate().filter(|(_, gap)| **gap <= bound);
-            nearest.extend(within.map(|(lane, gap)| (*gap, group * GROUP + lane)));
-        }
-        nearest.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let others = nearest.iter().map(|(_, j)| *j).filter(|j| *j != i).take(NEIGHBOURS);
-        pairs.extend(others.map(|j| [i.min(j), i.max(j)]));
+        let mut others: Vec<usize> = (0..samples.len()).filter(|other| *other != i).collect();
+        others.sort_by(|a, b| square(sample, &samples[*a]).total_cmp(&square(sample, &samples[*b])));
+        pairs.extend(others[..NEIGHBOURS].iter().map(|j| [i.min(*j), i.max(*j)]));
     }
     pairs.sort_unstable();
     pairs.dedup();
     pairs
 }
 
-fn joint_roadmap(c: &mut Criterion) {
-    let lines = Lines::new(cell(), LineRules { path: Path::Joints, ..rules() });
+fn joint_roadmap(c: &mut Criterion<CpuTime>) {
+    let lines = Lines::new(cell(), joint_rules());
     let samples = samples(lines.cell(), 1500);
-    let mut scratch = Scratch::default();
-    let mut built = || {
-        let angles = samples.iter().map(|s| s.config.as_slice().try_into().expect("six angles"));
-        let poses: Vec<Pose> = angles.map(|q| lines.pose(&q)).collect();
-        let mut edges = neighbours(&samples);
-        edges.retain(|[a, b]| lines.join(&poses[*a], &poses[*b], &mut scratch).is_ok());
-        edges
+    let built = || {
+        let local = Local::Arm(Box::new(lines.clone()));
+        Roadmap::build(local, samples.clone(), Near::Nearest(NEIGHBOURS), Counted::Accepted)
     };
-    println!("joint-space roadmap: {} of {} pairs are edges", built().len(), neighbours(&samples).len());
+    let (pairs, tally) = (neighbours(&samples).len(), *built().tally());
+    assert_eq!(tally.pairs, pairs as u64);
+    println!("joint-space roadmap: {} of {pairs} pairs are edges", tally.edges);
     let mut group = c.benchmark_group("roadmap");
     group.sample_size(10).measurement_time(Duration::from_secs(4));
     group.bench_function("joint_space_1500", |b| b.iter(|| black_box(built())));
     group.finish();
 }
 
-fn roadmaps(c: &mut Criterion) {
+fn roadmaps(c: &mut Criterion<CpuTime>) {
     let lines = Lines::new(cell(), rules());
     let samples = samples(lines.cell(), 1500);
-    let built =
-        || Roadmap::build(Local::Arm(Box::new(lines.clone())), samples.clone(), 500.0, Counted::Accepted);
+    let built = || {
+        Roadmap::build(
+            Local::Arm(Box::new(lines.clone())),
+            samples.clone(),
+            Near::Places(500.0),
+            Counted::Accepted,
+        )
+    };
     let mut group = c.benchmark_group("roadmap");
     group.sample_size(10).measurement_time(Duration::from_secs(4));
     group.bench_function("task_space_1500", |b| b.iter(|| black_box(built())));
@@ -371,7 +334,7 @@ fn planner(shot: &str) -> Box<dyn Planner> {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default().measurement_time(Duration::from_secs(2)).warm_up_time(Duration::from_millis(500));
+    config = cpu::criterion().measurement_time(Duration::from_secs(2)).warm_up_time(Duration::from_millis(500));
     targets = configurations, kinematics, motions, roadmaps, joint_roadmap
 }
 criterion_main!(benches);
