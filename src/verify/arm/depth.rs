@@ -49,7 +49,7 @@ fn least(of: &dyn Fn(f64) -> f64, places: u32) -> f64 {
 /// The shortest shift, in any direction, that takes the segment out of the obstacle; 0 or less if it is out.
 fn shift(plain: &Plain, segment: [[f64; 2]; 2]) -> f64 {
     let overlap = |share: f64| {
-        let (uy, ux) = (share * std::f64::consts::TAU).sin_cos();
+        let (uy, ux) = libm::sincos(share * std::f64::consts::TAU);
         let nearest = segment.map(|[x, y]| ux * x + uy * y).into_iter().fold(f64::INFINITY, f64::min);
         plain.farthest([ux, uy]) - nearest
     };
@@ -62,8 +62,8 @@ fn sampled(case: &Case<'_>, plain: &Plain) -> [f64; 2] {
     let by = [0, 1].map(|i| libm::remainder(to[i] - from[i], std::f64::consts::TAU));
     let links = |share: f64| {
         let [q1, q2] = [0, 1].map(|i| from[i] + share * by[i]);
-        let elbow = [30.0 * q1.cos(), 30.0 * q1.sin()];
-        let tip = [elbow[0] + 20.0 * (q1 + q2).cos(), elbow[1] + 20.0 * (q1 + q2).sin()];
+        let elbow = [30.0 * libm::cos(q1), 30.0 * libm::sin(q1)];
+        let tip = [elbow[0] + 20.0 * libm::cos(q1 + q2), elbow[1] + 20.0 * libm::sin(q1 + q2)];
         [[[0.0; 2], elbow], [elbow, tip]]
     };
     [0, 1].map(|link| -least(&|share| -shift(plain, links(share)[link]), 60))
@@ -91,7 +91,7 @@ fn the_depth_of_a_hit_is_the_least_shift_that_parts_arm_and_obstacle() {
         let mut case = case([&start, &goal], false);
         case.bodies = vec![plain.body()];
         let path = [start.to_vec(), goal.to_vec()];
-        let length = (goal[0] - start[0]).hypot(goal[1] - start[1]);
+        let length = libm::hypot(goal[0] - start[0], goal[1] - start[1]);
         let answer = Answer { path: &path, cost: Some(length), steps: None, optimal: false };
         let Ok(audit) = case.audit(&answer) else { continue };
         if audit.unsafe_hops == 0 && clear > 20 {
@@ -119,7 +119,8 @@ fn of_several_hits_the_deepest_counts() {
     let ends: [[f64; 2]; 3] = [[30.0, 20.0], [36.0, 26.0], [35.0, 25.0]];
     let depth = |points: &[[f64; 2]]| {
         let path: Vec<Vec<f64>> = points.iter().map(|point| point.to_vec()).collect();
-        let length = points.windows(2).map(|two| (two[1][0] - two[0][0]).hypot(two[1][1] - two[0][1])).sum();
+        let length =
+            points.windows(2).map(|two| libm::hypot(two[1][0] - two[0][0], two[1][1] - two[0][1])).sum();
         let case = case([&path[0], &path[path.len() - 1]], false);
         let audit =
             case.audit(&Answer { path: &path, cost: Some(length), steps: None, optimal: false }).unwrap();
