@@ -9,7 +9,7 @@ use super::metric;
 use super::rule;
 use super::settle::settles;
 use super::together::together;
-use super::verdict::{Finding, Judged, Verdicts};
+use super::verdict::{Estimate, Finding, Judged, Verdicts};
 use crate::study::paper::{Asked, Claim, Paper, Parts};
 use base::hash::sha256;
 use base::settings::{Faults, SettingsError, none_called};
@@ -243,8 +243,13 @@ fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
 }
 
 fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: &Claim) -> Weighed {
-    let found = of.find(evidence);
+    let mut found = of.find(evidence);
     let studies = of.studies();
+    let clock = of.is_clock().then(|| sessions(of, evidence));
+    let clock = clock.map(|(said, because)| {
+        found.because.extend(because);
+        said
+    });
     let is_fitted = |id: &str| studies.iter().any(|study| study.fitted_to.iter().any(|other| other == id));
     // A cell of a row that something was chosen to meet was met with it.
     let row = evidence.paper.whole_of(&claim.id).filter(|whole| matches!(whole.parts, Parts::Cells(_)));
@@ -255,7 +260,7 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         powerless: found.powerless,
         censored: found.censored > 0,
         few: found.needs.is_some(),
-        clock: of.is_clock().then(|| sessions(of, evidence)),
+        clock,
         without_premises: found.without_premises,
     };
     let studies = studies.iter().map(|study| study.name.clone()).collect();
@@ -263,16 +268,28 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
     Weighed { finding: finding(name, found, caps), caps, is_covered, results: String::new(), studies }
 }
 
-/// What the stored sessions of the clock say, each judged by itself.
-fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> Sessions {
+/// What the stored sessions of the clock say, each judged by itself, and what each of them found.
+fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> (Sessions, Option<String>) {
     let stored = of.studies().iter().filter_map(|study| evidence.run(&study.name)).map(Run::sessions).min();
-    let count = stored.unwrap_or(0);
-    if count < class::SESSIONS {
-        return Sessions::TooFew;
-    }
-    let outcome = |session: usize| of.find(&evidence.in_session(session as u32)).outcome;
-    let first = outcome(1);
-    if (2..=count).all(|session| outcome(session) == first) { Sessions::Agree } else { Sessions::Disagree }
+    let found: Vec<Found> =
+        (1..=stored.unwrap_or(0)).map(|session| of.find(&evidence.in_session(session as u32))).collect();
+    let first = found.first().map(|found| found.outcome);
+    let said = if found.len() < class::SESSIONS {
+        Sessions::TooFew
+    } else if found.iter().all(|found| Some(found.outcome) == first) {
+        Sessions::Agree
+    } else {
+        Sessions::Disagree
+    };
+    let told = |ours: &Estimate| {
+        let interval = ours.interval.map(|[low, high]| format!(" [{low:.2}, {high:.2}]"));
+        format!("{:.2}{}", ours.value, interval.unwrap_or_default())
+    };
+    let numbers: Option<Vec<String>> = found.iter().map(|found| found.ours.as_ref().map(told)).collect();
+    let because = numbers
+        .filter(|numbers| !numbers.is_empty())
+        .map(|numbers| format!("sessions of the clock, each judged by itself: {}", numbers.join("; ")));
+    (said, because)
 }
 
 /// What would settle a sentence whose parts leave it open.

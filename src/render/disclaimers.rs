@@ -3,8 +3,8 @@
 use crate::analysis::claims::claims_hash;
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::Verdicts;
-use crate::study::ReadingChoice;
 use crate::study::paper::Paper;
+use crate::study::{Reading, ReadingChoice, Study};
 
 /// What every output of a quick run says.
 pub const QUICK: &str = "Quick run: few replicates, not the study's result.";
@@ -23,10 +23,33 @@ pub fn marks(paper: &Paper, verdicts: &Verdicts) -> Vec<String> {
     quick.into_iter().chain(reading).collect()
 }
 
+/// Which studies lack a part of the reading that trials were run under, so that claims on them are judged without it.
+fn untouched(paper: &Paper, verdicts: &Verdicts) -> Option<String> {
+    let readings = paper.readings();
+    let is_away = |reading: &&Reading| {
+        reading.touches_trials()
+            && verdicts.reading.get(&reading.id).is_some_and(|option| *option != reading.default)
+    };
+    let away: Vec<&Reading> = readings.iter().filter(is_away).collect();
+    let lacks =
+        |study: &&Study| away.iter().any(|reading| !study.readings.iter().any(|own| own.id == reading.id));
+    let names: Vec<String> =
+        paper.studies.iter().filter(lacks).map(|study| format!("`{}`", study.name)).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "Without all of this reading: {}; claims on what ran there are judged as they are by default, and `replan explore {}` \
+             judges under it those that it can.",
+            names.join(", "),
+            paper.id
+        )
+    })
+}
+
 /// What a chapter begins with: [`marks`], and what is stale in the stored run and its verdicts.
 pub fn state(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Vec<String> {
     let paper = evidence.paper;
     let mut said = marks(paper, verdicts);
+    said.extend(untouched(paper, verdicts));
     if !verdicts.quick && evidence.runs().any(|run| run.manifest.quick) {
         said.push(QUICK.to_owned());
     }

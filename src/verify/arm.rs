@@ -6,6 +6,8 @@
 //! link can reach what it is nearest to; otherwise it is halved, down to `RESOLUTION_CM`, below which contact is assumed.
 
 mod body;
+#[cfg(test)]
+mod depth;
 mod motion;
 mod optimum;
 #[cfg(test)]

@@ -24,6 +24,18 @@ fn another_seed_and_another_reading_write_elsewhere() {
 }
 
 #[test]
+fn a_chapter_names_the_studies_that_its_reading_does_not_touch() {
+    let bench = Bench::new();
+    let untouched = |place: &str, flags: &[&str]| {
+        bench.done(&[&["repro", "./mini"], flags].concat());
+        let report = fs::read_to_string(bench.at(&format!("target/replan/{place}/paper_repro.md"))).unwrap();
+        report.contains("Without all of this reading: `room`; claims")
+    };
+    assert!(!untouched("mini", &[]));
+    assert!(untouched("mini-readings-corners-forbid-any", &["--readings", "corners=forbid_any"]));
+}
+
+#[test]
 fn a_paper_of_the_project_is_found_by_name_and_writes_the_committed_places() {
     let bench = Bench::new();
     fs::create_dir(bench.at("experiments")).unwrap();

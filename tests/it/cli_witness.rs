@@ -137,6 +137,31 @@ fn what_failed_on_draws_that_were_not_timed_is_no_failure_among_the_timed() {
     assert!(solved.ends_with("/12"), "12 of 24 draws are timed, and {solved} are counted\n{judged}");
 }
 
+#[test]
+fn a_claim_about_time_says_what_each_session_of_the_clock_found() {
+    let bench = Bench::new();
+    bench.edit("mini/draws.toml", "problems = 2", "problems = 12");
+    bench.edit("mini/paper.toml", "metric = \"nodes\"", "metric = \"plan_time_us\"");
+    bench.done(&["repro", "./mini"]);
+    let found = |bench: &Bench| -> Vec<String> {
+        let shown = bench.done(&["show", "./mini", "nodes"]).split_whitespace().collect::<Vec<_>>().join(" ");
+        let after = |text: &str| shown.split_once(text).unwrap().1.to_owned();
+        let ours = after("ours: ").split_once(']').unwrap().0.to_owned() + "]";
+        let sessions = after("sessions of the clock, each judged by itself: ");
+        let found: Vec<String> =
+            sessions.split_inclusive(']').map(|one| one.trim_start_matches("; ").to_owned()).collect();
+        assert_eq!(found[0], ours, "{shown}");
+        found.into_iter().take_while(|one| one.ends_with(']')).collect()
+    };
+    assert_eq!(found(&bench).len(), 1);
+    bench.done(&["run", "./mini", "--clock"]);
+    bench.done(&["run", "./mini", "--clock"]);
+    bench.done(&["judge", "./mini"]);
+    let three = found(&bench);
+    assert_eq!(three.len(), 3, "{three:?}");
+    assert!(three[0] != three[1] && three[1] != three[2], "{three:?}");
+}
+
 /// How many draws the same paper counts as failed when it asks for what every trial has.
 fn judged_failures(bench: &Bench) -> u32 {
     bench.edit("mini/paper.toml", "metric = \"plan_time_us\"", "metric = \"nodes\"");

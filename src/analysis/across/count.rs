@@ -14,7 +14,7 @@ pub struct Axes {
     /// Each reading.
     pub readings: Vec<Reading>,
     /// The claims that some study was calibrated to.
-    calibration: BTreeSet<String>,
+    pub(super) calibration: BTreeSet<String>,
     /// The paper as it is now.
     pub now: Now,
 }

@@ -6,10 +6,11 @@ use super::stored::Exploration;
 use crate::study::Reading;
 use std::collections::BTreeMap;
 
-/// In a few words what the readings make of a claim.
+/// In a few words what the readings make of the claim called `id`.
 pub fn said(
     axes: &Axes,
     first: &Exploration,
+    id: &str,
     groups: &[Group],
     votes: &[Verdict],
     class: Verdict,
@@ -26,7 +27,7 @@ pub fn said(
         return format!("met under {holds} of {all}, {named} among them");
     }
     if holds > 0 && fails > 0 {
-        return hangs(axes, first, groups, votes);
+        return hangs(axes, first, id, groups, votes);
     }
     let open = all - holds - fails;
     let tail = if open > 0 { format!(", open under {open}") } else { String::new() };
@@ -50,7 +51,7 @@ fn name(first: &Exploration, place: usize) -> String {
 type Split<'a> = BTreeMap<&'a str, [usize; 2]>;
 
 /// What a claim hangs on that holds under some results and fails under others.
-fn hangs(axes: &Axes, first: &Exploration, groups: &[Group], votes: &[Verdict]) -> String {
+fn hangs(axes: &Axes, first: &Exploration, id: &str, groups: &[Group], votes: &[Verdict]) -> String {
     let class = votes.iter().filter(|vote| vote.polarity() == Polarity::For).max().copied();
     let class = class.unwrap_or(Verdict::Undecided).name();
     let splits = axes.readings.iter().map(|axis| (axis, split(axis, first, groups, votes)));
@@ -64,7 +65,7 @@ fn hangs(axes: &Axes, first: &Exploration, groups: &[Group], votes: &[Verdict]) 
     });
     let all = votes.len();
     match best {
-        Some((axis, split)) if right(&split) == holds + fails => {
+        Some((axis, split)) if right(&split) == holds + fails && decides(axis, &split, first, id) => {
             let options: Vec<&str> =
                 split.iter().filter(|(_, [holds, _])| *holds > 0).map(|(option, _)| *option).collect();
             format!("hangs on {}: {class} if {} ({holds} of {all})", axis.id, options.join(" or "))
@@ -78,6 +79,17 @@ fn hangs(axes: &Axes, first: &Exploration, groups: &[Group], votes: &[Verdict]) 
         }
         _ => format!("hangs on several readings: {class} under {holds} of {all}"),
     }
+}
+
+/// Whether each option of `axis` under which the claim holds does so by itself, all else at its default, as far as that was
+/// looked at: in a sample of combinations an axis may part by chance what others decide.
+fn decides(axis: &Reading, split: &Split<'_>, first: &Exploration, id: &str) -> bool {
+    let holding = split.iter().filter(|(_, [holds, _])| *holds > 0).map(|(option, _)| *option);
+    let alone = holding.filter(|option| *option != axis.default).filter_map(|option| {
+        let place = first.place(&BTreeMap::from([(axis.id.clone(), option.to_owned())]))?;
+        first.result(id, place)
+    });
+    alone.into_iter().all(|result| result.class.polarity() == Polarity::For)
 }
 
 /// By option of `axis`, under how many results a claim holds and fails; a result under several options belongs to the first.

@@ -100,7 +100,7 @@ fn across(
     Some(Across {
         class,
         default: judged.verdict,
-        said: hangs::said(axes, first, &counted.groups, &votes, class, counted.is_existential),
+        said: hangs::said(axes, first, &judged.claim, &counted.groups, &votes, class, counted.is_existential),
         counted: votes.len(),
         looked: counted.looked,
         holds: count(Polarity::For),

@@ -206,7 +206,7 @@ impl Exploration {
 
 /// What a paper is now, by hashes: all that tells whether what was stored of it is of it as it is. It is made once and asked
 /// for every claim.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Now {
     /// The claims in their order.
     ids: Vec<String>,

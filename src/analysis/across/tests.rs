@@ -2,7 +2,12 @@ use super::super::class::Verdict::{
     self, Attainable, DirectionOnly, Fitted, Impossible, NotReproduced, Reproduced, Undecided, Untestable,
 };
 use super::combine::{combined, confirmed, flips};
-use super::count::Group;
+use super::count::{Axes, Group};
+use super::glance::Sight;
+use super::hangs::said;
+use super::stored::{Exploration, ExploredClaim, ExploredResult, Now};
+use crate::study::Reading;
+use std::collections::{BTreeMap, BTreeSet};
 
 fn groups(classes: &[Verdict]) -> Vec<Group> {
     let group =
@@ -67,4 +72,58 @@ fn what_stands_alone_against_most_must_be_confirmed_whichever_way_it_speaks() {
     assert_eq!(combined(&confirmed(&found, |_| None), false), NotReproduced);
     assert_eq!(combined(&confirmed(&found, |_| Some(Reproduced)), false), Undecided);
     assert!(flips(&groups(&many(&[(9, NotReproduced), (3, Undecided)]))).is_empty());
+}
+
+/// What a claim hangs on that holds with two options together and fails under the default and one of them alone; `alone` is
+/// its class under the other alone, which does not count.
+fn hangs_on(alone: Verdict) -> String {
+    let axis = |id: &str, default: &str| Reading {
+        id: id.to_owned(),
+        why: String::new(),
+        default: default.to_owned(),
+        fitted: false,
+        bounds: None,
+        options: BTreeMap::new(),
+        place: None,
+    };
+    let axes = Axes {
+        readings: vec![axis("corners", "allow"), axis("ties", "fifo")],
+        calibration: BTreeSet::new(),
+        now: Now::default(),
+    };
+    let reading = |options: &[(&str, &str)]| {
+        options.iter().map(|(id, option)| ((*id).to_owned(), (*option).to_owned())).collect()
+    };
+    let (forbid, lifo) = (("corners", "forbid"), ("ties", "lifo"));
+    let result = |(place, class): (usize, &Verdict)| ExploredResult {
+        readings: vec![place],
+        class: *class,
+        sight: Sight::Looked,
+        value: None,
+        interval: None,
+        n: 1,
+        results: place.to_string(),
+    };
+    let classes = [NotReproduced, alone, NotReproduced, Reproduced];
+    let results = classes.iter().enumerate().map(result).collect();
+    let claim = ExploredClaim { results, ..ExploredClaim::default() };
+    let first = Exploration {
+        readings: vec![reading(&[]), reading(&[forbid]), reading(&[lifo]), reading(&[forbid, lifo])],
+        claims: BTreeMap::from([("fewer".to_owned(), claim)]),
+        ..Exploration::default()
+    };
+    let counted: Vec<Group> = groups(&classes).into_iter().filter(|group| group.reading != 1).collect();
+    let votes: Vec<Verdict> = counted.iter().map(|group| group.class).collect();
+    said(&axes, &first, "fewer", &counted, &votes, Undecided, false)
+}
+
+#[test]
+fn a_claim_hangs_on_an_axis_alone_only_if_its_option_alone_decides() {
+    assert_eq!(hangs_on(Reproduced), "hangs on corners: reproduced if forbid (1 of 3)");
+    for alone in [NotReproduced, Undecided] {
+        assert_eq!(
+            hangs_on(alone),
+            "hangs on corners and others: reproduced under 1 of 3 (allow 0 of 2, forbid 1 of 1)"
+        );
+    }
 }

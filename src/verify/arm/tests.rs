@@ -1,7 +1,7 @@
 use super::*;
 use crate::arm::Body;
 
-fn case(ends: [&[f64]; 2], swept: bool) -> Case<'_> {
+pub(super) fn case(ends: [&[f64]; 2], swept: bool) -> Case<'_> {
     Case {
         links_cm: [30.0, 20.0],
         higher_elbow: false,

@@ -118,7 +118,7 @@ fn near_pairs(samples: &[Sample], near: Near) -> Vec<(u32, u32)> {
                 others.truncate(count);
             }
             Near::Configurations(radius) | Near::Places(radius) => {
-                others.retain(|other| gap(own, *other) <= radius * radius)
+                others.retain(|other| gap(own, *other) <= radius * radius);
             }
         }
         others
