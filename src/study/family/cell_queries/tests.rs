@@ -249,7 +249,7 @@ fn by_configuration(over: &str) -> Settings {
 
 #[test]
 fn a_roadmap_in_joint_space_has_paths_that_the_verifier_accepts() {
-    for rule in std::iter::once("nearest = 12") {
+    for rule in ["nearest = 12", "radius_deg = 110"] {
         let posed = Posed::new(&by_configuration(&format!("samples = 600\n{rule}")), &inputs(None)).unwrap();
         let prepared = posed.prepare(3).unwrap();
         let (planner, mut solved) = (planner("samples = 600\nneighbour_mm = 3000"), 0);
