@@ -129,7 +129,7 @@ class Across:
         ways = [SPEAKS[vote] for vote in votes]
         return {
             "class": found,
-            "said": self.said(counted, found),
+            "said": self.said(claim, counted, found),
             "counted": len(votes),
             "looked": counted.looked,
             "holds": ways.count(1),
@@ -216,7 +216,7 @@ class Across:
             if again is None or SPEAKS[again["class"]] != SPEAKS[one.stored]:
                 one.vote = "undecided"
 
-    def said(self, counted: Counted, found: str) -> str:
+    def said(self, claim: str, counted: Counted, found: str) -> str:
         """What stands beside the class."""
         votes = [SPEAKS[one.vote] for one in counted.results]
         holds, fails, left, every = votes.count(1), votes.count(-1), votes.count(0), len(votes)
@@ -226,7 +226,7 @@ class Across:
         if counted.existential and holds:
             return f"met under {holds} of {every}, {self.name(counted.results[votes.index(1)])} among them"
         if holds and fails:
-            return self.hangs(counted.results)
+            return self.hangs(claim, counted.results)
         for speaks, verb, way in ((holds, "holds", 1), (fails, "fails", -1)):
             if speaks:
                 firm = SPEAKS[found] == way
@@ -239,7 +239,18 @@ class Across:
         reading = self.first["readings"][result.readings[0]]
         return ", ".join(f"{axis} = {option}" for axis, option in sorted(reading.items())) or "the default"
 
-    def hangs(self, results: list[Result]) -> str:
+    def decides(self, claim: str, axis: Axis, split: dict[str, list[int]]) -> bool:
+        """Whether each option under which a claim holds does so by itself, as far as that was looked at."""
+        assert self.first is not None
+        for option in (option for option, (holds, _) in split.items() if holds and option != axis.default):
+            alone = {axis.id: option}
+            if alone in self.first["readings"]:
+                found = self.result(self.first, claim, self.first["readings"].index(alone))
+                if found is not None and SPEAKS[found["class"]] != 1:
+                    return False
+        return True
+
+    def hangs(self, claim: str, results: list[Result]) -> str:
         """What a claim hangs on: the axis whose options part the results best."""
         assert self.first is not None
         splits = []
@@ -249,20 +260,20 @@ class Across:
                 counts = split.setdefault(axis.option(self.first["readings"][one.readings[0]]), [0, 0])
                 if SPEAKS[one.vote]:
                     counts[SPEAKS[one.vote] < 0] += 1
-            splits.append((sum(map(max, split.values())), axis.id, dict(sorted(split.items()))))
-        right, axis_id, split = max(splits, key=lambda one: one[0])
+            splits.append((sum(map(max, split.values())), axis, dict(sorted(split.items()))))
+        right, axis, split = max(splits, key=lambda one: one[0])
         votes = [one.vote for one in results]
         holds, fails = (sum(SPEAKS[vote] == way for vote in votes) for way in (1, -1))
         found = max((vote for vote in votes if SPEAKS[vote] == 1), key=WEIGHT.index).replace("_", " ")
         every = len(results)
-        if right == holds + fails:
+        if right == holds + fails and self.decides(claim, axis, split):
             where = " or ".join(option for option, counts in split.items() if counts[0])
-            return f"hangs on {axis_id}: {found} if {where} ({holds} of {every})"
+            return f"hangs on {axis.id}: {found} if {where} ({holds} of {every})"
         if right > max(holds, fails):
             shares = ", ".join(
                 f"{option} {own[0]} of {sum(own)}" for option, own in split.items() if sum(own)
             )
-            return f"hangs on {axis_id} and others: {found} under {holds} of {every} ({shares})"
+            return f"hangs on {axis.id} and others: {found} under {holds} of {every} ({shares})"
         return f"hangs on several readings: {found} under {holds} of {every}"
 
 

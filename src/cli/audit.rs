@@ -1,6 +1,7 @@
 //! `replan audit`: is this table possible?
 
 use super::{Failure, render};
+use ::audit::input::Input;
 use ::audit::reader::{self, Format};
 use ::audit::report::{Options, Report};
 use ::audit::witness::Budget;
@@ -97,13 +98,7 @@ impl Audit {
         if self.json {
             say!("{:#}", output::json(&source, &input, &report));
         } else {
-            let findings = report.findings.iter().map(|finding| output::line(&source, finding));
-            let remarks =
-                output::guesses(&source, &input).into_iter().chain(output::unread_spreads(&source, &input));
-            let lines = remarks.chain(output::unseen(&source, &report)).chain(findings);
-            for line in lines.chain(output::summary(&report)) {
-                say!("{line}");
-            }
+            say_lines(&source, &input, &report);
         }
         let are = match report.tally.values().map(|tally| tally.impossible).sum::<usize>() {
             0 => return Ok(()),
@@ -169,6 +164,16 @@ fn write_certificates(folder: &Path, report: &Report) -> Result<(), Failure> {
         write(&path, &format!("{certificate:#}\n"))?;
     }
     Ok(())
+}
+
+/// Prints what was guessed, what nothing looked at, the findings and how many there are.
+fn say_lines(source: &str, input: &Input, report: &Report) {
+    let findings = report.findings.iter().map(|finding| output::line(source, finding));
+    let remarks = output::guesses(source, input).into_iter().chain(output::unread_spreads(source, input));
+    let lines = remarks.chain(output::unseen(source, report)).chain(findings);
+    for line in lines.chain(output::summary(report)) {
+        say!("{line}");
+    }
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Failure> {

@@ -198,7 +198,16 @@ pub fn sharded(
     if !Plan::path(&folder).exists() {
         return Ok(explorer.sharded(named, first, &points(&explorer)?));
     }
-    let planned = Plan::read(&folder)?.round;
+    let (round, planned) = planned(&folder, first)?;
+    let readings = paper.readings();
+    let point = |options| ReadingChoice::new(&readings, options).map_err(Failure::input);
+    let points: Vec<ReadingChoice> = planned.readings.iter().map(point).collect::<Result<_, _>>()?;
+    Ok(explorer.sharded(named, round, &points))
+}
+
+/// The round that is planned in `folder`, which must be of the command that `first` begins.
+fn planned(folder: &Path, first: Round) -> Result<(Round, PlannedRound), Failure> {
+    let planned = Plan::read(folder)?.round;
     let is_of = |round: &Round, planned: &PlannedRound| {
         (round.command(), round.name()) == (first.command(), &*planned.name)
     };
@@ -206,15 +215,11 @@ pub fn sharded(
         let round = Round::ALL.into_iter().find(|round| is_of(round, &planned))?;
         Some((round, planned))
     });
-    let Some((round, planned)) = found else {
-        return Err(Failure::input(format!(
+    found.ok_or_else(|| {
+        Failure::input(format!(
             "{}: the parts here are of another command than `{}`; another folder is accepted",
-            Plan::path(&folder).display(),
+            Plan::path(folder).display(),
             first.command()
-        )));
-    };
-    let readings = paper.readings();
-    let point = |options| ReadingChoice::new(&readings, options).map_err(Failure::input);
-    let points: Vec<ReadingChoice> = planned.readings.iter().map(point).collect::<Result<_, _>>()?;
-    Ok(explorer.sharded(named, round, &points))
+        ))
+    })
 }

@@ -127,9 +127,8 @@ impl Shard {
             Engine::Hyperqueue => serde_json::to_string(&word).expect("a word is a text"),
             Engine::Slurm | Engine::Parallel => quoted(&word),
         };
-        let name = sharded_name(&self.paper);
         let pairs = [
-            ("@NAME@", name),
+            ("@NAME@", sharded_name(&self.paper)),
             ("@FOLDER@", word(shown(&here))),
             ("@PROGRAM@", word(shown(&program))),
             ("@PARTS@", word(shown(&self.out))),

@@ -217,6 +217,11 @@ impl<'a> BuiltStudy<'a> {
         Ok(())
     }
 
+    /// The study that it was built of.
+    pub fn study(&self) -> &'a Study {
+        self.study
+    }
+
     /// How the study's records are named.
     pub fn names(&self) -> &Names {
         &self.terms.names

@@ -170,7 +170,7 @@ pub fn run(study: &Study, options: &Options<'_>) -> Result<Report, StudyError> {
     let times = match kept_times(study, stored.as_ref(), &mut manifest, counts.reused == units) {
         Some(times) => times,
         None if only.is_some() => Vec::new(),
-        None => built.time(SESSION, options.stop, options.progress)?,
+        None => times_beside(&built, options, stored.as_ref(), &mut manifest, &batch)?,
     };
     let records = Records { batch, times };
     let mut journal = journal.into_inner().expect("no thread panicked while it wrote");
@@ -215,6 +215,30 @@ fn kept_times(
     })?;
     manifest.sessions.clone_from(&before.sessions);
     Some(old.times.clone())
+}
+
+/// Reads the clock. Stored readings stay beside it, as sessions of their own, where every trial that ran again came out as it is
+/// stored: they are of the same trials.
+fn times_beside(
+    built: &BuiltStudy<'_>,
+    options: &Options<'_>,
+    stored: Option<&(Manifest, Records)>,
+    manifest: &mut Manifest,
+    batch: &Batch,
+) -> Result<Vec<Timing>, StudyError> {
+    let is_of_these = |(before, old): &&(Manifest, Records)| {
+        manifest.readings == before.readings
+            && !manifest.sessions.is_empty()
+            && is_timed_as(built.study(), &old.times)
+            && old.batch.rows == batch.rows
+    };
+    let Some((before, old)) = stored.filter(is_of_these) else {
+        return built.time(SESSION, options.stop, options.progress);
+    };
+    let number = before.sessions.len() as u32 + 1;
+    manifest.sessions = before.sessions.clone();
+    manifest.sessions.push(Session { number, ..Session::of(MadeBy::here()) });
+    Ok([old.times.clone(), built.time(number, options.stop, options.progress)?].concat())
 }
 
 /// Whether the clock was read for as many draws, repeats and seeds as `study` asks for: readings are then as good as new ones

@@ -125,6 +125,25 @@ fn a_clock_that_is_read_again_adds_a_session_and_moves_no_trial() {
 }
 
 #[test]
+fn trials_that_run_again_keep_the_sessions_of_the_clock_only_where_they_come_out_the_same() {
+    let bench = Bench::new();
+    bench.edit("mini/room.toml", "[quick]", "[timing]\nproblems = 1\nrepeats = 2\n\n[quick]");
+    bench.done(&["run", "./mini"]);
+    bench.done(&["run", "./mini", "--clock"]);
+    let sessions = |bench: &Bench| {
+        let files = bench.tree("target/replan/mini");
+        let (_, text) = files.iter().find(|(path, _)| path.ends_with("room.manifest.toml")).unwrap();
+        String::from_utf8_lossy(text).matches("[[session]]").count()
+    };
+    assert_eq!(sessions(&bench), 2);
+    bench.done(&["run", "./mini", "--fresh"]);
+    assert_eq!(sessions(&bench), 3, "a session that reads the same trials is lost");
+    bench.edit("mini/room.toml", "expansions = 10_000", "expansions = 3");
+    bench.done(&["run", "./mini", "--fresh"]);
+    assert_eq!(sessions(&bench), 1, "the clock read other trials");
+}
+
+#[test]
 fn what_failed_on_draws_that_were_not_timed_is_no_failure_among_the_timed() {
     let bench = Bench::new();
     bench.edit("mini/draws.toml", "problems = 2", "problems = 12");
