@@ -224,7 +224,9 @@ class Across:
         if every == 1:
             return "no reading moves it"
         if counted.existential and holds:
-            return f"met under {holds} of {every}, {self.name(counted.results[votes.index(1)])} among them"
+            first = counted.results[votes.index(1)]
+            tail = f", {self.name(first)} among them" if self.departs(first) else ""
+            return f"met under {holds} of {every}{tail}"
         if holds and fails:
             return self.hangs(claim, counted.results)
         for speaks, verb, way in ((holds, "holds", 1), (fails, "fails", -1)):
@@ -232,6 +234,11 @@ class Across:
                 firm = SPEAKS[found] == way
                 return f"{verb} under {speaks} of {every}{tail if firm else f' only, open under {left}'}"
         return f"open under {left} of {every}"
+
+    def departs(self, result: Result) -> bool:
+        """Whether the first reading of a result is another than the default."""
+        assert self.first is not None
+        return bool(self.first["readings"][result.readings[0]])
 
     def name(self, result: Result) -> str:
         """The first reading of a result by what differs from the defaults."""

@@ -2,8 +2,9 @@
 
 use super::explorer::{Explorer, judged, most_draws, scratch, within};
 use super::load::load;
+use super::one_shard::OneShard;
 use super::places::Places;
-use super::rounds::{Halt, OneShard, Round, Rounds, unless_planned};
+use super::rounds::{Halt, Round, Rounds, unless_planned};
 use super::{Failure, How, Which, command_line, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::to_confirm;

@@ -2,8 +2,9 @@
 
 use super::explorer::{Explorer, budget, judged, scratch};
 use super::load::load;
+use super::one_shard::OneShard;
 use super::places::Places;
-use super::rounds::{OneShard, Round, Rounds, unless_planned};
+use super::rounds::{Round, Rounds, unless_planned};
 use super::{Failure, How, Which, command_line, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::evidence::default_point;

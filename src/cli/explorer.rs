@@ -254,7 +254,10 @@ impl<'p> Explorer<'p> {
     /// Puts the parts of `round` together, if it is run in shards.
     pub fn put_together(&self, round: Round, points: &[ReadingChoice]) -> Result<(), Halt> {
         let rounds = self.rounds.as_ref().filter(|_| !points.is_empty());
-        rounds.map_or(Ok(()), |rounds| rounds.put_together(self, round, points))
+        rounds.map_or(Ok(()), |rounds| {
+            let sharded = self.sharded(&rounds.paper, round, points);
+            rounds.put_together(&sharded, round, points.len(), &self.folder)
+        })
     }
 
     /// The records of `studies` under `points`, run where they are not stored.

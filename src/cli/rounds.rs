@@ -4,11 +4,8 @@
 //! a round judges it, as one machine would, and plans the next one. So the budget is spent alike, and the findings are equal to
 //! the byte.
 
-use super::explorer::Explorer;
-use super::load::load;
-use super::places::Places;
+use super::Failure;
 use super::sharded::Sharded;
-use super::{Again, Failure, How, Which};
 use crate::analysis::across::stored::differing;
 use crate::study::paper::Paper;
 use crate::study::plan::{Plan, PlannedRound};
@@ -32,7 +29,7 @@ pub enum Round {
 
 impl Round {
     /// Every round, those of a command in the order in which they run.
-    const ALL: [Self; 5] = [Self::First, Self::Compatible, Self::Again, Self::Default, Self::Turned];
+    pub const ALL: [Self; 5] = [Self::First, Self::Compatible, Self::Again, Self::Default, Self::Turned];
 
     /// Its name, which is that of the folder of its records.
     pub fn name(self) -> &'static str {
@@ -46,7 +43,7 @@ impl Round {
     }
 
     /// The command that it is a round of.
-    fn command(self) -> &'static str {
+    pub fn command(self) -> &'static str {
         match self {
             Self::First | Self::Compatible | Self::Again => "explore",
             Self::Default | Self::Turned => "confirm",
@@ -118,14 +115,15 @@ impl Rounds {
         parts.join("merged")
     }
 
-    /// Puts the parts of `round` under `points` together below the explorer's folder; a round that has no plan is planned.
+    /// Puts the parts of `round` together below `to`, which `sharded` under so many readings is cut into; a round that has no
+    /// plan is planned.
     pub fn put_together(
         &self,
-        explorer: &Explorer<'_>,
+        sharded: &Sharded,
         round: Round,
-        points: &[ReadingChoice],
+        readings: usize,
+        to: &Path,
     ) -> Result<(), Halt> {
-        let sharded = explorer.sharded(&self.paper, round, points);
         let folder = self.parts.join(round.name());
         let is_new = !Plan::path(&folder).exists();
         let plan = Plan::agreed(&folder, &sharded.wanted(self.shards), &sharded.studies()?)?;
@@ -135,11 +133,11 @@ impl Rounds {
                 "round `{}`: {} units under {} readings are left to run, and then to merge: replan {}",
                 round.name(),
                 plan.units.iter().sum::<usize>(),
-                points.len(),
+                readings,
                 plan.arguments(&folder, &shard).join(" ")
             )));
         }
-        Ok(sharded.put_together(&plan, &folder, &explorer.folder.join(round.name()))?)
+        Ok(sharded.put_together(&plan, &folder, &to.join(round.name()))?)
     }
 }
 
@@ -148,78 +146,4 @@ pub fn at_work(parts: &Path) -> PathBuf {
     let rounds = Round::ALL.iter().rev().map(|round| parts.join(round.name()));
     let is_planned = |folder: &PathBuf| Plan::path(folder).exists();
     std::iter::once(parts.to_owned()).chain(rounds).find(is_planned).unwrap_or(parts.to_owned())
-}
-
-/// A shard of an exploration or a confirmation, as the command line asks for it.
-pub struct OneShard<'a> {
-    /// The paper, as the command line named it.
-    pub paper: &'a str,
-    /// Its number and how many there are.
-    pub shard: (usize, usize),
-    /// The folder of all parts.
-    pub parts: &'a Path,
-    /// Threads for the trials.
-    pub threads: Option<u32>,
-}
-
-impl OneShard<'_> {
-    /// Runs it in the round that is at work; in `first` under the points that it gives if none is planned yet.
-    pub fn run(
-        &self,
-        first: Round,
-        points: impl Fn(&Explorer<'_>) -> Result<Vec<ReadingChoice>, Failure>,
-    ) -> Result<(), Failure> {
-        let sharded = sharded(self.paper, self.threads, self.parts, first, points)?;
-        let folder = sharded.folder(self.parts);
-        sharded.run_shard(self.shard, &folder, Again { fresh: false, record: false }, false)
-    }
-}
-
-/// The round that is at work in `parts`, of the paper called `named`; `first` under what `points` gives if none is planned yet.
-pub fn sharded(
-    named: &str,
-    threads: Option<u32>,
-    parts: &Path,
-    first: Round,
-    points: impl Fn(&Explorer<'_>) -> Result<Vec<ReadingChoice>, Failure>,
-) -> Result<Sharded, Failure> {
-    let which = Which { paper: named.to_owned(), out: None };
-    let places = Places::find(&which, "")?;
-    let paper = load(&places, &How::plain(threads))?;
-    let explorer = Explorer {
-        paper: &paper,
-        places: &places,
-        threads: threads.map(|threads| threads as usize),
-        folder: Rounds::merged(parts),
-        second_seed: first.has_second_seed(),
-        rounds: None,
-    };
-    let folder = at_work(parts);
-    if !Plan::path(&folder).exists() {
-        return Ok(explorer.sharded(named, first, &points(&explorer)?));
-    }
-    let (round, planned) = planned(&folder, first)?;
-    let readings = paper.readings();
-    let point = |options| ReadingChoice::new(&readings, options).map_err(Failure::input);
-    let points: Vec<ReadingChoice> = planned.readings.iter().map(point).collect::<Result<_, _>>()?;
-    Ok(explorer.sharded(named, round, &points))
-}
-
-/// The round that is planned in `folder`, which must be of the command that `first` begins.
-fn planned(folder: &Path, first: Round) -> Result<(Round, PlannedRound), Failure> {
-    let planned = Plan::read(folder)?.round;
-    let is_of = |round: &Round, planned: &PlannedRound| {
-        (round.command(), round.name()) == (first.command(), &*planned.name)
-    };
-    let found = planned.and_then(|planned| {
-        let round = Round::ALL.into_iter().find(|round| is_of(round, &planned))?;
-        Some((round, planned))
-    });
-    found.ok_or_else(|| {
-        Failure::input(format!(
-            "{}: the parts here are of another command than `{}`; another folder is accepted",
-            Plan::path(folder).display(),
-            first.command()
-        ))
-    })
 }

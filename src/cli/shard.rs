@@ -1,7 +1,8 @@
 //! `replan shard`: a run cut into shards, and the script that runs them on one machine or many.
 
 use super::explorer::Explorer;
-use super::rounds::{self, Round};
+use super::one_shard;
+use super::rounds::Round;
 use super::run::check_is_run;
 use super::sharded::Sharded;
 use super::{Failure, How, confirm, explore};
@@ -79,7 +80,7 @@ impl Shard {
     /// What is cut.
     fn sharded(&self) -> Result<Sharded, Failure> {
         let of_round = |first, points: fn(&Explorer<'_>) -> _| {
-            rounds::sharded(&self.paper, self.how.threads, &self.out, first, points)
+            one_shard::sharded(&self.paper, self.how.threads, &self.out, first, points)
         };
         match (self.explore, self.confirm) {
             (true, _) => of_round(Round::First, explore::first_points),

@@ -3,7 +3,7 @@
 use super::load::load;
 use super::places::Places;
 use super::progress::{Bar, stop_flag};
-use super::run::summary;
+use super::summary::summary;
 use super::{Again, Failure, How, Which, command_line};
 use crate::analysis::claims::claims_hash;
 use crate::study::lock::Lock;

@@ -6,6 +6,7 @@
 
 mod landmarks;
 mod optimum;
+mod search;
 
 pub use landmarks::Landmarks;
 

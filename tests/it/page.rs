@@ -61,7 +61,14 @@ fn claims_filter_sort_and_open_in_a_browser() {
     browser.run("const f = document.getElementById('filter'); f.elements.class.value = 'impossible'; f.dispatchEvent(new Event('input'))");
     let impossible = browser.run(SHOWN).as_u64().unwrap();
     assert!((1..all).contains(&impossible), "{impossible} of {all}");
-    browser.run("document.querySelector('[data-sort=class]').click()");
+    let ranks = || -> Vec<u64> {
+        browser.run("document.querySelector('[data-sort=class]').click()");
+        let read =
+            "return [...document.getElementById('claimed').tBodies].map((line) => Number(line.dataset.rank))";
+        serde_json::from_value(browser.run(read)).unwrap()
+    };
+    let (up, down) = (ranks(), ranks());
+    assert!(up.is_sorted() && down.is_sorted_by(|a, b| a >= b) && up.first() != up.last(), "{up:?} {down:?}");
     browser.go(&file, "claim=t1.improved.cost");
     assert_eq!(
         browser.run(

@@ -23,8 +23,11 @@ pub fn said(
     }
     if is_existential && holds > 0 {
         let met = groups.iter().zip(votes).find(|(_, vote)| vote.polarity() == Polarity::For);
-        let named = met.map_or_else(String::new, |(group, _)| name(first, group.reading));
-        return format!("met under {holds} of {all}, {named} among them");
+        // A contender of a study may depart from the defaults by itself, so that they are not what carries it.
+        let departs = met.filter(|(group, _)| !first.readings[group.reading].is_empty());
+        let named = departs
+            .map_or_else(String::new, |(group, _)| format!(", {} among them", name(first, group.reading)));
+        return format!("met under {holds} of {all}{named}");
     }
     if holds > 0 && fails > 0 {
         return hangs(axes, first, id, groups, votes);

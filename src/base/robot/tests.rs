@@ -164,6 +164,11 @@ const WRONG: &[(&str, &str, &str)] = &[
         "radius=\"-1\"",
         "/two.urdf:13:59: radius has the size -1; sizes above 0 are accepted",
     ),
+    (
+        "joint name=\"weld\"",
+        "joint name=\"nod\"",
+        "/two.urdf:16:3: joint `nod` is given twice; accepted: a name of its own",
+    ),
     ("<sphere radius=\"0.1\"/>", "<cone/>", "a solid is `cone`; box, cylinder, sphere and mesh are accepted"),
     (
         "<child link=\"arm\"/>",

@@ -70,8 +70,13 @@ impl<'a, 'input> Tree<'a, 'input> {
                 return Err(source.fault(&link.range(), message));
             }
         }
-        let mut led_to: BTreeSet<&str> = BTreeSet::new();
+        let (mut led_to, mut joints) = (BTreeSet::new(), BTreeSet::new());
         for joint in elements(root, "joint") {
+            let name = tree.text(joint, "name")?;
+            if !joints.insert(name) {
+                let message = format!("joint `{name}` is given twice; accepted: a name of its own");
+                return Err(source.fault(&joint.range(), message));
+            }
             let [parent, child] = [tree.end(joint, "parent")?, tree.end(joint, "child")?];
             if !led_to.insert(child) {
                 let message = format!(

@@ -7,7 +7,7 @@
 //! Goldberg and Harrelson, *Computing the Shortest Path: A\* Search Meets Graph Theory*, SODA 2005.
 
 use super::Case;
-use super::optimum::Scratch;
+use super::search::Scratch;
 use std::sync::{Mutex, PoisonError};
 
 /// How many cells all distances are known from. Of twice as many a search opens a third fewer cells and takes as long, since

@@ -1,0 +1,43 @@
+//! What a run did, for the terminal.
+
+use crate::study::session::{Report, UnexpectedStatus};
+
+/// What a run did, in a few words.
+pub fn summary(report: &Report, why: bool) -> String {
+    let mut text = format!("{}: {} trials", report.manifest.study, report.trials);
+    let parts = [
+        (report.resumed, report.units, "units resumed"),
+        (report.reused, report.units, "units reused"),
+        (report.kept, report.trials, "trials reused"),
+    ];
+    let parts = parts.iter().filter(|(count, ..)| *count > 0);
+    let said: Vec<String> = parts.map(|(count, all, what)| format!("{count} of {all} {what}")).collect();
+    if !said.is_empty() {
+        text += &format!(" ({})", said.join(", "));
+    }
+    for UnexpectedStatus { status, count, trial, reason } in &report.odd {
+        text += &format!("\n  {count} {status}; the first is {}/{trial}: {reason}", report.manifest.study);
+    }
+    if !report.moved.is_empty() {
+        let first = &report.moved[0];
+        text += &format!(
+            "\n  {} trials differ from what was stored although nothing they depend on has changed; the first is \
+             {}/{first}",
+            report.moved.len(),
+            report.manifest.study
+        );
+    }
+    if why {
+        let reasons = if report.why.is_empty() && report.reused > 0 {
+            vec!["nothing that the stored trials depend on has changed".to_owned()]
+        } else if report.why.is_empty() {
+            vec!["there were no stored trials, or --fresh was given".to_owned()]
+        } else {
+            report.why.clone()
+        };
+        for reason in reasons {
+            text += &format!("\n  why: {reason}");
+        }
+    }
+    text
+}
