@@ -112,6 +112,16 @@ impl<'a> Node<'a> {
         )
     }
 
+    /// The end of the format's range that a whole number passes, where no float tells the two apart.
+    pub(super) fn limit_passed(self, whole: i128) -> Option<i128> {
+        let (least, most): (i128, i128) = match self.text("format")? {
+            "uint64" | "uint" => (0, u64::MAX.into()),
+            "int64" | "int" => (i64::MIN.into(), i64::MAX.into()),
+            _ => return None,
+        };
+        (whole < least).then_some(least).or((whole > most).then_some(most))
+    }
+
     /// The numbers between which it lies, neither accepted.
     pub(super) fn open_bounds(self) -> (f64, f64) {
         let said = |key: &str| self.get(key).and_then(Value::as_f64);

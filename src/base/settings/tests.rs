@@ -150,6 +150,8 @@ struct Many {
     /// Whether it is there.
     #[serde(default)]
     there: bool,
+    /// Where draws begin.
+    seed: Option<u64>,
 }
 
 fn plain() -> String {
@@ -223,6 +225,18 @@ const FAULTS: &[(&str, usize, usize, &str)] = &[
         2,
         10,
         "`weight` is \"risin\" (did you mean `rising`?); a number, \"falling\" or \"rising\" is accepted",
+    ),
+    (
+        "count = 1\nseed = 99999999999999999999",
+        2,
+        8,
+        "`seed` is 99999999999999999999; a whole number of 0 or more (no further than 18446744073709551615) is accepted",
+    ),
+    (
+        "count = 1\nseed = 0xfffffffffffffffffffffffffffffffffffff",
+        2,
+        8,
+        "`seed` is 0xfffffffffffffffffffffffffffffffffffff; a whole number of 0 or more (no further than",
     ),
     ("count = 1\n[[solid]]\nradius = 1", 2, 1, "missing key `shape`; accepted: \"ball\", \"box\""),
     (

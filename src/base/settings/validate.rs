@@ -154,6 +154,8 @@ fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Vec<Fault>) {
         value => {
             if number(value).is_some_and(|number| !is_within(node, number)) {
                 found.push(refused(subject, &node.accepted()));
+            } else if let Some(limit) = whole(value).and_then(|whole| node.limit_passed(whole)) {
+                found.push(refused(subject, &format!("{} (no further than {limit})", node.accepted())));
             }
         }
     }
@@ -252,12 +254,17 @@ fn is_of(value: &Spanned<DeValue<'_>>, kind: &str) -> bool {
 /// The number that a value is; a whole number that no float holds exactly is rounded, which no bound of ours is near.
 fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
-        DeValue::Integer(whole) => {
-            i128::from_str_radix(whole.as_str(), whole.radix()).ok().map(|whole| whole as f64)
-        }
+        DeValue::Integer(_) => whole(value).map(|whole| whole as f64),
         DeValue::Float(real) => real.as_str().parse().ok(),
         _ => None,
     }
+}
+
+/// The whole number that a value is; one that no machine holds is as far from zero as a number here can be.
+fn whole(value: &DeValue<'_>) -> Option<i128> {
+    let DeValue::Integer(whole) = value else { return None };
+    let furthest = if whole.as_str().starts_with('-') { i128::MIN } else { i128::MAX };
+    Some(i128::from_str_radix(whole.as_str(), whole.radix()).unwrap_or(furthest))
 }
 
 fn shown(value: &DeValue<'_>) -> String {
