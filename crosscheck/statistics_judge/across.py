@@ -279,18 +279,19 @@ class Across:
                 if side[one.vote]:
                     counts[side[one.vote] < 0] += 1
             splits.append((sum(map(max, split.values())), axis, dict(sorted(split.items()))))
-        right, axis, split = max(splits, key=lambda one: one[0])
         holds, fails = (sum(side[one.vote] == way for one in results) for way in (1, -1))
         found, every = name.replace("_", " "), len(results)
-        if right == holds + fails and self.decides(claim, axis, split, side):
-            where = " or ".join(option for option, counts in split.items() if counts[0])
-            return f"hangs on {axis.id}: {found} if {where} ({holds} of {every})"
-        if right > max(holds, fails):
-            shares = ", ".join(
-                f"{option} {own[0]} of {sum(own)}" for option, own in split.items() if sum(own)
-            )
-            return f"hangs on {axis.id} and others: {found} under {holds} of {every} ({shares})"
-        return f"hangs on several readings: {found} under {holds} of {every}"
+        for right, axis, split in splits:
+            if right == holds + fails and self.decides(claim, axis, split, side):
+                where = " or ".join(option for option, counts in split.items() if counts[0])
+                return f"hangs on {axis.id}: {found} if {where} ({holds} of {every})"
+        # Many options part few results by chance: each costs one.
+        parting = [one for one in splits if one[0] > max(holds, fails)]
+        if not parting:
+            return f"hangs on several readings: {found} under {holds} of {every}"
+        _, axis, split = max(parting, key=lambda one: one[0] - len(one[2]))
+        shares = ", ".join(f"{option} {own[0]} of {sum(own)}" for option, own in split.items() if sum(own))
+        return f"hangs on {axis.id} and others: {found} under {holds} of {every} ({shares})"
 
 
 def flips(results: list[Result]) -> list[Result]:

@@ -196,6 +196,24 @@ def test_a_class_that_a_default_raises_hangs_on_it_though_the_claim_holds_either
     )
 
 
+def test_an_axis_of_many_options_does_not_win_by_parting_few_results_each() -> None:
+    across = Across.__new__(Across)
+    across.axes = [Axis(name, "a", fitted=False, bounds=None, options={}) for name in ("order", "side")]
+    # The last is looked at alone, and not counted.
+    options = ["aa", "ba", "ca", "db", "eb", "fb", "fa"]
+    votes = [GOOD, GOOD, GOOD, BAD, BAD, GOOD, BAD]
+    readings = [
+        {axis: one for axis, one in zip(("order", "side"), both, strict=True) if one != "a"}
+        for both in options
+    ]
+    at = {place: {"readings": [place], "class": vote} for place, vote in enumerate(votes)}
+    across.first = {"readings": readings, "claims": {"fewer": {"results": list(at.values()), "at": at}}}
+    found = [Result([place], vote, vote) for place, vote in enumerate(votes[:6])]
+    counted = Counted(found, 6, 0, 0, none_compatible=False, existential=False)
+    said = across.said("fewer", counted, NO)
+    assert said == "hangs on side and others: reproduced under 4 of 6 (a 3 of 3, b 1 of 3)"
+
+
 def test_a_contender_departs_where_an_option_of_its_own_is_not_the_default() -> None:
     contenders = [
         {"label": "plain"},

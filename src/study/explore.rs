@@ -13,7 +13,7 @@ use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// How far a paper's readings are explored, besides its defaults and every other option by itself.
+/// How far a paper's readings are explored, besides its defaults, every other option by itself and what contenders depart to.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExplorePaper {

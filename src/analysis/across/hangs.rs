@@ -103,30 +103,29 @@ fn hangs(
 ) -> String {
     let class = parts.name.name();
     let splits = axes.readings.iter().map(|axis| (axis, split(axis, first, groups, votes, parts)));
+    let splits: Vec<(&Reading, Split<'_>)> = splits.collect();
     let right = |split: &Split<'_>| split.values().map(|[one, other]| one.max(other)).sum::<usize>();
     let count = |side| votes.iter().filter(|vote| parts.side(**vote) == Some(side)).count();
     let (asked, others) = (count(true), count(false));
-    // Of equals the first.
-    let best = splits.fold(None, |best: Option<(&Reading, Split<'_>)>, next| match best {
-        Some(best) if right(&best.1) >= right(&next.1) => Some(best),
-        _ => Some(next),
-    });
     let all = votes.len();
-    match best {
-        Some((axis, split)) if right(&split) == asked + others && decides(axis, &split, first, id, parts) => {
-            let options: Vec<&str> =
-                split.iter().filter(|(_, [asked, _])| *asked > 0).map(|(option, _)| *option).collect();
-            format!("hangs on {}: {class} if {} ({asked} of {all})", axis.id, options.join(" or "))
-        }
-        Some((axis, split)) if right(&split) > asked.max(others) => {
-            let shares = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0);
-            let shares: Vec<String> = shares
-                .map(|(option, [asked, others])| format!("{option} {asked} of {}", asked + others))
-                .collect();
-            format!("hangs on {} and others: {class} under {asked} of {all} ({})", axis.id, shares.join(", "))
-        }
-        _ => format!("hangs on several readings: {class} under {asked} of {all}"),
+    let deciding = splits
+        .iter()
+        .find(|(axis, split)| right(split) == asked + others && decides(axis, split, first, id, parts));
+    if let Some((axis, split)) = deciding {
+        let options: Vec<&str> =
+            split.iter().filter(|(_, [asked, _])| *asked > 0).map(|(option, _)| *option).collect();
+        return format!("hangs on {}: {class} if {} ({asked} of {all})", axis.id, options.join(" or "));
     }
+    // Many options part few results by chance, so that each costs one; of equals the first.
+    let worth = |split: &Split<'_>| right(split) as i64 - split.len() as i64;
+    let parting = splits.iter().rev().filter(|(_, split)| right(split) > asked.max(others));
+    let Some((axis, split)) = parting.max_by_key(|(_, split)| worth(split)) else {
+        return format!("hangs on several readings: {class} under {asked} of {all}");
+    };
+    let shares = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0);
+    let shares: Vec<String> =
+        shares.map(|(option, [asked, others])| format!("{option} {asked} of {}", asked + others)).collect();
+    format!("hangs on {} and others: {class} under {asked} of {all} ({})", axis.id, shares.join(", "))
 }
 
 /// Whether each option of `axis` under which what is asked comes out brings it by itself, all else at its default, as far as
