@@ -228,12 +228,23 @@ class Across:
             tail = f", {self.name(first)} among them" if self.departs(first) else ""
             return f"met under {holds} of {every}{tail}"
         if holds and fails:
-            return self.hangs(claim, counted.results)
+            weakest = max((one.vote for one in counted.results if SPEAKS[one.vote] == 1), key=WEIGHT.index)
+            return self.hangs(claim, counted.results, weakest, SPEAKS)
         for speaks, verb, way in ((holds, "holds", 1), (fails, "fails", -1)):
             if speaks:
                 firm = SPEAKS[found] == way
-                return f"{verb} under {speaks} of {every}{tail if firm else f' only, open under {left}'}"
+                tail = tail if firm else f" only, open under {left}"
+                by_class = self.by_class(claim, counted.results) if firm and way == 1 else ""
+                return f"{verb} under {speaks} of {every}{tail}{by_class}"
         return f"open under {left} of {every}"
+
+    def by_class(self, claim: str, results: list[Result]) -> str:
+        """What the class hangs on where no result speaks against the claim, but not all for it alike."""
+        holding = sorted({one.vote for one in results if SPEAKS[one.vote] == 1}, key=WEIGHT.index)
+        if len(holding) < 2:
+            return ""
+        side = {vote: (vote == holding[0]) - (vote in holding[1:]) for vote in SPEAKS}
+        return f"; the class {self.hangs(claim, results, holding[0], side)}"
 
     def departs(self, result: Result) -> bool:
         """Whether the first reading of a result is another than the default."""
@@ -246,42 +257,41 @@ class Across:
         reading = self.first["readings"][result.readings[0]]
         return ", ".join(f"{axis} = {option}" for axis, option in sorted(reading.items())) or "the default"
 
-    def decides(self, claim: str, axis: Axis, split: dict[str, list[int]]) -> bool:
-        """Whether each option under which a claim holds does so by itself, as far as that was looked at."""
+    def decides(self, claim: str, axis: Axis, split: dict[str, list[int]], side: dict[str, int]) -> bool:
+        """Whether each option with results on the one side brings it alone, as far as that was looked at."""
         assert self.first is not None
         for option in (option for option, (holds, _) in split.items() if holds and option != axis.default):
             alone = {axis.id: option}
             if alone in self.first["readings"]:
                 found = self.result(self.first, claim, self.first["readings"].index(alone))
-                if found is not None and SPEAKS[found["class"]] != 1:
+                if found is not None and side[found["class"]] != 1:
                     return False
         return True
 
-    def hangs(self, claim: str, results: list[Result]) -> str:
-        """What a claim hangs on: the axis whose options part the results best."""
+    def hangs(self, claim: str, results: list[Result], name: str, side: dict[str, int]) -> str:
+        """The axis whose options best part results on one side (1), called `name`, from the other (-1)."""
         assert self.first is not None
         splits = []
         for axis in self.axes:
             split: dict[str, list[int]] = {}
             for one in results:
                 counts = split.setdefault(axis.option(self.first["readings"][one.readings[0]]), [0, 0])
-                if SPEAKS[one.vote]:
-                    counts[SPEAKS[one.vote] < 0] += 1
+                if side[one.vote]:
+                    counts[side[one.vote] < 0] += 1
             splits.append((sum(map(max, split.values())), axis, dict(sorted(split.items()))))
-        right, axis, split = max(splits, key=lambda one: one[0])
-        votes = [one.vote for one in results]
-        holds, fails = (sum(SPEAKS[vote] == way for vote in votes) for way in (1, -1))
-        found = max((vote for vote in votes if SPEAKS[vote] == 1), key=WEIGHT.index).replace("_", " ")
-        every = len(results)
-        if right == holds + fails and self.decides(claim, axis, split):
-            where = " or ".join(option for option, counts in split.items() if counts[0])
-            return f"hangs on {axis.id}: {found} if {where} ({holds} of {every})"
-        if right > max(holds, fails):
-            shares = ", ".join(
-                f"{option} {own[0]} of {sum(own)}" for option, own in split.items() if sum(own)
-            )
-            return f"hangs on {axis.id} and others: {found} under {holds} of {every} ({shares})"
-        return f"hangs on several readings: {found} under {holds} of {every}"
+        holds, fails = (sum(side[one.vote] == way for one in results) for way in (1, -1))
+        found, every = name.replace("_", " "), len(results)
+        for right, axis, split in splits:
+            if right == holds + fails and self.decides(claim, axis, split, side):
+                where = " or ".join(option for option, counts in split.items() if counts[0])
+                return f"hangs on {axis.id}: {found} if {where} ({holds} of {every})"
+        # Many options part few results by chance: each costs one.
+        parting = [one for one in splits if one[0] > max(holds, fails)]
+        if not parting:
+            return f"hangs on several readings: {found} under {holds} of {every}"
+        _, axis, split = max(parting, key=lambda one: one[0] - len(one[2]))
+        shares = ", ".join(f"{option} {own[0]} of {sum(own)}" for option, own in split.items() if sum(own))
+        return f"hangs on {axis.id} and others: {found} under {holds} of {every} ({shares})"
 
 
 def flips(results: list[Result]) -> list[Result]:

@@ -9,7 +9,7 @@ import numpy as np
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
 from statistics_judge.found import Asked, Estimate, Found, certain, outcomes
 from statistics_judge.intervals import STORED_OF_MEDIANS, End, Interval, bootstrap, median
-from statistics_judge.records import Places, Reals
+from statistics_judge.records import Places, Reals, Study
 from statistics_judge.selection import groups_of, labels, matched, posed
 from statistics_judge.sizes import printed
 
@@ -142,10 +142,14 @@ def seen(asked: Asked, settings: dict[str, Any]) -> tuple[Reals, list[tuple], np
     selected: list[bool] = []
     for place in settings["in"]:
         study = asked.paper.studies[place["study"]]
+        if against is not None and departs(study, against):
+            continue
         measured = study.values(metric, asked.session)
         query, names = study.query
         for group in groups_of(study, place["problems"]):
             for contender in labels(settings["contenders"]):
+                if departs(study, contender):
+                    continue
                 rows = solved_rows(study.rows(group, contender), study.solved)
                 number = measured[rows]
                 if against is not None and against != contender:
@@ -159,7 +163,13 @@ def seen(asked: Asked, settings: dict[str, Any]) -> tuple[Reals, list[tuple], np
                 for row in rows[known]:
                     problems.append((study.name, group, int(study.draw[row]), names[query[row]]))
                     selected.append(place.get("selected", False))
-    return np.concatenate(values), problems, np.array(selected, dtype=bool)
+    return np.concatenate(values) if values else np.array([]), problems, np.array(selected, dtype=bool)
+
+
+def departs(study: Study, contender: str) -> bool:
+    """Whether a contender ran under another reading than the defaults, where alone its trials count."""
+    own = next((own for own in study.spec["contender"] if own["label"] == contender), {})
+    return any(study.choices[axis] != option for axis, option in own.get("departs", {}).items())
 
 
 def solved_rows(rows: Places, solved: np.ndarray) -> Places:

@@ -11,8 +11,9 @@ from typing import Any
 
 import pytest
 
-from statistics_judge.across import Result, axes, combined, differences, flips
-from statistics_judge.records import Paper
+from statistics_judge.across import Across, Axis, Counted, Result, axes, combined, differences, flips
+from statistics_judge.medians import departs
+from statistics_judge.records import Paper, Study
 
 ROOT = Path(__file__).parents[2]
 EXPLORED = [path.parent.name for path in sorted(ROOT.glob("data/runs/*/explored.toml.gz"))]
@@ -170,3 +171,55 @@ def test_what_speaks_against_most_is_a_flip_and_of_as_many_what_speaks_against_t
     assert of(BAD, GOOD) == [1]
     assert of(NO, BAD, GOOD) == [1]
     assert of(GOOD, NO) == []
+
+
+def test_a_class_that_a_default_raises_hangs_on_it_though_the_claim_holds_either_way() -> None:
+    across = Across.__new__(Across)
+    across.axes = [Axis(name, "a", fitted=False, bounds=None, options={}) for name in ("idle", "hurry")]
+    readings = [{}, {"hurry": "b"}, {"idle": "b"}]
+
+    def said(*votes: str) -> str:
+        results = [{"readings": [at], "class": vote} for at, vote in enumerate(votes)]
+        at = dict(enumerate(results))
+        across.first = {"readings": readings, "claims": {"best": {"results": results, "at": at}}}
+        found = [Result([at], vote, vote) for at, vote in enumerate(votes)]
+        counted = Counted(found, len(found), 0, 0, none_compatible=False, existential=False)
+        return across.said("best", counted, combined(list(votes), existential=False))
+
+    assert said(GOOD, GOOD, GOOD) == "holds under 3 of 3"
+    assert said(GOOD, FITTED, GOOD) == (
+        "holds under 3 of 3; the class hangs on hurry: reproduced if a (2 of 3)"
+    )
+    assert said(GOOD, BAD, GOOD) == "hangs on hurry: reproduced if a (2 of 3)"
+    assert said(FITTED, GOOD, FITTED) == (
+        "holds under 3 of 3; the class hangs on hurry: reproduced if b (1 of 3)"
+    )
+
+
+def test_an_axis_of_many_options_does_not_win_by_parting_few_results_each() -> None:
+    across = Across.__new__(Across)
+    across.axes = [Axis(name, "a", fitted=False, bounds=None, options={}) for name in ("order", "side")]
+    # The last is looked at alone, and not counted.
+    options = ["aa", "ba", "ca", "db", "eb", "fb", "fa"]
+    votes = [GOOD, GOOD, GOOD, BAD, BAD, GOOD, BAD]
+    readings = [
+        {axis: one for axis, one in zip(("order", "side"), both, strict=True) if one != "a"}
+        for both in options
+    ]
+    at = {place: {"readings": [place], "class": vote} for place, vote in enumerate(votes)}
+    across.first = {"readings": readings, "claims": {"fewer": {"results": list(at.values()), "at": at}}}
+    found = [Result([place], vote, vote) for place, vote in enumerate(votes[:6])]
+    counted = Counted(found, 6, 0, 0, none_compatible=False, existential=False)
+    said = across.said("fewer", counted, NO)
+    assert said == "hangs on side and others: reproduced under 4 of 6 (a 3 of 3, b 1 of 3)"
+
+
+def test_a_contender_departs_where_an_option_of_its_own_is_not_the_default() -> None:
+    contenders = [
+        {"label": "plain"},
+        {"label": "other", "departs": {"hurry": "b"}},
+        {"label": "same", "departs": {"hurry": "a"}},
+    ]
+    study = Study(Path("room.toml"), {"contender": contenders}, Path())
+    study.choices = {"hurry": "a", "idle": "a"}
+    assert [departs(study, one["label"]) for one in contenders] == [False, True, False]

@@ -169,7 +169,7 @@ pub fn weighed(evidence: &Evidence<'_>, claim: &Claim, hashed: bool) -> Result<V
             Built::Criterion(criterion, entry) => {
                 let mut one = of_criterion(entry.name, &*criterion, evidence, claim);
                 if hashed {
-                    one.results = criterion::results(&*criterion, evidence);
+                    one.results = sha256(criterion.results(evidence).as_bytes()).chars().take(16).collect();
                 }
                 one
             }
@@ -197,8 +197,6 @@ fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings
         let (criterion, verdict) = ("none".to_owned(), Some(Verdict::Untestable));
         findings.push(Finding { criterion, verdict, because, ..Finding::default() });
     }
-    let deciding = findings.iter().find(|finding| finding.verdict == Some(verdict));
-    let reading = deciding.and_then(|finding| finding.reading.clone());
     Judged {
         claim: claim.id.clone(),
         at: claim.at.clone(),
@@ -212,7 +210,7 @@ fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings
         changed_after_run: claim.changed_after_run.clone(),
         second: None,
         across: None,
-        reading: reading.unwrap_or_else(|| evidence.point.name().to_owned()),
+        reading: evidence.point.name().to_owned(),
         findings,
     }
 }
@@ -235,7 +233,6 @@ fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
         verdict,
         ours: found.ours,
         trial: found.trial,
-        reading: found.reading,
         settles,
         because: found.because,
         premises: found.premises,
@@ -264,7 +261,7 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         without_premises: found.without_premises,
     };
     let studies = studies.iter().map(|study| study.name.clone()).collect();
-    let is_covered = criterion::is_covered(of, evidence, caps.existential);
+    let is_covered = of.is_covered(evidence);
     Weighed { finding: finding(name, found, caps), caps, is_covered, results: String::new(), studies }
 }
 

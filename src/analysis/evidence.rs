@@ -17,7 +17,7 @@ use stats::summary;
 use std::collections::BTreeMap;
 use std::mem;
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// A paper with the stored runs of its studies.
 pub struct Evidence<'a> {
@@ -42,7 +42,6 @@ pub struct Run<'a> {
     /// The session of the clock, from 1.
     session: u32,
     index: Arc<Index>,
-    hash: OnceLock<String>,
 }
 
 /// Where things are in the records.
@@ -191,7 +190,7 @@ impl<'a> Run<'a> {
         let index = Arc::new(Index::of(study.names(), &records));
         let reading = point.for_trials(&study.readings).key(&study.readings);
         let (manifest, records) = (Arc::new(manifest), Arc::new(records));
-        Self { study, manifest, records, kept, reading, session: 1, index, hash: OnceLock::new() }
+        Self { study, manifest, records, kept, reading, session: 1, index }
     }
 
     fn under(&self, point: &ReadingChoice) -> Self {
@@ -203,7 +202,6 @@ impl<'a> Run<'a> {
             reading: point.for_trials(&self.study.readings).key(&self.study.readings),
             session: self.session,
             index: self.index.clone(),
-            hash: OnceLock::new(),
         }
     }
 
@@ -242,29 +240,6 @@ impl<'a> Run<'a> {
         let of_reading = self.index.rows.get(&self.reading);
         let found = of_reading.and_then(|groups| groups.get(group)?.get(contender));
         found.into_iter().flatten().map(|row| &self.records.batch.rows[*row]).collect()
-    }
-
-    /// A hash of all rows under the reading, whatever the reading is called.
-    pub fn results(&self) -> String {
-        self.hash.get_or_init(|| self.hashed()).clone()
-    }
-
-    fn hashed(&self) -> String {
-        let mut text = String::new();
-        let of_reading = self.index.rows.get(&self.reading).into_iter().flatten();
-        for row in of_reading.flat_map(|(_, contenders)| contenders.values().flatten()) {
-            let row = &self.records.batch.rows[*row];
-            let key = &row.key;
-            text += &format!(
-                "{} {} {} {:?} {:?} {} {}",
-                key.on.group, key.contender, key.on.draw, key.query, key.sweep, key.repeat, row.status
-            );
-            for (column, value) in row.values.iter() {
-                text += &format!(" {} {value:?}", column.name);
-            }
-            text.push('\n');
-        }
-        sha256(text.as_bytes())
     }
 
     /// The name of a trial, with its study, as `--trial` takes it.

@@ -12,8 +12,6 @@ pub struct Found {
     pub ours: Option<Estimate>,
     /// The trial that shows it, as `--trial` takes it.
     pub trial: Option<String>,
-    /// The reading it was found under, if that is not the one that the claim is judged under.
-    pub reading: Option<String>,
     /// The computation, step by step.
     pub because: Vec<String>,
     /// What it takes for granted.

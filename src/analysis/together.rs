@@ -11,7 +11,6 @@ use super::verdict::Together;
 use crate::study::record::Row;
 use base::settings::SettingsError;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 /// Whether each claim is met exactly.
 type Outcomes<'a> = BTreeMap<&'a str, bool>;
@@ -21,14 +20,6 @@ type Contenders<'a> = BTreeMap<&'a str, Outcomes<'a>>;
 
 /// Outcomes of one study: by problem, then contender.
 type Problems<'a> = BTreeMap<String, Contenders<'a>>;
-
-/// What one study shows under one reading.
-#[derive(Default)]
-struct Met<'a> {
-    problems: Problems<'a>,
-    /// The reading that each contender runs under.
-    readings: BTreeMap<&'a str, Arc<str>>,
-}
 
 /// The sets of claims that are met exactly together, none within another, under the evidence's reading; the largest first.
 ///
@@ -50,8 +41,9 @@ fn asked<'a>(evidence: &'a Evidence<'_>) -> Result<Vec<Attained<'a>>, SettingsEr
     contexts.map(|context| Attained::new(&context)).collect()
 }
 
-fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e str, Met<'e>> {
-    let mut all: BTreeMap<&str, (Met<'e>, BTreeMap<_, (Contenders<'e>, &'e Row)>)> = BTreeMap::new();
+/// What each study shows under one reading.
+fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e str, Problems<'e>> {
+    let mut all: BTreeMap<&str, BTreeMap<_, (Contenders<'e>, &'e Row)>> = BTreeMap::new();
     for attained in asked {
         // A claim about the printed row of another contender is not met on a map without that row.
         let eligible: Option<BTreeSet<_>> = (!attained.is_unconditional())
@@ -62,10 +54,7 @@ fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e st
         for seen in attained.seen(view) {
             let is_met = attained.is_met(seen.value) && is_eligible(&seen);
             let (study, group, draw, query) = seen.problem();
-            let (met, problems) = all.entry(study).or_default();
-            if !met.readings.contains_key(seen.contender) {
-                met.readings.insert(seen.contender, seen.reading.clone());
-            }
+            let problems = all.entry(study).or_default();
             let by_contender =
                 problems.entry((group, draw, query)).or_insert_with(|| (BTreeMap::new(), seen.row));
             let outcomes = by_contender.0.entry(seen.contender).or_default();
@@ -73,18 +62,17 @@ fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e st
         }
     }
     // A problem's name is made once, however many claims are asked of it.
-    let named = |(study, (mut met, problems)): (&'e str, (Met<'e>, BTreeMap<_, _>))| {
+    let named = |(study, problems): (&'e str, BTreeMap<_, (Contenders<'e>, &'e Row)>)| {
         let run = view.run(study).expect("it was seen there");
-        met.problems = problems.into_values().map(|(of, row)| (run.problem(row), of)).collect();
-        (study, met)
+        (study, problems.into_values().map(|(of, row)| (run.problem(row), of)).collect())
     };
     all.into_iter().map(named).collect()
 }
 
-/// The sets of every contender that is an alternative for another; contenders without alternative belong to all.
-fn sets_of(study: &str, met: &Met<'_>, reading: &str) -> Vec<Together> {
+/// The sets of every contender that is an alternative for another; a contender that has none belongs to every set.
+fn sets_of(study: &str, problems: &Problems<'_>, reading: &str) -> Vec<Together> {
     let mut claims: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    for (contender, outcomes) in met.problems.values().flatten() {
+    for (contender, outcomes) in problems.values().flatten() {
         claims.entry(*contender).or_default().extend(outcomes.keys().copied());
     }
     let rivals = |label: &&str| {
@@ -95,10 +83,8 @@ fn sets_of(study: &str, met: &Met<'_>, reading: &str) -> Vec<Together> {
         if alternatives.is_empty() { vec![None] } else { alternatives.into_iter().map(Some).collect() };
     let of_choice = |choice: Option<&str>| {
         let labels: Vec<&str> = fixed.iter().copied().chain(choice).collect();
-        let departed = labels.iter().filter_map(|label| met.readings.get(*label));
-        let reading = departed.into_iter().find(|own| ***own != *reading).map_or(reading, |own| own);
         let under = labels.join(" and ");
-        let choices = choices_of_problems(&met.problems, &labels).into_iter();
+        let choices = choices_of_problems(problems, &labels).into_iter();
         choices.map(|chosen| set(study, reading, &under, &chosen)).collect::<Vec<_>>()
     };
     choices.into_iter().flat_map(of_choice).collect()
@@ -199,9 +185,7 @@ mod tests {
             ("a2".to_owned(), problem(&[("a", true)], &[("b", false)], &[("b", false)])),
             ("z1".to_owned(), problem(&[("y", false)], &[("z", false)], &[("z", true)])),
         ]);
-        let readings = [("base", "default"), ("one", "default"), ("two", "r=2")];
-        let readings = readings.map(|(label, reading)| (label, reading.into())).into();
-        let sets = sets_of("s", &Met { problems, readings }, "default");
+        let sets = sets_of("s", &problems, "r=2");
         let seen: Vec<_> =
             sets.iter().map(|s| (s.under.as_str(), s.problem.as_str(), s.hold.join(" "))).collect();
         assert_eq!(
@@ -209,7 +193,7 @@ mod tests {
             [("base and one", "a1", "a b".to_owned()), ("base and two", "a1 and z1", "a z".to_owned())]
         );
         assert_eq!(sets[1].fail, ["b", "y"]);
-        assert_eq!([&sets[0].reading, &sets[1].reading], ["default", "r=2"]);
+        assert_eq!([&sets[0].reading, &sets[1].reading], ["r=2", "r=2"]);
     }
 
     #[test]
@@ -220,7 +204,7 @@ mod tests {
             ("m2".to_owned(), problem(&[("a", false), ("b", false), ("c", true)])),
             ("m3".to_owned(), problem(&[("a", true), ("b", false), ("c", false)])),
         ]);
-        let sets = sets_of("s", &Met { problems, readings: BTreeMap::new() }, "default");
+        let sets = sets_of("s", &problems, "default");
         let seen: Vec<_> = sets.iter().map(|s| (s.problem.as_str(), s.hold.join(" "))).collect();
         assert_eq!(seen, [("m1", "a b".to_owned()), ("m2", "c".to_owned())]);
     }

@@ -62,8 +62,6 @@ pub struct Finding {
     pub ours: Option<Estimate>,
     /// The trial that shows it, as `--trial` takes it.
     pub trial: Option<String>,
-    /// The reading it was found under, if that is not the one that the claim is judged under.
-    pub reading: Option<String>,
     /// What would settle it, where it is undecided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settles: Option<String>,
@@ -82,6 +80,8 @@ pub enum Effect {
     None,
     /// It moves our number, not what is said of the claim.
     Number,
+    /// It changes the class, not which way it speaks.
+    Class,
     /// It leaves open what was decided, or decides what was open.
     Opens,
     /// It turns it.

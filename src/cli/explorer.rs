@@ -93,7 +93,8 @@ impl<'p> Explorer<'p> {
         let paper = self.paper;
         let seed = seed::derive(0, &[&paper.id, "explore"]);
         let refuse = |message: String| Failure::from(paper.document.error_at("explore", message));
-        let Points { alone, drawn } = points(&paper.readings(), budget.sample, seed).map_err(refuse)?;
+        let found = points(&paper.readings(), paper.departures(), budget.sample, seed);
+        let Points { alone, drawn } = found.map_err(refuse)?;
         let each = self.trials_each(first_draws, |study| !budget.is_late(study))?;
         let mut chosen = alone;
         let mut trials = trials(&each, &chosen);

@@ -13,7 +13,7 @@ use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// How far a paper's readings are explored, besides its defaults and every other option by itself.
+/// How far a paper's readings are explored, besides its defaults, every other option by itself and what contenders depart to.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExplorePaper {
@@ -39,25 +39,31 @@ impl ExplorePaper {
 /// The points to explore: those that must be, and those to be added in this order while the budget lasts.
 #[derive(Debug)]
 pub struct Points {
-    /// The defaults and every other option by itself.
+    /// The defaults, every other option by itself, and what contenders depart to.
     pub alone: Vec<ReadingChoice>,
     /// Points drawn from the product of options that vote.
     pub drawn: Vec<Vec<ReadingChoice>>,
 }
 
-/// The points of `readings`, of which `sample` settings are drawn from `seed` with equal chance for every voting option.
+/// The points of `readings`, of which `sample` settings are drawn from `seed` with equal chance for every voting option; contenders
+/// depart to those in `departures`, under which alone their trials count.
 ///
 /// Each setting of the readings that are not fitted stands with every option of those that are.
 ///
 /// # Errors
 /// A reading whose default is not among its options.
-pub fn points(readings: &[Reading], sample: u32, seed: u64) -> Result<Points, String> {
+pub fn points(
+    readings: &[Reading],
+    departures: Vec<ReadingChoice>,
+    sample: u32,
+    seed: u64,
+) -> Result<Points, String> {
     let mut known = BTreeSet::new();
     let mut new = |points: Vec<ReadingChoice>| -> Vec<ReadingChoice> {
         points.into_iter().filter(|point| known.insert(point.name().to_owned())).collect()
     };
     let mut alone = Vec::new();
-    for point in single_options(readings)? {
+    for point in single_options(readings)?.into_iter().chain(departures) {
         alone.extend(new(with_fitted(readings, &point)?));
     }
     let moving: Vec<&Reading> = readings.iter().filter(|reading| !reading.fitted).collect();
@@ -178,10 +184,10 @@ mod tests {
     fn a_sample_of_the_product_repeats_nothing_and_holds_no_probe() {
         let readings = [reading("a", 3, 2, false), reading("b", 4, 4, false), reading("c", 2, 0, false)];
         for seed in 0..20 {
-            let found = points(&readings, 5, seed).unwrap();
+            let found = points(&readings, Vec::new(), 5, seed).unwrap();
             let alone = ["default", "a=1", "a=2", "b=1", "b=2", "b=3", "c=1"];
             assert_eq!(names(&found.alone), alone, "seed {seed}");
-            let all: Vec<ReadingChoice> = points(&readings, 1000, seed).unwrap().drawn.concat();
+            let all: Vec<ReadingChoice> = points(&readings, Vec::new(), 1000, seed).unwrap().drawn.concat();
             // Of 2 x 4 settings that vote, 5 are the defaults or one option by itself.
             assert_eq!(
                 names(&all).iter().collect::<BTreeSet<_>>().len(),
@@ -191,14 +197,14 @@ mod tests {
             );
             assert!(names(&all).iter().all(|name| !name.contains("a=2") && !name.contains("c=1")));
         }
-        let some = |seed| points(&readings, 2, seed).unwrap().drawn.concat();
+        let some = |seed| points(&readings, Vec::new(), 2, seed).unwrap().drawn.concat();
         assert!((1..20).any(|seed| some(seed) != some(0)), "every seed draws the same");
     }
 
     #[test]
     fn a_fitted_reading_stands_with_every_setting_of_the_others() {
         let readings = [reading("a", 2, 2, false), reading("f", 3, 3, true)];
-        let found = points(&readings, 9, 1).unwrap();
+        let found = points(&readings, Vec::new(), 9, 1).unwrap();
         assert_eq!(names(&found.alone), ["default", "f=1", "f=2", "a=1", "a=1,f=1", "a=1,f=2"]);
         assert!(found.drawn.is_empty());
     }

@@ -19,12 +19,12 @@ pub use self::tables::{OursSpec, TableRow, TableSpec};
 use super::explore::ExplorePaper;
 pub use super::spec::Digits;
 use super::spec::StudySpec;
-use super::{Inputs, Reading, Study, StudyError, files};
+use super::{Inputs, Reading, ReadingChoice, Study, StudyError, files};
 use base::settings::{Accepted, Document, Faults, schema_of};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -259,6 +259,19 @@ impl Paper {
             }
         }
         readings
+    }
+
+    /// The readings that contenders depart to, each once.
+    ///
+    /// # Panics
+    /// If a contender departs from a reading that the paper does not have: such a paper is refused when it is loaded.
+    pub fn departures(&self) -> Vec<ReadingChoice> {
+        let readings = self.readings();
+        let departing = self.studies.iter().flat_map(|study| &study.contenders);
+        let all: BTreeSet<_> =
+            departing.map(|own| &own.departs).filter(|departs| !departs.is_empty()).collect();
+        let point = |departs| ReadingChoice::new(&readings, departs).expect("the paper has these readings");
+        all.into_iter().map(point).collect()
     }
 
     /// The figures of all its studies.

@@ -62,6 +62,16 @@ impl Reading {
         }
     }
 
+    /// Whether the option called `name` does otherwise than the default to a problem, or to one of these planners and stages.
+    ///
+    /// # Panics
+    /// If there is no such option.
+    pub fn touches<'a>(&self, name: &str, mut entries: impl Iterator<Item = &'a str>) -> bool {
+        let (own, default) = (&self.options[name], &self.options[&self.default]);
+        own.problem != default.problem
+            || entries.any(|entry| own.stage.get(entry) != default.stage.get(entry))
+    }
+
     /// Whether any option changes a problem or a contender; otherwise no trial depends on it.
     pub fn touches_trials(&self) -> bool {
         self.options.values().any(|option| !option.problem.is_empty() || !option.stage.is_empty())

@@ -106,7 +106,7 @@ pub struct ContenderSpec {
     /// How many seeds it runs on each problem; more than 1 only where it draws.
     #[schemars(range(min = 1, max = 100_000))]
     pub repeats: Option<u32>,
-    /// Readings, with the option, that its settings take in place of the one in hand: it is then shown under these.
+    /// Readings of other studies, with the option, that its settings take: a witness that it gives counts under these alone.
     #[serde(default)]
     pub departs: BTreeMap<String, String>,
 }

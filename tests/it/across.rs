@@ -43,7 +43,7 @@ check.prints_as.of = { study = "room", problems = "room", metric = "expansions",
 "#;
 
 /// The readings of both studies: `hurry` touches A* alone, `idle` nothing that is run.
-const READINGS: &str = r#"
+pub const READINGS: &str = r#"
 [[reading]]
 id = "hurry"
 why = "the weight is not printed"
@@ -129,6 +129,13 @@ impl Toy {
 
     /// The toy with its default run alone.
     pub fn unexplored(edits: &[(&str, &str)]) -> Self {
+        let toy = Self::written(edits);
+        toy.0.done(&["run", "./toy"]);
+        toy
+    }
+
+    /// The toy's files, of which nothing was run.
+    pub fn written(edits: &[(&str, &str)]) -> Self {
         let bench = Bench::new();
         fs::create_dir(bench.at("toy")).unwrap();
         let mut unused: Vec<&str> = edits.iter().map(|(from, _)| *from).collect();
@@ -146,7 +153,6 @@ impl Toy {
             fs::write(bench.at("toy").join(name), text).unwrap();
         }
         assert!(unused.is_empty(), "nothing to replace: {unused:?}");
-        bench.done(&["run", "./toy"]);
         Self(bench)
     }
 

@@ -19,6 +19,7 @@ mod cli_stop;
 mod cli_witness;
 mod committed;
 mod conformance;
+mod counted_readings;
 mod crosscheck;
 mod documented;
 mod exploring;

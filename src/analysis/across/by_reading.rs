@@ -155,6 +155,8 @@ impl Found {
 impl Alone {
     fn of(first: &Exploration, (axis, option, (effect, _)): effects::Found) -> Option<Self> {
         let reading = first.place(&BTreeMap::from([(axis.clone(), option.clone())]))?;
+        // The class itself stands beside it.
+        let effect = if effect == Effect::Class { Effect::Number } else { effect };
         Some(Self { axis, option, effect, reading })
     }
 }

@@ -44,7 +44,8 @@ pub(super) fn each(axes: &Axes, first: &Exploration, id: &str, default: Verdict,
             }
             let effect = match (default.polarity(), result.class.polarity()) {
                 _ if result.results == base.results => Effect::None,
-                (own, other) if own == other || result.sight == Sight::Powerless => Effect::Number,
+                _ if result.sight == Sight::Powerless || result.class == default => Effect::Number,
+                (own, other) if own == other => Effect::Class,
                 (_, Polarity::Open) | (Polarity::Open, _) => Effect::Opens,
                 _ => Effect::Turns,
             };

@@ -23,19 +23,24 @@ pub fn said(
     }
     if is_existential && holds > 0 {
         let met = groups.iter().zip(votes).find(|(_, vote)| vote.polarity() == Polarity::For);
-        // A contender of a study may depart from the defaults by itself, so that they are not what carries it.
+        // The defaults need no name.
         let departs = met.filter(|(group, _)| !first.readings[group.reading].is_empty());
         let named = departs
             .map_or_else(String::new, |(group, _)| format!(", {} among them", name(first, group.reading)));
         return format!("met under {holds} of {all}{named}");
     }
+    let hangs = |parts: Parts| hangs(axes, first, id, groups, votes, parts);
     if holds > 0 && fails > 0 {
-        return hangs(axes, first, id, groups, votes);
+        return hangs(Parts::directions(votes));
     }
     let open = all - holds - fails;
     let tail = if open > 0 { format!(", open under {open}") } else { String::new() };
     match class.polarity() {
-        Polarity::For => format!("holds under {holds} of {all}{tail}"),
+        Polarity::For => {
+            let parts = Parts::classes(votes);
+            let by_class = parts.map_or_else(String::new, |parts| format!("; the class {}", hangs(parts)));
+            format!("holds under {holds} of {all}{tail}{by_class}")
+        }
         Polarity::Against => format!("fails under {fails} of {all}{tail}"),
         Polarity::Open if holds > 0 => format!("holds under {holds} of {all} only, open under {open}"),
         Polarity::Open if fails > 0 => format!("fails under {fails} of {all} only, open under {open}"),
@@ -50,60 +55,105 @@ fn name(first: &Exploration, place: usize) -> String {
     if parts.is_empty() { "the default".to_owned() } else { parts.join(", ") }
 }
 
-/// How often a claim holds and fails under an option of an axis.
+/// How often what is asked, and the contrary, comes out under an option of an axis.
 type Split<'a> = BTreeMap<&'a str, [usize; 2]>;
 
-/// What a claim hangs on that holds under some results and fails under others.
-fn hangs(axes: &Axes, first: &Exploration, id: &str, groups: &[Group], votes: &[Verdict]) -> String {
-    let class = votes.iter().filter(|vote| vote.polarity() == Polarity::For).max().copied();
-    let class = class.unwrap_or(Verdict::Undecided).name();
-    let splits = axes.readings.iter().map(|axis| (axis, split(axis, first, groups, votes)));
-    let right = |split: &Split<'_>| split.values().map(|[holds, fails]| holds.max(fails)).sum::<usize>();
-    let holds = votes.iter().filter(|vote| vote.polarity() == Polarity::For).count();
-    let fails = votes.iter().filter(|vote| vote.polarity() == Polarity::Against).count();
-    // Of equals the first.
-    let best = splits.fold(None, |best: Option<(&Reading, Split<'_>)>, next| match best {
-        Some(best) if right(&best.1) >= right(&next.1) => Some(best),
-        _ => Some(next),
-    });
-    let all = votes.len();
-    match best {
-        Some((axis, split)) if right(&split) == holds + fails && decides(axis, &split, first, id) => {
-            let options: Vec<&str> =
-                split.iter().filter(|(_, [holds, _])| *holds > 0).map(|(option, _)| *option).collect();
-            format!("hangs on {}: {class} if {} ({holds} of {all})", axis.id, options.join(" or "))
-        }
-        Some((axis, split)) if right(&split) > holds.max(fails) => {
-            let shares = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0);
-            let shares: Vec<String> = shares
-                .map(|(option, [holds, fails])| format!("{option} {holds} of {}", holds + fails))
-                .collect();
-            format!("hangs on {} and others: {class} under {holds} of {all} ({})", axis.id, shares.join(", "))
-        }
-        _ => format!("hangs on several readings: {class} under {holds} of {all}"),
+/// What parts the classes of a claim: whether it holds or fails or, where it never fails, whether it is as good as it gets.
+#[derive(Clone, Copy)]
+struct Parts {
+    /// What the results for which it is asked are called.
+    name: Verdict,
+    /// Whether a class is one of them; none if it is neither they nor the contrary.
+    is_asked: fn(Verdict, Verdict) -> Option<bool>,
+}
+
+impl Parts {
+    /// Classes for the claim, by the weakest of them, from those against it.
+    fn directions(votes: &[Verdict]) -> Self {
+        let name = votes.iter().copied().filter(|vote| vote.polarity() == Polarity::For).max();
+        let is_asked = |_, class: Verdict| match class.polarity() {
+            Polarity::For => Some(true),
+            Polarity::Against => Some(false),
+            Polarity::Open => None,
+        };
+        Self { name: name.unwrap_or(Verdict::Undecided), is_asked }
+    }
+
+    /// The best class for the claim from the others for it; none if there is one.
+    fn classes(votes: &[Verdict]) -> Option<Self> {
+        let holding = || votes.iter().copied().filter(|vote| vote.polarity() == Polarity::For);
+        let name = holding().min().filter(|best| holding().any(|class| class != *best))?;
+        let is_asked = |best, class: Verdict| (class.polarity() == Polarity::For).then_some(class == best);
+        Some(Self { name, is_asked })
+    }
+
+    fn side(self, class: Verdict) -> Option<bool> {
+        (self.is_asked)(self.name, class)
     }
 }
 
-/// Whether each option of `axis` under which the claim holds does so by itself, all else at its default, as far as that was
-/// looked at: in a sample of combinations an axis may part by chance what others decide.
-fn decides(axis: &Reading, split: &Split<'_>, first: &Exploration, id: &str) -> bool {
-    let holding = split.iter().filter(|(_, [holds, _])| *holds > 0).map(|(option, _)| *option);
-    let alone = holding.filter(|option| *option != axis.default).filter_map(|option| {
+/// What it hangs on which of two sides the results are on.
+fn hangs(
+    axes: &Axes,
+    first: &Exploration,
+    id: &str,
+    groups: &[Group],
+    votes: &[Verdict],
+    parts: Parts,
+) -> String {
+    let class = parts.name.name();
+    let splits = axes.readings.iter().map(|axis| (axis, split(axis, first, groups, votes, parts)));
+    let splits: Vec<(&Reading, Split<'_>)> = splits.collect();
+    let right = |split: &Split<'_>| split.values().map(|[one, other]| one.max(other)).sum::<usize>();
+    let count = |side| votes.iter().filter(|vote| parts.side(**vote) == Some(side)).count();
+    let (asked, others) = (count(true), count(false));
+    let all = votes.len();
+    let deciding = splits
+        .iter()
+        .find(|(axis, split)| right(split) == asked + others && decides(axis, split, first, id, parts));
+    if let Some((axis, split)) = deciding {
+        let options: Vec<&str> =
+            split.iter().filter(|(_, [asked, _])| *asked > 0).map(|(option, _)| *option).collect();
+        return format!("hangs on {}: {class} if {} ({asked} of {all})", axis.id, options.join(" or "));
+    }
+    // Many options part few results by chance, so that each costs one; of equals the first.
+    let worth = |split: &Split<'_>| right(split) as i64 - split.len() as i64;
+    let parting = splits.iter().rev().filter(|(_, split)| right(split) > asked.max(others));
+    let Some((axis, split)) = parting.max_by_key(|(_, split)| worth(split)) else {
+        return format!("hangs on several readings: {class} under {asked} of {all}");
+    };
+    let shares = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0);
+    let shares: Vec<String> =
+        shares.map(|(option, [asked, others])| format!("{option} {asked} of {}", asked + others)).collect();
+    format!("hangs on {} and others: {class} under {asked} of {all} ({})", axis.id, shares.join(", "))
+}
+
+/// Whether each option of `axis` under which what is asked comes out brings it by itself, all else at its default, as far as
+/// that was looked at: in a sample of combinations an axis may part by chance what others decide.
+fn decides(axis: &Reading, split: &Split<'_>, first: &Exploration, id: &str, parts: Parts) -> bool {
+    let asked = split.iter().filter(|(_, [asked, _])| *asked > 0).map(|(option, _)| *option);
+    let alone = asked.filter(|option| *option != axis.default).filter_map(|option| {
         let place = first.place(&BTreeMap::from([(axis.id.clone(), option.to_owned())]))?;
         first.result(id, place)
     });
-    alone.into_iter().all(|result| result.class.polarity() == Polarity::For)
+    alone.into_iter().all(|result| parts.side(result.class) == Some(true))
 }
 
-/// By option of `axis`, under how many results a claim holds and fails; a result under several options belongs to the first.
-fn split<'a>(axis: &'a Reading, first: &'a Exploration, groups: &[Group], votes: &[Verdict]) -> Split<'a> {
+/// By option of `axis`, how many results are on either side; a result under several options belongs to the first.
+fn split<'a>(
+    axis: &'a Reading,
+    first: &'a Exploration,
+    groups: &[Group],
+    votes: &[Verdict],
+    parts: Parts,
+) -> Split<'a> {
     let mut split = Split::new();
     for (group, vote) in groups.iter().zip(votes) {
         let counts = split.entry(Axes::option(axis, &first.readings[group.reading])).or_default();
-        match vote.polarity() {
-            Polarity::For => counts[0] += 1,
-            Polarity::Against => counts[1] += 1,
-            Polarity::Open => {}
+        match parts.side(*vote) {
+            Some(true) => counts[0] += 1,
+            Some(false) => counts[1] += 1,
+            None => {}
         }
     }
     split

@@ -74,28 +74,24 @@ fn what_stands_alone_against_most_must_be_confirmed_whichever_way_it_speaks() {
     assert!(flips(&groups(&many(&[(9, NotReproduced), (3, Undecided)]))).is_empty());
 }
 
-/// What a claim hangs on that holds with two options together and fails under the default and one of them alone; `alone` is
-/// its class under the other alone, which does not count.
-fn hangs_on(alone: Verdict) -> String {
-    let axis = |id: &str, default: &str| Reading {
-        id: id.to_owned(),
+/// Readings with these defaults.
+fn axes(defaults: &[(&str, &str)]) -> Axes {
+    let axis = |(id, default): &(&str, &str)| Reading {
+        id: (*id).to_owned(),
         why: String::new(),
-        default: default.to_owned(),
+        default: (*default).to_owned(),
         fitted: false,
         bounds: None,
         options: BTreeMap::new(),
         place: None,
     };
-    let axes = Axes {
-        readings: vec![axis("corners", "allow"), axis("ties", "fifo")],
-        calibration: BTreeSet::new(),
-        now: Now::default(),
-    };
-    let reading = |options: &[(&str, &str)]| {
-        options.iter().map(|(id, option)| ((*id).to_owned(), (*option).to_owned())).collect()
-    };
-    let (forbid, lifo) = (("corners", "forbid"), ("ties", "lifo"));
-    let result = |(place, class): (usize, &Verdict)| ExploredResult {
+    let readings = defaults.iter().map(axis).collect();
+    Axes { readings, calibration: BTreeSet::new(), now: Now::default() }
+}
+
+/// A class under the reading at `place`.
+fn result((place, class): (usize, &Verdict)) -> ExploredResult {
+    ExploredResult {
         readings: vec![place],
         class: *class,
         sight: Sight::Looked,
@@ -103,7 +99,17 @@ fn hangs_on(alone: Verdict) -> String {
         interval: None,
         n: 1,
         results: place.to_string(),
+    }
+}
+
+/// What a claim hangs on that holds with two options together and fails under the default and one of them alone; `alone` is
+/// its class under the other alone, which does not count.
+fn hangs_on(alone: Verdict) -> String {
+    let axes = axes(&[("corners", "allow"), ("ties", "fifo")]);
+    let reading = |options: &[(&str, &str)]| {
+        options.iter().map(|(id, option)| ((*id).to_owned(), (*option).to_owned())).collect()
     };
+    let (forbid, lifo) = (("corners", "forbid"), ("ties", "lifo"));
     let classes = [NotReproduced, alone, NotReproduced, Reproduced];
     let results = classes.iter().enumerate().map(result).collect();
     let claim = ExploredClaim { results, ..ExploredClaim::default() };
@@ -126,4 +132,27 @@ fn a_claim_hangs_on_an_axis_alone_only_if_its_option_alone_decides() {
             "hangs on corners and others: reproduced under 1 of 3 (allow 0 of 2, forbid 1 of 1)"
         );
     }
+}
+
+#[test]
+fn an_axis_of_many_options_does_not_win_by_parting_few_results_each() {
+    // Six results: each under an order of its own, two sides, and one exception to what the side says.
+    let of = |(order, side): (&str, &str)| -> BTreeMap<String, String> {
+        let own = [("order", order), ("side", side)].into_iter().filter(|(_, option)| *option != "a");
+        own.map(|(id, option)| (id.to_owned(), option.to_owned())).collect()
+    };
+    let orders = [("a", "a"), ("b", "a"), ("c", "a"), ("d", "b"), ("e", "b"), ("f", "b"), ("f", "a")];
+    let classes = [Reproduced, Reproduced, Reproduced, NotReproduced, NotReproduced, Reproduced];
+    // Alone, the order of the exception does not bring it.
+    let all = [&classes[..], &[NotReproduced]].concat();
+    let results = all.iter().enumerate().map(result).collect();
+    let claim = ExploredClaim { results, ..ExploredClaim::default() };
+    let first = Exploration {
+        readings: orders.into_iter().map(of).collect(),
+        claims: BTreeMap::from([("fewer".to_owned(), claim)]),
+        ..Exploration::default()
+    };
+    let axes = axes(&[("order", "a"), ("side", "a")]);
+    let said = said(&axes, &first, "fewer", &groups(&classes), &classes, Undecided, false);
+    assert_eq!(said, "hangs on side and others: reproduced under 4 of 6 (a 3 of 3, b 1 of 3)");
 }

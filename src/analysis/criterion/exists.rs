@@ -1,24 +1,29 @@
 //! Whether the printed number is met exactly by any stored trial, alone or together with other printed numbers.
+//!
+//! A trial counts under the reading that it ran under, and under readings that differ from it only in what cannot touch it:
+//! one witness under one reading is no witness under another.
 
 mod differs;
+mod ran_under;
 
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::{CONTENDER_KEYS, Context};
-use crate::analysis::evidence::{Evidence, Pair, Run};
+use crate::analysis::evidence::{Evidence, Pair, Run, default_point};
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection_spec::Labels;
 use crate::analysis::verdict::Estimate;
+use crate::study::paper::Paper;
 use crate::study::record::Row;
-use crate::study::{Reading, ReadingChoice, Study};
+use crate::study::{ReadingChoice, Study};
 use audit::exact::Print;
 use base::settings::{Accepted, Faults, SettingsError, none_called};
 use differs::Differs;
+use ran_under::ran_under;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -87,8 +92,7 @@ pub struct Attained<'a> {
     print: Print,
     given: Vec<Attained<'a>>,
     claim: &'a str,
-    /// The readings of the paper.
-    readings: Vec<Reading>,
+    paper: &'a Paper,
 }
 
 /// A trial that was looked at, and its value. Names are made of the few that are shown.
@@ -100,8 +104,6 @@ pub struct Seen<'e> {
     pub contender: &'e str,
     /// The number, or the reduction in per cent.
     pub value: f64,
-    /// The reading that it ran under.
-    pub reading: Arc<str>,
     selected: bool,
 }
 
@@ -116,15 +118,6 @@ impl<'e> Seen<'e> {
     }
 }
 
-/// Refuses contenders that depart from readings which the paper does not have.
-fn check_departures(study: &Study, readings: &[Reading]) -> Result<(), SettingsError> {
-    for (index, contender) in study.contenders.iter().enumerate() {
-        ReadingChoice::new(readings, &contender.departs)
-            .map_err(|message| study.document.error_at(&format!("contender.{index}.departs"), message))?;
-    }
-    Ok(())
-}
-
 impl<'a> Attained<'a> {
     /// The criterion of the claim of `context`.
     ///
@@ -132,9 +125,8 @@ impl<'a> Attained<'a> {
     /// A settings error of the criterion.
     pub fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
-        let readings = context.paper.readings();
         let contenders = settings.contenders.listed();
-        let (places, metric) = places(context, &settings, &readings)?;
+        let (places, metric) = places(context, &settings)?;
         let mut given = Vec::new();
         for id in &settings.given {
             let claim = context.claim_called(id)?;
@@ -145,7 +137,7 @@ impl<'a> Attained<'a> {
             given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
         let (print, claim, against) = (context.print()?, context.claim.id.as_str(), settings.against);
-        Ok(Self { contenders, against, places, metric, print, given, claim, readings })
+        Ok(Self { contenders, against, places, metric, print, given, claim, paper: context.paper })
     }
 
     /// The claim's id.
@@ -191,40 +183,31 @@ impl<'a> Attained<'a> {
     /// Every trial that it is looked for in under the evidence's reading.
     pub fn seen<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<Seen<'e>> {
         let mut seen = Vec::new();
-        for place in &self.places {
-            let run = evidence.run(&place.study.name);
-            let Some(run) = run.filter(|run| self.is_asked_of(run.study, &evidence.point)) else { continue };
-            let reading = |label: &'e String| (label, self.reading_of(run.study, &evidence.point, label));
-            let contenders: Vec<_> = self.contenders.iter().map(reading).collect();
+        for (run, place, contenders) in self.asked(evidence) {
             for group in &place.groups {
-                for (contender, reading) in &contenders {
-                    seen.extend(self.seen_in(run, (group, place.selected), contender, reading));
+                for contender in &contenders {
+                    seen.extend(self.seen_in(run, (group, place.selected), contender));
                 }
             }
         }
         seen
     }
 
-    /// Whether the trials of `study` can run under the reading at all: it has every axis along which that departs.
-    fn is_asked_of(&self, study: &Study, point: &ReadingChoice) -> bool {
-        let departs = |reading: &Reading| {
-            let taken = point.choices().get(&reading.id);
-            reading.touches_trials() && taken.is_some_and(|option| *option != reading.default)
+    /// Each place where trials ran under the evidence's reading, with the contenders whose trials did.
+    fn asked<'e>(&'e self, evidence: &'e Evidence<'_>) -> Vec<(&'e Run<'e>, &'e Place<'a>, Vec<&'e str>)> {
+        let asked = |place: &'e Place<'a>| {
+            let run = evidence.run(&place.study.name).filter(|run| run.is_covered())?;
+            let ran = |label: &str| {
+                let contender = run.study.contenders.iter().find(|contender| contender.label == label);
+                contender
+                    .is_some_and(|contender| ran_under(self.paper, run.study, contender, &evidence.point))
+            };
+            let contenders = self.contenders.iter().map(String::as_str).filter(|label| ran(label));
+            let contenders: Vec<&str> = contenders.collect();
+            let is_asked = !contenders.is_empty() && self.against.iter().all(|base| ran(base));
+            is_asked.then_some((run, place, contenders))
         };
-        let has = |reading: &Reading| study.readings.iter().any(|own| own.id == reading.id);
-        self.readings.iter().all(|reading| !departs(reading) || has(reading))
-    }
-
-    /// The reading that the contender called `label` runs under.
-    fn reading_of(&self, study: &Study, point: &ReadingChoice, label: &str) -> Arc<str> {
-        let contender = study.contenders.iter().find(|contender| contender.label == label);
-        let Some(contender) = contender.filter(|contender| !contender.departs.is_empty()) else {
-            return point.name().into();
-        };
-        let mut choices = point.choices().clone();
-        choices.extend(contender.departs.clone());
-        let point = ReadingChoice::new(&self.readings, &choices);
-        point.expect("departures were looked up when the criterion was built").name().into()
+        self.places.iter().filter_map(asked).collect()
     }
 
     /// The trials of `contender` in one problem group, which was selected or not.
@@ -233,7 +216,6 @@ impl<'a> Attained<'a> {
         run: &'e Run<'e>,
         (group, selected): (&str, bool),
         contender: &'e str,
-        reading: &Arc<str>,
     ) -> Vec<Seen<'e>> {
         let base = self.against.as_deref().unwrap_or(contender);
         let number = run.reader(self.metric);
@@ -247,8 +229,8 @@ impl<'a> Attained<'a> {
         };
         let pairs = run.pairs(group, base, contender);
         let seen = pairs.iter().filter_map(|pair| {
-            let (row, value, reading) = (pair.other, value(pair)?, reading.clone());
-            Some(Seen { run, row, contender, value, reading, selected })
+            let (row, value) = (pair.other, value(pair)?);
+            Some(Seen { run, row, contender, value, selected })
         });
         seen.collect()
     }
@@ -274,6 +256,20 @@ impl<'a> Attained<'a> {
         self.given.is_empty()
     }
 
+    /// Beside the defaults, the readings that contenders depart to under which it is met, each with the first trial that meets it.
+    fn met_elsewhere(&self, evidence: &Evidence<'_>) -> Vec<String> {
+        let default = default_point(self.paper);
+        let points = if evidence.point == default { self.paper.departures() } else { Vec::new() };
+        let met = |point: ReadingChoice| {
+            let (name, view) = (point.name().to_owned(), evidence.under(point));
+            let found = self.eligible(&view);
+            let first = found.iter().find(|seen| !seen.selected && self.is_met(seen.value))?;
+            let trial = first.run.trial(first.row);
+            Some(format!("met under another reading, {name}, where it counts: {trial}"))
+        };
+        points.into_iter().filter_map(met).collect()
+    }
+
     /// What the value is, with its unit.
     fn title(&self) -> String {
         if self.against.is_some() {
@@ -287,7 +283,6 @@ impl<'a> Attained<'a> {
 fn places<'a>(
     context: &Context<'a>,
     settings: &Settings,
-    readings: &[Reading],
 ) -> Result<(Vec<Place<'a>>, &'static Metric), SettingsError> {
     let (mut places, mut metric, mut faults) = (Vec::new(), None, Faults::default());
     for (index, place) in settings.r#in.iter().enumerate() {
@@ -295,7 +290,6 @@ fn places<'a>(
         let Some(study) = faults.keep(context.study(&within, &place.study, &[])) else { continue };
         let groups = faults.keep(context.groups(&within, study, &place.problems)).unwrap_or_default();
         metric = faults.keep(context.metric(&settings.metric, study)).or(metric);
-        faults.keep(check_departures(study, readings));
         places.push(Place { study, groups, selected: place.selected });
     }
     for label in settings.contenders.listed().iter().chain(&settings.against) {
@@ -325,19 +319,17 @@ impl Criterion for Attained<'_> {
         let mut found = Found { outcome: Some(outcome), existential: true, ..Found::default() };
         if let Some(shown) = met.first().copied().or(nearest) {
             found.trial = Some(shown.run.trial(shown.row));
-            found.reading = Some(shown.reading.to_string()).filter(|name| name != evidence.point.name());
             let how = if met.is_empty() { "nearest" } else { "met" };
             let what = format!("{how}, {} by {}", self.title(), shown.contender);
             found.ours = Some(Estimate::bare(shown.value, what, eligible.len()));
         }
         found.because.push(match met.first() {
             Some(first) => format!(
-                "met by {} of {} trials{condition}; first by `{}` on {}, reading {}",
+                "met by {} of {} trials{condition}; first by `{}` on {}",
                 met.len(),
                 eligible.len(),
                 first.contender,
-                first.run.problem(first.row),
-                first.reading
+                first.run.problem(first.row)
             ),
             None => {
                 format!("met by none of {} trials{condition}; this proves nothing either way", eligible.len())
@@ -347,6 +339,9 @@ impl Criterion for Attained<'_> {
         found.because.extend((more > 0).then(|| {
             format!("{more} more trials are on maps that were drawn until it held, and do not count")
         }));
+        if met.is_empty() {
+            found.because.extend(self.met_elsewhere(evidence));
+        }
         found
     }
 
@@ -356,5 +351,17 @@ impl Criterion for Attained<'_> {
 
     fn is_clock(&self) -> bool {
         self.metric.is_clock()
+    }
+
+    fn is_covered(&self, evidence: &Evidence<'_>) -> bool {
+        !self.asked(evidence).is_empty()
+    }
+
+    fn results(&self, evidence: &Evidence<'_>) -> String {
+        let line = |seen: Seen<'_>| {
+            format!("{:?} {} {} {:x}\n", seen.problem(), seen.contender, seen.selected, seen.value.to_bits())
+        };
+        let own: String = self.seen(evidence).into_iter().map(line).collect();
+        self.given.iter().fold(own, |text, given| text + given.claim + "\n" + &given.results(evidence))
     }
 }

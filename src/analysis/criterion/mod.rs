@@ -23,7 +23,6 @@ use super::evidence::{Evidence, Run};
 use super::found::Found;
 use super::selection::Selection;
 use crate::study::Study;
-use base::hash::sha256;
 use base::settings::{Accepted, SettingsError};
 
 /// A criterion with its settings, every name looked up.
@@ -45,57 +44,52 @@ pub trait Criterion {
     fn is_clock(&self) -> bool {
         self.selections().iter().any(|of| of.is_clock())
     }
-}
 
-/// Whether trials ran under the evidence's reading of all that `criterion` looks at; of anything at all, if one witness would do.
-pub fn is_covered(criterion: &dyn Criterion, evidence: &Evidence<'_>, existential: bool) -> bool {
-    let is_run = |study: &&Study| evidence.run(&study.name).is_some_and(Run::is_covered);
-    if existential {
-        return criterion.studies().iter().any(is_run);
+    /// Whether trials ran under the evidence's reading of all that it looks at; of anything at all, if one witness would do.
+    fn is_covered(&self, evidence: &Evidence<'_>) -> bool {
+        let is_run = |study: &&Study| evidence.run(&study.name).is_some_and(Run::is_covered);
+        self.studies().iter().all(is_run) && self.selections().iter().all(|of| has_all(of, evidence))
     }
-    // A study that stands for another need not have all of its groups and contenders.
-    let has_all = |of: &&Selection<'_>| {
-        of.run(evidence).is_some_and(|run| {
-            let labels: Vec<&str> = run.study.contenders.iter().map(|own| own.label.as_str()).collect();
-            let has_group = |label: &String| run.study.groups.iter().any(|group| group.label == *label);
-            let mut contenders = of.contenders.iter().chain(&of.against);
-            of.groups.iter().all(has_group)
-                && (labels.is_empty() || contenders.all(|label| labels.contains(&label.as_str())))
-        })
-    };
-    criterion.studies().iter().all(is_run) && criterion.selections().iter().all(has_all)
+
+    /// The results that it rests on under the evidence's reading, whatever the reading is called: equal text, equal results.
+    fn results(&self, evidence: &Evidence<'_>) -> String {
+        self.selections().into_iter().filter_map(|of| Some(selected(of, of.run(evidence)?))).collect()
+    }
 }
 
-/// A hash of the results that `criterion` rests on under the evidence's reading, whatever the reading is called.
-pub fn results(criterion: &dyn Criterion, evidence: &Evidence<'_>) -> String {
+/// Whether the study that stands for the selection's has all of its groups and contenders.
+fn has_all(of: &Selection<'_>, evidence: &Evidence<'_>) -> bool {
+    of.run(evidence).is_some_and(|run| {
+        let labels: Vec<&str> = run.study.contenders.iter().map(|own| own.label.as_str()).collect();
+        let has_group = |label: &String| run.study.groups.iter().any(|group| group.label == *label);
+        let mut contenders = of.contenders.iter().chain(&of.against);
+        of.groups.iter().all(has_group)
+            && (labels.is_empty() || contenders.all(|label| labels.contains(&label.as_str())))
+    })
+}
+
+/// What `run` has of a selection, a trial a line.
+fn selected(of: &Selection<'_>, run: &Run<'_>) -> String {
     let mut text = String::new();
-    let selections = criterion.selections();
-    for of in &selections {
-        let Some(run) = of.run(evidence) else { continue };
-        let reader = of.metric.map(|metric| (metric.name, run.reader(metric)));
-        for group in &of.groups {
-            for contender in of.contenders.iter().chain(&of.against) {
-                for row in of.rows(run, group, contender) {
-                    let value = reader.as_ref().and_then(|(_, read)| read(row)).map(f64::to_bits);
-                    let name = reader.as_ref().map(|(name, _)| *name);
-                    let key = &row.key;
-                    text += &format!(
-                        "{group} {contender} {} {:?} {:?} {} {} {name:?} {value:?}\n",
-                        row.draw(),
-                        key.query,
-                        key.sweep,
-                        key.repeat,
-                        row.status
-                    );
-                }
+    let reader = of.metric.map(|metric| (metric.name, run.reader(metric)));
+    for group in &of.groups {
+        for contender in of.contenders.iter().chain(&of.against) {
+            for row in of.rows(run, group, contender) {
+                let value = reader.as_ref().and_then(|(_, read)| read(row)).map(f64::to_bits);
+                let name = reader.as_ref().map(|(name, _)| *name);
+                let key = &row.key;
+                text += &format!(
+                    "{group} {contender} {} {:?} {:?} {} {} {name:?} {value:?}\n",
+                    row.draw(),
+                    key.query,
+                    key.sweep,
+                    key.repeat,
+                    row.status
+                );
             }
         }
     }
-    if selections.is_empty() {
-        let of_study = |study: &Study| evidence.run(&study.name).map_or_else(String::new, Run::results);
-        text = criterion.studies().into_iter().map(of_study).collect();
-    }
-    sha256(text.as_bytes())[..16].to_owned()
+    text
 }
 
 /// A registered criterion.

@@ -163,7 +163,7 @@ impl<'a> OneDraw<'a> {
 /// The rank of `printed` among `draws` in words.
 fn said(draws: &Draws, printed: Printed) -> String {
     let rank = Rank::of(printed.value(), &draws.values);
-    let Some((share, interval)) = rank.share_at_most().zip(rank.interval_at_most(LEVEL)) else {
+    let Some(share) = rank.share_at_most().zip(rank.interval_at_most(LEVEL)) else {
         return format!("{}: no draw has a number", draws.label);
     };
     let middle = median(&draws.values).map_or(String::new(), |median| format!("median {median:.2}"));
@@ -176,14 +176,24 @@ fn said(draws: &Draws, printed: Printed) -> String {
         let percent = 100.0 * accepted as f64 / tried as f64;
         format!(", {accepted} accepted of {tried} maps tried ({percent:.3} %)")
     });
+    let place = place(rank, share, &unsolved);
+    format!("{}: {middle}{range}; printed {printed}, {place}{accepted}", draws.label)
+}
+
+/// Where a number stands among draws, of which more are unsolved, in words; the share at or below it comes with its interval.
+fn place(rank: Rank, (share, interval): (f64, Interval), unsolved: &str) -> String {
+    let (count, percent) = (rank.draws(), 100.0 * share);
+    let [low, high] = [interval.low, interval.high].map(|end| 100.0 * end);
+    if rank.below == count {
+        let beyond = 100.0 - low;
+        return format!("above all {count} draws{unsolved}: at most {beyond:.1} % of such draws reach it");
+    }
+    if rank.above == count {
+        return format!("below all {count} draws{unsolved}: at most {high:.1} % of such draws reach it");
+    }
     format!(
-        "{}: {middle}{range}; printed {printed}, with {:.1} % of {} draws{unsolved} at or below it ({:.1} to {:.1} %), {} equal to it{accepted}",
-        draws.label,
-        100.0 * share,
-        draws.values.len(),
-        100.0 * interval.low,
-        100.0 * interval.high,
-        rank.equal,
+        "with {percent:.1} % of {count} draws{unsolved} at or below it ({low:.1} to {high:.1} %), {} equal to it",
+        rank.equal
     )
 }
 
@@ -225,5 +235,24 @@ impl Criterion for OneDraw<'_> {
 
     fn selections(&self) -> Vec<&Selection<'_>> {
         vec![&self.of]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_beyond_all_draws_has_no_rank_in_per_cent() {
+        let said = |printed: f64| {
+            let rank = Rank::of(printed, &[1.0, 2.0, 3.0, 4.0]);
+            let share = rank.share_at_most().zip(rank.interval_at_most(LEVEL)).unwrap();
+            place(rank, share, " (2 more have none)")
+        };
+        // One side of the exact interval of 0 of 4: 1 - 0.025^(1/4) = 60.2 %.
+        assert_eq!(said(4.5), "above all 4 draws (2 more have none): at most 60.2 % of such draws reach it");
+        assert_eq!(said(0.5), "below all 4 draws (2 more have none): at most 60.2 % of such draws reach it");
+        assert!(said(4.0).starts_with("with 100.0 % of 4 draws"), "{}", said(4.0));
+        assert!(said(2.5).starts_with("with 50.0 % of 4 draws"), "{}", said(2.5));
     }
 }

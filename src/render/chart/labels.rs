@@ -9,6 +9,8 @@ use crate::render::style::{GREY, Stroke, TextSize};
 pub struct Labels {
     /// The points and names.
     pub points: Vec<([f64; 2], String)>,
+    /// Pieces of line in data units that no name covers: the bars of intervals.
+    pub bars: Vec<[[f64; 2]; 2]>,
 }
 
 /// How far from its point a name may stand, points.
@@ -159,6 +161,21 @@ fn settled(places: &[Vec<Placed>], markers: &[Rect]) -> Vec<Placed> {
     places.iter().zip(taken).filter_map(|(all, at)| Some(all[at?].clone())).collect()
 }
 
+/// Where a name of this size about `at` lies in the frame and covers no marker and no bar.
+///
+/// Where no place is free the first one is taken: the labels then overlap, and the figure is refused.
+fn free(at: [f64; 2], size: [f64; 2], frame: Rect, markers: &[Rect], bars: &[[[f64; 2]; 2]]) -> Vec<Placed> {
+    let every = FAR_PT.iter().flat_map(|far| (0..DIRECTIONS).map(move |to| place(at, size, *far, to)));
+    let is_free = |place: &Rect| {
+        let corners = [[place.x, place.y], [place.right(), place.bottom()]];
+        corners.iter().all(|corner| frame.contains(*corner))
+            && !markers.iter().any(|marker| meets(*place, *marker))
+            && !bars.iter().any(|bar| passes(*bar, *place))
+    };
+    let free: Vec<Placed> = every.filter(is_free).map(|name| Placed::new(at, name)).collect();
+    if free.is_empty() { vec![Placed::new(at, place(at, size, FAR_PT[0], 0))] } else { free }
+}
+
 impl Mark for Labels {
     fn draw(&self, _: &mut Canvas, _: &View) {}
 
@@ -171,19 +188,10 @@ impl Mark for Labels {
             self.points.iter().map(|(point, name)| (view.at(*point), name)).collect();
         let markers: Vec<Rect> =
             all.iter().filter(|(at, _)| is_placed(at)).map(|(at, _)| around(*at)).collect();
-        let places = |at: [f64; 2], name: &str| -> Vec<Placed> {
+        let bars: Vec<[[f64; 2]; 2]> = self.bars.iter().map(|bar| bar.map(|end| view.at(end))).collect();
+        let places = |at: [f64; 2], name: &str| {
             let size = [set.width_pt(name) + 2.0, set.size.pt() + 2.0];
-            let every =
-                FAR_PT.iter().flat_map(|far| (0..DIRECTIONS).map(move |to| place(at, size, *far, to)));
-            let every: Vec<Rect> = every.collect();
-            let is_free = |place: &&Rect| {
-                let corners = [[place.x, place.y], [place.right(), place.bottom()]];
-                corners.iter().all(|corner| view.frame.contains(*corner))
-                    && !markers.iter().any(|marker| meets(**place, *marker))
-            };
-            let free: Vec<Placed> = every.iter().filter(is_free).map(|name| Placed::new(at, *name)).collect();
-            // Where no place is free the first one is taken: the labels then overlap, and the figure is refused.
-            if free.is_empty() { vec![Placed::new(at, every[0])] } else { free }
+            free(at, size, view.frame, &markers, &bars)
         };
         let named: Vec<Vec<Placed>> = all.iter().map(|(at, name)| places(*at, name)).collect();
         let settled = settled(&named, &markers);
@@ -224,6 +232,19 @@ mod tests {
                 assert!(one.against(two) == 0.0, "names {index} and {other} are in each other's way");
             }
         }
+    }
+
+    #[test]
+    fn no_name_covers_a_bar() {
+        let (at, size) = ([100.0, 100.0], [30.0, 9.0]);
+        let frame = Rect { x: 0.0, y: 0.0, w: 200.0, h: 200.0 };
+        let bars = [[[70.0, 100.0], [130.0, 100.0]], [[100.0, 85.0], [100.0, 115.0]]];
+        let covering = |places: &[Placed]| {
+            places.iter().filter(|one| bars.iter().any(|bar| passes(*bar, one.name))).count()
+        };
+        assert!(covering(&free(at, size, frame, &[], &[])) > 0, "no place is in the bars' way");
+        let places = free(at, size, frame, &[], &bars);
+        assert!(covering(&places) == 0 && places.len() > DIRECTIONS, "{} places", places.len());
     }
 
     #[test]

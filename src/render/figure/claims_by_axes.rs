@@ -6,7 +6,7 @@ use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::Cells;
 use crate::render::chart::{Axis, Panel, Sheet};
-use crate::render::style::{BLUE, GREY, GRID, Rgb, Stroke, VERMILLION, WHITE, Width};
+use crate::render::style::{BLUE, GREY, GRID, Rgb, Stroke, VERMILLION, WHITE, Width, YELLOW};
 use base::settings::{Accepted, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -49,8 +49,9 @@ struct ClaimsByAxes {
 const ROW_PT: f64 = 9.5;
 
 /// What an effect is called and drawn as, the least first.
-const LOOKS: [(Effect, &str, Rgb); 3] = [
+const LOOKS: [(Effect, &str, Rgb); 4] = [
     (Effect::Number, "moves the number", GRID),
+    (Effect::Class, "changes the class, not the direction", YELLOW),
     (Effect::Opens, "opens or decides it", BLUE),
     (Effect::Turns, "turns it", VERMILLION),
 ];

@@ -138,15 +138,17 @@ impl Ready {
         let units: BTreeSet<usize> = points.iter().map(|(_, a, _)| a.units).collect();
         let units: Vec<String> = units.iter().map(usize::to_string).collect();
         let mut panel = Panel::new(format!("{}, {} maps", spec.title, units.join(" or ")), x, y);
-        let mut names = vec![([0.0, 0.0], base.clone())];
+        let (mut names, mut bars) = (vec![([0.0, 0.0], base.clone())], Vec::new());
         panel.add(marked(vec![[0.0, 0.0]], 3.0, ask::place(scene, base), 0.0));
         for (label, a, b) in &points {
             let point = marked(vec![[a.value, b.value]], 3.0, ask::place(scene, label), 0.0);
-            panel.add(Line::through(cross(a, b), Stroke::solid(point.color, 0.9)));
+            let line = cross(a, b);
+            bars.extend([[line[0], line[1]], [line[3], line[4]]]);
+            panel.add(Line::through(line, Stroke::solid(point.color, 0.9)));
             panel.add(Points { marker: Marker::Circle, ..point });
             names.push(([a.value, b.value], label.clone()));
         }
-        panel.add(Labels { points: names });
+        panel.add(Labels { points: names, bars });
         panel
     }
 
@@ -182,7 +184,7 @@ impl Ready {
             names.extend(at.filter(|_| is_named).map(|at| (at, (*label).clone())));
             panel.add(if is_named { point } else { point.labelled(*label) });
         }
-        panel.add(Labels { points: names });
+        panel.add(Labels { points: names, bars: Vec::new() });
         Ok(panel)
     }
 }

@@ -63,7 +63,11 @@ impl Page<'_> {
             };
             self.verdicts.claims.iter().filter(is_it).map(|judged| judged.claim.as_str()).collect::<Vec<_>>()
         };
-        let kinds = [(Effect::Turns, "turns"), (Effect::Opens, "opens or decides")];
+        let kinds = [
+            (Effect::Turns, "turns"),
+            (Effect::Opens, "opens or decides"),
+            (Effect::Class, "changes the class, not the direction, of"),
+        ];
         let said = |(effect, what)| {
             let claims = of(effect);
             (!claims.is_empty()).then(|| format!("{what} {}", links(&claims)))

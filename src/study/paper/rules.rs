@@ -1,8 +1,8 @@
 //! What must hold in a paper as a whole: names that exist, tables that fit, a ledger without gaps.
 
 use super::{ClaimSpec, Paper, Parts};
-use crate::study::Reading;
 use crate::study::spec::OptionSpec;
+use crate::study::{Reading, ReadingChoice};
 use base::settings::{Document, Faults, Spanned, none_called};
 use std::collections::BTreeSet;
 
@@ -36,6 +36,7 @@ impl Paper {
         self.check_results(faults);
         self.check_readings(faults);
         self.check_votes(faults);
+        self.check_departures(faults);
         self.check_explored(faults);
     }
 
@@ -138,6 +139,31 @@ impl Paper {
                     "fitted",
                     "is fitted, but no study of the paper says what to; `fitted_to` is needed".to_owned(),
                 );
+            }
+        }
+    }
+
+    /// A contender departs from readings of other studies: over what it departs to, the option in hand of one that its study has
+    /// would be laid.
+    fn check_departures(&self, faults: &mut Faults) {
+        let all = self.readings();
+        for study in &self.studies {
+            for (index, contender) in study.contenders.iter().enumerate() {
+                let mut wrong = |message: String| {
+                    let place = format!("contender.{index}.departs");
+                    let message = format!("contender `{}`: {message}", contender.label);
+                    faults.add(study.document.error_at(&place, message));
+                };
+                if let Err(message) = ReadingChoice::new(&all, &contender.departs) {
+                    wrong(message);
+                } else if let Some(own) =
+                    study.readings.iter().find(|own| contender.departs.contains_key(&own.id))
+                {
+                    wrong(format!(
+                        "departs from reading `{}`, which its study has; readings of other studies are accepted",
+                        own.id
+                    ));
+                }
             }
         }
     }

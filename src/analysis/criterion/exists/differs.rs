@@ -23,7 +23,7 @@ pub(super) struct Differs<'a> {
 impl<'a> Differs<'a> {
     /// The criterion of the claim of `context`, which `settings` ask for.
     pub(super) fn new(context: &Context<'a>, settings: Settings) -> Result<Self, SettingsError> {
-        let (places, metric) = places(context, &settings, &context.paper.readings())?;
+        let (places, metric) = places(context, &settings)?;
         let contenders = settings.contenders.listed();
         let ([place], [contender]) = (&places[..], &contenders[..]) else {
             return Err(context.settings.error_at("differ", "`differ` takes one place and one contender"));
@@ -72,5 +72,16 @@ impl Criterion for Differs<'_> {
 
     fn studies(&self) -> Vec<&Study> {
         vec![self.study]
+    }
+
+    fn results(&self, evidence: &Evidence<'_>) -> String {
+        let Some(run) = evidence.run(&self.study.name) else { return String::new() };
+        let of_group = |group: &String| {
+            let rows = run.rows(group, &self.contender).into_iter();
+            let values: Vec<Option<u64>> =
+                rows.map(|row| run.value(row, self.metric).map(f64::to_bits)).collect();
+            format!("{group} {values:?}\n")
+        };
+        self.sets.iter().flatten().map(of_group).collect()
     }
 }

@@ -1,0 +1,188 @@
+//! Which readings count for a claim, on the small paper of [`across`](crate::across): those that it can tell apart, and those that
+//! say something.
+
+use crate::across::{CITED, Toy, pair};
+use replan::analysis::across::glance::Sight;
+use replan::analysis::verdict::Effect;
+
+/// The room's own reading table, so that the study of random maps alone has the weight as a reading.
+const OTHERS: &str = r#"
+[[reading]]
+id = "hurry"
+why = "the weight is not printed"
+default = "three"
+[reading.option.three]
+paper = "section 1: the weight is three"
+stage.astar = { weight = 3 }
+[reading.option.none]
+practice = "textbooks"
+stage.astar = { weight = 0 }
+
+[[reading]]
+id = "reach"
+why = "how the sides meet is not printed"
+default = "any"
+[reading.option.any]
+paper = "section 1"
+stage.bidirectional = { meeting = "generated_any" }
+[reading.option.both]
+paper = "section 1"
+stage.bidirectional = { meeting = "both_closed" }
+"#;
+
+/// The small paper, in which the study of random maps alone has readings; contenders of the room are those of `room`.
+fn readings_of_one_study(room: &str, more: &[(&str, &str)]) -> Toy {
+    let toy = Toy::written(more);
+    let text = |name: &str| std::fs::read_to_string(toy.0.at("toy").join(name)).unwrap();
+    let without = |text: String| text.split("\n[[reading]]").next().unwrap().to_owned();
+    toy.0.write("toy/draws.toml", (without(text("draws.toml")) + OTHERS).as_bytes());
+    let rest = without(text("room.toml")).replace("[explore]\ndraws = 1\n", "");
+    toy.0.write("toy/room.toml", (rest + room).as_bytes());
+    toy.0.done(&["run", "./toy"]);
+    toy.0.done(&["explore", "./toy"]);
+    toy
+}
+
+#[test]
+fn a_reading_that_the_study_of_a_witness_does_not_have_is_not_looked_at_if_it_touches_its_contender() {
+    let toy = readings_of_one_study("", &[]);
+    let first = toy.stored("explored.toml.gz");
+    let claim = &first.claims["witness"];
+    let sights: Vec<(Sight, usize)> =
+        claim.results.iter().map(|found| (found.sight, found.readings.len())).collect();
+    // The meeting touches no A*, so that the room's trials speak for both meetings.
+    assert_eq!(sights, [(Sight::Looked, 2), (Sight::Unexplored, 2)]);
+    let across = toy.claim("witness").across.unwrap();
+    assert_eq!((across.counted, across.looked, across.not_looked_at), (1, 2, 2));
+    assert_eq!(across.said, "no reading moves it");
+    assert!(across.effects.is_empty(), "{:?}", across.effects);
+}
+
+const DEPARTS: &str = r#"
+[[contender]]
+label = "A* without weight"
+departs = { hurry = "none" }
+planner = "astar"
+settings = { weight = 0, ties = "fifo" }
+"#;
+
+const EITHER: (&str, &str) = ("contenders = \"A*\", in", "contenders = [\"A*\", \"A* without weight\"], in");
+
+#[test]
+fn a_witness_by_a_contender_that_departs_counts_under_the_reading_that_it_departs_to() {
+    let toy = readings_of_one_study(DEPARTS, &[EITHER]);
+    assert_eq!(toy.said("witness"), pair("attainable", "met under 1 of 2, hurry = none among them"));
+    let judged = toy.claim("witness");
+    assert_eq!(judged.alone().name(), "undecided");
+    let because = judged.findings[0].because.join("; ");
+    assert!(because.contains("met by none of 1 trials"), "{because}");
+    assert!(
+        because.contains("met under another reading, hurry=none, where it counts: room/room/"),
+        "{because}"
+    );
+}
+
+#[test]
+fn what_contenders_depart_to_together_is_explored() {
+    let both = DEPARTS.replace("{ hurry = \"none\" }", "{ hurry = \"none\", reach = \"both\" }");
+    let toy = readings_of_one_study(&both, &[EITHER, ("sample = 20", "sample = 0")]);
+    let first = toy.stored("explored.toml.gz");
+    let together =
+        [("hurry", "none"), ("reach", "both")].map(|(id, option)| (id.to_owned(), option.to_owned()));
+    assert!(first.place(&together.into()).is_some(), "{:?}", first.readings);
+    assert_eq!(toy.said("witness").1, "met under 1 of 2, hurry = none, reach = both among them");
+}
+
+#[test]
+fn a_contender_cannot_depart_from_a_reading_that_its_study_has() {
+    let departs = ("label = \"A*\"\nplanner", "label = \"A*\"\ndeparts = { hurry = \"none\" }\nplanner");
+    let toy = Toy::written(&[CITED, departs]);
+    let said = toy.0.run(&["check", "./toy"]);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("departs from reading `hurry`, which its study has"), "{}", said.err);
+    toy.0.edit("toy/room.toml", "hurry = \"none\"", "haste = \"none\"");
+    let said = toy.0.run(&["check", "./toy"]);
+    assert!(said.err.contains("there is no reading `haste`; the readings are hurry, idle"), "{}", said.err);
+}
+
+/// A row that takes the best of its parts: a number that is met with a weight of three, or an input on which one is met.
+const BEST: (&str, &str) = (
+    "[[claim]]\nid = \"calibrated\"",
+    "[[claim]]\nid = \"best\"\nat = \"section 3\"\nsays = \"four or twenty-four nodes\"\nany_of = [\"calibrated\", \"some\"]\n\
+     [[claim]]\nid = \"some\"\nat = \"section 2\"\nprinted = \"24\"\n\
+     check.exists = { metric = \"expansions\", contenders = \"A*\", in = [{ study = \"room\", problems = \"room\" }] }\n\
+     [[claim]]\nid = \"calibrated\"",
+);
+
+#[test]
+fn one_default_that_decides_reproduced_against_attainable_gives_the_weaker_and_is_named() {
+    let toy = Toy::new(&[CITED, BEST]);
+    let judged = toy.claim("best");
+    assert_eq!(judged.alone().name(), "reproduced");
+    let said = "holds under 2 of 2; the class hangs on hurry: reproduced if three (1 of 2)";
+    assert_eq!(toy.said("best"), pair("attainable", said));
+    let across = judged.across.unwrap();
+    let effect = &across.effects["hurry"];
+    assert_eq!(
+        (effect.effect, effect.option.as_str(), effect.class.name()),
+        (Effect::Class, "none", "attainable")
+    );
+}
+
+#[test]
+fn a_reading_under_which_too_few_draws_are_solved_has_no_power_and_is_not_looked_at() {
+    let crowd = "[[reading]]\nid = \"crowd\"\nwhy = \"how much is blocked is not printed\"\ndefault = \"fifth\"\n\
+         [reading.option.fifth]\npaper = \"section 4\"\nproblem = { blocked_share = 0.2 }\n\
+         [reading.option.most]\npaper = \"section 4\"\nproblem = { blocked_share = 0.65 }\n[[contender]]\nlabel = \"Lazy\"";
+    let toy = Toy::new(&[("[[contender]]\nlabel = \"Lazy\"", crowd)]);
+    let first = toy.stored("explored.toml.gz");
+    let powerless: Vec<_> =
+        first.claims["fewer"].results.iter().filter(|found| found.sight == Sight::Powerless).collect();
+    assert!(!powerless.is_empty() && powerless.iter().all(|found| found.n < 10), "{powerless:?}");
+    let across = toy.claim("fewer").across.unwrap();
+    assert_eq!(toy.said("fewer"), pair("reproduced", "no reading moves it"));
+    // The other weight is a probe here: three idle options by two crowds.
+    assert_eq!((across.counted, across.looked, across.not_looked_at), (1, 3, 3));
+}
+
+/// A reading whose options are numbers, of which the room and the maps have the table.
+const NUMBERS: &str = "[[reading]]\nid = \"hurry\"\nwhy = \"the weight is not printed\"\ndefault = \"three\"\n\
+     bounds = { least = 1.0, greatest = 4.0, source = \"a handbook\" }\n\
+     [reading.option.three]\nvalue = 3\nstage.astar = { weight = 3 }\n[reading.option.none]\nvalue = 0\nstage.astar = { weight = 0 }\n";
+
+#[test]
+fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() {
+    let table = crate::across::READINGS.split("\n[[reading]]\nid = \"idle\"").next().unwrap();
+    let toy = Toy::new(&[(table, NUMBERS)]);
+    assert_eq!(toy.said("fewer"), pair("reproduced", "no reading moves it"));
+    assert_eq!(toy.claim("fewer").across.unwrap().probes, ["hurry = none: not reproduced"]);
+    for (from, to, refused) in [
+        ("least = 1.0", "least = 5.0", "least 5 is above greatest 4; rising bounds are accepted"),
+        ("value = 0\n", "", "option `none` needs `value`: the number held against the bounds, 1 to 4"),
+        (
+            "bounds = { least = 1.0, greatest = 4.0, source = \"a handbook\" }\n",
+            "",
+            "option `three` has a `value`, which needs `bounds` to be held against",
+        ),
+        ("value = 0\n", "value = 0\npractice = \" \"\n", "option `none` cites nothing"),
+        (
+            "least = 1.0, greatest = 4.0",
+            "least = 0.0, greatest = 1.0",
+            "the default `three` needs `paper` or `practice`",
+        ),
+    ] {
+        let before = ["draws", "room"].map(|name| {
+            let path = toy.0.at(&format!("toy/{name}.toml"));
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert!(text.contains(from), "{from}");
+            std::fs::write(&path, text.replace(from, to)).unwrap();
+            (path, text)
+        });
+        let said = toy.0.run(&["check", "./toy"]);
+        assert_eq!(said.code, Some(2), "{to}");
+        assert!(said.err.contains(refused), "{to}: {}", said.err);
+        for (path, text) in before {
+            std::fs::write(path, text).unwrap();
+        }
+    }
+}
