@@ -118,7 +118,7 @@ pub fn index(papers: &[[String; 3]]) -> String {
     let rows: String = papers.iter().map(row).collect();
     let head = "<thead><tr><th>paper</th><th>title</th><th>sentences and rows</th></tr></thead>";
     format!(
-        "{}<main><h1>What the papers claim and what we found</h1><div class=\"wide\"><table class=\"plain\">{head}<tbody>\n{rows}</tbody></table></div></main></body></html>\n",
+        "{}<main><h1>What the papers claim and what we found</h1><div class=\"wide\"><table class=\"plain index\">{head}<tbody>\n{rows}</tbody></table></div></main></body></html>\n",
         opening("replan", "What the papers claim and what we found")
     )
 }

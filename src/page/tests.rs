@@ -21,6 +21,17 @@ fn the_viewer_was_bundled_from_what_stands_beside_it() {
 }
 
 #[test]
+fn the_bundle_is_as_it_was_written() {
+    let written = fs::read_to_string(folder().join("bundle/written.sha256")).unwrap();
+    let listed: Vec<(&str, &str)> = written.lines().map(|line| line.split_once("  ").unwrap()).collect();
+    assert_eq!(listed.iter().map(|(_, name)| *name).collect::<Vec<_>>(), ["viewer.js", "viewer.css", "LICENCES.txt"]);
+    for (hash, name) in listed {
+        let bytes = fs::read(folder().join("bundle").join(name)).unwrap();
+        assert_eq!(sha256(&bytes), hash, "{name} was edited; src/page/bundle/build.sh writes it again");
+    }
+}
+
+#[test]
 fn nothing_in_the_viewer_ends_the_script_it_stands_in() {
     assert!(!VIEWER.contains("</script") && !STYLE.contains("</style"));
     assert!(LICENCES.contains("MIT") && LICENCES.contains("three") && LICENCES.contains("uplot"));
