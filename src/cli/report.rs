@@ -123,7 +123,8 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> 
         write_whole(&folder.join(&rest), bytes)?;
     }
     let beside = beside.map_or_else(String::new, |size| format!(", and {size:.2} MB of replays in {rest}"));
-    let said: Vec<String> = state(&evidence, &verdicts).into_iter().chain([verdicts.counts().classes]).collect();
+    let said: Vec<String> =
+        state(&evidence, &verdicts).into_iter().chain([verdicts.counts().classes]).collect();
     Ok(Made { said: said.join(" "), sizes: format!("{size:.2} MB{beside}") })
 }
 

@@ -93,7 +93,7 @@ function view(row, replay, lane, colour, camera, extent) {
     const near = clearance === undefined ? "" : clearance > 0 ? `, clearance ${clearance.toFixed(1)} mm` : ", in contact";
     body.touch(clearance !== undefined && clearance <= 0);
     caption.textContent = `${lane.label}: ${lane.said}${near}`;
-    return `${lane.label}${near}`;
+    return count ? `${lane.label}${near}` : `${lane.label}: ${lane.said}`;
   };
   return { renderer, scene, count, put };
 }

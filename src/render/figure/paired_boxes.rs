@@ -146,8 +146,13 @@ impl PairedBoxes {
     /// What the last contender saves against the first, by query, and over all queries.
     fn savings(&self, scene: &Scene<'_>) -> ByQuery {
         let mut savings = self.by_query(scene, |draws| {
-            let last: Vec<Draw<'_>> =
-                self.read.contenders.last().iter().flat_map(|last| draws.iter().map(|draw| draw.by(last))).collect();
+            let last: Vec<Draw<'_>> = self
+                .read
+                .contenders
+                .last()
+                .iter()
+                .flat_map(|last| draws.iter().map(|draw| draw.by(last)))
+                .collect();
             vec![cases(&last).filter_map(Case::saving_percent).collect()]
         });
         let all = savings.iter().flat_map(|(_, columns)| columns[0].clone()).collect();
