@@ -135,6 +135,15 @@ fn every_figure_of_the_papers_has_a_file_of_ours_or_the_reason_why_not() {
 }
 
 #[test]
+fn no_figure_computes_itself_what_one_contender_saves() {
+    for entry in fs::read_dir(root().join("src/render/figure")).unwrap() {
+        let path = entry.unwrap().path();
+        let (text, saving) = (read(&path), "100.0 * (1.0 -");
+        assert!(!text.contains(saving), "{}: a saving is analysis::selection's", path.display());
+    }
+}
+
+#[test]
 fn no_committed_svg_is_too_large_to_open() {
     let mut count = 0;
     for name in committed() {

@@ -83,6 +83,11 @@ fn one_camera_turns_all_arms_by_pointer_and_by_keys() {
         }
         now
     };
+    // A reader scrolls past the arms; the wheel zooms only where a canvas has the focus.
+    let top = || browser.run("return Math.round(scrollY)").as_i64().unwrap();
+    let before = top();
+    browser.scroll(".stage canvas", 60);
+    assert!(top() > before && pixels(&browser) == first, "the page stands still at {before}");
     browser.run("document.querySelector('.stage canvas').focus()");
     // Twenty-four presses go all the way round: a camera that only moved aside would not come back.
     browser.press("\u{E012}");

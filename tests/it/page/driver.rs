@@ -156,6 +156,14 @@ impl Browser {
         self.of_session("POST", "/actions", &json!({ "actions": [pointer] }));
     }
 
+    /// Turns the wheel down by so many pixels over the first element that `css` selects.
+    pub fn scroll(&self, css: &str, down: i32) {
+        let element = json!({ "element-6066-11e4-a52e-4f735466cecf": self.element(css) });
+        let action = json!({ "type": "scroll", "duration": 50, "x": 0, "y": 0, "deltaX": 0, "deltaY": down, "origin": element });
+        let wheel = json!({ "type": "wheel", "id": "wheel", "actions": [action] });
+        self.of_session("POST", "/actions", &json!({ "actions": [wheel] }));
+    }
+
     /// Chooses `file` where the page asks for one.
     pub fn choose(&self, css: &str, file: &Path) {
         let path = format!("/element/{}/value", self.element(css));

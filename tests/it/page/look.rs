@@ -84,6 +84,8 @@ fn everything_has_a_name_and_no_page_is_wider_than_a_narrow_screen() {
         assert_eq!(browser.run(NAMELESS), json!([]), "{name}");
         let width = browser.run("return document.documentElement.scrollWidth");
         assert!(width.as_u64().unwrap() <= 390, "{name} is {width} wide");
+        let cut = "return [...document.querySelectorAll('caption span')].filter((text) => text.getBoundingClientRect().right > 390).length";
+        assert_eq!(browser.run(cut), json!(0), "{name}: captions are cut off");
         browser.picture(&format!("{name}-390"));
         assert_eq!(browser.console(), Value::Array(Vec::new()), "{name}");
     }
