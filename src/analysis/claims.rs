@@ -110,10 +110,16 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
         quick: evidence.runs().any(|run| run.manifest.quick),
         reading: evidence.point.choices().clone(),
         explored: None,
+        records: records(evidence),
         claims_changed_since: changed.map(|run| run.study.name.clone()).collect(),
         claims,
         together,
     })
+}
+
+/// By study the hash of the records that `evidence` is read from.
+pub fn records(evidence: &Evidence<'_>) -> BTreeMap<String, String> {
+    evidence.runs().map(|run| (run.study.name.clone(), run.manifest.records_hash())).collect()
 }
 
 /// A criterion or rule, built.

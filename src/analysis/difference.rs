@@ -45,7 +45,9 @@ fn heads(stored: &Verdicts, now: &Verdicts) -> Vec<String> {
         unlike("reading", &stored.reading, &now.reading),
         unlike("claims_changed_since", &stored.claims_changed_since, &now.claims_changed_since),
     ];
-    pairs.into_iter().flatten().collect()
+    let other = now.records.iter().filter(|(study, hash)| stored.records.get(*study) != Some(hash));
+    let other = other.map(|(study, _)| format!("records of study `{study}`: judged before from others"));
+    pairs.into_iter().flatten().chain(other).collect()
 }
 
 /// What differs of one claim: its verdict if that does, otherwise the first thing behind it.

@@ -25,4 +25,5 @@ pub mod statistic;
 pub mod tabulated;
 pub mod together;
 pub mod verdict;
+mod verdict_file;
 pub mod witness;

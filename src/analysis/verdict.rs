@@ -1,14 +1,9 @@
-//! Verdicts: what was found about each claim, and the file that keeps them.
+//! Verdicts: what was found about each claim.
 
 use super::class::Verdict;
-use super::compare::stored_studies;
-use crate::study::StudyError;
-use crate::study::store::write_whole;
-use base::settings::Document;
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 /// Our number beside the printed one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -296,6 +291,9 @@ pub struct Verdicts {
     pub quick: bool,
     /// The option of each reading that the claims were judged under.
     pub reading: BTreeMap<String, String>,
+    /// By study the hash of the records that the claims were judged from.
+    #[serde(default)]
+    pub records: BTreeMap<String, String>,
     /// Studies whose claims changed after their run: a margin may have moved after seeing the data.
     pub claims_changed_since: Vec<String>,
     /// What of the readings was explored; absent if nothing was.
@@ -322,42 +320,6 @@ pub struct Counts {
 }
 
 impl Verdicts {
-    /// Where they lie in the folder of a paper's runs.
-    pub fn path(folder: &Path) -> PathBuf {
-        folder.join("verdicts.toml")
-    }
-
-    /// Reads the verdicts in `folder`.
-    ///
-    /// # Errors
-    /// [`StudyError::Stored`] if there are none, [`StudyError::Touched`] if they cannot be understood.
-    pub fn read(folder: &Path) -> Result<Self, StudyError> {
-        let path = Self::path(folder);
-        if !path.exists() {
-            let missing = "no verdicts; run `replan judge` first";
-            return Err(if stored_studies(folder).is_empty() {
-                StudyError::stored(&path, missing)
-            } else {
-                StudyError::Touched(format!("{}: {missing}", path.display()))
-            });
-        }
-        let read = Document::open(&path).and_then(|document| document.read_stored());
-        read.map_err(|error| StudyError::touched(error, "`replan judge` writes it again"))
-    }
-
-    /// Writes the verdicts into `folder`.
-    ///
-    /// # Errors
-    /// [`StudyError::Io`].
-    pub fn write(&self, folder: &Path) -> Result<(), StudyError> {
-        write_whole(&Self::path(folder), self.text().as_bytes())
-    }
-
-    /// The verdicts as TOML.
-    pub fn text(&self) -> String {
-        toml::to_string(self).expect("verdicts are strings, numbers and tables of them")
-    }
-
     /// How many sentences and table rows there are that do not hold by a theorem, and how many of each class.
     pub fn tally(&self) -> Vec<usize> {
         let whole = self.claims.iter().filter(|judged| judged.part_of.is_none() && judged.theorem.is_none());

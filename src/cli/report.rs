@@ -8,6 +8,7 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::page;
 use crate::render::output::Output;
+use crate::render::state;
 use crate::study::ReadingChoice;
 use crate::study::clock::timed;
 use crate::study::paper::Paper;
@@ -80,9 +81,9 @@ fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String;
     let line = |said: String| [paper.id.clone(), paper.source.title.clone(), said];
     let (spent_ns, made) = timed(|| made(&paper, places, folder));
     match made {
-        Ok(Made { classes, sizes }) => {
+        Ok(Made { said, sizes }) => {
             say!("{}: {sizes} in {:.1} s", paper.id, spent_ns as f64 / 1e9);
-            Ok(line(classes))
+            Ok(line(said))
         }
         Err(failure) => {
             let why = page::unread(&paper.id, &paper.source.title, &failure.message);
@@ -96,8 +97,8 @@ fn write(places: &Places, folder: &Path) -> Result<[String; 3], (Option<[String;
 
 /// What is said of a page that was written.
 struct Made {
-    /// How many claims are of each class.
-    classes: String,
+    /// What its first line says, if anything, and how many claims are of each class.
+    said: String,
     /// How large it is, and what lies beside it.
     sizes: String,
 }
@@ -122,7 +123,9 @@ fn made(paper: &Paper, places: &Places, folder: &Path) -> Result<Made, Failure> 
         write_whole(&folder.join(&rest), bytes)?;
     }
     let beside = beside.map_or_else(String::new, |size| format!(", and {size:.2} MB of replays in {rest}"));
-    Ok(Made { classes: verdicts.counts().classes, sizes: format!("{size:.2} MB{beside}") })
+    let said: Vec<String> =
+        state(&evidence, &verdicts).into_iter().chain([verdicts.counts().classes]).collect();
+    Ok(Made { said: said.join(" "), sizes: format!("{size:.2} MB{beside}") })
 }
 
 /// The figures of `paper` as they were drawn into `folder`; what is not there is not shown, and the page says so in its place.

@@ -25,14 +25,9 @@ pub struct Body<'a> {
     pub explored: usize,
 }
 
-/// The class as a name of CSS.
-fn kind(judged: &Judged) -> String {
-    judged.verdict.name().replace(' ', "-")
-}
-
 /// A class as a word on its colour.
-fn badge(class: &str, word: &str) -> String {
-    format!("<span class=\"class {class}\">{}</span>", escaped(word))
+fn badge(class: Verdict, word: &str) -> String {
+    format!("<span class=\"class {}\">{}</span>", class.name().replace(' ', "-"), escaped(word))
 }
 
 impl Body<'_> {
@@ -147,21 +142,25 @@ impl Body<'_> {
             |ours| format!("{} ({}; n = {})", short(ours), ours.what, ours.n),
         );
         let readings = judged.across_readings().unwrap_or_default();
+        let second = judged.second.map_or_else(String::new, |class| {
+            format!("<div class=\"second\">second seed: {}</div>", badge(class, class.name()))
+        });
         let rank = Verdict::ALL.iter().position(|class| *class == judged.verdict).unwrap_or(0);
         let part = if judged.part_of.is_some() { " data-part" } else { "" };
         format!(
             "<tbody id=\"claim={id}\" data-class=\"{}\" data-rank=\"{rank}\" \
              data-hangs=\"{}\"{part}>\
-             <tr><th scope=\"row\"><button type=\"button\" class=\"open\" aria-expanded=\"false\">{id}</button></th>\
-             <td>{}: {}</td><td>{}</td><td>{}</td><td class=\"readings\">{}</td>\
+             <tr><th scope=\"row\"><button type=\"button\" class=\"open\" aria-expanded=\"false\">{}</button></th>\
+             <td>{}: {}</td><td>{}</td><td>{}{second}</td><td class=\"readings\">{}</td>\
              <td class=\"under\"></td></tr>\n\
              <tr class=\"evidence\" hidden><td colspan=\"6\">{}</td></tr></tbody>\n",
             escaped(judged.verdict.name()),
             escaped(&hangs_on(judged).join(" ")),
+            id.replace('.', ".<wbr>").replace('_', "_<wbr>"),
             escaped(&judged.at),
             escaped(&says),
             escaped(&ours),
-            badge(&kind(judged), judged.outcome()),
+            badge(judged.verdict, judged.outcome()),
             escaped(&readings),
             self.evidence_of(judged)
         )
@@ -183,9 +182,7 @@ impl Body<'_> {
     }
 
     fn finding(&self, finding: &Finding) -> String {
-        let class = finding
-            .verdict
-            .map_or_else(String::new, |class| badge(&class.name().replace(' ', "-"), class.name()));
+        let class = finding.verdict.map_or_else(String::new, |class| badge(class, class.name()));
         let mut text =
             format!("<div class=\"finding\"><p><code>{}</code> {class}</p><ul>", escaped(&finding.criterion));
         let mut add = |said: &str| text += &format!("<li>{}</li>", inline(said, |id| self.is_claim(id)));
@@ -241,7 +238,7 @@ impl Body<'_> {
                 format!("<tr>{cells}</tr>\n")
             };
             text += &format!(
-                "<div class=\"wide\"><table class=\"plain\"><caption>{}</caption><thead>{}</thead>",
+                "<div class=\"wide\"><table class=\"plain\"><caption><span>{}</span></caption><thead>{}</thead>",
                 escaped(&table.caption),
                 line("th", &found.head)
             );
@@ -262,7 +259,7 @@ impl Body<'_> {
     fn table(&self, table: &TableSpec) -> Result<String, RenderError> {
         let columns = cells("th", &table.columns);
         let mut text = format!(
-            "<div class=\"wide\"><table class=\"plain\"><caption>{}</caption><thead><tr><th></th>{columns}</tr></thead><tbody>\n",
+            "<div class=\"wide\"><table class=\"plain\"><caption><span>{}</span></caption><thead><tr><th></th>{columns}</tr></thead><tbody>\n",
             escaped(&table.caption)
         );
         for row in &table.rows {
@@ -295,7 +292,7 @@ impl Body<'_> {
         for run in self.evidence.runs() {
             for figure in &run.study.figures {
                 let id = escaped(figure.id.get_ref());
-                let about = escaped(&caption(figure, run));
+                let about = escaped(&caption(figure, run, self.verdicts));
                 text += &format!(
                     "<figure><img data-figure=\"{id}\" alt=\"{about}\"><figcaption>{id}: {about}</figcaption></figure>\n"
                 );
@@ -333,6 +330,6 @@ fn cell(printed: &str, ours: &str, judged: Option<&Judged>) -> String {
         escaped(printed),
         escaped(ours),
         escaped(&judged.claim),
-        badge(&kind(judged), judged.outcome())
+        badge(judged.verdict, judged.outcome())
     )
 }

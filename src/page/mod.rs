@@ -22,6 +22,7 @@ use crate::study::{Inputs, StudyError};
 use body::Body;
 pub use html::escaped;
 use packed::{Pack, Packed};
+use rayon::prelude::*;
 
 /// The most that a page may take, in bytes.
 pub const PAGE_BYTES: usize = 4_000_000;
@@ -82,21 +83,33 @@ pub fn page(
     let (mut packs, mut pack) = (Vec::new(), Pack::new(PAGE_BYTES, text.len() + VIEWER.len() + STYLE.len()));
     if let Some(explored) = &explored {
         let bytes = serde_json::to_vec(explored).expect("texts and finite numbers");
-        packs.push(pack.always("readings", "", &bytes)?);
+        packs.push(pack.always(Packed::new("readings", "", &bytes)?));
     }
     for curve in &curves {
         let bytes = serde_json::to_vec(curve).expect("plain numbers");
-        packs.push(pack.always("curves", &curve.title, &bytes)?);
+        packs.push(pack.always(Packed::new("curves", &curve.title, &bytes)?));
     }
     for figure in figures {
-        packs.push(pack.always("figure", &figure.name, &figure.bytes)?);
+        packs.push(pack.always(Packed::new("figure", &figure.name, &figure.bytes)?));
     }
-    for replay in &replays {
-        packs.extend(pack.if_it_fits("replay", &replay.title, &replay.json())?);
+    for made in in_order(&replays, |replay| {
+        let bytes = replay.json();
+        Ok((Packed::new("replay", &replay.title, &bytes)?, bytes))
+    })? {
+        packs.extend(pack.if_it_fits(made.0, made.1));
     }
     let (left, rest_bytes) = pack.rest()?;
     text += &closing(&packs, left, rest);
     Ok(Page { html: text, rest: rest_bytes })
+}
+
+/// What `of` makes of each of `all`, made at once on every core and given in their order; the first error in that order.
+fn in_order<T: Sync, U: Send>(
+    all: &[T],
+    of: impl Fn(&T) -> Result<U, PageError> + Sync + Send,
+) -> Result<Vec<U>, PageError> {
+    let made: Vec<Result<U, PageError>> = all.par_iter().map(of).collect();
+    made.into_iter().collect()
 }
 
 /// The page of a paper whose run cannot be shown, for the reason `why`.
@@ -118,7 +131,7 @@ pub fn index(papers: &[[String; 3]]) -> String {
     let rows: String = papers.iter().map(row).collect();
     let head = "<thead><tr><th>paper</th><th>title</th><th>sentences and rows</th></tr></thead>";
     format!(
-        "{}<main><h1>What the papers claim and what we found</h1><div class=\"wide\"><table class=\"plain\">{head}<tbody>\n{rows}</tbody></table></div></main></body></html>\n",
+        "{}<main><h1>What the papers claim and what we found</h1><div class=\"wide\"><table class=\"plain index\">{head}<tbody>\n{rows}</tbody></table></div></main></body></html>\n",
         opening("replan", "What the papers claim and what we found")
     )
 }

@@ -17,6 +17,16 @@ pub struct Packed {
 }
 
 impl Packed {
+    /// `bytes`, packed.
+    ///
+    /// # Errors
+    /// Packing that the system refused.
+    pub fn new(kind: &'static str, name: &str, bytes: &[u8]) -> Result<Self, PageError> {
+        let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
+        gzip.write_all(bytes)?;
+        Ok(Self { kind, name: name.to_owned(), base64: STANDARD.encode(gzip.finish()?) })
+    }
+
     /// It as an element of the page.
     pub fn html(&self) -> String {
         format!(
@@ -41,40 +51,27 @@ impl Pack {
         Self { room: limit.saturating_sub(taken + limit / 50), rest: Vec::new() }
     }
 
-    /// `bytes`, whether or not there is room.
-    ///
-    /// # Errors
-    /// Packing that the system refused.
-    pub fn always(&mut self, kind: &'static str, name: &str, bytes: &[u8]) -> Result<Packed, PageError> {
-        let packed = packed(kind, name, bytes)?;
+    /// It, whether or not there is room.
+    pub fn always(&mut self, packed: Packed) -> Packed {
         self.room = self.room.saturating_sub(packed.html().len());
-        Ok(packed)
+        packed
     }
 
-    /// `bytes` if there is room; else they go to the rest.
-    ///
-    /// # Errors
-    /// As [`always`](Self::always).
-    pub fn if_it_fits(
-        &mut self,
-        kind: &'static str,
-        name: &str,
-        bytes: &[u8],
-    ) -> Result<Option<Packed>, PageError> {
-        let packed = packed(kind, name, bytes)?;
+    /// It if there is room; else the `bytes` that were packed go to the rest.
+    pub fn if_it_fits(&mut self, packed: Packed, bytes: Vec<u8>) -> Option<Packed> {
         let size = packed.html().len();
         if size <= self.room {
             self.room -= size;
-            return Ok(Some(packed));
+            return Some(packed);
         }
-        self.rest.push((name.to_owned(), bytes.to_vec()));
-        Ok(None)
+        self.rest.push((packed.name, bytes));
+        None
     }
 
     /// How much did not fit, and a zip of it.
     ///
     /// # Errors
-    /// As [`always`](Self::always).
+    /// Packing that the system refused.
     pub fn rest(self) -> Result<(usize, Option<Vec<u8>>), PageError> {
         if self.rest.is_empty() {
             return Ok((0, None));
@@ -90,10 +87,4 @@ impl Pack {
         }
         Ok((self.rest.len(), Some(archive.finish()?.into_inner())))
     }
-}
-
-fn packed(kind: &'static str, name: &str, bytes: &[u8]) -> Result<Packed, PageError> {
-    let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
-    gzip.write_all(bytes)?;
-    Ok(Packed { kind, name: name.to_owned(), base64: STANDARD.encode(gzip.finish()?) })
 }

@@ -21,6 +21,20 @@ fn the_viewer_was_bundled_from_what_stands_beside_it() {
 }
 
 #[test]
+fn the_bundle_is_as_it_was_written() {
+    let written = fs::read_to_string(folder().join("bundle/written.sha256")).unwrap();
+    let listed: Vec<(&str, &str)> = written.lines().map(|line| line.split_once("  ").unwrap()).collect();
+    assert_eq!(
+        listed.iter().map(|(_, name)| *name).collect::<Vec<_>>(),
+        ["viewer.js", "viewer.css", "LICENCES.txt"]
+    );
+    for (hash, name) in listed {
+        let bytes = fs::read(folder().join("bundle").join(name)).unwrap();
+        assert_eq!(sha256(&bytes), hash, "{name} was edited; src/page/bundle/build.sh writes it again");
+    }
+}
+
+#[test]
 fn nothing_in_the_viewer_ends_the_script_it_stands_in() {
     assert!(!VIEWER.contains("</script") && !STYLE.contains("</style"));
     assert!(LICENCES.contains("MIT") && LICENCES.contains("three") && LICENCES.contains("uplot"));
@@ -41,8 +55,10 @@ fn a_run_that_cannot_be_shown_is_said_in_the_first_line() {
 fn what_does_not_fit_goes_into_the_zip() {
     let mut pack = Pack::new(3_000, 0);
     let numbers: Vec<u8> = (0..4_000_u32).flat_map(|n| n.wrapping_mul(2_654_435_761).to_le_bytes()).collect();
-    assert!(pack.if_it_fits("replay", "small", b"{}").unwrap().is_some());
-    assert!(pack.if_it_fits("replay", "large/one", &numbers).unwrap().is_none());
+    let mut fits = |name: &str, bytes: &[u8]| {
+        pack.if_it_fits(Packed::new("replay", name, bytes).unwrap(), bytes.to_vec()).is_some()
+    };
+    assert!(fits("small", b"{}") && !fits("large/one", &numbers));
     let (left, rest) = pack.rest().unwrap();
     let mut archive = zip::ZipArchive::new(std::io::Cursor::new(rest.unwrap())).unwrap();
     assert_eq!((left, archive.len()), (1, 1));

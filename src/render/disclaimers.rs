@@ -1,7 +1,7 @@
 //! What stands on everything drawn or written of records that are not the study's own: quick runs, other readings, stale ones.
 
-use crate::analysis::claims::claims_hash;
-use crate::analysis::evidence::{Evidence, default_point};
+use crate::analysis::claims::{claims_hash, records};
+use crate::analysis::evidence::{Evidence, Run, default_point};
 use crate::analysis::verdict::Verdicts;
 use crate::study::paper::Paper;
 use crate::study::{Reading, ReadingChoice, Study};
@@ -60,15 +60,29 @@ pub fn state(evidence: &Evidence<'_>, verdicts: &Verdicts) -> Vec<String> {
             paper.id
         ));
     }
-    let hash = claims_hash(paper);
-    let changed = evidence.runs().filter(|run| run.manifest.claims != hash).map(|run| &run.study.name);
-    let changed: Vec<String> = changed.map(|name| format!("`{name}`")).collect();
+    let (stored, claims) = (records(evidence), claims_hash(paper));
+    let again = evidence.runs().filter(|run| {
+        let name = &run.study.name;
+        stored.get(name) != verdicts.records.get(name)
+    });
+    let changed = evidence.runs().filter(|run| run.manifest.claims != claims);
+    let (again, changed) = (listed(again), listed(changed));
+    if !again.is_empty() {
+        said.push(format!(
+            "Stale: records of study {again} are others than the claims were judged from; run `replan judge {}`.",
+            paper.id
+        ));
+    }
     if !changed.is_empty() {
         said.push(format!(
-            "Stale: claims or margins changed after study {} was run; run `replan repro {} --fresh`.",
-            changed.join(", "),
+            "Stale: claims or margins changed after study {changed} was run; run `replan repro {} --fresh`.",
             paper.id
         ));
     }
     said
+}
+
+/// The studies of `runs`, named.
+fn listed<'r>(runs: impl Iterator<Item = &'r Run<'r>>) -> String {
+    runs.map(|run| format!("`{}`", run.study.name)).collect::<Vec<String>>().join(", ")
 }

@@ -272,6 +272,7 @@ mod tests {
                 quick: false,
                 reading: std::collections::BTreeMap::new(),
                 explored: None,
+                records: std::collections::BTreeMap::new(),
                 claims_changed_since: Vec::new(),
                 claims: Vec::new(),
                 together: Vec::new(),

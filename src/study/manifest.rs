@@ -140,6 +140,11 @@ impl Manifest {
         })
     }
 
+    /// One hash of all record files.
+    pub fn records_hash(&self) -> String {
+        sha256(format!("{:?}", self.files).as_bytes())
+    }
+
     /// Makes it that of a portion of the run, which reads no clock; the units of the portion.
     pub fn cut_to<'p>(&mut self, portion: &'p Portion) -> &'p BTreeSet<usize> {
         self.shard = Some(portion.shard.clone());

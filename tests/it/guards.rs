@@ -77,10 +77,31 @@ fn a_committed_paper_passes_every_check_of_the_gate() {
 }
 
 #[test]
-fn a_flipped_verdict_is_caught_by_judge_though_render_believes_it() {
+fn a_flipped_verdict_is_shown_by_nobody() {
     let bench = committed();
     let verdicts = format!("{RUNS}/verdicts.toml");
     bench.edit(&verdicts, "verdict = \"reproduced\"", "verdict = \"not_reproduced\"");
+    assert_eq!(bench.run(&["render", "movingai_sample"]).code, Some(2));
+    let text = fs::read_to_string(bench.at(REPORT)).unwrap();
+    let chapter = text.split("<!-- replan begin movingai_sample -->").nth(1).unwrap();
+    let first = chapter.lines().filter(|line| !line.is_empty()).nth(1).unwrap();
+    assert!(
+        first.starts_with(&format!("**Nothing is shown: {verdicts}: is not what replan wrote")),
+        "{first}"
+    );
+    refused(&bench, &["render", "movingai_sample", "--check"]);
+    refused(&bench, &["judge", "movingai_sample", "--check"]);
+}
+
+#[test]
+fn a_flipped_verdict_under_a_forged_seal_is_caught_by_judge_though_render_believes_it() {
+    let bench = committed();
+    let verdicts = format!("{RUNS}/verdicts.toml");
+    bench.edit(&verdicts, "verdict = \"reproduced\"", "verdict = \"not_reproduced\"");
+    let text = fs::read_to_string(bench.at(&verdicts)).unwrap();
+    let (above, seal) = text.split_at(text.rfind("# SHA-256").unwrap());
+    let (words, _) = seal.rsplit_once(' ').unwrap();
+    bench.write(&verdicts, format!("{above}{words} {}\n", sha256(above.as_bytes())).as_bytes());
     bench.done(&["render", "movingai_sample"]);
     bench.done(&["render", "movingai_sample", "--check"]);
     let said = refused(&bench, &["judge", "movingai_sample", "--check"]);

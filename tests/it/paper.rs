@@ -156,6 +156,17 @@ planner = "roadmap_astar"
 settings = { samples = 30, neighbour_mm = 40, cost = "hops", goal_shot = "never", path = "parents" }
 "#;
 
+/// The papers that are committed, by name.
+pub fn committed() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments");
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    let papers = entries.filter(|entry| entry.path().join("paper.toml").is_file());
+    let mut names: Vec<String> = papers.map(|entry| entry.file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert!(names.len() >= 7, "{names:?}");
+    names
+}
+
 /// A folder that holds the paper `mini` and whatever is run on it.
 pub struct Bench {
     folder: TempDir,

@@ -84,3 +84,14 @@ fn a_column_and_a_metric_mean_one_thing_each() {
         assert!(twice.is_empty(), "{what} {twice:?} stands twice");
     }
 }
+
+#[test]
+fn what_stands_below_a_figure_says_of_how_many() {
+    for entry in replan::render::figure::REGISTRY {
+        let says = |what: &str| entry.statistic.contains(what);
+        // Of every pair found, the panels' titles say how many there are.
+        let is_said =
+            says("{n}") || says("{readings}") || entry.statistic.starts_with("One ") || says("Every pair");
+        assert!(is_said, "{}: {}", entry.name, entry.statistic);
+    }
+}

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Bundles the page's viewer: ../viewer/*.js with three.js and uPlot into viewer.js, styles into viewer.css, licences into
 # LICENCES.txt. Needs Node.js and, once, the npm registry; the versions stand in package.json. Equal inputs give equal bytes.
-# Run it after a change of ../viewer, and commit what it writes; a test holds that viewer.js was built from what stands there.
+# Run it after a change of ../viewer, and commit what it writes; tests hold that viewer.js was built from what stands there, and that
+# nothing was changed in what was written.
 set -euo pipefail
 cd "$(dirname "$0")"
 work=$(mktemp -d)
@@ -21,3 +22,4 @@ cat "$work/node_modules/uplot/dist/uPlot.min.css" "$work/viewer/style.css" > "$w
   done
 } > LICENCES.txt
 (cd .. && cat viewer/*.js viewer/style.css bundle/package.json | sha256sum | cut -d' ' -f1) > built-from.sha256
+sha256sum viewer.js viewer.css LICENCES.txt > written.sha256

@@ -72,7 +72,8 @@ pub fn scene(evidence: &Evidence<'_>, case: &Case<'_>, inputs: &Inputs) -> Resul
         None => run.exhibit(on, "boxes").map(|_| 0.0),
     };
     let rounds = rounds.into_iter().flat_map(|rounds| rounds.values.chunks(7).map(<[f64]>::to_vec)).collect();
-    Ok((!lanes.is_empty()).then_some(Scene { solids, rounds, floor, lanes }))
+    let moves = lanes.iter().any(|lane| !lane.radii.is_empty() || !lane.way.is_empty());
+    Ok(moves.then_some(Scene { solids, rounds, floor, lanes }))
 }
 
 fn lane(case: &Case<'_>, family: &dyn Family, row: &Row) -> Option<Lane> {
@@ -86,7 +87,8 @@ fn lane(case: &Case<'_>, family: &dyn Family, row: &Row) -> Option<Lane> {
     let way = ["tip_path", "raw_path"].iter().find_map(|name| kept(name)).filter(|way| way.width == 3);
     let way = way.or_else(|| kept("path").filter(|way| way.width == 3));
     let way: Vec<[f64; 3]> = way.map(in_mm).unwrap_or_default();
-    if stances.is_empty() && way.is_empty() {
+    // Of one that found no path that is said, beside the others.
+    if stances.is_empty() && way.is_empty() && row.is_solved() {
         return None;
     }
     let (radii, step, frames) = steps(&stances);

@@ -4,7 +4,7 @@ mod arm;
 mod grid;
 mod plane;
 
-use super::PageError;
+use super::{PageError, in_order};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
 use crate::render::figure;
@@ -58,10 +58,11 @@ pub fn all(evidence: &Evidence<'_>, verdicts: &Verdicts, inputs: &Inputs) -> Res
     let mut ranked = Vec::new();
     for run in evidence.runs() {
         let drawn = figure::drawn(run.study, evidence.paper);
-        for case in cases(run) {
-            let group = case.group.label.clone();
-            let draw = case.rows[0].draw();
-            let Some(replay) = replay(evidence, &case, inputs)? else { continue };
+        let cases = cases(run);
+        let made = in_order(&cases, |case| replay(evidence, case, inputs))?;
+        for (case, replay) in cases.iter().zip(made) {
+            let Some(replay) = replay else { continue };
+            let (group, draw) = (case.group.label.clone(), case.rows[0].draw());
             let is_named = replay.trials.iter().any(|trial| named.contains(trial.as_str()));
             let is_drawn = drawn.contains(&(group, draw));
             ranked.push((!is_drawn, !is_named, replay));

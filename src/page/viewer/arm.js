@@ -2,11 +2,16 @@
 import {
   AmbientLight, BufferAttribute, BufferGeometry, CapsuleGeometry, DirectionalLight, DoubleSide, EdgesGeometry, Group,
   Line, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, Quaternion, Scene, SphereGeometry,
-  Vector3, WebGLRenderer, Color,
+  Spherical, Vector3, WebGLRenderer, Color,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const UP = new Vector3(0, 1, 0);
+// From z upwards, as here, to y upwards, as spherical coordinates have it.
+const UPRIGHT = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), UP);
+// What a press of an arrow key turns, and which way: about the vertical, towards the ground.
+const TURN = Math.PI / 12;
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7"];
 
 export function arm(stage, replay) {
@@ -18,14 +23,7 @@ export function arm(stage, replay) {
   camera.position.copy(extent.middle).add(new Vector3(1.1, -1.5, 0.9).multiplyScalar(extent.size));
   const views = replay.lanes.map((lane, index) => view(row, replay, lane, COLOURS[index % COLOURS.length], camera, extent));
   const paint = () => views.forEach((each) => each.renderer.render(each.scene, camera));
-  const turns = views.map((each) => {
-    const controls = new OrbitControls(camera, each.renderer.domElement);
-    controls.target.copy(extent.middle);
-    controls.listenToKeyEvents(each.renderer.domElement);
-    controls.addEventListener("change", paint);
-    controls.update();
-    return controls;
-  });
+  const turns = views.map((each) => turned(each.renderer.domElement, camera, extent.middle, paint));
   const steps = Math.max(...views.map((each) => each.count)) - 1;
   const draw = (step) => {
     // In step: each trial is as far along its own way as the others.
@@ -38,6 +36,31 @@ export function arm(stage, replay) {
     views.forEach((each) => each.renderer.dispose());
   };
   return { steps: Math.max(steps, 0), perSecond: 20, draw, end };
+}
+
+// Turns the camera about `middle` with the pointer or arrow keys. The wheel and two fingers zoom once the canvas has the focus, so
+// that the page can be scrolled past it.
+function turned(canvas, camera, middle, paint) {
+  const controls = new OrbitControls(camera, canvas);
+  controls.target.copy(middle);
+  controls.enableZoom = false;
+  canvas.style.touchAction = "pan-y";
+  canvas.addEventListener("focus", () => (controls.enableZoom = true));
+  canvas.addEventListener("blur", () => (controls.enableZoom = false));
+  canvas.addEventListener("keydown", (event) => {
+    const [about, up] = ARROWS[event.key] ?? [0, 0];
+    if (!about && !up) return;
+    event.preventDefault();
+    const from = new Spherical().setFromVector3(camera.position.clone().sub(middle).applyQuaternion(UPRIGHT));
+    from.theta += about * TURN;
+    from.phi += up * TURN;
+    from.makeSafe();
+    camera.position.setFromSpherical(from).applyQuaternion(UPRIGHT.clone().invert()).add(middle);
+    controls.update();
+  });
+  controls.addEventListener("change", paint);
+  controls.update();
+  return controls;
 }
 
 function view(row, replay, lane, colour, camera, extent) {
@@ -70,7 +93,7 @@ function view(row, replay, lane, colour, camera, extent) {
     const near = clearance === undefined ? "" : clearance > 0 ? `, clearance ${clearance.toFixed(1)} mm` : ", in contact";
     body.touch(clearance !== undefined && clearance <= 0);
     caption.textContent = `${lane.label}: ${lane.said}${near}`;
-    return `${lane.label}${near}`;
+    return count ? `${lane.label}${near}` : `${lane.label}: ${lane.said}`;
   };
   return { renderer, scene, count, put };
 }
@@ -111,7 +134,7 @@ function parts(lane, colour) {
     group.add(mesh);
     return mesh;
   });
-  const ball = count ? null : group.add(new Mesh(new SphereGeometry(15), material)).children[0];
+  const ball = count || !lane.way.length ? null : group.add(new Mesh(new SphereGeometry(15), material)).children[0];
   const tips = Array.from({ length: count }, (_, frame) => at(frame, wide - 3, 3));
   return {
     group,

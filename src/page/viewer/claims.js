@@ -9,6 +9,9 @@ export function claims() {
   for (const axis of new Set(lines.flatMap(axes))) form.elements.hangs.append(new Option(axis));
   if (form.elements.hangs.length === 1) form.elements.hangs.parentElement.hidden = true;
 
+  const hasParts = lines.some((line) => "part" in line.dataset);
+  form.elements.parts.parentElement.hidden = !hasParts;
+
   const filter = () => {
     const asked = form.elements.words.value.toLowerCase().split(/\s+/).filter(Boolean);
     const [kind, hangs, under] = ["class", "hangs", "under"].map((name) => form.elements[name].value);

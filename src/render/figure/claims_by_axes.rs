@@ -16,7 +16,7 @@ pub static ENTRY: Entry = Entry {
     name: "claims_by_axes",
     about: "which reading moves which claim: the greatest effect of an axis's voting options, one at a time",
     statistic: "Of options that vote, one at a time beside the defaults; of several in one cell the greatest effect; what nothing moves is \
-                left out.",
+                left out; {readings}.",
     settings: Accepted::of::<ClaimsByAxes>(),
     example: r"
 claims = []

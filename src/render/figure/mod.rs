@@ -149,7 +149,8 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for `replan list`.
     pub about: &'static str,
-    /// What it shows of how many, and what it leaves out, for captions; `{n}` stands for the number of draws and trials.
+    /// What it shows of how many, and what it leaves out, for captions; `{n}` stands for the number of draws and trials,
+    /// `{readings}` for that of readings.
     pub statistic: &'static str,
     /// The shape of its settings, which documents them.
     pub settings: Accepted,
@@ -159,13 +160,16 @@ pub struct Entry {
     pub build: fn(&Settings, &Study, &Paper) -> Result<Box<dyn Kind>, SettingsError>,
 }
 
-/// What stands below a figure: its caption, and what its kind shows of how many draws and trials.
-pub fn caption(spec: &FigureSpec, run: &Run<'_>) -> String {
+/// What stands below a figure: its caption, and what its kind shows of how many draws and trials, or readings.
+pub fn caption(spec: &FigureSpec, run: &Run<'_>, verdicts: &Verdicts) -> String {
     let Some(entry) = find(spec.kind.get_ref()) else { return spec.caption.clone() };
     let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { draws, solved, all } = trials(run, settings);
     let n = format!("n = {draws} draws, {solved} of {all} trials solved");
-    format!("{} {}", spec.caption, entry.statistic.replace("{n}", &n))
+    let readings = verdicts.explored.as_ref().map_or(0, |explored| explored.readings);
+    let statistic =
+        entry.statistic.replace("{n}", &n).replace("{readings}", &format!("n = {readings} readings"));
+    format!("{} {statistic}", spec.caption)
 }
 
 /// Every kind, in the order of their names.

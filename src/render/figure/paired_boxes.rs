@@ -3,7 +3,7 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::Selection;
+use crate::analysis::selection::{Case, Draw, Selection, cases};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::BoxStrip;
@@ -73,26 +73,39 @@ const MOST_STRIPS: usize = 3;
 type ByQuery = Vec<(String, Vec<Vec<f64>>)>;
 
 impl PairedBoxes {
-    fn values(&self, scene: &Scene<'_>) -> ByQuery {
-        let (groups, contenders) = (std::slice::from_ref(&self.read.problems), &self.read.contenders);
-        let all = || Selection {
+    /// What is asked of the draws: every contender's metric on them, held against the first one's.
+    fn asked<'s>(&self, scene: &Scene<'s>) -> Selection<'s> {
+        let groups = std::slice::from_ref(&self.read.problems);
+        Selection {
             metric: Some(self.metric),
             sweep: Some(self.sweep.clone()),
+            against: self.read.contenders.first().cloned(),
             whole_draws: true,
-            ..Selection::of(scene.run.study, groups, contenders)
-        };
+            ..Selection::of(scene.run.study, groups, &self.read.contenders)
+        }
+    }
+
+    /// By query, in their order, what `of` takes of the draws that count.
+    fn by_query(&self, scene: &Scene<'_>, of: impl Fn(&[Draw<'_>]) -> Vec<Vec<f64>>) -> ByQuery {
         let mut order: Vec<String> = Vec::new();
-        for row in contenders.iter().flat_map(|label| all().rows(scene.run, &groups[0], label)) {
+        let (problems, all) = (&self.read.problems, self.asked(scene));
+        for row in self.read.contenders.iter().flat_map(|label| all.rows(scene.run, problems, label)) {
             if !order.iter().any(|name| name == row.query()) {
                 order.push(row.query().to_owned());
             }
         }
         let of_query = |name: String| {
-            let draws = Selection { query: Some(name.clone()), ..all() }.draws(scene.evidence);
-            let of = |contender| draws.iter().flat_map(|draw| draw.by(contender).values()).collect();
-            (name, contenders.iter().map(|contender| of(contender)).collect())
+            let draws = Selection { query: Some(name.clone()), ..self.asked(scene) }.draws(scene.evidence);
+            (name, of(&draws))
         };
         order.into_iter().map(of_query).collect()
+    }
+
+    fn values(&self, scene: &Scene<'_>) -> ByQuery {
+        self.by_query(scene, |draws| {
+            let of = |contender: &String| draws.iter().flat_map(|draw| draw.by(contender).values()).collect();
+            self.read.contenders.iter().map(of).collect()
+        })
     }
 
     /// One box a query and contender.
@@ -131,12 +144,17 @@ impl PairedBoxes {
     }
 
     /// What the last contender saves against the first, by query, and over all queries.
-    fn savings(values: &ByQuery) -> ByQuery {
-        let of = |columns: &Vec<Vec<f64>>| -> Vec<f64> {
-            let (Some(base), Some(other)) = (columns.first(), columns.last()) else { return Vec::new() };
-            base.iter().zip(other).map(|(base, other)| 100.0 * (1.0 - other / base)).collect()
-        };
-        let mut savings: ByQuery = values.iter().map(|(name, c)| (name.clone(), vec![of(c)])).collect();
+    fn savings(&self, scene: &Scene<'_>) -> ByQuery {
+        let mut savings = self.by_query(scene, |draws| {
+            let last: Vec<Draw<'_>> = self
+                .read
+                .contenders
+                .last()
+                .iter()
+                .flat_map(|last| draws.iter().map(|draw| draw.by(last)))
+                .collect();
+            vec![cases(&last).filter_map(Case::saving_percent).collect()]
+        });
         let all = savings.iter().flat_map(|(_, columns)| columns[0].clone()).collect();
         savings.push(("all".to_owned(), vec![all]));
         savings
@@ -180,7 +198,7 @@ impl Kind for PairedBoxes {
         let mut sheet = Sheet::new(Width::Double, 1, 190.0);
         sheet.add(self.boxes(scene, &values)?);
         if self.read.savings.is_some() {
-            sheet.add(self.savings_panel(scene, &Self::savings(&values))?);
+            sheet.add(self.savings_panel(scene, &self.savings(scene))?);
         }
         Ok(sheet)
     }
@@ -196,7 +214,7 @@ impl Kind for PairedBoxes {
         let (first, last) = (&self.read.contenders[0], &self.read.contenders[self.read.contenders.len() - 1]);
         let heads = ["query", "n", first, last, "mean saving (%)", "5 % to 95 %", "least to greatest"];
         table.head(heads.map(Cell::from).to_vec());
-        for (place, (name, columns)) in Self::savings(&values).iter().enumerate() {
+        for (place, (name, columns)) in self.savings(scene).iter().enumerate() {
             let saved = &columns[0];
             let number = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
             let middle = |column: usize| {

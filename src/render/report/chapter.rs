@@ -134,8 +134,8 @@ impl Page<'_> {
     pub(super) fn figure(&self, figure: &FigureSpec, folder: &str) -> String {
         let id = figure.id.get_ref();
         let of = |run: &&Run<'_>| run.study.figures.iter().any(|own| own.id == figure.id);
-        let caption =
-            self.evidence.runs().find(of).map_or_else(|| figure.caption.clone(), |run| caption(figure, run));
+        let own = self.evidence.runs().find(of);
+        let caption = own.map_or_else(|| figure.caption.clone(), |run| caption(figure, run, self.verdicts));
         let caption = if caption.starts_with("Fig. ") { caption } else { format!("{id}: {caption}") };
         let image = match self.undrawn.iter().find(|undrawn| undrawn.id == *id) {
             Some(undrawn) => format!("**{id} could not be drawn: {}.**\n\n", markdown(&undrawn.why)),

@@ -133,6 +133,43 @@ impl Browser {
         );
     }
 
+    /// The driver's name of the first element that `css` selects.
+    fn element(&self, css: &str) -> String {
+        let found = self.of_session("POST", "/element", &json!({ "using": "css selector", "value": css }));
+        let ids = found.as_object().unwrap_or_else(|| panic!("{css}: {found}"));
+        ids.values().next().and_then(Value::as_str).unwrap_or_else(|| panic!("{css}: {found}")).to_owned()
+    }
+
+    /// Moves the pointer through `places` on the first element that `css` selects, each by its offset in pixels from the
+    /// element's middle; with its button down from the first to the last if it `drags`.
+    pub fn point(&self, css: &str, places: &[[i32; 2]], drags: bool) {
+        let element = json!({ "element-6066-11e4-a52e-4f735466cecf": self.element(css) });
+        let moved = places.iter().map(
+            |[x, y]| json!({ "type": "pointerMove", "duration": 50, "x": x, "y": y, "origin": element }),
+        );
+        let mut actions: Vec<Value> = moved.collect();
+        if drags {
+            actions.insert(1, json!({ "type": "pointerDown", "button": 0 }));
+            actions.push(json!({ "type": "pointerUp", "button": 0 }));
+        }
+        let pointer = json!({ "type": "pointer", "id": "mouse", "parameters": { "pointerType": "mouse" }, "actions": actions });
+        self.of_session("POST", "/actions", &json!({ "actions": [pointer] }));
+    }
+
+    /// Turns the wheel down by so many pixels over the first element that `css` selects.
+    pub fn scroll(&self, css: &str, down: i32) {
+        let element = json!({ "element-6066-11e4-a52e-4f735466cecf": self.element(css) });
+        let action = json!({ "type": "scroll", "duration": 50, "x": 0, "y": 0, "deltaX": 0, "deltaY": down, "origin": element });
+        let wheel = json!({ "type": "wheel", "id": "wheel", "actions": [action] });
+        self.of_session("POST", "/actions", &json!({ "actions": [wheel] }));
+    }
+
+    /// Chooses `file` where the page asks for one.
+    pub fn choose(&self, css: &str, file: &Path) {
+        let path = format!("/element/{}/value", self.element(css));
+        self.of_session("POST", &path, &json!({ "text": file.display().to_string() }));
+    }
+
     /// Shows pages on another medium, or to a reader with other wishes, as the `DevTools` protocol writes them.
     pub fn emulate(&self, media: &Value) {
         self.devtools("Emulation.setEmulatedMedia", media);

@@ -1,8 +1,8 @@
 //! How the page looks and answers: by keyboard, in the dark, on paper, on a narrow screen, to those who cannot see it.
 
 use super::driver::Browser;
-use super::{PAPERS, page};
-use crate::paper::Bench;
+use super::page;
+use crate::paper::{Bench, committed};
 use serde_json::{Value, json};
 
 /// How light the colour of an element is, from 0 to 1, as the mean of red, green and blue.
@@ -79,11 +79,13 @@ const NAMELESS: &str = "
 fn everything_has_a_name_and_no_page_is_wider_than_a_narrow_screen() {
     let bench = Bench::empty();
     let Some(browser) = Browser::open([390, 844]) else { return };
-    for name in PAPERS {
-        browser.go(&page(&bench, name), "claims");
+    for name in committed() {
+        browser.go(&page(&bench, &name), "claims");
         assert_eq!(browser.run(NAMELESS), json!([]), "{name}");
         let width = browser.run("return document.documentElement.scrollWidth");
         assert!(width.as_u64().unwrap() <= 390, "{name} is {width} wide");
+        let cut = "return [...document.querySelectorAll('caption span')].filter((text) => text.getBoundingClientRect().right > 390).length";
+        assert_eq!(browser.run(cut), json!(0), "{name}: captions are cut off");
         browser.picture(&format!("{name}-390"));
         assert_eq!(browser.console(), Value::Array(Vec::new()), "{name}");
     }
