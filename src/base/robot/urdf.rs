@@ -125,6 +125,11 @@ impl<'a, 'input> Tree<'a, 'input> {
         if walk.robot.joints.is_empty() {
             return Err(self.source.fault(&self.root.range(), "no joint turns; at least one is accepted"));
         }
+        if walk.robot.solids.is_empty() {
+            let message =
+                "no link has a `collision`, so that nothing could ever be touched; at least one is accepted";
+            return Err(self.source.fault(&self.root.range(), message));
+        }
         Ok(walk.robot)
     }
 
