@@ -265,6 +265,31 @@ mod tests {
         }
     }
 
+    /// A change of the head of a ROS map, and what must be said of it.
+    const WRONG_HEADS: &[(&str, &str, &str)] = &[
+        ("room.png", "hall.png", "/room.yaml:1:8: there is no image `hall.png`; looked for /hall.png"),
+        (
+            "resolution: 0.05\n",
+            "",
+            "/room.yaml:1:1: there is no `resolution`; found are `image`, `origin`, `negate`",
+        ),
+        ("0.05", "0", "/room.yaml:2:13: resolution has the size 0; sizes above 0 are accepted"),
+        ("0.05", "50", "/room.yaml:2:13: resolution has the length 50 m; is it in millimetres?"),
+        ("0.65", "65", "/room.yaml:5:18: occupied_thresh is 65; a number from 0 to 1 is accepted"),
+        ("negate", "mode: scale\nnegate", "/room.yaml:4:7: mode is `scale`; `trinary` is accepted"),
+        (
+            "-2.0, 0.0]",
+            "-2.0, 0.7]",
+            "/room.yaml:3:9: origin turns the map by the yaw 0.7; 0 is accepted, a map along its own axes",
+        ),
+        ("-2.0, 0.0]", "-2.0]", "/room.yaml:3:9: origin has 2 numbers; 3 are accepted"),
+        ("-2.0, 0.0]", "nan, 0.0]", "/room.yaml:3:16: origin has the number NaN; finite numbers"),
+        ("negate: 0", "negate: 2", "/room.yaml:4:9: negate is 2; 0 or 1 is accepted"),
+        ("negate: 0", "negated: 1", "/room.yaml:4:10: unknown key `negated`; accepted: image, mode, reso"),
+        ("negate: 0", "negate: 0\nnegate: 1", "/room.yaml:5:9: `negate` is given twice; once is accepted"),
+        ("0.196", "0.7", "/room.yaml:6:14: free_thresh is 0.7; at most occupied_thresh, 0.65, is accepted"),
+    ];
+
     #[test]
     fn a_ros_map_is_blocked_where_it_is_dark_or_unknown_and_its_head_is_checked() {
         let folder = tempfile::tempdir().unwrap();
@@ -283,41 +308,7 @@ mod tests {
         let (grid, files) = read(head).unwrap();
         assert_eq!((free(&grid), files.len()), (vec![[0, 0], [2, 0], [0, 1]], 2), "205 is unknown to ROS");
         assert_eq!(free(&read(&head.replace("negate: 0", "negate: 1")).unwrap().0), vec![[2, 1]]);
-        for (from, to, said) in [
-            ("room.png", "hall.png", "/room.yaml:1:8: there is no image `hall.png`; looked for /hall.png"),
-            (
-                "resolution: 0.05\n",
-                "",
-                "/room.yaml:1:1: there is no `resolution`; found are `image`, `origin`, `negate`",
-            ),
-            ("0.05", "0", "/room.yaml:2:13: resolution has the size 0; sizes above 0 are accepted"),
-            ("0.05", "50", "/room.yaml:2:13: resolution has the length 50 m; is it in millimetres?"),
-            ("0.65", "65", "/room.yaml:5:18: occupied_thresh is 65; a number from 0 to 1 is accepted"),
-            ("negate", "mode: scale\nnegate", "/room.yaml:4:7: mode is `scale`; `trinary` is accepted"),
-            (
-                "-2.0, 0.0]",
-                "-2.0, 0.7]",
-                "/room.yaml:3:9: origin turns the map by the yaw 0.7; 0 is accepted, a map along its own axes",
-            ),
-            ("-2.0, 0.0]", "-2.0]", "/room.yaml:3:9: origin has 2 numbers; 3 are accepted"),
-            ("-2.0, 0.0]", "nan, 0.0]", "/room.yaml:3:16: origin has the number NaN; finite numbers"),
-            ("negate: 0", "negate: 2", "/room.yaml:4:9: negate is 2; 0 or 1 is accepted"),
-            (
-                "negate: 0",
-                "negated: 1",
-                "/room.yaml:4:10: unknown key `negated`; accepted: image, mode, reso",
-            ),
-            (
-                "negate: 0",
-                "negate: 0\nnegate: 1",
-                "/room.yaml:5:9: `negate` is given twice; once is accepted",
-            ),
-            (
-                "0.196",
-                "0.7",
-                "/room.yaml:6:14: free_thresh is 0.7; at most occupied_thresh, 0.65, is accepted",
-            ),
-        ] {
+        for (from, to, said) in WRONG_HEADS {
             let error = read(&head.replace(from, to)).unwrap_err();
             assert!(error.contains(said), "should say {said}\nsays {error}");
         }
