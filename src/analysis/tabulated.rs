@@ -5,7 +5,9 @@ use super::metric::{self, Metric};
 use super::statistic;
 use crate::study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
 use crate::study::paper::{OursSpec, TableRow};
-use crate::study::record::Row;
+use crate::study::record::{PreparedRow, Row};
+use crate::study::{Study, recorded_mark};
+use engine::space::WorldKind;
 use std::collections::BTreeSet;
 
 /// A table of results: its head and, block by block, its rows; a dash where there is nothing.
@@ -31,11 +33,14 @@ pub fn grid(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, String
         table.cells.iter().zip(&metrics).map(|(cell, m)| cell.label.clone().unwrap_or_else(|| m.title()));
     let head = std::iter::once(String::new()).chain(titles).collect();
     let row = |block: &BlockSpec, label: &String| {
-        let own = run.rows(block.problems.get_ref(), label);
-        let other = block.beside.as_ref().map(|beside| run.rows(beside.get_ref(), label)).unwrap_or_default();
         let cells = table.cells.iter().zip(&metrics).map(|(cell, metric)| {
-            let rows = if cell.beside { &other } else { &own };
-            cell_of(run, rows, cell, metric)
+            let group = if cell.beside { block.beside.as_ref() } else { Some(&block.problems) };
+            let group = group.map_or("", |group| group.get_ref());
+            if cell.show == Show::Prepared {
+                shown(prepared(run, group, label, metric), cell)
+            } else {
+                cell_of(run, &run.rows(group, label), cell, metric)
+            }
         });
         std::iter::once(label.clone()).chain(cells).collect::<Vec<String>>()
     };
@@ -46,10 +51,35 @@ pub fn grid(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, String
     Ok(Grid { head, blocks: table.blocks.iter().map(block).collect() })
 }
 
+/// The caption of `table`, and which of its rows were recorded.
+pub fn table_caption(evidence: &Evidence<'_>, table: &ResultsSpec) -> String {
+    let study = evidence.run(table.study.get_ref()).map(|run| run.study);
+    let recorded = study.into_iter().flat_map(Study::recorded);
+    let mark = recorded_mark(recorded.filter(|label| table.rows.iter().any(|row| row == label)));
+    std::iter::once(table.caption.clone()).chain(mark).collect::<Vec<_>>().join(" ")
+}
+
+/// The median of `metric` over what the problem group prepared, if the contender searches it: a planner from outside takes any
+/// world, and is given none of what was prepared.
+fn prepared(run: &Run<'_>, group: &str, label: &str, metric: &Metric) -> Option<f64> {
+    let contender = run.study.contenders.iter().find(|one| one.label == label)?;
+    let searches = contender.stages.iter().any(|stage| stage.entry.needs != WorldKind::Any);
+    let count = |row: &PreparedRow| Some(row.values.get(metric.column)?.as_f64() * metric.scale);
+    let counts: Vec<f64> = run.prepared(group).filter_map(count).collect();
+    statistic::median(&counts).filter(|_| searches && !contender.is_recorded())
+}
+
+/// `value` as `cell` shows it; a dash if there is none.
+fn shown(value: Option<f64>, cell: &CellSpec) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| number(value, cell.decimals))
+}
+
+fn number(value: f64, decimals: usize) -> String {
+    if value.is_finite() { format!("{value:.decimals$}") } else { "∞".to_owned() }
+}
+
 fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> String {
-    let number = |value: f64| {
-        if value.is_finite() { format!("{value:.*}", cell.decimals) } else { "∞".to_owned() }
-    };
+    let number = |value: f64| number(value, cell.decimals);
     let measured: Vec<_> = rows.iter().map(|row| (row.is_solved(), run.value(row, metric))).collect();
     let values = with_failures(&measured, metric.is_clock());
     let quantile = |share: f64| statistic::quantile(&values, share);
@@ -73,6 +103,7 @@ fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> St
             statistic::median(&failed).map(number)
         }
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
+        Show::Prepared => unreachable!("it is of no trial"),
     };
     found.unwrap_or_else(|| "–".to_owned())
 }

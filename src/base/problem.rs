@@ -67,6 +67,9 @@ pub fn parse_problem(document: &Document, set: Option<&str>, index: usize) -> Re
     reader.problem(problem)
 }
 
+/// The kinds of obstacle of VAMP's form, each a list in its problem.
+const KINDS: [&str; 3] = ["box", "cylinder", "sphere"];
+
 #[derive(Clone, Copy)]
 struct Reader<'a>(Yaml<'a>);
 
@@ -139,8 +142,15 @@ impl Reader<'_> {
     }
 
     fn vamp(self, problem: &Node) -> Result<Vec<Solid>, SettingsError> {
+        for (kind, entries) in self.0.table(problem)? {
+            // What is no list of tables says something else of the problem.
+            if entries.has_tables() && !KINDS.contains(&kind.as_str()) {
+                let message = format!("obstacles are `{kind}`; {} are accepted", KINDS.join(", "));
+                return Err(self.fault(entries, message));
+            }
+        }
         let mut solids = Vec::new();
-        for kind in ["box", "cylinder", "sphere"] {
+        for kind in KINDS {
             let Some(entries) = self.0.find(problem, kind)? else { continue };
             for (index, entry) in self.0.list(entries)?.iter().enumerate() {
                 let form = match kind {
@@ -252,6 +262,15 @@ mod tests {
         assert_eq!(one.obstacles[0].form, Form::Box([0.6, 0.5, 0.02]));
         let turned = one.obstacles[0].pose.point([1.0, 0.0, 0.0]);
         assert!((turned[1] - 2.0 * H * H).abs() < 1e-12, "{turned:?}: x of the plank is y of the world");
+    }
+
+    #[test]
+    fn obstacles_of_a_kind_that_is_not_known_are_not_passed_over() {
+        let error = read(&VAMP.replacen("\"sphere\":", "\"capsule\":", 1), None, 0).unwrap_err();
+        let said = "p.json:5:18: obstacles are `capsule`; box, cylinder, sphere are accepted";
+        assert!(error.contains(said), "should say {said}\nsays {error}");
+        let kept = VAMP.replacen("\"index\": 1", "\"valid\": true, \"tags\": [1, 2]", 1);
+        assert_eq!(read(&kept, None, 0).unwrap().obstacles.len(), 3, "what is no obstacle is passed over");
     }
 
     #[test]

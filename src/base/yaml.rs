@@ -28,7 +28,7 @@ impl Yaml<'_> {
     /// What the document holds.
     ///
     /// # Errors
-    /// A syntax error at its place; anchors and several documents in one file.
+    /// A syntax error at its place; a key that is given twice in one table; anchors.
     pub fn parse(document: &Document) -> Result<Node, SettingsError> {
         let text = document.text();
         let places = Places::new(text);
@@ -59,7 +59,10 @@ impl Yaml<'_> {
             };
             match open.last_mut() {
                 None => return Ok(done),
-                Some(holder) => put(holder, done),
+                Some(holder) => put(holder, done).map_err(|twice| {
+                    Source(document)
+                        .fault(&twice.at, format!("`{}` is given twice; once is accepted", twice.key))
+                })?,
             }
         }
         Err(fault(0, "the file is empty; a table is accepted"))
@@ -139,6 +142,12 @@ impl Node {
         matches!(self.data, Data::List(_))
     }
 
+    /// Whether it is a list that holds a table.
+    pub fn has_tables(&self) -> bool {
+        let is_table = |element: &Self| matches!(element.data, Data::Table(_));
+        matches!(&self.data, Data::List(elements) if elements.iter().any(is_table))
+    }
+
     fn what(&self) -> String {
         match &self.data {
             Data::Word(word) => format!("`{word}`"),
@@ -148,17 +157,27 @@ impl Node {
     }
 }
 
+/// A key that a table has already, and where the second value stands.
+struct Twice {
+    key: String,
+    at: Range<usize>,
+}
+
 /// Puts a value where it belongs: into a list, or as a key or what stands under the key before it into a table.
-fn put((holder, key): &mut (Node, Option<String>), value: Node) {
+fn put((holder, key): &mut (Node, Option<String>), value: Node) -> Result<(), Twice> {
     match &mut holder.data {
         Data::List(elements) => elements.push(value),
         Data::Table(entries) => match (key.take(), value.data) {
+            (Some(name), _) if entries.iter().any(|(known, _)| *known == name) => {
+                return Err(Twice { key: name, at: value.at });
+            }
             (Some(name), data) => entries.push((name, Node { at: value.at, data })),
             (None, Data::Word(name)) => *key = Some(name),
             (None, _) => *key = Some(String::new()),
         },
         Data::Word(_) => unreachable!("a word holds nothing"),
     }
+    Ok(())
 }
 
 /// From the characters that the parser counts to bytes.

@@ -5,12 +5,13 @@ use super::explain::{explained, wrapped};
 use super::places::{experiments, home, papers};
 use super::{Failure, all};
 use crate::analysis::metric;
-use crate::study::Inputs;
 use crate::study::paper::Paper;
+use crate::study::{Inputs, Study, recorded_mark};
+use base::robot::read_urdf;
 use base::settings::none_called;
 use clap::{Args, ValueEnum};
-use engine::kinematics::{Robot, robot::Body};
-use std::path::PathBuf;
+use engine::kinematics::{AXES, Robot, robot::Body};
+use std::path::{Path, PathBuf};
 
 /// Where robots are shipped.
 const ROBOTS: &str = "data/robots";
@@ -66,7 +67,8 @@ impl List {
 /// What is read from files.
 struct Found {
     papers: Vec<Paper>,
-    robots: Vec<Robot>,
+    /// Names of robots, and what one line says of each.
+    robots: Vec<(String, String)>,
 }
 
 impl Found {
@@ -152,7 +154,11 @@ fn rows(what: What, Found { papers, robots }: &Found) -> Vec<(String, String)> {
         What::Papers => papers.iter().map(|paper| row(&paper.id, &paper.source.title)).collect(),
         What::Studies => {
             let studies = papers.iter().flat_map(|paper| &paper.studies);
-            studies.map(|s| (format!("{}/{}", s.paper, s.name), s.question.clone())).collect()
+            let about = |study: &Study| {
+                let mark = recorded_mark(study.recorded());
+                [Some(study.question.clone()), mark].into_iter().flatten().collect::<Vec<_>>().join(" ")
+            };
+            studies.map(|study| (format!("{}/{}", study.paper, study.name), about(study))).collect()
         }
         What::Readings => papers
             .iter()
@@ -163,7 +169,7 @@ fn rows(what: What, Found { papers, robots }: &Found) -> Vec<(String, String)> {
                 (format!("{}/{}", paper.id, reading.id), about)
             })
             .collect(),
-        What::Robots => robots.iter().map(|robot| row(robot.name(), &about(robot))).collect(),
+        What::Robots => robots.clone(),
         _ => {
             metric::METRICS.iter().map(|m| row(m.name, &format!("{}: {}", m.title(), m.meaning()))).collect()
         }
@@ -176,17 +182,35 @@ fn about(robot: &Robot) -> String {
     format!("{}; bodies: {}", robot.arm().solver(), bodies.join(", "))
 }
 
+/// What is said of the robot in `file`: one of URDF goes by the name of its file, since the same robot may be written in rows too.
+fn described(file: &Path) -> Result<(String, String), Failure> {
+    let wrong = |error: &dyn std::fmt::Display| Failure::input(error.to_string());
+    let Some(name) = file.file_name().filter(|_| is_urdf(file)) else {
+        let robot = Robot::load(file).map_err(|error| wrong(&error))?;
+        return Ok((robot.name().to_owned(), about(&robot)));
+    };
+    let name = name.to_string_lossy().into_owned();
+    match read_urdf(file).map_err(|error| wrong(&error))?.joints.len() {
+        AXES => Ok((name, about(&Robot::load(file).map_err(|error| wrong(&error))?))),
+        axes => Ok((name, format!("{axes} axes: planned in joint space, by `joint_queries`"))),
+    }
+}
+
+fn is_urdf(file: &Path) -> bool {
+    file.extension().is_some_and(|end| end == "urdf")
+}
+
 /// Every robot of the project that can be read, by name of its file, and what is wrong with the others.
-fn robots() -> (Vec<Robot>, Vec<Result<(), Failure>>) {
+fn robots() -> (Vec<(String, String)>, Vec<Result<(), Failure>>) {
     let files = std::fs::read_dir(ROBOTS).into_iter().flatten().flatten().map(|entry| entry.path());
     let mut files: Vec<PathBuf> =
-        files.filter(|file| file.extension().is_some_and(|e| e == "toml")).collect();
+        files.filter(|file| is_urdf(file) || file.extension().is_some_and(|e| e == "toml")).collect();
     files.sort_unstable();
     let (mut robots, mut faults) = (Vec::new(), Vec::new());
-    for robot in files.iter().map(|file| Robot::load(file)) {
+    for robot in files.iter().map(|file| described(file)) {
         match robot {
             Ok(robot) => robots.push(robot),
-            Err(error) => faults.push(Err(Failure::input(error.to_string()))),
+            Err(fault) => faults.push(Err(fault)),
         }
     }
     (robots, faults)

@@ -47,6 +47,8 @@ pub struct Talk {
     pub answering_ns: u64,
     /// Whether the planner was cut off while it had an incumbent.
     pub is_cut_off: bool,
+    /// The end of the planner's log by then.
+    pub log: String,
 }
 
 impl Talk {
@@ -61,6 +63,7 @@ impl Talk {
             wall_ns: 0,
             answering_ns: 0,
             is_cut_off: false,
+            log: String::new(),
         }
     }
 
@@ -149,7 +152,7 @@ pub fn solve(
             Err(why) => break End::Broken(with_log(process, &why)),
         }
     };
-    held.finish(end)
+    Talk { log: process.log(), ..held.finish(end) }
 }
 
 struct Conversation<'a, 'w> {

@@ -5,7 +5,7 @@ use super::html::{escaped, prose as inline};
 use super::readings;
 use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::tabulated::grid;
+use crate::analysis::tabulated::{grid, table_caption};
 use crate::analysis::verdict::{Effect, Finding, Judged, Verdicts};
 use crate::render::RenderError;
 use crate::render::figure::caption;
@@ -239,7 +239,7 @@ impl Body<'_> {
             };
             text += &format!(
                 "<div class=\"wide\"><table class=\"plain\"><caption><span>{}</span></caption><thead>{}</thead>",
-                escaped(&table.caption),
+                escaped(&table_caption(self.evidence, table)),
                 line("th", &found.head)
             );
             for (title, rows) in &found.blocks {

@@ -5,10 +5,10 @@ use super::latex::{Cell, Column, Table};
 use super::prose::markdown as safe;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric;
-use crate::analysis::tabulated::{Grid, grid};
+use crate::analysis::tabulated::{Grid, grid, table_caption};
 use crate::study::columns_of;
 use crate::study::paper::Paper;
-use crate::study::paper::results::ResultsSpec;
+use crate::study::paper::results::{ResultsSpec, Show};
 use base::settings::{Faults, SettingsError};
 
 /// Every metric of every table of results exists, and its study produces it.
@@ -20,8 +20,9 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     for table in &paper.results {
         // A study that is not there is told by the paper's own check.
         let Some(study) = paper.study(table.study.get_ref()) else { continue };
-        let columns = study.columns();
+        let [counted, prepared] = [study.columns(), study.prepared_columns()];
         for cell in &table.cells {
+            let columns = if cell.show == Show::Prepared { &prepared } else { &counted };
             let name = cell.metric.get_ref();
             if !metric::find(name).is_some_and(|metric| columns.contains(metric.column)) {
                 let known: Vec<&str> =
@@ -51,7 +52,7 @@ pub fn latex(evidence: &Evidence<'_>, table: &ResultsSpec, marks: &[String]) -> 
     let (grid, paper, id) = (stored(evidence, table)?, evidence.paper, table.id.get_ref());
     let mut columns = vec![Column::Left];
     columns.extend(table.cells.iter().map(|_| Column::Right));
-    let mut text = Table::new(format!("{}:{id}", paper.id), &table.caption, &columns);
+    let mut text = Table::new(format!("{}:{id}", paper.id), table_caption(evidence, table), &columns);
     text.head(grid.head.iter().map(Cell::from).collect());
     for (title, rows) in &grid.blocks {
         text.group(title);
@@ -97,7 +98,7 @@ pub fn markdown(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<String, 
         let safe: Vec<String> = cells.iter().map(|cell| safe(cell)).collect();
         format!("| {} |\n", safe.join(" | "))
     };
-    let caption = super::prose::wrapped("", &safe(&table.caption), 0, super::prose::COLUMNS);
+    let caption = super::prose::wrapped("", &safe(&table_caption(evidence, table)), 0, super::prose::COLUMNS);
     let mut text = format!("{caption}\n\n{}|{}\n", line(&grid.head), "---|".repeat(grid.head.len()));
     for (title, rows) in &grid.blocks {
         text += &format!("| **{}** |{}\n", safe(title), " |".repeat(grid.head.len() - 1));

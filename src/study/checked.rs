@@ -10,6 +10,7 @@ use super::error::StudyError;
 use super::group::Group;
 use super::key::{KeyColumns, SweepKey, SweepValue, Text};
 use super::name::{self, Names};
+use super::prepared;
 use super::reading::{self, Reading, ReadingChoice};
 use super::spec::{BudgetSpec, ExploreSpec, FigureSpec, QuickSpec, TimingSpec, TrialsSpec};
 use super::task;
@@ -70,6 +71,13 @@ pub fn columns_of(name: &str) -> String {
 /// What the labels of the study called `name` are called where one of them may be unread.
 pub fn labels_of(name: &str) -> String {
     format!("labels of {name}")
+}
+
+/// What stands beside whatever shows these contenders, of which a study says that they are recorded; none if there are none.
+pub fn recorded_mark<'a>(labels: impl Iterator<Item = &'a str>) -> Option<String> {
+    let labels: Vec<&str> = labels.collect();
+    (!labels.is_empty())
+        .then(|| format!("Bound to a clock, so recorded and not repeated: {}.", labels.join(", ")))
 }
 
 impl Study {
@@ -189,6 +197,18 @@ impl Study {
             sweeps: self.sweeps.iter().map(sweep).collect(),
             readings: moving.map(|reading| reading.id.as_str().into()).collect(),
         }
+    }
+
+    /// The contenders whose trials hang on a clock and on programs of others: they are recorded, and neither a fresh run nor a
+    /// sample of stored trials repeats them.
+    pub fn recorded(&self) -> impl Iterator<Item = &str> {
+        self.contenders.iter().filter(|contender| contender.is_recorded()).map(|one| one.label.as_str())
+    }
+
+    /// Every column that what it prepares can have.
+    pub fn prepared_columns(&self) -> BTreeSet<&'static str> {
+        let entries = self.groups.iter().filter_map(|group| prepared::find(group.family.prepared));
+        entries.flat_map(|entry| entry.columns).copied().collect()
     }
 
     /// Every column that its records can have.

@@ -45,6 +45,9 @@ pub struct Manifest {
     pub claims: String,
     /// One hash of everything below that trials depend on.
     pub depends: String,
+    /// The contenders whose trials are bound to a clock: they were recorded, and no run repeats them unless asked.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub recorded: Vec<String>,
     /// What the spec leaves out, and the value that holds there.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub defaults: Vec<String>,
@@ -129,6 +132,7 @@ impl Manifest {
             spec: sha256(study.document.text().as_bytes()),
             claims,
             depends,
+            recorded: study.recorded().map(str::to_owned).collect(),
             defaults: defaults(study),
             sessions: study.timing.iter().map(|_| Session::of(&made_by)).collect(),
             made_by,
@@ -187,15 +191,11 @@ impl Manifest {
     /// Whether the run that `before` describes gave all that this one would give, readings of the clock among it: a run that
     /// was put together of parts has none yet.
     pub fn is_as(&self, before: &Self) -> bool {
-        (&self.spec, &self.depends, &self.axes, &self.readings, &self.shard, self.sessions.is_empty())
-            == (
-                &before.spec,
-                &before.depends,
-                &before.axes,
-                &before.readings,
-                &before.shard,
-                before.sessions.is_empty(),
-            )
+        let what = |of: &Self| {
+            let Self { spec, depends, recorded, axes, readings, shard, sessions, .. } = of.clone();
+            (spec, depends, recorded, axes, readings, shard, sessions.is_empty())
+        };
+        what(self) == what(before)
     }
 
     /// Whether trials ran under the reading.

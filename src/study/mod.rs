@@ -53,7 +53,7 @@ pub mod merge;
 
 pub mod rerun;
 
-pub use checked::{Study, columns_of, labels_of};
+pub use checked::{Study, columns_of, labels_of, recorded_mark};
 pub use contender::{Contender, StageUse, Sweep};
 pub use error::StudyError;
 pub use group::{Families, Group};

@@ -43,8 +43,7 @@ pub fn rerun(
         .filter(|point| manifest.covers(&point.key(&study.readings)))
         .collect();
     let built = BuiltStudy::new(study, &points, inputs)?;
-    let recorded: BTreeSet<&str> =
-        study.contenders.iter().filter(|c| c.is_recorded()).map(|c| c.label.as_str()).collect();
+    let recorded: BTreeSet<&str> = study.recorded().collect();
     let mut rows = records.batch.rows.clone();
     rows.retain(|row| !recorded.contains(&*row.key.contender));
     let wanted = sample(study, &rows, count);

@@ -63,6 +63,9 @@ fn robots_are_listed_with_the_solver_that_fits_and_a_broken_file_is_said_to_be_b
     let listed = list(&bench);
     assert!(listed.contains("robots ur5 "), "{listed}");
     assert!(listed.contains("inverse kinematics by `offset_wrist`; bodies: rods"), "{listed}");
+    bench.write("data/robots/panda.urdf", include_bytes!("../../data/robots/panda.urdf"));
+    let listed = list(&bench);
+    assert!(listed.contains("panda.urdf 7 axes: planned in joint space"), "{listed}");
     let bent = ur5.replacen("alpha_deg = -90", "alpha_deg = -80", 1);
     bench.write("data/robots/bent.toml", bent.replace("\"ur5\"", "\"bent\"").as_bytes());
     let listed = list(&bench);

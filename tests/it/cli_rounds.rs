@@ -1,7 +1,7 @@
 //! Explorations and confirmations cut into shards: what they find is what one machine finds, to the byte; and what is refused.
 
 use crate::across::{CITED, RUNS, Toy};
-use crate::cli_shards::{PARALLEL, SBATCH, checked, stub};
+use crate::cli_shards::{PARALLEL, SBATCH, checked, run_hyperqueue, stub};
 use crate::exploring::{MET, MORE};
 use std::collections::BTreeMap;
 use std::fs;
@@ -152,4 +152,34 @@ fn scripts_run_and_merge_round_after_round() {
         assert!(done.status.success(), "{engine}: {}", String::from_utf8_lossy(&done.stderr));
     }
     assert!(found(&toy) == calm, "scripts find something else than one machine");
+}
+
+const DYING: &str = r#"#!/usr/bin/env bash
+# replan, but for the first try of shard 2 in every round, whose process is killed.
+for word in "$@"; do
+  mark="killed.$1.$(ls -d explore/*/ confirm/*/ 2> /dev/null | wc -l)"
+  if [[ $word == 2/2 && ! -e $mark ]]; then
+    touch "$mark"
+    "$REAL" "$@" &
+    kill -9 $!
+    exit 137
+  fi
+done
+exec "$REAL" "$@"
+"#;
+
+#[test]
+fn hyperqueue_runs_round_after_round_and_again_what_was_killed() {
+    let (calm, toy) = (calm(), Toy::unexplored(&EDITS));
+    stub(&toy.0, "replan", DYING);
+    for (command, rounds) in [("explore", 3), ("confirm", 2)] {
+        let arguments = ["--engine", "hyperqueue", "--shards", "2", "--out", command];
+        toy.0.done(&[&["shard", "./toy", &format!("--{command}")], &arguments[..]].concat());
+        let Some(said) = run_hyperqueue(&toy.0, command) else { return };
+        let count = |what: &str| said.matches(what).count();
+        assert_eq!(count("2 of 2 shards to run, try 1 of 3\n"), rounds, "{said}");
+        assert_eq!(count("1 of 2 shards to run, try 2 of 3\n"), rounds, "{said}");
+        assert_eq!(count("shard 2 failed; see "), rounds, "{said}");
+    }
+    assert!(found(&toy) == calm, "HyperQueue finds something else than one machine");
 }

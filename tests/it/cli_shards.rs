@@ -307,28 +307,30 @@ fi
 exec "$REAL" "$@"
 "#;
 
-#[test]
-fn hyperqueue_runs_every_shard_again_where_its_process_was_killed() {
+/// Runs the program that `replan shard --engine hyperqueue` wrote into `parts`, with the stub `bin/replan` for replan, and gives
+/// what it says; none where there is no environment with `hyperqueue`.
+pub fn run_hyperqueue(bench: &Bench, parts: &str) -> Option<String> {
     let python = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/replan/cluster/venv/bin/python");
     if !python.is_file() {
         eprintln!("there is no {}, which .ci/run makes: HyperQueue is not tried", python.display());
-        return;
+        return None;
     }
+    let mut command = Command::new(&python);
+    command.arg(bench.at(&format!("{parts}/run_hyperqueue.py"))).current_dir(bench.at(""));
+    command.env("REPLAN", bench.at("bin/replan")).env("REAL", env!("CARGO_BIN_EXE_replan"));
+    let done = command.output().unwrap();
+    let said = format!("{}{}", String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
+    assert!(done.status.success(), "{said}");
+    Some(said)
+}
+
+#[test]
+fn hyperqueue_runs_every_shard_again_where_its_process_was_killed() {
     let bench = bench();
     stub(&bench, "replan", DYING);
     let arguments = ["--engine", "hyperqueue", "--shards", "4", "--out", "parts", "--merge", "merged"];
     bench.done(&[&["shard", "./mini", "--readings", "all"], &arguments[..]].concat());
-    let run = || {
-        let mut command = Command::new(&python);
-        command.arg(bench.at("parts/run_hyperqueue.py")).current_dir(bench.at(""));
-        command.env("REPLAN", bench.at("bin/replan")).env("REAL", env!("CARGO_BIN_EXE_replan"));
-        let done = command.output().unwrap();
-        let said =
-            format!("{}{}", String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
-        assert!(done.status.success(), "{said}");
-        said
-    };
-    let said = run();
+    let Some(said) = run_hyperqueue(&bench, "parts") else { return };
     assert!(said.contains("4 of 4 shards to run, try 1 of 3\n"), "{said}");
     assert!(
         said.contains("shard 2 failed; see ") && said.contains("1 of 4 shards to run, try 2 of 3\n"),
@@ -339,7 +341,8 @@ fn hyperqueue_runs_every_shard_again_where_its_process_was_killed() {
         "the shard was killed before it was at work"
     );
     assert!(bench.facts("merged") == bench.facts("whole"), "other bytes than one machine's");
-    assert!(!run().contains("shards to run"), "what is done ran again");
+    let again = run_hyperqueue(&bench, "parts").unwrap();
+    assert!(!again.contains("shards to run"), "what is done ran again");
     let logs: BTreeMap<_, _> = bench.tree("parts/logs");
     assert_eq!(logs.len(), 8, "{:?}", logs.keys());
 }

@@ -2,12 +2,13 @@
 
 mod arm;
 mod law;
+mod marks;
 mod scripts;
 
 use crate::paper::Bench;
 use replan::study::record::Row;
 use replan::study::reuse;
-use scripts::{CASES, Case, PRELUDE, SILENT};
+use scripts::{CASES, Case, PRELUDE, SHORTER, SILENT};
 use std::collections::BTreeMap;
 use std::fs;
 
@@ -100,6 +101,28 @@ fn every_way_to_misbehave_is_the_status_of_one_row_and_costs_no_other_trial() {
     assert_eq!(rows["good"].value("is_cut_off"), Some(0.0));
     for seconds in ["sleep 1001", "sleep 1002", "sleep 1003"] {
         assert_eq!(alive(seconds), [""; 0], "left alone");
+    }
+}
+
+#[test]
+fn a_path_shorter_than_the_optimum_is_refused_with_the_end_of_the_planners_log() {
+    // Over a step that the grid has not, and through a blocked cell.
+    for (any_angle, [start, goal], refused) in [
+        (false, [[0, 1], [299, 200]], "is not one of the eight moves"),
+        (true, [[149, 0], [151, 0]], "enters the blocked cell [150, 0]"),
+    ] {
+        let bench = bench(&[&SHORTER]);
+        bench.edit("outside/study.toml", "any_angle = true", &format!("any_angle = {any_angle}"));
+        let ends = format!("start = {start:?}, goal = {goal:?}");
+        bench.edit("outside/study.toml", "start = [0, 1], goal = [299, 200]", &ends);
+        bench.done(&["run", "./outside"]);
+        let rows = rows(&bench);
+        let row = &rows[SHORTER.name];
+        check(row, &SHORTER);
+        assert!(row.reason.as_ref().unwrap().contains(refused), "{:?}", row.reason);
+        let straight = libm::hypot(f64::from(goal[0] - start[0]), f64::from(goal[1] - start[1]));
+        let optimal = row.value("optimal_cost_cells").unwrap();
+        assert!(straight < optimal, "{straight} is no shorter than {optimal}");
     }
 }
 

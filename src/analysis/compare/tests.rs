@@ -19,6 +19,7 @@ fn manifest(seed: u64) -> Manifest {
         spec: String::new(),
         claims: String::new(),
         depends: String::new(),
+        recorded: Vec::new(),
         defaults: Vec::new(),
         made_by: MadeBy::default(),
         shard: None,

@@ -3,14 +3,15 @@
 //! An image alone is free where it is brighter than half, blocked elsewhere; what is transparent is white. The first row of pixels is the
 //! highest y. A ROS map has thresholds of its own: with `p` the darkness of a pixel from 0 to 1 (its brightness with `negate`), a cell is
 //! blocked where `p > occupied_thresh`, free where `p < free_thresh`, unknown in between; what is unknown is blocked. Its `resolution`
-//! must be a length, and is not used: cells are cells here.
+//! must be a length and is not used, nor is the place in its `origin`: cells are cells here, counted from the lower left pixel. A map that
+//! is turned, by a yaw in its `origin`, is refused, and so is a key that the format does not have.
 //!
 //! Source: the page "Map format" of <https://wiki.ros.org/map_server>.
 
 use super::{Grid2, GridError, parse_text_map, read_movingai_map, read_text_map};
 use crate::settings::{Document, SettingsError};
 use crate::solid::Source;
-use crate::yaml::Yaml;
+use crate::yaml::{Node, Yaml};
 use std::io::{BufReader, Cursor};
 use std::path::{Path, PathBuf};
 
@@ -51,7 +52,7 @@ fn read_ros_map(path: &Path) -> Result<(Grid2, Vec<PathBuf>), GridError> {
     let grid = Picture::open(&head.image)?.grid(|bright| {
         let share = f64::from(bright) / 255.0;
         let dark = if head.is_negated { share } else { 1.0 - share };
-        dark < head.free_below && dark <= head.blocked_above
+        dark < head.free_below
     })?;
     Ok((grid, vec![path.to_owned(), head.image]))
 }
@@ -60,43 +61,79 @@ fn read_ros_map(path: &Path) -> Result<(Grid2, Vec<PathBuf>), GridError> {
 struct Head {
     image: PathBuf,
     is_negated: bool,
-    blocked_above: f64,
     free_below: f64,
 }
+
+/// The keys of the format; `mode` is that of its newer versions.
+const KEYS: [&str; 7] = ["image", "mode", "resolution", "origin", "negate", "occupied_thresh", "free_thresh"];
 
 impl Head {
     fn read(path: &Path) -> Result<Self, SettingsError> {
         let document = Document::open(path)?;
-        let (root, source) = (Yaml::parse(&document)?, Source(&document));
-        let yaml = Yaml(source);
-        let number = |key: &str, default: f64| match yaml.find(&root, key)? {
-            Some(node) => yaml.number(node, key),
-            None => Ok(default),
-        };
+        let (root, yaml) = (Yaml::parse(&document)?, Yaml(Source(&document)));
+        for (key, node) in yaml.table(&root)? {
+            if !KEYS.contains(&key.as_str()) {
+                let message = format!("unknown key `{key}`; accepted: {}", KEYS.join(", "));
+                return Err(yaml.0.fault(&node.at, message));
+            }
+        }
         let resolution = yaml.get(&root, "resolution")?;
-        source.sizes(&resolution.at, "resolution", [yaml.number(resolution, "resolution")?])?;
+        yaml.0.sizes(&resolution.at, "resolution", [yaml.number(resolution, "resolution")?])?;
+        check_origin(yaml, &root)?;
         if let Some(mode) = yaml.find(&root, "mode")?
             && yaml.word(mode)? != "trinary"
         {
             let message = format!("mode is `{}`; `trinary` is accepted", yaml.word(mode)?);
-            return Err(source.fault(&mode.at, message));
-        }
-        let (blocked_above, free_below) = (number("occupied_thresh", 0.65)?, number("free_thresh", 0.196)?);
-        for (key, share) in [("occupied_thresh", blocked_above), ("free_thresh", free_below)] {
-            if !(0.0..=1.0).contains(&share) {
-                let at = yaml.get(&root, key)?.at.clone();
-                return Err(source.fault(&at, format!("{key} is {share}; a number from 0 to 1 is accepted")));
-            }
+            return Err(yaml.0.fault(&mode.at, message));
         }
         let named = yaml.get(&root, "image")?;
         let image = path.parent().unwrap_or(Path::new("")).join(yaml.word(named)?);
         if !image.is_file() {
             let message =
                 format!("there is no image `{}`; looked for {}", yaml.word(named)?, image.display());
-            return Err(source.fault(&named.at, message));
+            return Err(yaml.0.fault(&named.at, message));
         }
-        Ok(Self { image, is_negated: number("negate", 0.0)? != 0.0, blocked_above, free_below })
+        Ok(Self { image, is_negated: is_negated(yaml, &root)?, free_below: free_below(yaml, &root)? })
     }
+}
+
+/// The place of the lower left pixel is not used, but the map's axes are those of the world.
+fn check_origin(yaml: Yaml<'_>, root: &Node) -> Result<(), SettingsError> {
+    let Some(origin) = yaml.find(root, "origin")? else { return Ok(()) };
+    let [_, _, yaw] = yaml.exactly::<3>(origin, "origin")?;
+    if yaw == 0.0 {
+        return Ok(());
+    }
+    let message = format!("origin turns the map by the yaw {yaw}; 0 is accepted, a map along its own axes");
+    Err(yaml.0.fault(&origin.at, message))
+}
+
+fn is_negated(yaml: Yaml<'_>, root: &Node) -> Result<bool, SettingsError> {
+    let Some(node) = yaml.find(root, "negate")? else { return Ok(false) };
+    match yaml.number(node, "negate")? {
+        0.0 => Ok(false),
+        1.0 => Ok(true),
+        other => Err(yaml.0.fault(&node.at, format!("negate is {other}; 0 or 1 is accepted"))),
+    }
+}
+
+/// The darkness below which a cell is free; what is darker than `occupied_thresh` must not be.
+fn free_below(yaml: Yaml<'_>, root: &Node) -> Result<f64, SettingsError> {
+    let share = |key: &str, default: f64| {
+        let Some(node) = yaml.find(root, key)? else { return Ok((root, default)) };
+        match yaml.number(node, key)? {
+            share if (0.0..=1.0).contains(&share) => Ok((node, share)),
+            other => {
+                Err(yaml.0.fault(&node.at, format!("{key} is {other}; a number from 0 to 1 is accepted")))
+            }
+        }
+    };
+    let ((_, blocked), (node, free)) = (share("occupied_thresh", 0.65)?, share("free_thresh", 0.196)?);
+    if free <= blocked {
+        return Ok(free);
+    }
+    let message = format!("free_thresh is {free}; at most occupied_thresh, {blocked}, is accepted");
+    Err(yaml.0.fault(&node.at, message))
 }
 
 /// The brightness of every pixel, row by row from the top.
@@ -228,6 +265,31 @@ mod tests {
         }
     }
 
+    /// A change of the head of a ROS map, and what must be said of it.
+    const WRONG_HEADS: &[(&str, &str, &str)] = &[
+        ("room.png", "hall.png", "/room.yaml:1:8: there is no image `hall.png`; looked for /hall.png"),
+        (
+            "resolution: 0.05\n",
+            "",
+            "/room.yaml:1:1: there is no `resolution`; found are `image`, `origin`, `negate`",
+        ),
+        ("0.05", "0", "/room.yaml:2:13: resolution has the size 0; sizes above 0 are accepted"),
+        ("0.05", "50", "/room.yaml:2:13: resolution has the length 50 m; is it in millimetres?"),
+        ("0.65", "65", "/room.yaml:5:18: occupied_thresh is 65; a number from 0 to 1 is accepted"),
+        ("negate", "mode: scale\nnegate", "/room.yaml:4:7: mode is `scale`; `trinary` is accepted"),
+        (
+            "-2.0, 0.0]",
+            "-2.0, 0.7]",
+            "/room.yaml:3:9: origin turns the map by the yaw 0.7; 0 is accepted, a map along its own axes",
+        ),
+        ("-2.0, 0.0]", "-2.0]", "/room.yaml:3:9: origin has 2 numbers; 3 are accepted"),
+        ("-2.0, 0.0]", "nan, 0.0]", "/room.yaml:3:16: origin has the number NaN; finite numbers"),
+        ("negate: 0", "negate: 2", "/room.yaml:4:9: negate is 2; 0 or 1 is accepted"),
+        ("negate: 0", "negated: 1", "/room.yaml:4:10: unknown key `negated`; accepted: image, mode, reso"),
+        ("negate: 0", "negate: 0\nnegate: 1", "/room.yaml:5:9: `negate` is given twice; once is accepted"),
+        ("0.196", "0.7", "/room.yaml:6:14: free_thresh is 0.7; at most occupied_thresh, 0.65, is accepted"),
+    ];
+
     #[test]
     fn a_ros_map_is_blocked_where_it_is_dark_or_unknown_and_its_head_is_checked() {
         let folder = tempfile::tempdir().unwrap();
@@ -246,18 +308,7 @@ mod tests {
         let (grid, files) = read(head).unwrap();
         assert_eq!((free(&grid), files.len()), (vec![[0, 0], [2, 0], [0, 1]], 2), "205 is unknown to ROS");
         assert_eq!(free(&read(&head.replace("negate: 0", "negate: 1")).unwrap().0), vec![[2, 1]]);
-        for (from, to, said) in [
-            ("room.png", "hall.png", "/room.yaml:1:8: there is no image `hall.png`; looked for /hall.png"),
-            (
-                "resolution: 0.05\n",
-                "",
-                "/room.yaml:1:1: there is no `resolution`; found are `image`, `origin`, `negate`",
-            ),
-            ("0.05", "0", "/room.yaml:2:13: resolution has the size 0; sizes above 0 are accepted"),
-            ("0.05", "50", "/room.yaml:2:13: resolution has the length 50 m; is it in millimetres?"),
-            ("0.65", "65", "/room.yaml:5:18: occupied_thresh is 65; a number from 0 to 1 is accepted"),
-            ("negate", "mode: scale\nnegate", "/room.yaml:4:7: mode is `scale`; `trinary` is accepted"),
-        ] {
+        for (from, to, said) in WRONG_HEADS {
             let error = read(&head.replace(from, to)).unwrap_err();
             assert!(error.contains(said), "should say {said}\nsays {error}");
         }

@@ -214,6 +214,11 @@ fn every_bad_input_is_refused_at_its_place() {
             missed.push(format!("should say: {said}\nsays:       {error}"));
         }
     }
+    let bare = read(&ARM.replace("collision>", "visual>"), FOOT.as_bytes()).unwrap_err();
+    let said = "/two.urdf:3:1: no link has a `collision`: nothing could be touched; at least one";
+    if !bare.contains(said) {
+        missed.push(format!("should say: {said}\nsays:       {bare}"));
+    }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
     assert!(
         parse_urdf(&Document::new(Path::new("x.urdf"), "<sdf/>".to_owned()))

@@ -122,10 +122,13 @@ impl<'a, 'input> Tree<'a, 'input> {
             let message = format!("no joints lead from the base to link `{name}`; one chain is accepted");
             return Err(self.source.fault(&lost.range(), message));
         }
-        if walk.robot.joints.is_empty() {
-            return Err(self.source.fault(&self.root.range(), "no joint turns; at least one is accepted"));
-        }
-        Ok(walk.robot)
+        let Robot { joints, solids, .. } = &walk.robot;
+        let lacks = match (joints.is_empty(), solids.is_empty()) {
+            (true, _) => "no joint turns; at least one is accepted",
+            (_, true) => "no link has a `collision`: nothing could be touched; at least one is accepted",
+            (false, false) => return Ok(walk.robot),
+        };
+        Err(self.source.fault(&self.root.range(), lacks))
     }
 
     /// The one link that no joint leads to.

@@ -87,7 +87,7 @@ pub struct Plan {
     pub counts: Counts,
     /// What figures need, if the request asked for it.
     pub exhibits: Vec<Exhibit>,
-    /// Why it ended so, where the ending alone does not say it.
+    /// Why it ended so, where the ending alone does not say it; of a path, what should be known if it is refused.
     pub reason: Option<String>,
 }
 

@@ -10,6 +10,7 @@ use crate::render::results;
 use crate::render::tables::{self, short};
 use crate::study::paper::LedgerRow;
 use crate::study::record::Status;
+use crate::study::recorded_mark;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How many sets of claims that hold together are listed with those that fail.
@@ -163,10 +164,12 @@ impl Page<'_> {
         for run in self.evidence.runs() {
             let (study, trials) = (run.study, run.records.batch.rows.len());
             let (seed, spec) = (run.manifest.seed, &run.manifest.spec[..12]);
+            let mark = recorded_mark(study.recorded());
             let about = format!(
-                "**`{}`**: {} {trials} trials, seed {seed}, spec `{spec}`.",
+                "**`{}`**: {} {trials} trials, seed {seed}, spec `{spec}`.{}",
                 study.name,
-                markdown(&study.question)
+                markdown(&study.question),
+                mark.map_or_else(String::new, |mark| format!(" {}", markdown(&mark)))
             );
             *text += &item(0, &about);
             for group in &study.groups {

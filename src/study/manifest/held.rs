@@ -25,6 +25,7 @@ impl Manifest {
             ("study", self.study == now.study),
             ("spec", self.spec == now.spec),
             ("depends", self.depends == now.depends),
+            ("recorded", self.recorded == now.recorded),
             ("defaults", self.defaults == now.defaults),
             ("inputs", self.inputs == now.inputs),
             ("problems", self.problems == now.problems),

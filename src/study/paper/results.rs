@@ -70,6 +70,9 @@ pub enum Show {
     Failed,
     /// The value of the first trial that has one, whatever its status.
     Value,
+    /// The median over what the problems prepared before any query (a roadmap), all of it counted once for all of its queries; for
+    /// contenders that search it, and not for those from outside, which do not.
+    Prepared,
 }
 
 impl Paper {

@@ -42,7 +42,7 @@ pub static ENTRY: Entry = Entry {
     settings: Accepted::of::<Written>(),
     example: r#"
 command = ["python3", "planners/python/examples/grid_astar.py"]
-files = ["planners/python/examples/grid_astar.py", "planners/python/replan_planner.py"]
+files = ["planners/python/examples/grid_astar.py", "planners/python/replan_planner/__init__.py"]
 version = "1"
 time_s = 2.0
 memory_mb = 1024
@@ -179,17 +179,7 @@ impl Planner for External {
         let mut counts = counts(&talk);
         counts.insert("promises_determinism", Value::Count(promises.into()));
         let cost = talk.cost.or_else(|| space.cost(&talk.path)).filter(|_| !talk.path.is_empty());
-        let (ending, reason) = match talk.end {
-            End::Solved => (Ending::Solved, None),
-            End::NoPath => (Ending::NoPath, None),
-            End::BudgetSpent => {
-                (Ending::BudgetSpent, Some("a limit of the planner's own was reached".to_owned()))
-            }
-            End::TimeSpent => {
-                (Ending::TimeSpent, Some(format!("{} s were spent", self.program.limits.time_s)))
-            }
-            End::Broken(why) => (Ending::Crashed, Some(why)),
-        };
+        let (ending, reason) = ended(&talk, self.program.limits.time_s);
         Ok(Plan { ending, path: talk.path, cost, counts, exhibits, reason })
     }
 
@@ -222,6 +212,23 @@ impl Planner for External {
         let folders = std::env::var_os("PATH").unwrap_or_default();
         let is_there = std::env::split_paths(&folders).any(|folder| folder.join(name).is_file());
         (!is_there).then_some(missing)
+    }
+}
+
+/// How the trial ended and why. A path has a reason too, the end of the planner's log: it is read where the path is refused.
+fn ended(talk: &Talk, time_s: f64) -> (Ending, Option<String>) {
+    let log = (!talk.log.is_empty()).then(|| format!("its log ends: {}", talk.log));
+    match &talk.end {
+        End::Solved => (Ending::Solved, log),
+        End::NoPath => (Ending::NoPath, None),
+        End::BudgetSpent => {
+            (Ending::BudgetSpent, Some("a limit of the planner's own was reached".to_owned()))
+        }
+        End::TimeSpent => {
+            let spent = format!("{time_s} s were spent");
+            (Ending::TimeSpent, Some(log.map_or(spent.clone(), |log| format!("{spent}; {log}"))))
+        }
+        End::Broken(why) => (Ending::Crashed, Some(why.clone())),
     }
 }
 

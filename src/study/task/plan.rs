@@ -144,6 +144,11 @@ impl Trial<'_> {
             Ok(Ok(mut plan)) => {
                 let verified = verification::verify(&request, &plan, &self.entrant.pipeline, truth);
                 (row.status, row.reason) = verified.outcome;
+                if row.status == Status::Rejected {
+                    // The verifier's word first, then the planner's.
+                    row.reason =
+                        row.reason.into_iter().chain(plan.reason.take()).reduce(|a, b| format!("{a}; {b}"));
+                }
                 row.values
                     .extend(plan.counts.iter().chain(&verified.values).map(|(name, value)| (*name, *value)));
                 if trace {

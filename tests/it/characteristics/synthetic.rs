@@ -109,6 +109,7 @@ fn manifest() -> Manifest {
         quick: false,
         seed: 1,
         axes: Vec::new(),
+        recorded: Vec::new(),
         defaults: Vec::new(),
         readings: vec![Vec::new()],
         spec: String::new(),

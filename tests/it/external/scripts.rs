@@ -37,6 +37,14 @@ pub const SILENT: Case = case(
     "the planner said no `hello` within 10 s; its log ends: still loading",
 );
 
+/// Returns the straight line whatever the world, so that its path is shorter than any there is.
+pub const SHORTER: Case = case(
+    "shorter-than-optimal",
+    "hello; query; echo 'a new record' >&2; sleep 0.1; straight; query",
+    "rejected",
+    "; its log ends: a new record",
+);
+
 /// The other cases, the sound ones among them.
 pub const CASES: &[Case] = &[
     case("good", "hello; while query; do straight; done", "solved", ""),
@@ -61,7 +69,12 @@ pub const CASES: &[Case] = &[
         "ended before its result (exit status: 3); its log ends: oops",
     ),
     case("killed", "hello; query; kill -9 $$", "crashed", "(signal: 9"),
-    case("hang", "hello; query; sleep 100", "time_spent", "0.5 s were spent"),
+    case(
+        "hang",
+        "hello; query; echo 'still searching' >&2; sleep 100",
+        "time_spent",
+        "0.5 s were spent; its log ends: still searching",
+    ),
     case("spin", "hello; query; while :; do :; done", "time_spent", "0.5 s were spent"),
     case(
         "deaf-to-term",

@@ -25,20 +25,19 @@ fn published() -> Vec<(&'static str, Arm, &'static str)> {
         ("ur5", arm(&UR5), "offset_wrist"),
         ("ur5, modified", modified_arm(&UR5_MODIFIED), "offset_wrist"),
         ("ur5, turned", arm(&UR5_TURNED), "offset_wrist"),
-        ("up6", up6(), "spherical_wrist"),
+        ("up6", shipped("motoman_up6"), "spherical_wrist"),
     ];
-    let by_urdf = [("puma, urdf", arm(&PUMA)), ("ur5, urdf", arm(&UR5)), ("up6, urdf", up6())];
+    let by_urdf =
+        [("puma, urdf", arm(&PUMA)), ("ur5, urdf", arm(&UR5)), ("up6, urdf", shipped("motoman_up6"))];
     arms.extend(by_urdf.map(|(name, arm)| (name, read_back(&arm), arm.solver().name)));
+    arms.push(("aubo", shipped("aubo_i10"), "offset_wrist"));
     arms
 }
 
-/// The rows of the shipped UP6, whose shoulder is offset, with joints that turn half a turn either way.
-fn up6() -> Arm {
-    let rows = robot("motoman_up6").arm().chain().joints().map(|joint| Joint {
-        lower_rad: -PI,
-        upper_rad: PI,
-        ..joint
-    });
+/// The rows of a shipped arm with joints that turn half a turn either way.
+fn shipped(name: &str) -> Arm {
+    let rows =
+        robot(name).arm().chain().joints().map(|joint| Joint { lower_rad: -PI, upper_rad: PI, ..joint });
     Arm::new(Chain::new(rows, Frame::IDENTITY, Frame::IDENTITY).unwrap(), None).unwrap()
 }
 
@@ -173,7 +172,7 @@ fn singular_poses_are_reached_to_a_nanometre() {
     let nearly = [0.0, 1e-14, 1e-12, 9e-11, 1.1e-10, 1e-9, 1e-8, 1e-6];
     for (seed, (name, arm, _)) in (751..).zip(published()) {
         let (mut stream, mut refused, mut twice) = (seed::stream(seed), 0, 0);
-        for index in 0..12_000 {
+        for index in 0..100_000 {
             let mut q = draw(&mut stream, arm.chain());
             let by = nearly[index / 24 % nearly.len()] * if index % 2 == 0 { 1.0 } else { -1.0 };
             let kind = index % 24 / 2;
@@ -192,8 +191,11 @@ fn singular_poses_are_reached_to_a_nanometre() {
             let mut reference = draw(&mut stream, arm.chain());
             reference[5] = q[5];
             let found = held(&arm, &q, &reference, &place);
-            // At the edge of reach in two ways at once, rounding decides.
-            let is_twice_at_the_edge = kind & 2 != 0 && kind >= 4;
+            // At the edge of reach in two ways at once, rounding decides. So it does where one of them comes by chance: an elbow
+            // within a milliradian of the edge leaves some 1e-7 m, as much as a wrist of 1e-10 rad leaves undecided.
+            let [elbow, wrist] = arm.solver.folds_rad(&q).map(|fold| libm::sin(fold).abs() < 1e-3);
+            let is_by_chance = kind & 3 != 3 && elbow && (wrist || kind >= 4);
+            let is_twice_at_the_edge = kind & 2 != 0 && kind >= 4 || is_by_chance;
             assert!(found > 0 || is_twice_at_the_edge, "{place}: not reached");
             refused += u32::from(found == 0);
             twice += u32::from(is_twice_at_the_edge);

@@ -11,6 +11,9 @@ use rand::RngExt as _;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::fmt::Write as _;
 
+/// A solid, without which a robot is refused.
+const BALL: &str = "<collision><geometry><sphere radius=\"0.01\"/></geometry></collision>";
+
 /// The chain's rows as URDF: a link welded on is turned by a row's offset, each joint turns about the z of its frame, and a row's
 /// length and twist lead to the next.
 fn urdf(chain: &Chain, solids: &str) -> String {
@@ -41,7 +44,7 @@ fn urdf(chain: &Chain, solids: &str) -> String {
 
 /// The arm, which stands at the origin without a tool, as a URDF file of it is read.
 pub fn read_back(arm: &Arm) -> Arm {
-    urdf::robot(&parsed(urdf(arm.chain(), ""))).unwrap().arm().clone()
+    urdf::robot(&parsed(urdf(arm.chain(), BALL))).unwrap().arm().clone()
 }
 
 fn parsed(text: String) -> base::robot::Robot {
@@ -87,7 +90,7 @@ fn shipped_arms_written_as_urdf_keep_their_kinematics_and_their_closed_form() {
 fn skew_axes_in_frames_of_any_kind_keep_their_kinematics_and_take_the_search() {
     let mut stream = seed::stream(3);
     for case in 0..20 {
-        let mut text = "<robot name=\"skew\"><link name=\"l0\"/>".to_owned();
+        let mut text = format!("<robot name=\"skew\"><link name=\"l0\">{BALL}</link>");
         for i in 0..AXES {
             let mut three = |size: f64| {
                 let numbers = [0; 3].map(|_| format!("{:?}", stream.random_range(-size..size)));

@@ -168,7 +168,7 @@ def serve(
 def is_free(world: dict[str, Any], x: int, y: int) -> bool:
     """Whether a cell of a grid is inside and free."""
     width, height = world["size"]
-    return 0 <= x < width and 0 <= y < height and world["rows"][y][x] == "."
+    return 0 <= x < width and 0 <= y < height and bool(world["rows"][y][x] == ".")
 
 
 def neighbours(world: dict[str, Any], x: int, y: int) -> list[tuple[int, int, float]]:
