@@ -24,6 +24,7 @@ use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use walk::Guards;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -38,6 +39,7 @@ search = "greedy"
 cluster = false
 last_resort = false
 legs = "as_walked"
+guards = ["faces", "off", "free", "once", "whole"]
 "#,
     build: Build::Planner(|settings| {
         let read: Keynode = settings.read()?;
@@ -45,6 +47,10 @@ legs = "as_walked"
             let key = if read.cluster { "cluster" } else { "last_resort" };
             let message = format!("{key} belongs to search = \"open_list\"; false is accepted here");
             return Err(settings.error_at(key, message));
+        }
+        if read.search != Mode::Greedy && read.guards.is_some() {
+            let message = "guards belong to search = \"greedy\"; no such key is accepted here".to_owned();
+            return Err(settings.error_at("guards", message));
         }
         Ok(Box::new(read))
     }),
@@ -74,6 +80,39 @@ struct Keynode {
     /// What becomes of the stretch between two key nodes once the second one is reached.
     #[serde(default)]
     legs: Legs,
+    /// Which guards the greedy walk has; all of them if absent.
+    guards: Option<Vec<Guard>>,
+}
+
+/// What the printed walk lacks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Guard {
+    /// A face on whose plane the walk stands is in front of it.
+    Faces,
+    /// Key nodes stand off their edge.
+    Off,
+    /// Key nodes in an obstacle, outside the domain, or where the walk stands are passed over.
+    Free,
+    /// No edge is taken twice.
+    Once,
+    /// Ways are tested whole, not at their nodes alone.
+    Whole,
+}
+
+impl Keynode {
+    /// The guards of the greedy walk.
+    fn guards(&self) -> Guards {
+        let Some(named) = &self.guards else { return Guards::ALL };
+        let has = |guard| named.contains(&guard);
+        Guards {
+            faces: has(Guard::Faces),
+            off: has(Guard::Off),
+            free: has(Guard::Free),
+            once: has(Guard::Once),
+            whole: has(Guard::Whole),
+        }
+    }
 }
 
 /// What becomes of the nodes between two key nodes.
@@ -126,8 +165,8 @@ impl Planner for Keynode {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
         let mut walked = match self.search {
-            Mode::Literal => walk::walk(&posed, false, request.expansions),
-            Mode::Greedy => walk::walk(&posed, true, request.expansions),
+            Mode::Literal => walk::walk(&posed, Guards::NONE, request.expansions),
+            Mode::Greedy => walk::walk(&posed, self.guards(), request.expansions),
             Mode::OpenList => open::search(&posed, self.cluster, request.expansions),
         };
         let falls_back = self.last_resort && walked.ending == Ending::NoPath;

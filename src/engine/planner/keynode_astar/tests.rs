@@ -4,7 +4,9 @@ use crate::geometry::{Aabb, Convex, Segment, Vec3};
 use crate::planner::{Build, Ending, Entry, Plan, Planner, Request, Value, find};
 use crate::shorten::path_length;
 use crate::space::{PolyhedraWorld, World};
+use base::seed;
 use base::settings::Settings;
+use rand::RngExt as _;
 
 const FULL: &str = "search = 'open_list'\ncluster = true\nlast_resort = true";
 const CLUSTER: &str = "search = 'open_list'\ncluster = true\nlast_resort = false";
@@ -74,6 +76,44 @@ fn round_a_single_cube_all_but_the_printed_search_find_a_way_near_the_shortest()
     assert!(star.cost.unwrap() < truth * 1.1 && star.counts["opened"].as_f64() > 200.0, "{:?}", star.counts);
     // The printed walk climbs to the first edge and has no face in front of it there.
     assert_eq!(keynode(LITERAL, &world, ACROSS).ending, Ending::NoPath);
+}
+
+#[test]
+fn the_walk_with_no_guard_is_the_printed_one_and_with_all_the_guarded_one() {
+    let with = |guards: &str| format!("{GREEDY}\nguards = [{guards}]");
+    let all = ["faces", "off", "free", "once", "whole"].map(|guard| format!("'{guard}'"));
+    let mut stream = seed::stream(7);
+    let mut differing = 0;
+    for draw in 0..60 {
+        let boxes = (0..4).map(|_| {
+            let mut coordinate = |low: f64, high: f64| stream.random_range(low..high);
+            let center = [(); 3].map(|()| coordinate(13.0, 27.0));
+            cuboid(center, [(); 3].map(|()| coordinate(3.0, 9.0)))
+        });
+        let world = world(boxes.collect());
+        let plan = |settings: &str| {
+            let request = Request {
+                world: &world,
+                start: &ACROSS[0],
+                goal: &ACROSS[1],
+                expansions: 200,
+                seed: 0,
+                trace: false,
+            };
+            planner("keynode_astar", settings).plan(&request).unwrap()
+        };
+        let same = |a: &Plan, b: &Plan| (a.ending, &a.path) == (b.ending, &b.path) && a.counts == b.counts;
+        let (printed, guarded) = (plan(LITERAL), plan(GREEDY));
+        assert!(same(&plan(&with("")), &printed), "draw {draw}: no guard");
+        assert!(same(&plan(&with(&all.join(", "))), &guarded), "draw {draw}: all guards");
+        // Without one of them the walk is another one somewhere.
+        let fewer = |left_out: usize| {
+            let kept = (0..5).filter(|guard| *guard != left_out).map(|guard| all[guard].clone());
+            with(&kept.collect::<Vec<_>>().join(", "))
+        };
+        differing += (0..5).filter(|left_out| !same(&plan(&fewer(*left_out)), &guarded)).count();
+    }
+    assert!(differing > 20, "a guard left out changes nothing: {differing} walks");
 }
 
 #[test]

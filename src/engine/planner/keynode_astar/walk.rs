@@ -3,13 +3,40 @@
 use super::{Tally, Walked};
 use crate::geometry::{Segment, Vec3};
 use crate::planner::Ending;
-use crate::planner::key_nodes::{GUARDED, Key, PRINTED, keys};
+use crate::planner::key_nodes::{Front, GUARDED, Key, PRINTED, keys};
 use crate::planner::polyhedra::{Posed, is_within, steps};
 use crate::space::PolyhedraWorld;
 use std::collections::BTreeSet;
 
 /// A key node this near is where the walk already stands.
 const SAME_PLACE: f64 = 1e-3;
+
+/// What the walk has that the paper does not print.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Guards {
+    /// A face on whose plane the walk stands is in front of it.
+    pub(super) faces: bool,
+    /// Key nodes stand off their edge.
+    pub(super) off: bool,
+    /// Key nodes in an obstacle, outside the domain, or where the walk stands are passed over.
+    pub(super) free: bool,
+    /// No edge is taken twice.
+    pub(super) once: bool,
+    /// Ways are tested whole, not at their nodes alone.
+    pub(super) whole: bool,
+}
+
+impl Guards {
+    /// As printed.
+    pub(super) const NONE: Self = Self { faces: false, off: false, free: false, once: false, whole: false };
+    /// Those without which the walk stops on the first edge, or comes back to it.
+    pub(super) const ALL: Self = Self { faces: true, off: true, free: true, once: true, whole: true };
+
+    fn front(self) -> Front {
+        let above = if self.faces { GUARDED.above } else { PRINTED.above };
+        Front { above, push: if self.off { GUARDED.push } else { PRINTED.push } }
+    }
+}
 
 /// How a stretch of the walk ended.
 enum Leg {
@@ -20,18 +47,18 @@ enum Leg {
 /// A walk under way.
 struct Walk<'a> {
     posed: &'a Posed<'a>,
-    guarded: bool,
+    guards: Guards,
     points: Vec<Vec3>,
     keys: Vec<usize>,
     used: BTreeSet<(usize, usize)>,
     tally: Tally,
 }
 
-/// Walks from start to goal, as printed or with the guards that keep it from stopping on the first edge.
-pub(super) fn walk(posed: &Posed<'_>, guarded: bool, max_legs: u64) -> Walked {
+/// Walks from start to goal, with these guards beside what is printed.
+pub(super) fn walk(posed: &Posed<'_>, guards: Guards, max_legs: u64) -> Walked {
     let mut walk = Walk {
         posed,
-        guarded,
+        guards,
         points: vec![posed.start],
         keys: Vec::new(),
         used: BTreeSet::new(),
@@ -74,12 +101,12 @@ impl Walk<'_> {
         let way = Segment::new(from, target);
         let length = (target - from).norm();
         let count = steps(length, step);
-        let hit = if self.guarded { world.first_hit(&way) } else { None };
+        let hit = if self.guards.whole { world.first_hit(&way) } else { None };
         for k in 1..=count {
             let share = if k == count { 1.0 } else { k as f64 * step / length };
             self.tally.opened += 1;
             let child = way.at(share);
-            let blocking = match (self.guarded, hit) {
+            let blocking = match (self.guards.whole, hit) {
                 (true, Some(hit)) => (hit.share <= share).then_some(hit.obstacle),
                 (true, None) => None,
                 (false, _) => interior(world, &child),
@@ -95,22 +122,19 @@ impl Walk<'_> {
     /// The key node with the least cost; `None` if there is none to go to.
     fn choose(&mut self, obstacle: usize) -> Option<Key> {
         let Posed { world, goal, .. } = *self.posed;
-        let here = self.here();
-        let front = if self.guarded { GUARDED } else { PRINTED };
-        let found = keys(&world.obstacles()[obstacle], &here, &goal, front);
+        let (here, guards) = (self.here(), self.guards);
+        let found = keys(&world.obstacles()[obstacle], &here, &goal, guards.front());
         self.tally.opened += found.len() as u64;
         self.tally.generated += found.len() as u64;
-        let is_allowed = |key: &&Key| {
-            !self.guarded
-                || ((key.point - here).norm() > SAME_PLACE
-                    && world.is_free(&key.point)
-                    && is_within(world, &key.point)
-                    && !self.used.contains(&(obstacle, key.edge)))
-        };
+        let is_elsewhere = |key: &Key| (key.point - here).norm() > SAME_PLACE;
+        let is_open =
+            |key: &Key| is_elsewhere(key) && world.is_free(&key.point) && is_within(world, &key.point);
+        let is_new = |key: &Key| !self.used.contains(&(obstacle, key.edge));
+        let is_allowed = |key: &&Key| (!guards.free || is_open(key)) && (!guards.once || is_new(key));
         let best = found.iter().filter(is_allowed).min_by(|a, b| a.detour.total_cmp(&b.detour)).copied()?;
         self.used.insert((obstacle, best.edge));
-        // Without guards the best key node may be the point that the walk stands on: it has nowhere to go.
-        (self.guarded || (best.point - here).norm() > SAME_PLACE).then_some(best)
+        // As printed the best key node may be the point that the walk stands on: it has nowhere to go.
+        is_elsewhere(&best).then_some(best)
     }
 }
 
