@@ -13,6 +13,8 @@ from statistics_judge.records import Places, Reals, Study
 from statistics_judge.selection import groups_of, labels, matched, posed
 from statistics_judge.sizes import printed
 
+# Numbers whose ratio is nearer to one are equal.
+EQUAL = 1e-9
 # What leaves out some of a contender's trials.
 NARROWED = ("query", "sweep")
 
@@ -96,8 +98,8 @@ def middle(values: Reals) -> float:
 
 
 def over(above: float, below: float) -> float:
-    """A ratio; two zeros and two failures are equal."""
-    if above == below:
+    """A ratio; two zeros and two failures are equal, and so are sums of the same steps in another order."""
+    if above == below or abs(above - below) <= EQUAL * abs(below) < np.inf:
         return 1.0
     return np.inf if below == 0 else above / below
 

@@ -146,6 +146,8 @@ def test_a_row_like_the_draws_is_near_and_an_opposite_one_far() -> None:
 
 def test_zeros_and_failures_are_equal_to_themselves() -> None:
     assert [over(0, 0), over(np.inf, np.inf), over(1, np.inf), over(1, 0)] == [1, 1, 0, np.inf]
+    # Sums of the same steps in another order.
+    assert over(0.3 + 0.2 + 0.1, 0.1 + 0.2 + 0.3) == 1
 
 
 def test_what_lowers_a_class_raises_none() -> None:

@@ -20,6 +20,7 @@ use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
+use stats::paired::EQUAL;
 use stats::summary::median;
 use std::collections::BTreeMap;
 
@@ -247,8 +248,9 @@ fn outcome(all: &[Compared], limit: f64) -> Outcome {
 }
 
 fn ratio(a: f64, b: f64) -> f64 {
-    // Two zeros and two failures are equal.
-    if a == b { 1.0 } else { a / b }
+    // Two zeros and two failures are equal, and so are sums of the same steps in another order.
+    let ratio = a / b;
+    if a == b || (ratio - 1.0).abs() <= EQUAL { 1.0 } else { ratio }
 }
 
 /// What set inclusion says of the comparisons, where it says anything.

@@ -71,15 +71,19 @@ mod tests {
     }
 
     #[test]
-    fn the_octagons_of_48_and_80_steps_are_the_discs_of_radius_4_and_5() {
+    fn the_octagons_of_8_and_24_steps_are_squares_and_those_of_48_and_80_discs() {
         assert_eq!(Offsets::octagon_on_corners(4), Offsets::disc(4));
-        // No whole radius gives 80; one of 5.25 does.
-        let in_it = |dx: i32, dy: i32| {
-            let (long, short) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
-            f64::from(long) + (2.0_f64.sqrt() - 1.0) * f64::from(short) <= 5.25
-        };
-        assert_eq!(Offsets::within(9, in_it), Offsets::disc(5));
         assert_ne!(Offsets::octagon_on_corners(5), Offsets::disc(5));
+        // Of these none but 48 has a whole radius.
+        let octagon = |radius: f64| {
+            let is_in = |dx: i32, dy: i32| {
+                let (long, short) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+                f64::from(long) + (2.0_f64.sqrt() - 1.0) * f64::from(short) <= radius
+            };
+            Offsets::within(9, is_in)
+        };
+        let same = [Offsets::square(1), Offsets::square(2), Offsets::disc(4), Offsets::disc(5)];
+        assert_eq!([1.5, 2.9, 4.0, 5.25].map(octagon), same);
     }
 
     #[test]

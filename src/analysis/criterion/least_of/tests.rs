@@ -40,3 +40,14 @@ fn zeros_and_failures_are_equal_to_themselves() {
     assert_eq!([ratio(0.0, 0.0), ratio(f64::INFINITY, f64::INFINITY), ratio(1.0, 2.0)], [1.0, 1.0, 0.5]);
     assert_eq!([ratio(1.0, f64::INFINITY), ratio(1.0, 0.0)], [0.0, f64::INFINITY]);
 }
+
+#[test]
+fn sums_of_the_same_steps_in_another_order_are_equal() {
+    let steps = [0.1, 0.2, 0.3];
+    let sum = |sum: f64, step: &f64| sum + step;
+    let (forth, back) = (steps.iter().fold(0.0, sum), steps.iter().rfold(0.0, sum));
+    assert!(back < forth, "{back} and {forth}: nothing is tried");
+    assert_eq!([ratio(back, forth), ratio(forth, back)], [1.0, 1.0]);
+    let found = outcome(&[compared([ratio(back, forth); 2])], 1.0);
+    assert_eq!(found, Outcome::Fails, "equal is not less");
+}
