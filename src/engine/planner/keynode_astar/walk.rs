@@ -13,6 +13,7 @@ const SAME_PLACE: f64 = 1e-3;
 
 /// What the walk has that the paper does not print.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "each guard is there or not whatever the others are")]
 pub(super) struct Guards {
     /// A face on whose plane the walk stands is in front of it.
     pub(super) faces: bool,
