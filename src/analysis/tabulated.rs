@@ -35,12 +35,7 @@ pub fn grid(evidence: &Evidence<'_>, table: &ResultsSpec) -> Result<Grid, String
     let row = |block: &BlockSpec, label: &String| {
         let cells = table.cells.iter().zip(&metrics).map(|(cell, metric)| {
             let group = if cell.beside { block.beside.as_ref() } else { Some(&block.problems) };
-            let group = group.map_or("", |group| group.get_ref());
-            if cell.show == Show::Prepared {
-                shown(prepared(run, group, label, metric), cell)
-            } else {
-                cell_of(run, &run.rows(group, label), cell, metric)
-            }
+            cell_of(run, group.map_or("", |group| group.get_ref()), label, cell, metric)
         });
         std::iter::once(label.clone()).chain(cells).collect::<Vec<String>>()
     };
@@ -69,17 +64,12 @@ fn prepared(run: &Run<'_>, group: &str, label: &str, metric: &Metric) -> Option<
     statistic::median(&counts).filter(|_| searches && !contender.is_recorded())
 }
 
-/// `value` as `cell` shows it; a dash if there is none.
-fn shown(value: Option<f64>, cell: &CellSpec) -> String {
-    value.map_or_else(|| "–".to_owned(), |value| number(value, cell.decimals))
-}
-
-fn number(value: f64, decimals: usize) -> String {
-    if value.is_finite() { format!("{value:.decimals$}") } else { "∞".to_owned() }
-}
-
-fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> String {
-    let number = |value: f64| number(value, cell.decimals);
+/// What `cell` shows of the trials of the contender called `label` in a problem group; a dash if there is nothing.
+fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Metric) -> String {
+    let number = |value: f64| {
+        if value.is_finite() { format!("{value:.*}", cell.decimals) } else { "∞".to_owned() }
+    };
+    let rows = run.rows(group, label);
     let measured: Vec<_> = rows.iter().map(|row| (row.is_solved(), run.value(row, metric))).collect();
     let values = with_failures(&measured, metric.is_clock());
     let quantile = |share: f64| statistic::quantile(&values, share);
@@ -103,7 +93,7 @@ fn cell_of(run: &Run<'_>, rows: &[&Row], cell: &CellSpec, metric: &Metric) -> St
             statistic::median(&failed).map(number)
         }
         Show::Value => rows.iter().find_map(|row| run.value(row, metric)).map(number),
-        Show::Prepared => unreachable!("it is of no trial"),
+        Show::Prepared => prepared(run, group, label, metric).map(number),
     };
     found.unwrap_or_else(|| "–".to_owned())
 }

@@ -191,11 +191,13 @@ impl Manifest {
     /// Whether the run that `before` describes gave all that this one would give, readings of the clock among it: a run that
     /// was put together of parts has none yet.
     pub fn is_as(&self, before: &Self) -> bool {
-        let what = |of: &Self| {
-            let Self { spec, depends, recorded, axes, readings, shard, sessions, .. } = of.clone();
-            (spec, depends, recorded, axes, readings, shard, sessions.is_empty())
-        };
-        what(self) == what(before)
+        self.gives() == before.gives()
+    }
+
+    /// What says which trials and readings of the clock the run gave.
+    fn gives(&self) -> impl PartialEq {
+        let Self { spec, depends, recorded, axes, readings, shard, sessions, .. } = self;
+        (spec, depends, recorded, axes, readings, shard, sessions.is_empty())
     }
 
     /// Whether trials ran under the reading.
