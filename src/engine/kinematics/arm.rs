@@ -76,13 +76,25 @@ impl Arm {
         self.solver.branch_of(q)
     }
 
-    /// The least distance, in the space of joint angles, from `reference` to a configuration that has the elbow or the
-    /// wrist of `q` the other way round. What is nearer to `reference` than this is nearer than they are.
+    /// The least distances, in the space of joint angles, from `reference` to a configuration that has the elbow of `q` the
+    /// other way round, and to one that has its wrist so.
+    #[inline]
+    pub fn flips_rad(&self, q: &Joints, reference: &Joints) -> [f64; 2] {
+        let (own, other) = (self.solver.folds_rad(q), self.solver.folds_rad(reference));
+        [0, 1].map(|i: usize| wrapped(own[i] + other[i]).abs())
+    }
+
+    /// The lesser of [`flips_rad`](Self::flips_rad). What is nearer to `reference` than this is nearer than they are.
     #[inline]
     pub fn nearest_flip_rad(&self, q: &Joints, reference: &Joints) -> f64 {
-        let (own, other) = (self.solver.folds_rad(q), self.solver.folds_rad(reference));
-        let apart = |i: usize| wrapped(own[i] + other[i]).abs();
-        apart(0).min(apart(1))
+        let [elbow_rad, wrist_rad] = self.flips_rad(q, reference);
+        elbow_rad.min(wrist_rad)
+    }
+
+    /// The configuration of the tool's pose at `q` that has the wrist the other way round, without regard to limits: see
+    /// [`Solver::other_wrist`].
+    pub fn other_wrist(&self, q: &Joints) -> Option<Joints> {
+        self.solver.other_wrist(q)
     }
 
     /// The angle between the two links of the arm: 0 where the elbow is stretched, half a turn where it is folded.

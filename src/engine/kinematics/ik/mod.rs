@@ -118,6 +118,12 @@ pub trait Solver: Debug + Send + Sync {
     /// a turn).
     fn folds_rad(&self, q: &Joints) -> [f64; 2];
 
+    /// The configuration of the same pose as `q` that has the wrist the other way round; `None` unless every further one has
+    /// the elbow the other way round or joint 1 half a turn away.
+    fn other_wrist(&self, _q: &Joints) -> Option<Joints> {
+        None
+    }
+
     /// A configuration on one branch that puts the flange at `flange`, given in the base.
     fn solve(&self, flange: &Frame, branch: Branch, reference: &Joints) -> Option<Joints>;
 

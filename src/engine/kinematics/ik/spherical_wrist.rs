@@ -163,6 +163,15 @@ impl Solver for SphericalWrist {
         [self.form.turns.theta(2, q) - self.forearm_angle, self.form.turns.theta(4, q)]
     }
 
+    fn other_wrist(&self, q: &Joints) -> Option<Joints> {
+        // With an offset of the shoulder the arm reaches back at another angle than half a turn.
+        let turns = &self.form.turns;
+        (self.shoulder == 0.0).then(|| {
+            let [first, second, third, fourth, fifth, sixth] = std::array::from_fn(|i| turns.theta(i, q));
+            turns.joints(&[first, second, third, fourth + PI, -fifth, sixth + PI])
+        })
+    }
+
     fn solve(&self, flange: &Frame, branch: Branch, reference: &Joints) -> Option<Joints> {
         let flange = self.form.last_frame(flange);
         let plane = self.plane(&self.wrist_center(&flange), branch.shoulder(), reference)?;

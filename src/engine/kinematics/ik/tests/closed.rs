@@ -7,7 +7,7 @@ use super::{
     },
     *,
 };
-use crate::kinematics::{Joint, robot::tests::urdf::read_back};
+use crate::kinematics::{Joint, angle::wrapped, robot::tests::urdf::read_back};
 use base::seed::Stream;
 
 /// How far two poses are apart: metres and radians.
@@ -74,6 +74,32 @@ fn published_arms_get_every_branch_to_a_nanometre_and_the_configuration_drawn_is
     }
 }
 
+#[test]
+fn besides_the_other_wrist_all_have_the_other_elbow_or_joint_1_half_a_turn_away() {
+    let near = |a: f64, b: f64| wrapped(a - b).abs() < 1e-5;
+    for (seed, (name, arm, _)) in (771..).zip(published()) {
+        let (mut stream, mut told) = (seed::stream(seed), 0);
+        for index in 0..2_000 {
+            let q = draw(&mut stream, arm.chain());
+            let Some(other) = arm.other_wrist(&q) else { continue };
+            let (own, place) = (arm.branch_of(&q), format!("{name}, seed {seed} case {index}: {q:?}"));
+            for (branch, found) in arm.inverse(&arm.chain().forward(&q), &q).iter() {
+                if branch.shoulder() != own.shoulder() {
+                    assert!(near(found[0], q[0] + PI), "{place}: {found:?}");
+                } else if branch.elbow() != own.elbow() {
+                    let [there, here] = [found, &q].map(|q| arm.elbow_fold_rad(q));
+                    assert!(near(there, -here), "{place}: {found:?}");
+                } else if branch.wrist() != own.wrist() {
+                    assert!((0..6).all(|i| near(found[i], other[i])), "{place}: {found:?} and {other:?}");
+                    told += 1;
+                }
+            }
+        }
+        let has_law = name.starts_with("up6");
+        assert_eq!(told > 1_900, has_law, "{name}: {told}");
+    }
+}
+
 /// A table of the shape of a solver with any signs, turns and offsets.
 fn drawn_table(stream: &mut Stream, is_spherical: bool) -> tables::Table {
     let mut either = |a: f64, b: f64| if stream.random_bool(0.5) { a } else { b };
@@ -136,13 +162,13 @@ fn closed_forms_hold_for_any_signs_turned_axes_and_shared_offsets() {
 /// `q` with the fold `which` (0 elbow, 1 wrist) at `at_rad`.
 fn folded(arm: &Arm, q: &Joints, which: usize, at_rad: f64) -> Joints {
     let joint = [2, 4][which];
-    let off = crate::kinematics::angle::wrapped(arm.solver.folds_rad(q)[which] - at_rad);
+    let off = wrapped(arm.solver.folds_rad(q)[which] - at_rad);
     let moved = |by: f64| {
         let mut q = *q;
-        q[joint] = crate::kinematics::angle::wrapped(q[joint] + by);
+        q[joint] = wrapped(q[joint] + by);
         q
     };
-    let rest = |q: &Joints| crate::kinematics::angle::wrapped(arm.solver.folds_rad(q)[which] - at_rad).abs();
+    let rest = |q: &Joints| wrapped(arm.solver.folds_rad(q)[which] - at_rad).abs();
     let [down, up] = [moved(-off), moved(off)];
     if rest(&down) < rest(&up) { down } else { up }
 }

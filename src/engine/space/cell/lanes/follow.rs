@@ -43,13 +43,6 @@ fn allowed_copy(joint: &Joint, angle_rad: f64, reference_rad: f64) -> Option<Res
     }
 }
 
-/// The configuration reached so far.
-struct Reached {
-    q: Joints,
-    /// Whether it is the scalar code's to the last bit.
-    is_exact: bool,
-}
-
 impl Lines {
     /// Writes the configurations along `way` into `states`; steps in doubt are taken by the scalar code. `None` if the end
     /// is in doubt, or if the arm has no lanes.
@@ -66,28 +59,35 @@ impl Lines {
         let pace = self.pace(way);
         let steps = pace.steps as u32;
         states.clear();
-        states.push(from.q);
-        let mut last = Reached { q: from.q, is_exact: true };
+        states.resize(steps as usize + 1, [0.0; AXES]);
+        states[0] = from.q;
+        let mut is_exact = true;
         for first in (1..=steps).step_by(LANES) {
             let shares: Row = std::array::from_fn(|lane| pace.share(first + lane as u32).min(1.0));
             let poses = dispatch!(level(), simd => way.at_lanes(simd, shares));
             let found = self.cell.robot.arm().solve_lanes(&poses, from.branch)?;
             for step in first..=steps.min(first + LANES as u32 - 1) {
-                let sure = self.sure_step(&found, (step - first) as usize, &pace, step, &last.q);
-                let keeps = |q: &Joints| self.surely_keeps(way, from.branch, &pace, step, [&last.q, q]);
-                let sure = sure.filter(|taken| taken.as_ref().map_or(true, keeps));
-                let taken = sure.map(|taken| taken.map(|q| Reached { q, is_exact: false }));
-                match taken.unwrap_or_else(|| self.exact_step(way, from.branch, &pace, step, &last)) {
-                    Ok(reached) => last = reached,
-                    Err(reason) => return Some(Err(reason)),
+                let [last, next] = &mut states[step as usize - 1..=step as usize] else {
+                    unreachable!("two")
+                };
+                // The angles are written where they stay: copied, they would be waited for.
+                let sure = self.sure_step(&found, (step - first) as usize, &pace, step, last, next);
+                match sure {
+                    Some(Err(reason)) => return Some(Err(reason)),
+                    Some(Ok(())) if self.surely_keeps(way, from.branch, &pace, step, [last, next]) => {
+                        is_exact = false;
+                    }
+                    _ => match self.exact_step(way, from.branch, &pace, step, (last, is_exact)) {
+                        Ok(q) => (*next, is_exact) = (q, true),
+                        Err(reason) => return Some(Err(reason)),
+                    },
                 }
-                states.push(last.q);
             }
         }
-        self.arrives_surely(&last.q, &to.q)
+        self.arrives_surely(&states[steps as usize], &to.q)
     }
 
-    /// One step by the scalar code, from where the scalar code would be.
+    /// One step by the scalar code, from where the scalar code would be: at `last`, if that is its own to the last bit.
     #[cold]
     fn exact_step(
         &self,
@@ -95,19 +95,19 @@ impl Lines {
         branch: Branch,
         pace: &Pace,
         step: u32,
-        last: &Reached,
-    ) -> Result<Reached, Rejection> {
+        (last, is_exact): (&Joints, bool),
+    ) -> Result<Joints, Rejection> {
         // A sure configuration is regular and away from limits: as its own reference it comes back with all its bits.
-        let exact = if last.is_exact {
-            last.q
+        let exact = if is_exact {
+            *last
         } else {
-            let before = self.cell.robot.arm().follow(&way.at(pace.share(step - 1)), branch, &last.q);
+            let before = self.cell.robot.arm().follow(&way.at(pace.share(step - 1)), branch, last);
             before.expect("the lanes were sure of this configuration")
         };
-        self.step(way, branch, pace, step, &exact).map(|q| Reached { q, is_exact: true })
+        self.step(way, branch, pace, step, &exact)
     }
 
-    /// One step by the lanes; `None` in doubt.
+    /// One step by the lanes, to `next`; `None` in doubt.
     #[inline]
     fn sure_step(
         &self,
@@ -116,36 +116,66 @@ impl Lines {
         pace: &Pace,
         step: u32,
         last: &Joints,
-    ) -> Option<Result<Joints, Rejection>> {
+        next: &mut Joints,
+    ) -> Option<Result<(), Rejection>> {
         if found.unreachable >> lane & 1 == 1 {
             return Some(Err(Rejection::Unreachable));
         }
         if found.solved >> lane & 1 == 0 {
             return None;
         }
-        let (rules, arm) = (&self.rules, self.cell.robot.arm());
-        let mut q = [0.0; AXES];
-        for (i, joint) in arm.chain().joints().iter().enumerate() {
+        for (i, joint) in self.cell.robot.arm().chain().joints().iter().enumerate() {
             match allowed_copy(joint, found.q[i][lane], last[i])? {
-                Ok(copy) => q[i] = copy,
+                Ok(copy) => next[i] = copy,
                 Err(reason) => return Some(Err(reason)),
             }
         }
-        let change2: f64 = q.iter().zip(last).map(|(a, b)| (a - b) * (a - b)).sum();
-        let flip_rad = arm.nearest_flip_rad(&q, last);
-        if exceeds(change2, flip_rad * flip_rad)? {
-            // Another branch may be nearer; all of them are asked one by one.
-            return None;
+        if self.surely_leaves_branch(next, last)? {
+            return Some(Err(Rejection::Branch));
         }
-        let change = largest_change(&q, last);
-        if exceeds(change, rules.jump_rad)? {
+        let change = largest_change(next, last);
+        if exceeds(change, self.rules.jump_rad)? {
             let reason = if exceeds(change, 0.9 * TAU)? { Rejection::Limits } else { Rejection::Jump };
             return Some(Err(reason));
         }
-        if self.is_too_fast(pace, step, last, &q)? {
+        if self.is_too_fast(pace, step, last, next)? {
             return Some(Err(Rejection::Speed));
         }
-        Some(Ok(q))
+        Some(Ok(()))
+    }
+
+    /// Whether another branch offers a smaller change than `q` does from `last`; `None` in doubt.
+    #[inline]
+    fn surely_leaves_branch(&self, q: &Joints, last: &Joints) -> Option<bool> {
+        let change2: f64 = q.iter().zip(last).map(|(a, b)| (a - b) * (a - b)).sum();
+        let flips_rad = self.cell.robot.arm().flips_rad(q, last);
+        let nearest_rad = flips_rad[0].min(flips_rad[1]);
+        if exceeds(change2, nearest_rad * nearest_rad)? {
+            self.surely_prefers_other_wrist(q, last, change2, flips_rad[0])
+        } else {
+            Some(false)
+        }
+    }
+
+    /// The same where another branch may be nearer: known if that is the one with the wrist the other way round.
+    fn surely_prefers_other_wrist(
+        &self,
+        q: &Joints,
+        last: &Joints,
+        change2: f64,
+        elbow_rad: f64,
+    ) -> Option<bool> {
+        let arm = self.cell.robot.arm();
+        let other = arm.other_wrist(q)?;
+        let mut other2 = Some(0.0);
+        for (i, joint) in arm.chain().joints().iter().enumerate() {
+            let copy = allowed_copy(joint, other[i], last[i])?.ok();
+            other2 = other2.zip(copy).map(|(sum, copy)| sum + (copy - last[i]) * (copy - last[i]));
+        }
+        let leaves = other2.map_or(Some(false), |other2| exceeds(change2, other2))?;
+        // Any further branch is at least so far; one that is nearer than both of these changes nothing.
+        let further_rad = elbow_rad.min(PI - (q[0] - last[0]).abs());
+        if leaves || !exceeds(change2, further_rad * further_rad)? { Some(leaves) } else { None }
     }
 
     /// Whether [`keeps_limits_between`](Lines::keeps_limits_between) surely holds; where it does not, the scalar code says why.
