@@ -234,16 +234,24 @@ fn dash() -> String {
     "–".to_owned()
 }
 
-/// Our number as tables show it: four decimals at most, two with its interval.
+/// Our number as tables show it: four decimals at most; with its interval two, or as many as give the largest of the three two
+/// digits that count.
 pub fn short(estimate: &Estimate) -> String {
-    rounded(estimate, 2)
+    let ends = estimate.interval.iter().flatten().map(|end| end.abs());
+    let largest = ends.fold(estimate.value.abs(), f64::max);
+    let leading = if largest == 0.0 { 0.0 } else { libm::log10(largest).floor() };
+    rounded(estimate, 1 + (-leading).clamp(1.0, 9.0) as usize)
 }
 
 /// The same with so many decimals where it has an interval.
 fn rounded(estimate: &Estimate, decimals: usize) -> String {
     match estimate.interval {
         Some([low, high]) => {
-            let coarse = |value: f64| format!("{value:.decimals$}");
+            let coarse = |value: f64| {
+                let text = format!("{value:.decimals$}");
+                let is_zero = text.bytes().all(|byte| b"-0.".contains(&byte));
+                if is_zero { text.replace('-', "") } else { text }
+            };
             format!("{} [{}, {}]", coarse(estimate.value), coarse(low), coarse(high))
         }
         None => number(estimate.value),
@@ -280,6 +288,24 @@ mod tests {
             let evidence = Evidence::read(&paper, ReadingChoice::default(), root).unwrap();
             let text = numbers(&evidence, &verdicts).unwrap();
             assert_eq!(text.contains("\n% Stand-in environments: "), has, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_small_number_beside_its_interval_keeps_two_digits() {
+        for (value, low, high, text) in [
+            (-0.0004, -0.002, 0.001, "-0.0004 [-0.0020, 0.0010]"),
+            (0.0043, 0.0038, 0.0048, "0.0043 [0.0038, 0.0048]"),
+            (-0.0193, -0.0388, -0.0012, "-0.019 [-0.039, -0.001]"),
+            (0.0, 0.0, 0.03, "0.000 [0.000, 0.030]"),
+            (-0.001, -0.002, 18.0, "0.00 [0.00, 18.00]"),
+            (0.0, 0.0, 0.0, "0.00 [0.00, 0.00]"),
+            (3e-9, 1e-9, 4e-9, "0.0000000030 [0.0000000010, 0.0000000040]"),
+            (18.149, 14.3, 22.0, "18.15 [14.30, 22.00]"),
+            (f64::INFINITY, 1.0, f64::INFINITY, "inf [1.00, inf]"),
+        ] {
+            let estimate = Estimate { interval: Some([low, high]), ..Estimate::bare(value, "", 1) };
+            assert_eq!(short(&estimate), text);
         }
     }
 

@@ -48,6 +48,9 @@ struct ClaimsByAxes {
 /// Height of a row, in points.
 const ROW_PT: f64 = 9.5;
 
+/// So many characters of a setting's name stand beside its row.
+const NAME: usize = 40;
+
 /// What an effect is called and drawn as, the least first.
 const LOOKS: [(Effect, &str, Rgb); 4] = [
     (Effect::Number, "moves the number", GRID),
@@ -71,13 +74,9 @@ fn settings(scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No reading was explored."));
     };
     let options: Vec<&str> = fitted.options.keys().map(String::as_str).collect();
-    // A setting of many options has a line's worth of name at most.
-    let name = |row: &SettingFit| match row.setting.char_indices().nth(72) {
-        Some((end, _)) => format!("{}…", &row.setting[..end]),
-        None => row.setting.clone(),
-    };
-    let names: Vec<String> = rows.iter().rev().map(name).collect();
-    let mut panel = Panel::new("", Axis::names(&fitted.id, options.iter().copied()), Axis::names("", names));
+    let (names, note) = named(rows);
+    let names = Axis::names("", names.into_iter().rev());
+    let mut panel = Panel::new("", Axis::names(&fitted.id, options.iter().copied()), names);
     let color = |row: &SettingFit, option: &str| {
         let fit = row.fits.get(option)?;
         FITS.iter().find(|(own, ..)| own == fit).map(|(_, _, color)| color.mixed(WHITE, 0.25))
@@ -91,7 +90,21 @@ fn settings(scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
         keys: FITS.map(|(_, label, color)| cell_key(label, color.mixed(WHITE, 0.25))).to_vec(),
     });
-    Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).with([Ok(panel)])
+    Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).noted(note).with([Ok(panel)])
+}
+
+/// The rows' names, from above, and in a note those that are too long to stand beside a row: there they are numbers.
+fn named(rows: &[SettingFit]) -> (Vec<String>, String) {
+    let mut long = Vec::new();
+    let name = |row: &SettingFit| {
+        if row.setting.chars().count() <= NAME {
+            return row.setting.clone();
+        }
+        long.push(format!("{}: {}", long.len() + 1, row.setting));
+        format!("setting {}", long.len())
+    };
+    let names = rows.iter().map(name).collect();
+    (names, if long.is_empty() { String::new() } else { format!("Settings {}.", long.join("; ")) })
 }
 
 fn color(across: &Across, axis: &str) -> Option<Rgb> {
@@ -147,5 +160,22 @@ impl Kind for ClaimsByAxes {
         });
         let height = rows.len() as f64 * ROW_PT + 2.0 * ROW_PT;
         Sheet::new(Width::Double, 1, height).with([Ok(panel)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn no_name_of_a_setting_is_cut() {
+        let long = |last: &str| format!("edge_end = whole_turns, ground_obstacle = 200_mm, {last}");
+        let rows = ["the defaults".to_owned(), long("jump = 5_deg"), "tool = 110_mm".to_owned(), long("rho")]
+            .map(|setting| SettingFit { setting, fits: BTreeMap::new() });
+        let (names, note) = named(&rows);
+        assert_eq!(names, ["the defaults", "setting 1", "tool = 110_mm", "setting 2"]);
+        assert_eq!(note, format!("Settings 1: {}; 2: {}.", long("jump = 5_deg"), long("rho")));
+        assert_eq!(named(&rows[..1]).1, "");
     }
 }

@@ -16,7 +16,9 @@ use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bands::{curves_of, sup_t};
-use stats::summary::{mean, quantile_type7};
+use stats::interval::Interval;
+use stats::proportion::predictive;
+use stats::summary::mean;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -92,14 +94,11 @@ struct RowOf {
 /// At most this many draws are drawn one by one, the first ones.
 const DRAWN: usize = 60;
 
-/// Between which values 95 of 100 draws lie at each point of the sweep: where one more would.
-fn draws_between(curves: &[Vec<f64>]) -> Vec<[f64; 2]> {
-    let width = curves.first().map_or(0, Vec::len);
-    let at = |cell: usize| {
-        let values: Vec<f64> = curves.iter().map(|curve| curve[cell]).collect();
-        [0.025, 0.975].map(|share| quantile_type7(&values, share).expect("there is a curve"))
-    };
-    (0..width).map(at).collect()
+/// Where one more draw would lie with 95 % probability at each point of the sweep, as the claims of the printed cells say it;
+/// none if there are too few draws to say.
+fn one_more_draw(curves: &[Vec<f64>]) -> Option<Vec<Interval>> {
+    let at = |cell: usize| predictive(&curves.iter().map(|curve| curve[cell]).collect::<Vec<_>>(), 0.95);
+    (0..curves.first()?.len()).map(at).collect()
 }
 
 impl SweepCurves {
@@ -172,9 +171,9 @@ impl SweepCurves {
         panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.25), label: String::new() });
         let points = self.over(&found.mean).map(|(x, y)| [x, *y]).collect();
         panel.add(Line::through(points, series_stroke(index)).labelled(label));
-        if !row.printed.is_empty() {
-            let edges = self.over(draws_between(&curves)).map(|(x, [low, high])| [x, low, high]).collect();
-            let label = format!("{}: 95 of 100 draws", row.contender);
+        if let Some(range) = one_more_draw(&curves).filter(|_| !row.printed.is_empty()) {
+            let edges = self.over(range).map(|(x, range)| [x, range.low, range.high]).collect();
+            let label = format!("{}: one more draw, 95 %", row.contender);
             panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.1), label });
         }
         Ok(())
