@@ -305,3 +305,19 @@ impl Kind for SweepCurves {
         Sheet::new(Width::Double, 1, 210.0).with([Ok(panel)])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_more_draw_lies_between_draws_and_nowhere_if_there_are_too_few() {
+        let curves = |count: u32| (0..count).map(|draw| vec![f64::from(draw), 7.0]).collect::<Vec<_>>();
+        assert_eq!(
+            one_more_draw(&curves(200)),
+            Some(vec![Interval::new(4.0, 195.0), Interval::new(7.0, 7.0)])
+        );
+        assert_eq!(one_more_draw(&curves(38)), None);
+        assert_eq!(one_more_draw(&[]), None);
+    }
+}

@@ -58,8 +58,7 @@ impl Lines {
         }
         let pace = self.pace(way);
         let steps = pace.steps as u32;
-        states.clear();
-        states.resize(steps as usize + 1, [0.0; AXES]);
+        states.resize(steps as usize + 1, from.q);
         states[0] = from.q;
         let mut is_exact = true;
         for first in (1..=steps).step_by(LANES) {
@@ -67,12 +66,10 @@ impl Lines {
             let poses = dispatch!(level(), simd => way.at_lanes(simd, shares));
             let found = self.cell.robot.arm().solve_lanes(&poses, from.branch)?;
             for step in first..=steps.min(first + LANES as u32 - 1) {
-                let [last, next] = &mut states[step as usize - 1..=step as usize] else {
-                    unreachable!("two")
-                };
                 // The angles are written where they stay: copied, they would be waited for.
-                let sure = self.sure_step(&found, (step - first) as usize, &pace, step, last, next);
-                match sure {
+                let (before, rest) = states.split_at_mut(step as usize);
+                let (last, next) = (&before[before.len() - 1], &mut rest[0]);
+                match self.sure_step(&found, (step - first) as usize, &pace, step, last, next) {
                     Some(Err(reason)) => return Some(Err(reason)),
                     Some(Ok(())) if self.surely_keeps(way, from.branch, &pace, step, [last, next]) => {
                         is_exact = false;
@@ -173,7 +170,7 @@ impl Lines {
             other2 = other2.zip(copy).map(|(sum, copy)| sum + (copy - last[i]) * (copy - last[i]));
         }
         let leaves = other2.map_or(Some(false), |other2| exceeds(change2, other2))?;
-        // Any further branch is at least so far; one that is nearer than both of these changes nothing.
+        // All further branches are at least so far from `last`; where one branch is nearer, a second one changes nothing.
         let further_rad = elbow_rad.min(PI - (q[0] - last[0]).abs());
         if leaves || !exceeds(change2, further_rad * further_rad)? { Some(leaves) } else { None }
     }
