@@ -16,6 +16,8 @@ use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::paired::EQUAL;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -237,6 +239,34 @@ impl Counted<'_> {
     }
 }
 
+impl Counted<'_> {
+    /// Why paths were refused, where those are counted: the verifier's words without numbers, the most frequent first.
+    fn refusals(&self, draws: &[Draw<'_>]) -> Option<String> {
+        let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
+        for case in cases(draws).filter(|case| self.settings.hits == Hits::Rejected && case.row.is_returned())
+        {
+            if let Some(reason) = &case.row.reason {
+                *kinds.entry(without_numbers(reason)).or_default() += 1;
+            }
+        }
+        let mut kinds: Vec<(String, usize)> = kinds.into_iter().collect();
+        kinds.sort_by_key(|(_, count)| Reverse(*count));
+        let said: Vec<String> = kinds.iter().map(|(kind, count)| format!("{kind} ({count})")).collect();
+        (!said.is_empty()).then(|| format!("refused because, first fault of each path: {}", said.join("; ")))
+    }
+}
+
+/// `text` with an n for every number.
+fn without_numbers(text: &str) -> String {
+    let mut found = String::new();
+    for word in text.split_inclusive(' ') {
+        let number = word.trim_matches(|c: char| !c.is_ascii_alphanumeric() && c != '-');
+        let is_number = number.ends_with(|c: char| c.is_ascii_digit()) && number.parse::<f64>().is_ok();
+        found += &if is_number { word.replacen(number, "n", 1) } else { word.to_owned() };
+    }
+    found
+}
+
 impl Criterion for Counted<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
@@ -253,7 +283,7 @@ impl Criterion for Counted<'_> {
             outcome,
             ours: Some(share.estimate(&self.said()).of_cases(solved(&draws))),
             trial: self.shown(evidence, &draws, share.value),
-            because: vec![self.because(&share, total)],
+            because: std::iter::once(self.because(&share, total)).chain(self.refusals(&draws)).collect(),
             limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
             units: "draws",
             censored: self.censored(&draws, outcome),
@@ -264,5 +294,25 @@ impl Criterion for Counted<'_> {
 
     fn selections(&self) -> Vec<&Selection<'_>> {
         vec![&self.of]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refusals_of_one_kind_read_alike() {
+        for (text, kind) in [
+            (
+                "leg 4: joint 6 is outside its limits at -360.648° at 22.4 % of the way",
+                "leg n: joint n is outside its limits at n° at n % of the way",
+            ),
+            ("leg 5: part 5 touches obstacle 6 at 38.7 %", "leg n: part n touches obstacle n at n %"),
+            ("it cuts the corner of `wall2` (3, 4)", "it cuts the corner of `wall2` (n, n)"),
+            ("", ""),
+        ] {
+            assert_eq!(without_numbers(text), kind);
+        }
     }
 }
