@@ -288,7 +288,7 @@ fn is_of(value: &Spanned<DeValue<'_>>, kind: &str) -> bool {
 }
 
 /// The number that a value is; a whole number that no float holds exactly is rounded, which no bound of ours is near.
-fn number(value: &DeValue<'_>) -> Option<f64> {
+pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Integer(_) => whole(value).map(|whole| whole as f64),
         DeValue::Float(real) => real.as_str().parse().ok(),
@@ -297,7 +297,7 @@ fn number(value: &DeValue<'_>) -> Option<f64> {
 }
 
 /// The whole number that a value is; one that no machine holds is as far from zero as a number here can be.
-fn whole(value: &DeValue<'_>) -> Option<i128> {
+pub(super) fn whole(value: &DeValue<'_>) -> Option<i128> {
     let DeValue::Integer(whole) = value else { return None };
     let furthest = if whole.as_str().starts_with('-') { i128::MIN } else { i128::MAX };
     Some(i128::from_str_radix(whole.as_str(), whole.radix()).unwrap_or(furthest))
