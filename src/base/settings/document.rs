@@ -1,10 +1,11 @@
 //! A TOML file in memory: its text, what it says, and where each value stands.
 
+use super::reader::{self, Refused};
 use super::validate::{Fault, faults};
 use super::{Faults, SettingsError, schema_of};
 use schemars::JsonSchema;
 use self_cell::self_cell;
-use serde::de::{DeserializeOwned, IntoDeserializer as _};
+use serde::de::DeserializeOwned;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -99,7 +100,7 @@ impl Document {
         }
         let value = self.parsed()?;
         self.refuse_parted(faults(&schema_of::<T>(), value))?;
-        T::deserialize(value.clone().into_deserializer()).map_err(|e| self.toml_error(&e, value.span()))
+        reader::read(value).map_err(|e| self.refused(e, value.span()))
     }
 
     /// The whole document as a `T` that has no schema: what the program itself wrote.
@@ -108,7 +109,7 @@ impl Document {
     /// The first syntax error, unknown key, missing key or value of the wrong kind.
     pub fn read_stored<T: DeserializeOwned>(&self) -> Result<T, SettingsError> {
         let value = self.parsed()?;
-        T::deserialize(value.clone().into_deserializer()).map_err(|e| self.toml_error(&e, value.span()))
+        reader::read(value).map_err(|e| self.refused(e, value.span()))
     }
 
     /// Everything in the document that `schema` does not accept.
@@ -173,7 +174,7 @@ impl Document {
         value: &Spanned<DeValue<'_>>,
     ) -> Result<T, SettingsError> {
         self.refuse(faults(&schema_of::<T>(), value))?;
-        T::deserialize(value.clone().into_deserializer()).map_err(|e| self.toml_error(&e, value.span()))
+        reader::read(value).map_err(|e| self.refused(e, value.span()))
     }
 
     fn refuse(&self, found: Vec<Fault>) -> Result<(), SettingsError> {
@@ -193,6 +194,10 @@ impl Document {
             all.add(lacks.into_iter().fold(error, |error, key| error.about(&key)));
         }
         all.done()
+    }
+
+    fn refused(&self, refused: Refused, fallback: Range<usize>) -> SettingsError {
+        self.error(refused.span.unwrap_or(fallback), in_words(&refused.message))
     }
 
     fn toml_error(&self, error: &toml::de::Error, fallback: Range<usize>) -> SettingsError {

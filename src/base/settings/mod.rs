@@ -11,6 +11,7 @@ pub mod describe;
 mod document;
 mod error;
 mod nearest;
+mod reader;
 mod salvage;
 mod schema;
 mod spanned;

@@ -1,11 +1,10 @@
 //! What is left of a document without what its schema does not accept: so that one mistake hides no other.
 
 use super::document::parse;
+use super::reader;
 use super::schema::Node;
 use super::validate::faults;
 use super::{Document, Faults, Settings};
-use serde::Deserialize as _;
-use serde::de::IntoDeserializer as _;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -42,7 +41,7 @@ impl Settings {
         let text = toml::to_string(self.table()).ok()?;
         let mut value = parse(&text).ok()?;
         salvage(schema, &mut value, &mut Vec::new());
-        let table = Table::deserialize(value.clone().into_deserializer()).ok()?;
+        let table = reader::read::<Table>(&value).ok()?;
         faults(schema, &value).is_empty().then(|| Self::composed("what is left of wrong settings", table))
     }
 }

@@ -1,10 +1,11 @@
 //! A table of settings on its way from the spec to the entry that understands it.
 
 use super::document::{in_words, inner, parse, part_of, span_of};
+use super::reader;
 use super::validate::faults;
 use super::{Accepted, Document, Faults, SettingsError, Spanned, schema_of};
 use schemars::JsonSchema;
-use serde::de::{DeserializeOwned, IntoDeserializer as _};
+use serde::de::DeserializeOwned;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
@@ -227,7 +228,7 @@ impl Settings {
             all.add(self.placed(fault.message, sought));
         }
         all.done()?;
-        T::deserialize(value.into_deserializer()).map_err(|e| self.error(in_words(e.message())))
+        reader::read(&value).map_err(|e| self.error(in_words(&e.message)))
     }
 
     /// An error about these settings as a whole.

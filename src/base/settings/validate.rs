@@ -41,15 +41,38 @@ impl Subject<'_> {
     }
 }
 
-/// Everything in `value` that `schema` does not accept.
-pub(super) fn faults(schema: &serde_json::Value, value: &Spanned<DeValue<'_>>) -> Vec<Fault> {
-    let mut found = Vec::new();
-    check(Node::root(schema), Subject { name: "", key: None, value }, &mut found);
-    found.sort_by_key(|fault| fault.span.start);
-    found
+/// What was found so far.
+enum Found {
+    /// Every fault, in words.
+    All(Vec<Fault>),
+    /// Whether there is any: branches that a value is tried on are many, and words for what nobody meant cost time.
+    Any(bool),
 }
 
-fn check(node: Node<'_>, subject: Subject<'_>, found: &mut Vec<Fault>) {
+impl Found {
+    fn push(&mut self, fault: impl FnOnce() -> Fault) {
+        match self {
+            Self::All(faults) => faults.push(fault()),
+            Self::Any(any) => *any = true,
+        }
+    }
+
+    fn is_settled(&self) -> bool {
+        matches!(self, Self::Any(true))
+    }
+}
+
+/// Everything in `value` that `schema` does not accept.
+pub(super) fn faults(schema: &serde_json::Value, value: &Spanned<DeValue<'_>>) -> Vec<Fault> {
+    let mut faults = all_of(Node::root(schema), Subject { name: "", key: None, value });
+    faults.sort_by_key(|fault| fault.span.start);
+    faults
+}
+
+fn check(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
+    if found.is_settled() {
+        return;
+    }
     for also in node.list("allOf") {
         match (also.part("if"), also.part("then")) {
             (Some(condition), Some(then)) if fits(condition, subject) => check(then, subject, found),
@@ -65,24 +88,33 @@ fn check(node: Node<'_>, subject: Subject<'_>, found: &mut Vec<Fault>) {
 }
 
 fn all_of(node: Node<'_>, subject: Subject<'_>) -> Vec<Fault> {
-    let mut found = Vec::new();
+    let mut found = Found::All(Vec::new());
     check(node, subject, &mut found);
-    found
+    match found {
+        Found::All(faults) => faults,
+        Found::Any(_) => Vec::new(),
+    }
 }
 
 fn fits(node: Node<'_>, subject: Subject<'_>) -> bool {
-    all_of(node, subject).is_empty()
+    let mut found = Found::Any(false);
+    check(node, subject, &mut found);
+    !found.is_settled()
 }
 
 /// A value that may be one of several things: the faults of the one that was meant.
-fn choice(node: Node<'_>, branches: &[Node<'_>], subject: Subject<'_>, found: &mut Vec<Fault>) {
+fn choice(node: Node<'_>, branches: &[Node<'_>], subject: Subject<'_>, found: &mut Found) {
     if branches.iter().any(|branch| fits(*branch, subject)) {
+        return;
+    }
+    if let Found::Any(any) = found {
+        *any = true;
         return;
     }
     if let DeValue::String(word) = subject.value.get_ref() {
         let words: Vec<&str> = branches.iter().flat_map(|branch| branch.words()).collect();
         if !words.is_empty() {
-            return found.push(no_such_word(subject, word, &words, &node.accepted()));
+            return found.push(|| no_such_word(subject, word, &words, &node.accepted()));
         }
     }
     if let DeValue::Table(table) = subject.value.get_ref()
@@ -92,13 +124,13 @@ fn choice(node: Node<'_>, branches: &[Node<'_>], subject: Subject<'_>, found: &m
     }
     let meant = branches.iter().filter(|branch| branch.kinds().iter().any(|kind| is_of(subject.value, kind)));
     match meant.map(|branch| all_of(*branch, subject)).min_by_key(Vec::len) {
-        Some(faults) => found.extend(faults),
-        None => found.push(refused(subject, &node.accepted())),
+        Some(faults) => faults.into_iter().for_each(|fault| found.push(|| fault)),
+        None => found.push(|| refused(subject, &node.accepted())),
     }
 }
 
 /// Finds the branch that a table names, by a key whose word tells the branches apart or by a key that one branch has.
-fn tagged(branches: &[Node<'_>], subject: Subject<'_>, table: &DeTable<'_>, found: &mut Vec<Fault>) -> bool {
+fn tagged(branches: &[Node<'_>], subject: Subject<'_>, table: &DeTable<'_>, found: &mut Found) -> bool {
     let tables: Vec<Node<'_>> =
         branches.iter().copied().filter(|branch| branch.properties().next().is_some()).collect();
     let Some(first) = tables.first() else { return false };
@@ -114,17 +146,17 @@ fn tagged(branches: &[Node<'_>], subject: Subject<'_>, table: &DeTable<'_>, foun
     let words: Vec<&str> = tables.iter().filter_map(|branch| tag_word(*branch, tag)).collect();
     let accepted = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
     let Some(value) = table.get(tag) else {
-        let message = format!("missing key `{tag}`; accepted: {accepted}");
-        found.push(Fault::new(subject.span(), message));
+        let message = || format!("missing key `{tag}`; accepted: {accepted}");
+        found.push(|| Fault::new(subject.span(), message()));
         return true;
     };
     let inner = Subject { name: tag, key: None, value };
     match value.get_ref().as_str() {
         Some(said) => match tables.iter().find(|branch| tag_word(**branch, tag) == Some(said)) {
             Some(branch) => check(*branch, subject, found),
-            None => found.push(no_such_word(inner, said, &words, &accepted)),
+            None => found.push(|| no_such_word(inner, said, &words, &accepted)),
         },
-        None => found.push(refused(inner, &accepted)),
+        None => found.push(|| refused(inner, &accepted)),
     }
     true
 }
@@ -134,28 +166,30 @@ fn tag_word<'a>(branch: Node<'a>, key: &str) -> Option<&'a str> {
     branch.property(key)?.text("const")
 }
 
-fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Vec<Fault>) {
+fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
     let words = node.words();
     if !words.is_empty() {
         match subject.value.get_ref() {
             DeValue::String(word) if words.contains(&word.as_ref()) => {}
-            DeValue::String(word) => found.push(no_such_word(subject, word, &words, &node.accepted())),
-            _ => found.push(refused(subject, &node.accepted())),
+            DeValue::String(word) => {
+                found.push(|| no_such_word(subject, word, &words, &node.accepted()));
+            }
+            _ => found.push(|| refused(subject, &node.accepted())),
         }
         return;
     }
     let kinds = node.kinds();
     if !kinds.is_empty() && !kinds.iter().any(|kind| is_of(subject.value, kind)) {
-        return found.push(refused(subject, &node.accepted()));
+        return found.push(|| refused(subject, &node.accepted()));
     }
     match subject.value.get_ref() {
         DeValue::Table(table) => keys(node, subject, table, found),
         DeValue::Array(elements) => array(node, subject, elements, found),
         value => {
             if number(value).is_some_and(|number| !is_within(node, number)) {
-                found.push(refused(subject, &node.accepted()));
+                found.push(|| refused(subject, &node.accepted()));
             } else if let Some(limit) = whole(value).and_then(|whole| node.limit_passed(whole)) {
-                found.push(refused(subject, &format!("{} (no further than {limit})", node.accepted())));
+                found.push(|| refused(subject, &format!("{} (no further than {limit})", node.accepted())));
             }
         }
     }
@@ -166,10 +200,10 @@ fn is_within(node: Node<'_>, number: f64) -> bool {
     number.is_finite() && low <= number && number <= high && above < number && number < below
 }
 
-fn array(node: Node<'_>, subject: Subject<'_>, elements: &[Spanned<DeValue<'_>>], found: &mut Vec<Fault>) {
+fn array(node: Node<'_>, subject: Subject<'_>, elements: &[Spanned<DeValue<'_>>], found: &mut Found) {
     let (least, most) = node.counts();
     if !(least..=most).contains(&(elements.len() as u64)) {
-        return found.push(refused(subject, &node.accepted()));
+        return found.push(|| refused(subject, &node.accepted()));
     }
     let mut each: Vec<Node<'_>> = node.list("prefixItems").collect();
     let rest = node.part("items");
@@ -183,7 +217,7 @@ fn array(node: Node<'_>, subject: Subject<'_>, elements: &[Spanned<DeValue<'_>>]
     }
 }
 
-fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut Vec<Fault>) {
+fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut Found) {
     let other = node.part("additionalProperties");
     let mut meant = Vec::new();
     for (key, value) in table {
@@ -192,18 +226,20 @@ fn keys(node: Node<'_>, subject: Subject<'_>, table: &DeTable<'_>, found: &mut V
             Some(part) if !part.refuses_all() => {
                 check(part, Subject { name, key: Some(&span), value }, found);
             }
+            Some(_) if matches!(found, Found::Any(_)) => *found = Found::Any(true),
             Some(_) => {
                 let near = nearest(name, node.properties().map(|(key, _)| key));
                 meant.extend(near);
-                found.push(Fault { lacks: near.map(str::to_owned), ..Fault::new(span, unknown(node, name)) });
+                let lacks = near.map(str::to_owned);
+                found.push(|| Fault { lacks, ..Fault::new(span, unknown(node, name)) });
             }
             None => {}
         }
     }
     // A key that is only misspelled is not missing as well.
     for key in node.required().filter(|key| table.get(*key).is_none() && !meant.contains(key)) {
-        let fault = Fault::new(subject.span(), missing(node, key));
-        found.push(Fault { lacks: Some(key.to_owned()), ..fault });
+        let fault = || Fault::new(subject.span(), missing(node, key));
+        found.push(|| Fault { lacks: Some(key.to_owned()), ..fault() });
     }
 }
 
@@ -252,7 +288,7 @@ fn is_of(value: &Spanned<DeValue<'_>>, kind: &str) -> bool {
 }
 
 /// The number that a value is; a whole number that no float holds exactly is rounded, which no bound of ours is near.
-fn number(value: &DeValue<'_>) -> Option<f64> {
+pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Integer(_) => whole(value).map(|whole| whole as f64),
         DeValue::Float(real) => real.as_str().parse().ok(),
@@ -261,7 +297,7 @@ fn number(value: &DeValue<'_>) -> Option<f64> {
 }
 
 /// The whole number that a value is; one that no machine holds is as far from zero as a number here can be.
-fn whole(value: &DeValue<'_>) -> Option<i128> {
+pub(super) fn whole(value: &DeValue<'_>) -> Option<i128> {
     let DeValue::Integer(whole) = value else { return None };
     let furthest = if whole.as_str().starts_with('-') { i128::MIN } else { i128::MAX };
     Some(i128::from_str_radix(whole.as_str(), whole.radix()).unwrap_or(furthest))

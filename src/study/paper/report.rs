@@ -65,8 +65,8 @@ impl Paper {
             .map(|(index, text)| (format!("report.findings.{index}"), text));
         for (place, text) in finding.chain(findings) {
             filled(text, |claim, form| {
-                let hint = did_you_mean(claim, claims.iter().copied());
                 if !claims.contains(claim) {
+                    let hint = did_you_mean(claim, claims.iter().copied());
                     let message = format!("the text speaks of `{{{claim}}}`; there is no such claim{hint}");
                     faults.add(self.document.error_at(&place, message).about(claim));
                 } else if !form.is_empty() && !FORMS.contains(&form) {
