@@ -146,7 +146,7 @@ class Across:
         assert self.first is not None
         readings = self.first["readings"]
         voting = [at for at, one in enumerate(readings) if all(axis.votes(one) for axis in self.axes)]
-        judged = self.compatible(voting, self.calibrating(claim))
+        judged = self.compatible(voting, *self.calibrating(claim))
         none_compatible = bool(voting) and not judged
         judged = voting if none_compatible else judged
         found = Counted([], 0, 0, len(voting) - len(judged), none_compatible, existential=False)
@@ -166,22 +166,30 @@ class Across:
         found.results.sort(key=lambda one: one.readings[0])
         return found
 
-    def calibrating(self, claim: str) -> list[str]:
-        """The claims that make a reading incompatible for a claim: not itself, its parts or its sentence."""
+    def calibrating(self, claim: str) -> tuple[list[str], list[str]]:
+        """The claims that make a reading incompatible for a claim; and itself, its parts and its sentence."""
         kinds = ("all_of", "any_of", "means_one_of", "cells")
         parts = {
             one["id"]: {part for kind in kinds for part in one.get(kind, [])} for one in self.paper.claims
         }
         whole = next((name for name, of in parts.items() if claim in of), None)
-        own = {claim, whole} | parts[claim]
-        return sorted(self.calibration - own - self.stale[0])
+        known = self.calibration - self.stale[0]
+        own = known & ({claim, whole} | parts[claim])
+        return sorted(known - own), sorted(own)
 
-    def compatible(self, voting: list[int], calibration: list[str]) -> list[int]:
-        """The readings that contradict no calibration claim; of those alike but for fitted axes the best."""
-        fits = {at: fit for at in voting if (fit := self.fit(at, calibration)) is not None}
-        alike: dict[tuple[str, ...], int] = {}
+    def compatible(self, voting: list[int], others: list[str], own: list[str]) -> list[int]:
+        """The readings that contradict no other calibration claim; of those alike but for fitted axes the best.
+
+        Fitted axes are fitted to the claim as well: best is where all hold or stay open, then where most hold.
+        """
+        fits: dict[int, tuple[bool, int]] = {}
+        for at in voting:
+            of_others, of_own = self.fit(at, others), self.fit(at, own)
+            if of_others is not None:
+                fits[at] = (of_own is not None, of_others + (of_own or 0))
+        alike: dict[tuple[str, ...], tuple[bool, int]] = {}
         for at, fit in fits.items():
-            alike[self.unfitted(at)] = max(fit, alike.get(self.unfitted(at), 0))
+            alike[self.unfitted(at)] = max(fit, alike.get(self.unfitted(at), fit))
         return [at for at, fit in fits.items() if fit == alike[self.unfitted(at)]]
 
     def fit(self, place: int, calibration: list[str]) -> int | None:
