@@ -265,22 +265,40 @@ class Across:
         reading = self.first["readings"][result.readings[0]]
         return ", ".join(f"{axis} = {option}" for axis, option in sorted(reading.items())) or "the default"
 
-    def decides(self, claim: str, axis: Axis, split: dict[str, list[int]], side: dict[str, int]) -> bool:
-        """Whether each option with results on the one side brings it alone, as far as that was looked at."""
+    def alone(self, claim: str, axis: Axis, option: str) -> dict[str, Any] | None:
+        """What was found under an option, all else at its default."""
         assert self.first is not None
-        for option in (option for option, (holds, _) in split.items() if holds and option != axis.default):
-            alone = {axis.id: option}
-            if alone in self.first["readings"]:
-                found = self.result(self.first, claim, self.first["readings"].index(alone))
-                if found is not None and side[found["class"]] != 1:
-                    return False
+        readings = self.first["readings"]
+        one = {axis.id: option}
+        return self.result(self.first, claim, readings.index(one)) if one in readings else None
+
+    def moves(self, claim: str, axis: Axis) -> bool:
+        """Whether some voting option by itself gives other results than the defaults, or was not looked at."""
+        assert self.first is not None
+        base = self.result(self.first, claim, 0)
+        voting = [name for name in axis.options if name != axis.default and axis.votes({axis.id: name})]
+        if base is None or not voting:
+            return True
+        for found in (self.alone(claim, axis, name) for name in voting):
+            if found is None or found.get("sight") == "unexplored":
+                return True
+            if any(found.get(key) != base.get(key) for key in ("results", "class")):
+                return True
+        return False
+
+    def decides(self, claim: str, axis: Axis, split: dict[str, list[int]], side: dict[str, int]) -> bool:
+        """Whether each option with results brings its side alone, as far as that was looked at."""
+        for option, (holds, fails) in split.items():
+            found = self.alone(claim, axis, option) if option != axis.default and holds + fails else None
+            if found is not None and (side[found["class"]] == 1) != (holds > 0):
+                return False
         return True
 
     def hangs(self, claim: str, results: list[Result], name: str, side: dict[str, int]) -> str:
         """The axis whose options best part results on one side (1), called `name`, from the other (-1)."""
         assert self.first is not None
         splits = []
-        for axis in self.axes:
+        for axis in (axis for axis in self.axes if self.moves(claim, axis)):
             split: dict[str, list[int]] = {}
             for one in results:
                 counts = split.setdefault(axis.option(self.first["readings"][one.readings[0]]), [0, 0])
