@@ -8,7 +8,6 @@ use super::{Pair, Targets, search, union};
 use crate::search::{FirstWayAstar, OctileAstar, ScaledOctile, Ties};
 use base::grid::Moves;
 use rayon::prelude::*;
-use std::cmp::Reverse;
 
 /// The pairs for which that A* returns the printed lengths, and what it took.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -65,10 +64,6 @@ struct CaseTrial {
     astar: FirstWayAstar,
     /// The shortest length from each cell to the goal where it is worth a try.
     shortest: Vec<Option<u32>>,
-    /// The shortest length from each cell to the goal, `u32::MAX` where that is above what is asked for.
-    least: Vec<u32>,
-    /// How many searches were in vain.
-    vain: usize,
 }
 
 impl Trial {
@@ -83,8 +78,6 @@ impl Trial {
             flood: search(moves),
             astar: FirstWayAstar::new(moves, ties),
             shortest: vec![None; moves.cell_count() as usize],
-            least: vec![u32::MAX; moves.cell_count() as usize],
-            vain: 0,
         };
         Self {
             cases: moves.iter().zip(bounds).map(case).collect(),
@@ -108,29 +101,17 @@ impl Trial {
         }
         let starts = starts.unwrap_or_default();
         if !starts.is_empty() {
-            self.cases.iter_mut().for_each(|case| case.astar.aim_within(goal, &case.least));
+            self.cases.iter_mut().for_each(|case| case.astar.aim(goal));
         }
-        // One case in vain spares the others: the one that mostly is goes first.
-        let mut order: Vec<usize> = (0..self.cases.len()).collect();
-        order.sort_by_key(|case| Reverse(self.cases[*case].vain));
         for start in &starts {
-            if self.reaches(*start, &order) {
+            self.lengths.clear();
+            let (cases, excess) = (&mut self.cases, self.excess);
+            self.lengths.extend(cases.iter_mut().map_while(|case| case.length(*start, excess)));
+            if self.lengths.len() == self.cases.len() {
                 meet(*start, &self.lengths);
             }
         }
         starts.len()
-    }
-
-    /// Whether A* from `start` has a length within the bounds and the excess in every case, looked at in this `order`; the
-    /// lengths are kept.
-    fn reaches(&mut self, start: u32, order: &[usize]) -> bool {
-        self.lengths.clear();
-        self.lengths.resize(self.cases.len(), 0);
-        order.iter().all(|index| {
-            let found = self.cases[*index].length(start, self.excess);
-            self.lengths[*index] = found.unwrap_or_default();
-            found.is_some()
-        })
     }
 }
 
@@ -139,11 +120,9 @@ impl CaseTrial {
     /// finds them.
     fn near(&mut self, goal: u32, excess: u32) -> Vec<u32> {
         let ([lowest, highest], mut near) = (self.bounds, Vec::new());
-        let (shortest, least) = (&mut self.shortest, &mut self.least);
+        let shortest = &mut self.shortest;
         shortest.fill(None);
-        least.fill(u32::MAX);
         self.flood.flood(goal, highest, |cell, cost| {
-            least[cell as usize] = cost;
             if cost + excess >= lowest {
                 shortest[cell as usize] = Some(cost);
                 near.push(cell);
@@ -155,9 +134,7 @@ impl CaseTrial {
     /// What A* from `start` returns if that is within the bounds and the excess.
     fn length(&mut self, start: u32, excess: u32) -> Option<u32> {
         let ([lowest, highest], shortest) = (self.bounds, self.shortest[start as usize]?);
-        let length = self.astar.length(start, highest.min(shortest + excess)).map(ScaledOctile::scaled);
-        let found = length.filter(|length| *length >= lowest);
-        self.vain += usize::from(found.is_none());
-        found
+        let length = self.astar.length(start, highest.min(shortest + excess))?;
+        Some(ScaledOctile::scaled(length)).filter(|length| *length >= lowest)
     }
 }

@@ -8,8 +8,6 @@
 //! - Unopened cells are bits; the neighbours of a cell are nine of them.
 //! - A node whose f exceeds the bound is marked as opened and never enters OPEN.
 //! - Open nodes lie in buckets of f, and only the current bucket is sorted.
-//! - A search ends in vain as soon as no open node can be on a path within the bound any more. Such nodes must still be expanded
-//!   while others can: what they open, no other opens.
 
 use super::buckets::Buckets;
 use super::cost::{Cost as _, Octile, quantised};
@@ -60,8 +58,6 @@ pub struct FirstWayAstar {
     goal: u32,
     /// The distance of each cell to the goal.
     h: Vec<f64>,
-    /// What each cell lies from the goal at least, in the units of [`ScaledOctile`].
-    least: Vec<u32>,
     /// A bit a cell: whether it was not opened yet.
     unopened: Vec<u8>,
     open: Queue,
@@ -89,7 +85,6 @@ impl FirstWayAstar {
             steps: DIRECTIONS.map(|[dx, dy]| dy * width as i32 + dx),
             goal: 0,
             h: vec![0.0; masks.len()],
-            least: vec![0; masks.len()],
             unopened: vec![0; masks.len() / 8 + 2],
             masks,
             open: Queue { ties, buckets: Buckets::default(), bucket: 0, now: Vec::new() },
@@ -109,16 +104,7 @@ impl FirstWayAstar {
                 *h = (dx * dx + dy * dy).sqrt();
             }
         }
-        self.least.fill(0);
         self.goal = goal + beside;
-    }
-
-    /// As [`aim`](Self::aim), with what every cell lies from the goal at least, in the units of [`ScaledOctile`]: no path is
-    /// shorter. It changes no length, and ends searches in vain sooner.
-    pub fn aim_within(&mut self, goal: u32, least: &[u32]) {
-        self.aim(goal);
-        let beside = self.width as usize + 1;
-        self.least[beside..beside + least.len()].copy_from_slice(least);
     }
 
     /// The length of the path that this A* returns from `start`, if there is one of at most `most`, in the units of
@@ -134,18 +120,15 @@ impl FirstWayAstar {
         // 1393 / 985 is below √2, so that no such length is longer; f falls on no path to the goal but by its rounding.
         let bound = quantised(f64::from(most) * (SQRT_2 / f64::from(ScaledOctile::DIAGONAL))) + 1;
         let (masks, h, unopened) = (&self.masks[..], &self.h[..], &mut self.unopened[..]);
-        let least = &self.least[..];
-        let is_hopeful = |length: u32, node: u32| least[node as usize] <= most.saturating_sub(length);
         unopened.fill(u8::MAX);
         unopened[start as usize / 8] &= !(1 << (start % 8));
         let first = Open { f: quantised(h[start as usize]), rank: 0, node: start, g: Octile::ZERO };
         let mut at = self.open.begin(first);
-        // How many nodes that are open or in hand may be on a path of at most `most`.
-        let (mut opened, mut hopeful) = (1, 1_u32);
+        let mut opened = 1;
         loop {
             let mut left = masks[at.node as usize] & TOWARDS[around(unopened, at.node, self.width)];
             let reached = [Octile::STRAIGHT, Octile::DIAGONAL].map(|cost| at.g.plus(cost));
-            let (lengths, scaled) = (reached.map(Octile::value), reached.map(ScaledOctile::scaled));
+            let lengths = reached.map(Octile::value);
             while left != 0 {
                 let bit = left.trailing_zeros() as usize % 8;
                 left &= left - 1;
@@ -158,13 +141,8 @@ impl FirstWayAstar {
                 let (f, rank) = (quantised(lengths[kind] + h[node as usize]), opened);
                 opened += 1;
                 if f <= bound {
-                    hopeful += u32::from(is_hopeful(scaled[kind], node));
                     self.open.offer(Open { f, rank, node, g });
                 }
-            }
-            hopeful -= u32::from(is_hopeful(ScaledOctile::scaled(at.g), at.node));
-            if hopeful == 0 {
-                return None;
             }
             at = self.open.take()?;
         }
