@@ -131,12 +131,7 @@ fn hangs(
 }
 
 /// What was found under `option` of `axis` where all else is at its default.
-fn alone<'f>(
-    axis: &Reading,
-    option: &str,
-    first: &'f Exploration,
-    id: &str,
-) -> Option<&'f ExploredResult> {
+fn alone<'f>(axis: &Reading, option: &str, first: &'f Exploration, id: &str) -> Option<&'f ExploredResult> {
     let place = first.place(&BTreeMap::from([(axis.id.clone(), option.to_owned())]))?;
     first.result(id, place)
 }
@@ -156,7 +151,8 @@ fn moves(axis: &Reading, first: &Exploration, id: &str) -> bool {
 /// Whether each option of `axis` brings by itself, all else at its default, the side that its results are on, as far as that was
 /// looked at: in a sample of combinations an axis may part by chance what others decide.
 fn decides(axis: &Reading, split: &Split<'_>, first: &Exploration, id: &str, parts: Parts) -> bool {
-    let counted = split.iter().filter(|(option, counts)| **option != axis.default && counts.iter().any(|n| *n > 0));
+    let counted =
+        split.iter().filter(|(option, counts)| **option != axis.default && counts.iter().any(|n| *n > 0));
     counted.into_iter().all(|(option, [asked, _])| {
         let found = alone(axis, option, first, id);
         found.is_none_or(|found| (parts.side(found.class) == Some(true)) == (*asked > 0))
