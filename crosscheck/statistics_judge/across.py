@@ -294,6 +294,15 @@ class Across:
                 return False
         return True
 
+    def is_clean(self, axis: Axis, results: list[Result], side: dict[str, int]) -> bool:
+        """Whether no option has readings on both sides, all readings of each result counted."""
+        assert self.first is not None
+        sides: dict[str, set[int]] = {}
+        for one in results:
+            for place in one.readings if side[one.vote] else []:
+                sides.setdefault(axis.option(self.first["readings"][place]), set()).add(side[one.vote])
+        return all(len(found) == 1 for found in sides.values())
+
     def hangs(self, claim: str, results: list[Result], name: str, side: dict[str, int]) -> str:
         """The axis whose options best part results on one side (1), called `name`, from the other (-1)."""
         assert self.first is not None
@@ -307,8 +316,8 @@ class Across:
             splits.append((sum(map(max, split.values())), axis, dict(sorted(split.items()))))
         holds, fails = (sum(side[one.vote] == way for one in results) for way in (1, -1))
         found, every = name.replace("_", " "), len(results)
-        for right, axis, split in splits:
-            if right == holds + fails and self.decides(claim, axis, split, side):
+        for _, axis, split in splits:
+            if self.is_clean(axis, results, side) and self.decides(claim, axis, split, side):
                 where = " or ".join(option for option, counts in split.items() if counts[0])
                 return f"hangs on {axis.id}: {found} if {where} ({holds} of {every})"
         # Many options part few results by chance: each costs one.

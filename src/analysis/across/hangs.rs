@@ -110,9 +110,9 @@ fn hangs(
     let count = |side| votes.iter().filter(|vote| parts.side(**vote) == Some(side)).count();
     let (asked, others) = (count(true), count(false));
     let all = votes.len();
-    let deciding = splits
-        .iter()
-        .find(|(axis, split)| right(split) == asked + others && decides(axis, split, first, id, parts));
+    let deciding = splits.iter().find(|(axis, split)| {
+        is_clean(axis, first, groups, votes, parts) && decides(axis, split, first, id, parts)
+    });
     if let Some((axis, split)) = deciding {
         let options: Vec<&str> =
             split.iter().filter(|(_, [asked, _])| *asked > 0).map(|(option, _)| *option).collect();
@@ -128,6 +128,16 @@ fn hangs(
     let shares: Vec<String> =
         shares.map(|(option, [asked, others])| format!("{option} {asked} of {}", asked + others)).collect();
     format!("hangs on {} and others: {class} under {asked} of {all} ({})", axis.id, shares.join(", "))
+}
+
+/// Whether no option of `axis` has readings on both sides; a result stands under all of its readings, not under the first alone.
+fn is_clean(axis: &Reading, first: &Exploration, groups: &[Group], votes: &[Verdict], parts: Parts) -> bool {
+    let mut sides: BTreeMap<&str, bool> = BTreeMap::new();
+    let spoken = groups.iter().zip(votes).filter_map(|(group, vote)| Some((group, parts.side(*vote)?)));
+    spoken.into_iter().all(|(group, side)| {
+        let options = group.readings.iter().map(|place| Axes::option(axis, &first.readings[*place]));
+        options.into_iter().all(|option| *sides.entry(option).or_insert(side) == side)
+    })
 }
 
 /// What was found under `option` of `axis` where all else is at its default.

@@ -171,6 +171,33 @@ fn a_claim_does_not_hang_on_an_axis_whose_options_bring_the_same_alone() {
 }
 
 #[test]
+fn a_claim_does_not_hang_on_one_axis_where_another_brings_the_same_result() {
+    let of = |id: &str, option: &str| BTreeMap::from([(id.to_owned(), option.to_owned())]);
+    let classes = [NotReproduced, Reproduced, Reproduced];
+    let claim = ExploredClaim {
+        results: classes.iter().enumerate().map(result).collect(),
+        ..ExploredClaim::default()
+    };
+    let first = Exploration {
+        readings: vec![BTreeMap::new(), of("shape", "triangle"), of("hops", "swept")],
+        claims: BTreeMap::from([("free".to_owned(), claim)]),
+        ..Exploration::default()
+    };
+    let axes = axes(&[("shape", "circle"), ("hops", "ends")]);
+    let said_of = |readings: Vec<usize>| {
+        let counted = [(vec![0], NotReproduced), (readings, Reproduced)].map(|(readings, class)| Group {
+            reading: readings[0],
+            readings,
+            class,
+        });
+        said(&axes, &first, "free", &counted, &[NotReproduced, Reproduced], Undecided, false)
+    };
+    assert_eq!(said_of(vec![1]), "hangs on shape: reproduced if triangle (1 of 2)");
+    let of_both = said_of(vec![1, 2]);
+    assert!(of_both.contains(" and others: reproduced under 1 of 2"), "{of_both}");
+}
+
+#[test]
 fn an_axis_of_many_options_does_not_win_by_parting_few_results_each() {
     // Six results: each under an order of its own, two sides, and one exception to what the side says.
     let of = |(order, side): (&str, &str)| -> BTreeMap<String, String> {
