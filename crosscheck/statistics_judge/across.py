@@ -178,9 +178,9 @@ class Across:
         return sorted(known - own), sorted(own)
 
     def compatible(self, voting: list[int], others: list[str], own: list[str]) -> list[int]:
-        """The readings that contradict no other calibration claim; of those alike but for fitted axes the best.
+        """The readings that contradict no other calibration claim; of those alike but for fits the best.
 
-        Fitted axes are fitted to the claim as well: best is where all hold or stay open, then where most hold.
+        Axes are fitted to the claim as well: best is where all hold or stay open, then where most hold.
         """
         fits: dict[int, tuple[bool, int]] = {}
         for at in voting:
@@ -273,7 +273,7 @@ class Across:
         return self.result(self.first, claim, readings.index(one)) if one in readings else None
 
     def moves(self, claim: str, axis: Axis) -> bool:
-        """Whether some voting option by itself gives other results than the defaults, or was not looked at."""
+        """Whether some voting option alone gives other results than the defaults, or was not looked at."""
         assert self.first is not None
         base = self.result(self.first, claim, 0)
         voting = [name for name in axis.options if name != axis.default and axis.votes({axis.id: name})]
