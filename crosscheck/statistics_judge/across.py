@@ -146,7 +146,7 @@ class Across:
         assert self.first is not None
         readings = self.first["readings"]
         voting = [at for at, one in enumerate(readings) if all(axis.votes(one) for axis in self.axes)]
-        judged = self.compatible(voting, self.calibrating(claim))
+        judged = self.compatible(voting, *self.calibrating(claim))
         none_compatible = bool(voting) and not judged
         judged = voting if none_compatible else judged
         found = Counted([], 0, 0, len(voting) - len(judged), none_compatible, existential=False)
@@ -166,22 +166,30 @@ class Across:
         found.results.sort(key=lambda one: one.readings[0])
         return found
 
-    def calibrating(self, claim: str) -> list[str]:
-        """The claims that make a reading incompatible for a claim: not itself, its parts or its sentence."""
+    def calibrating(self, claim: str) -> tuple[list[str], list[str]]:
+        """The claims that make a reading incompatible for a claim; and itself, its parts and its sentence."""
         kinds = ("all_of", "any_of", "means_one_of", "cells")
         parts = {
             one["id"]: {part for kind in kinds for part in one.get(kind, [])} for one in self.paper.claims
         }
         whole = next((name for name, of in parts.items() if claim in of), None)
-        own = {claim, whole} | parts[claim]
-        return sorted(self.calibration - own - self.stale[0])
+        known = self.calibration - self.stale[0]
+        own = known & ({claim, whole} | parts[claim])
+        return sorted(known - own), sorted(own)
 
-    def compatible(self, voting: list[int], calibration: list[str]) -> list[int]:
-        """The readings that contradict no calibration claim; of those alike but for fitted axes the best."""
-        fits = {at: fit for at in voting if (fit := self.fit(at, calibration)) is not None}
-        alike: dict[tuple[str, ...], int] = {}
+    def compatible(self, voting: list[int], others: list[str], own: list[str]) -> list[int]:
+        """The readings that contradict no other calibration claim; of those alike but for fits the best.
+
+        Axes are fitted to the claim as well: best is where all hold or stay open, then where most hold.
+        """
+        fits: dict[int, tuple[bool, int]] = {}
+        for at in voting:
+            of_others, of_own = self.fit(at, others), self.fit(at, own)
+            if of_others is not None:
+                fits[at] = (of_own is not None, of_others + (of_own or 0))
+        alike: dict[tuple[str, ...], tuple[bool, int]] = {}
         for at, fit in fits.items():
-            alike[self.unfitted(at)] = max(fit, alike.get(self.unfitted(at), 0))
+            alike[self.unfitted(at)] = max(fit, alike.get(self.unfitted(at), fit))
         return [at for at, fit in fits.items() if fit == alike[self.unfitted(at)]]
 
     def fit(self, place: int, calibration: list[str]) -> int | None:
@@ -257,22 +265,49 @@ class Across:
         reading = self.first["readings"][result.readings[0]]
         return ", ".join(f"{axis} = {option}" for axis, option in sorted(reading.items())) or "the default"
 
-    def decides(self, claim: str, axis: Axis, split: dict[str, list[int]], side: dict[str, int]) -> bool:
-        """Whether each option with results on the one side brings it alone, as far as that was looked at."""
+    def alone(self, claim: str, axis: Axis, option: str) -> dict[str, Any] | None:
+        """What was found under an option, all else at its default."""
         assert self.first is not None
-        for option in (option for option, (holds, _) in split.items() if holds and option != axis.default):
-            alone = {axis.id: option}
-            if alone in self.first["readings"]:
-                found = self.result(self.first, claim, self.first["readings"].index(alone))
-                if found is not None and side[found["class"]] != 1:
-                    return False
+        readings = self.first["readings"]
+        one = {axis.id: option}
+        return self.result(self.first, claim, readings.index(one)) if one in readings else None
+
+    def moves(self, claim: str, axis: Axis) -> bool:
+        """Whether some voting option alone gives other results than the defaults, or was not looked at."""
+        assert self.first is not None
+        base = self.result(self.first, claim, 0)
+        voting = [name for name in axis.options if name != axis.default and axis.votes({axis.id: name})]
+        if base is None or not voting:
+            return True
+        for found in (self.alone(claim, axis, name) for name in voting):
+            if found is None or found.get("sight") == "unexplored":
+                return True
+            if any(found.get(key) != base.get(key) for key in ("results", "class")):
+                return True
+        return False
+
+    def decides(self, claim: str, axis: Axis, split: dict[str, list[int]], side: dict[str, int]) -> bool:
+        """Whether each option with results brings its side alone, as far as that was looked at."""
+        for option, (holds, fails) in split.items():
+            found = self.alone(claim, axis, option) if option != axis.default and holds + fails else None
+            if found is not None and (side[found["class"]] == 1) != (holds > 0):
+                return False
         return True
+
+    def is_clean(self, axis: Axis, results: list[Result], side: dict[str, int]) -> bool:
+        """Whether no option has readings on both sides, all readings of each result counted."""
+        assert self.first is not None
+        sides: dict[str, set[int]] = {}
+        for one in results:
+            for place in one.readings if side[one.vote] else []:
+                sides.setdefault(axis.option(self.first["readings"][place]), set()).add(side[one.vote])
+        return all(len(found) == 1 for found in sides.values())
 
     def hangs(self, claim: str, results: list[Result], name: str, side: dict[str, int]) -> str:
         """The axis whose options best part results on one side (1), called `name`, from the other (-1)."""
         assert self.first is not None
         splits = []
-        for axis in self.axes:
+        for axis in (axis for axis in self.axes if self.moves(claim, axis)):
             split: dict[str, list[int]] = {}
             for one in results:
                 counts = split.setdefault(axis.option(self.first["readings"][one.readings[0]]), [0, 0])
@@ -281,8 +316,8 @@ class Across:
             splits.append((sum(map(max, split.values())), axis, dict(sorted(split.items()))))
         holds, fails = (sum(side[one.vote] == way for one in results) for way in (1, -1))
         found, every = name.replace("_", " "), len(results)
-        for right, axis, split in splits:
-            if right == holds + fails and self.decides(claim, axis, split, side):
+        for _, axis, split in splits:
+            if self.is_clean(axis, results, side) and self.decides(claim, axis, split, side):
                 where = " or ".join(option for option, counts in split.items() if counts[0])
                 return f"hangs on {axis.id}: {found} if {where} ({holds} of {every})"
         # Many options part few results by chance: each costs one.

@@ -23,6 +23,8 @@ from statistics_judge.selection import Cases
 
 # Ratios nearer to 1 are no difference.
 NO_DIFFERENCE = 1e-3
+# Sums of the same steps in another order are equal up to this share of them.
+EQUAL = 1e-9
 
 Outcome = Callable[[float, float], str]
 
@@ -101,7 +103,7 @@ def lower(asked: Asked) -> Found:
         return too_few()
 
     def outcome(low: float, high: float) -> str:
-        near, far = (low, high) if is_higher else (-high, -low)
+        near, far = (rounded(rounded(end, by), 0.0) for end in ((low, high) if is_higher else (-high, -low)))
         if near > 0:
             return HOLDS if near >= by else OPEN if far >= by else SIGN
         if far < 0 or near == far == 0 or far < by:
@@ -113,6 +115,11 @@ def lower(asked: Asked) -> Found:
     main = Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
     censored = turned(cases, asked, outcome, change, main)
     return Found(main.outcome, main.possible, estimate, censored=censored)
+
+
+def rounded(end: float, limit: float) -> float:
+    """An end of a change in per cent, or a limit from which rounding alone parts it."""
+    return limit if abs(end - limit) <= 100 * EQUAL else end
 
 
 def along_sweep(asked: Asked, cases: Cases, is_higher: bool) -> Found:
@@ -189,7 +196,7 @@ def within(asked: Asked) -> Found:
         # A claim of some difference, and the interval wholly on the same side of none as it.
         if none is None or (printed is None and least <= none <= most):
             return FAILS
-        equal = 0.0 if none == 0 else NO_DIFFERENCE
+        equal = 100 * EQUAL if none == 0 else NO_DIFFERENCE
         is_above, is_below = low > none + equal, high < none - equal
         return SIGN if (is_above and middle > none) or (is_below and not middle > none) else FAILS
 

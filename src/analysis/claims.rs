@@ -155,6 +155,8 @@ pub struct Weighed {
     pub caps: Caps,
     /// Whether trials of all studies that it looks at ran under the reading.
     pub is_covered: bool,
+    /// Every problem group that it looks at could be posed.
+    pub is_posed: bool,
     /// A hash of the results that it rests on, if it was asked for.
     pub results: String,
     /// The studies that it looks at.
@@ -228,7 +230,7 @@ fn of_rule(name: &str, found: Found) -> Weighed {
     if caps.without_premises && finding.verdict.is_none() {
         finding.because.push("the premises of the proof do not hold under this reading".to_owned());
     }
-    Weighed { finding, caps, is_covered: true, results: String::new(), studies: Vec::new() }
+    Weighed { finding, caps, is_covered: true, is_posed: true, results: String::new(), studies: Vec::new() }
 }
 
 fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
@@ -267,8 +269,15 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         without_premises: found.without_premises,
     };
     let studies = studies.iter().map(|study| study.name.clone()).collect();
-    let is_covered = of.is_covered(evidence);
-    Weighed { finding: finding(name, found, caps), caps, is_covered, results: String::new(), studies }
+    let (is_covered, is_posed) = (of.is_covered(evidence), of.is_posed(evidence));
+    Weighed {
+        finding: finding(name, found, caps),
+        caps,
+        is_covered,
+        is_posed,
+        results: String::new(),
+        studies,
+    }
 }
 
 /// What the stored sessions of the clock say, each judged by itself, and what each of them found.

@@ -202,6 +202,15 @@ impl<'a> Selection<'a> {
         rows
     }
 
+    /// Whether each of its groups has a trial that could be posed, or no trials at all.
+    pub fn is_posed(&self, evidence: &Evidence<'_>) -> bool {
+        let Some(run) = self.run(evidence) else { return true };
+        self.groups.iter().all(|group| {
+            let rows: Vec<&Row> = self.contenders.iter().flat_map(|own| run.rows(group, own)).collect();
+            rows.is_empty() || rows.iter().any(|row| row.status != Status::InvalidProblem)
+        })
+    }
+
     /// Whether the metric was looked for on a trial's draw: the clock is read on the first draws of each group alone, so that
     /// what failed on the others is no failure among the timed.
     fn is_read(&self, row: &Row) -> bool {

@@ -266,6 +266,30 @@ fn a_fitted_reading_is_fitted_again_for_each_setting_of_the_others() {
     assert_eq!((across.class.name(), across.looked, across.incompatible), ("not reproduced", 3, 3));
 }
 
+/// A second number that was calibrated to, which any weight gives.
+const SECOND: (&str, &str) = (
+    "[[claim]]\nid = \"calibrated\"",
+    "[[claim]]\nid = \"any_weight\"\nat = \"section 3\"\nprinted = \"5.66\"\n\
+     check.prints_as.of = { study = \"room\", problems = \"room\", metric = \"path_cost_cells\", contender = \"A*\" }\n\
+     [[claim]]\nid = \"calibrated\"",
+);
+
+#[test]
+fn a_calibration_claim_takes_the_best_fit_of_all_and_does_not_vote_where_the_others_alone_fit() {
+    let both = ("fitted_to = []", "fitted_to = [\"any_weight\", \"calibrated\"]");
+    let fitted = ("default = \"three\"", "default = \"three\"\nfitted = true");
+    let toy = Toy::new(&[CITED, SECOND, both, fitted]);
+    for claim in ["calibrated", "any_weight"] {
+        assert_eq!(toy.said(claim), pair("fitted", "no reading moves it"), "{claim}");
+        let across = toy.claim(claim).across.unwrap();
+        assert_eq!((across.looked, across.incompatible), (3, 3), "{claim}");
+    }
+    // Where the weight is not fitted, the same two weights are two readings of the paper.
+    let toy = Toy::new(&[CITED, SECOND, both]);
+    toy.0.done(&["confirm", "./toy"]);
+    assert_eq!(toy.said("calibrated"), pair("undecided", "hangs on hurry: fitted if three (1 of 2)"));
+}
+
 #[test]
 fn what_changed_after_an_exploration_is_stale_and_judged_under_the_default_alone() {
     let toy = Toy::new(&[]);

@@ -186,3 +186,73 @@ fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() 
         }
     }
 }
+
+/// An arm among one obstacle, of whose starts one reading has that within the obstacle.
+const ARM: &str = r#"
+paper = "toy"
+question = "How long is the way?"
+seed = 7
+second_seed = 8
+[explore]
+draws = 1
+[budget]
+expansions = 10_000
+[[problems]]
+label = "arm"
+family = "arm_workspace"
+[problems.settings]
+links_cm = [30, 20]
+x_cm = [-50, 50]
+y_cm = [0, 50]
+step_cm = 1
+inner_radius_cm = 20
+elbow = "negative_theta2"
+touching = "collides"
+hop_check = "end_points"
+corner_rule = "allow"
+obstacle_diameter_cm = 10
+obstacle_shapes = ["circle"]
+obstacles_cm = [[35, 18]]
+start_cm = [49, 3]
+goal_cm = [0, 45]
+blocked_ends = "invalid_problem"
+[[contender]]
+label = "A*"
+planner = "lattice_astar"
+settings = { neighbourhood = { shape = "square", radius_cells = 1 }, open_node = "lowered", ties = "fifo" }
+[[reading]]
+id = "start"
+why = "the start is not printed"
+default = "free"
+[reading.option.free]
+paper = "section 5"
+problem = { start_cm = [49, 3] }
+[reading.option.blocked]
+paper = "section 5"
+problem = { start_cm = [35, 18] }
+"#;
+
+const REACH: (&str, &str) = (
+    "[[claim]]\nid = \"calibrated\"",
+    "[[claim]]\nid = \"reach\"\nat = \"section 5\"\nsays = \"the way is short\"\n\
+     check.on_every = { that = \"at_most\", bound = 100.0, \
+     of = { study = \"arm\", problems = \"arm\", contender = \"A*\", metric = \"path_length_cm\" } }\n\
+     [[claim]]\nid = \"calibrated\"",
+);
+
+#[test]
+fn a_reading_under_which_the_problem_cannot_be_posed_is_not_looked_at() {
+    let toy = Toy::written(&[REACH]);
+    toy.0.write("toy/arm.toml", ARM.as_bytes());
+    toy.0.done(&["run", "./toy"]);
+    toy.0.done(&["explore", "./toy"]);
+    let first = toy.stored("explored.toml.gz");
+    let sights: Vec<(Sight, &str)> =
+        first.claims["reach"].results.iter().map(|found| (found.sight, found.class.name())).collect();
+    assert_eq!(sights, [(Sight::Looked, "reproduced"), (Sight::Powerless, "undecided")]);
+    // Under one reading it holds, and the other says nothing: it is no vote that leaves it open.
+    let judged = toy.claim("reach");
+    assert_eq!(judged.verdict.name(), "reproduced");
+    let across = judged.across.unwrap();
+    assert_eq!((across.counted, across.holds, across.looked, across.not_looked_at), (1, 1, 3, 3));
+}

@@ -116,7 +116,8 @@ impl Axes {
         let voting: Vec<usize> =
             (0..first.readings.len()).filter(|place| self.votes(&first.readings[*place])).collect();
         let all = self.calibration.iter().map(String::as_str);
-        let calibration: Vec<&str> = all.filter(|id| first.is_current(&self.now, id)).collect();
+        let others = all.filter(|id| first.is_current(&self.now, id)).collect();
+        let calibration = Calibration { others, own: Vec::new() };
         let compatible = self.compatible(first, &voting, &calibration, default);
         if compatible.is_empty() { voting } else { compatible }
     }
@@ -148,36 +149,36 @@ impl Axes {
         all
     }
 
-    /// The claims whose being contradicted makes a reading incompatible: a claim never filters itself, nor its parts nor
-    /// the sentence that it is a part of; one that is stale filters nothing.
-    fn calibrating<'c>(&'c self, paper: &Paper, first: &Exploration, id: &str) -> Vec<&'c str> {
+    /// The calibration claims as they stand to the claim called `id`; one that is stale says nothing.
+    fn calibrating<'c>(&'c self, paper: &Paper, first: &Exploration, id: &str) -> Calibration<'c> {
         let whole = paper.whole_of(id).map(|whole| whole.id.as_str());
         let parts = paper.claim(id).map(|claim| claim.parts.ids()).unwrap_or_default();
         let is_own =
-            |other: &str| other == id || whole == Some(other) || parts.iter().any(|part| part == other);
+            |other: &&str| *other == id || whole == Some(*other) || parts.iter().any(|part| part == other);
         let all = self.calibration.iter().map(String::as_str);
-        all.filter(|other| !is_own(other) && first.is_current(&self.now, other)).collect()
+        let (own, others) = all.filter(|other| first.is_current(&self.now, other)).partition(is_own);
+        Calibration { others, own }
     }
 
-    /// The voting readings under which no calibration claim is contradicted and each has power; of those that differ in
-    /// fitted readings alone, the ones under which most of these claims hold.
+    /// The voting readings under which no other calibration claim is contradicted and each has power; of those that differ in
+    /// fitted readings alone, the ones that fit best.
     fn compatible(
         &self,
         first: &Exploration,
         voting: &[usize],
-        calibration: &[&str],
+        calibration: &Calibration<'_>,
         default: &BTreeMap<String, Verdict>,
     ) -> Vec<usize> {
-        let fits: BTreeMap<usize, usize> = voting
+        let fits: BTreeMap<usize, Goodness> = voting
             .iter()
-            .filter_map(|place| Some((*place, held(first, *place, calibration, default)?)))
+            .filter_map(|place| Some((*place, calibration.goodness(first, *place, default)?)))
             .collect();
-        let mut best: BTreeMap<Vec<&str>, usize> = BTreeMap::new();
-        for (place, holds) in &fits {
+        let mut best: BTreeMap<Vec<&str>, Goodness> = BTreeMap::new();
+        for (place, fit) in &fits {
             let most = best.entry(self.unfitted(first, *place)).or_default();
-            *most = (*most).max(*holds);
+            *most = (*most).max(*fit);
         }
-        let is_best = |(place, holds): &(usize, usize)| best[&self.unfitted(first, *place)] == *holds;
+        let is_best = |(place, fit): &(usize, Goodness)| best[&self.unfitted(first, *place)] == *fit;
         fits.into_iter().filter(is_best).map(|(place, _)| place).collect()
     }
 
@@ -185,6 +186,40 @@ impl Axes {
     fn unfitted<'r>(&'r self, first: &'r Exploration, place: usize) -> Vec<&'r str> {
         let axes = self.readings.iter().filter(|axis| !axis.fitted);
         axes.map(|axis| Self::option(axis, &first.readings[place])).collect()
+    }
+}
+
+/// The calibration claims as they stand to one claim.
+///
+/// A claim never filters itself: only `others` make a reading incompatible. But what is fitted is fitted to all of them at
+/// once, so that the claim is judged where it fares best together with the others, and not where they alone do.
+struct Calibration<'c> {
+    /// Those whose being contradicted makes a reading incompatible.
+    others: Vec<&'c str>,
+    /// The claim itself, its parts and the sentence that it is a part of, as far as they are calibration claims.
+    own: Vec<&'c str>,
+}
+
+/// How well a setting of fitted readings fits, the worst first.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Goodness {
+    /// No calibration claim, the judged one among them, is contradicted, and each has power.
+    is_whole: bool,
+    /// How many of them hold.
+    holds: usize,
+}
+
+impl Calibration<'_> {
+    /// How the reading at `place` fits; none if one of the others is contradicted or has no power there.
+    fn goodness(
+        &self,
+        first: &Exploration,
+        place: usize,
+        default: &BTreeMap<String, Verdict>,
+    ) -> Option<Goodness> {
+        let others = held(first, place, &self.others, default)?;
+        let own = held(first, place, &self.own, default);
+        Some(Goodness { is_whole: own.is_some(), holds: others + own.unwrap_or(0) })
     }
 }
 

@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub enum Sight {
     /// Its trials did not run under the reading, or the clock was not read.
     Unexplored,
-    /// There are too few draws, or hardly any printed value could have been refused.
+    /// There are too few draws, hardly any printed value could have been refused, or no problem could be posed.
     Powerless,
     /// It was looked at.
     Looked,
@@ -85,7 +85,7 @@ fn sight(one: &Weighed, class: Verdict) -> Sight {
     let Caps { powerless, few, clock, .. } = one.caps;
     if !one.is_covered || clock.is_some() {
         Sight::Unexplored
-    } else if class == Verdict::Undecided && (powerless || few) {
+    } else if class == Verdict::Undecided && (powerless || few || !one.is_posed) {
         Sight::Powerless
     } else {
         Sight::Looked

@@ -2,7 +2,8 @@
 
 use super::super::class::{Polarity, Verdict};
 use super::count::{Axes, Group};
-use super::stored::Exploration;
+use super::glance::Sight;
+use super::stored::{Exploration, ExploredResult};
 use crate::study::Reading;
 use std::collections::BTreeMap;
 
@@ -102,15 +103,16 @@ fn hangs(
     parts: Parts,
 ) -> String {
     let class = parts.name.name();
-    let splits = axes.readings.iter().map(|axis| (axis, split(axis, first, groups, votes, parts)));
+    let moving = axes.readings.iter().filter(|axis| moves(axis, first, id));
+    let splits = moving.map(|axis| (axis, split(axis, first, groups, votes, parts)));
     let splits: Vec<(&Reading, Split<'_>)> = splits.collect();
     let right = |split: &Split<'_>| split.values().map(|[one, other]| one.max(other)).sum::<usize>();
     let count = |side| votes.iter().filter(|vote| parts.side(**vote) == Some(side)).count();
     let (asked, others) = (count(true), count(false));
     let all = votes.len();
-    let deciding = splits
-        .iter()
-        .find(|(axis, split)| right(split) == asked + others && decides(axis, split, first, id, parts));
+    let deciding = splits.iter().find(|(axis, split)| {
+        is_clean(axis, first, groups, votes, parts) && decides(axis, split, first, id, parts)
+    });
     if let Some((axis, split)) = deciding {
         let options: Vec<&str> =
             split.iter().filter(|(_, [asked, _])| *asked > 0).map(|(option, _)| *option).collect();
@@ -128,15 +130,43 @@ fn hangs(
     format!("hangs on {} and others: {class} under {asked} of {all} ({})", axis.id, shares.join(", "))
 }
 
-/// Whether each option of `axis` under which what is asked comes out brings it by itself, all else at its default, as far as
-/// that was looked at: in a sample of combinations an axis may part by chance what others decide.
+/// Whether no option of `axis` has readings on both sides; a result stands under all of its readings, not under the first alone.
+fn is_clean(axis: &Reading, first: &Exploration, groups: &[Group], votes: &[Verdict], parts: Parts) -> bool {
+    let mut sides: BTreeMap<&str, bool> = BTreeMap::new();
+    let spoken = groups.iter().zip(votes).filter_map(|(group, vote)| Some((group, parts.side(*vote)?)));
+    spoken.into_iter().all(|(group, side)| {
+        let options = group.readings.iter().map(|place| Axes::option(axis, &first.readings[*place]));
+        options.into_iter().all(|option| *sides.entry(option).or_insert(side) == side)
+    })
+}
+
+/// What was found under `option` of `axis` where all else is at its default.
+fn alone<'f>(axis: &Reading, option: &str, first: &'f Exploration, id: &str) -> Option<&'f ExploredResult> {
+    let place = first.place(&BTreeMap::from([(axis.id.clone(), option.to_owned())]))?;
+    first.result(id, place)
+}
+
+/// Whether some voting option of `axis` by itself gives other results than the defaults, or was not looked at: nothing hangs on
+/// an axis that moves nothing.
+fn moves(axis: &Reading, first: &Exploration, id: &str) -> bool {
+    let Some(base) = first.result(id, 0) else { return true };
+    let voting = axis.options.keys().filter(|option| **option != axis.default && axis.votes(option));
+    let found: Vec<_> = voting.map(|option| alone(axis, option, first, id)).collect();
+    let is_other = |found: &ExploredResult| {
+        found.sight == Sight::Unexplored || found.results != base.results || found.class != base.class
+    };
+    found.is_empty() || found.iter().any(|found| found.is_none_or(is_other))
+}
+
+/// Whether each option of `axis` brings by itself, all else at its default, the side that its results are on, as far as that was
+/// looked at: in a sample of combinations an axis may part by chance what others decide.
 fn decides(axis: &Reading, split: &Split<'_>, first: &Exploration, id: &str, parts: Parts) -> bool {
-    let asked = split.iter().filter(|(_, [asked, _])| *asked > 0).map(|(option, _)| *option);
-    let alone = asked.filter(|option| *option != axis.default).filter_map(|option| {
-        let place = first.place(&BTreeMap::from([(axis.id.clone(), option.to_owned())]))?;
-        first.result(id, place)
-    });
-    alone.into_iter().all(|result| parts.side(result.class) == Some(true))
+    let counted =
+        split.iter().filter(|(option, counts)| **option != axis.default && counts.iter().any(|n| *n > 0));
+    counted.into_iter().all(|(option, [asked, _])| {
+        let found = alone(axis, option, first, id);
+        found.is_none_or(|found| (parts.side(found.class) == Some(true)) == (*asked > 0))
+    })
 }
 
 /// By option of `axis`, how many results are on either side; a result under several options belongs to the first.

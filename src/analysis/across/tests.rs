@@ -7,7 +7,9 @@ use super::glance::Sight;
 use super::hangs::said;
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now};
 use crate::study::Reading;
+use crate::study::spec::OptionSpec;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 fn groups(classes: &[Verdict]) -> Vec<Group> {
     let group =
@@ -132,6 +134,67 @@ fn a_claim_hangs_on_an_axis_alone_only_if_its_option_alone_decides() {
             "hangs on corners and others: reproduced under 1 of 3 (allow 0 of 2, forbid 1 of 1)"
         );
     }
+}
+
+#[test]
+fn a_claim_does_not_hang_on_an_axis_whose_options_bring_the_same_alone() {
+    let of = |options: &[(&str, &str)]| -> BTreeMap<String, String> {
+        options.iter().map(|(id, option)| ((*id).to_owned(), (*option).to_owned())).collect()
+    };
+    let (rim, never) = (("sets", "rim"), ("update", "never"));
+    // The sets part what counts as well as the update does; by themselves they change nothing.
+    let readings = vec![of(&[]), of(&[rim]), of(&[never]), of(&[rim, never])];
+    let said_of = |sets_alone: &str| {
+        let mut results: Vec<ExploredResult> =
+            [Reproduced, Reproduced, NotReproduced, NotReproduced].iter().enumerate().map(result).collect();
+        results[1].results = sets_alone.to_owned();
+        let claim = ExploredClaim { results, ..ExploredClaim::default() };
+        let first = Exploration {
+            readings: readings.clone(),
+            claims: BTreeMap::from([("fewer".to_owned(), claim)]),
+            ..Exploration::default()
+        };
+        let mut axes = axes(&[("sets", "all"), ("update", "lowered")]);
+        for (axis, other) in axes.readings.iter_mut().zip(["rim", "never"]) {
+            let cited = OptionSpec { practice: Some("a handbook".to_owned()), ..OptionSpec::default() };
+            let names = [axis.default.clone(), other.to_owned()];
+            axis.options = names.map(|name| (name, Arc::new(cited.clone()))).into();
+        }
+        let counted = [(0, Reproduced), (3, NotReproduced)];
+        let counted = counted.map(|(reading, class)| Group { reading, readings: vec![reading], class });
+        said(&axes, &first, "fewer", &counted, &[Reproduced, NotReproduced], Undecided, false)
+    };
+    // They move no result, or move it and not its class.
+    for sets_alone in ["0", "1"] {
+        assert_eq!(said_of(sets_alone), "hangs on update: reproduced if lowered (1 of 2)", "{sets_alone}");
+    }
+}
+
+#[test]
+fn a_claim_does_not_hang_on_one_axis_where_another_brings_the_same_result() {
+    let of = |id: &str, option: &str| BTreeMap::from([(id.to_owned(), option.to_owned())]);
+    let classes = [NotReproduced, Reproduced, Reproduced];
+    let claim = ExploredClaim {
+        results: classes.iter().enumerate().map(result).collect(),
+        ..ExploredClaim::default()
+    };
+    let first = Exploration {
+        readings: vec![BTreeMap::new(), of("shape", "triangle"), of("hops", "swept")],
+        claims: BTreeMap::from([("free".to_owned(), claim)]),
+        ..Exploration::default()
+    };
+    let axes = axes(&[("shape", "circle"), ("hops", "ends")]);
+    let said_of = |readings: Vec<usize>| {
+        let counted = [(vec![0], NotReproduced), (readings, Reproduced)].map(|(readings, class)| Group {
+            reading: readings[0],
+            readings,
+            class,
+        });
+        said(&axes, &first, "free", &counted, &[NotReproduced, Reproduced], Undecided, false)
+    };
+    assert_eq!(said_of(vec![1]), "hangs on shape: reproduced if triangle (1 of 2)");
+    let of_both = said_of(vec![1, 2]);
+    assert!(of_both.contains(" and others: reproduced under 1 of 2"), "{of_both}");
 }
 
 #[test]

@@ -18,6 +18,7 @@ use serde::Deserialize;
 use stats::bands::{Band, sup_t};
 use stats::bootstrap::Resampling;
 use stats::interval::Interval;
+use stats::paired::{self, EQUAL};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -89,18 +90,17 @@ impl<'a> Lower<'a> {
             return Found::too_few(pairs.len(), FEWEST_DRAWS);
         };
         let found = outcome(self.way, self.by_percent, interval);
-        let all: Vec<&(f64, f64)> = pairs.iter().flatten().collect();
-        let count = |is: fn(&&&(f64, f64)) -> bool| all.iter().filter(is).count();
+        let signs = paired::signs(&pairs.concat());
         let because = format!(
             "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, bootstrap over {units} draws); lower on {}, \
              equal on {}, higher on {} of {} cases that both solve",
             self.of.said(),
             interval.low,
             interval.high,
-            count(|(base, own)| own < base),
-            count(|(base, own)| own == base),
-            count(|(base, own)| own > base),
-            all.len(),
+            signs.lower,
+            signs.equal,
+            signs.higher,
+            signs.lower + signs.equal + signs.higher,
         );
         let turned = |pairs: Vec<Vec<(f64, f64)>>| {
             self.change(&pairs)
@@ -192,6 +192,8 @@ fn all_along(way: Way, band: &[Interval]) -> (Outcome, usize) {
 fn outcome(way: Way, by_percent: f64, change: Interval) -> Outcome {
     let Interval { low, high } = change;
     let [near, far] = if way == Way::Higher { [low, high] } else { [-high, -low] };
+    // Sums of the same steps in another order differ in their last digits: that is no change, nor short of a margin.
+    let [near, far] = [near, far].map(|end| rounded(rounded(end, by_percent), 0.0));
     if near > 0.0 && near >= by_percent {
         Outcome::Holds
     } else if far < 0.0 || (near == 0.0 && far == 0.0) {
@@ -203,6 +205,11 @@ fn outcome(way: Way, by_percent: f64, change: Interval) -> Outcome {
     } else {
         Outcome::Fails
     }
+}
+
+/// An end of an interval of changes in per cent, or `limit` where it cannot be told from it.
+fn rounded(end: f64, limit: f64) -> f64 {
+    if (end - limit).abs() <= 100.0 * EQUAL { limit } else { end }
 }
 
 impl Criterion for Lower<'_> {
@@ -239,5 +246,25 @@ mod tests {
             let mirrored = outcome(Way::Higher, by, Interval::new(-high, -low));
             assert_eq!(mirrored, expected, "higher by {by}: {} to {}", -high, -low);
         }
+    }
+
+    #[test]
+    fn sums_of_the_same_steps_in_another_order_are_no_change_and_meet_a_margin() {
+        let change = |pair: (f64, f64)| {
+            let pairs = vec![vec![pair]; 12];
+            let found = OfAll::ReductionPercent.of_pairs(&pairs, plan(&["steps"])).unwrap();
+            Interval::new(-found.interval.high, -found.interval.low)
+        };
+        let (one, other) = (0.1 + 0.2 + 0.3, 0.3 + 0.2 + 0.1);
+        for pair in [(one, other), (other, one)] {
+            let interval = change(pair);
+            assert!(interval.low != 0.0, "the sample shows no rounding: {interval:?}");
+            assert_eq!(outcome(Way::Lower, 0.0, interval), Outcome::Fails, "{pair:?}: {interval:?}");
+            assert_eq!(outcome(Way::Higher, 0.0, interval), Outcome::Fails, "{pair:?}: {interval:?}");
+        }
+        // A fifth less is a fifth less, though 1 - 0.8 is not 0.2.
+        let fifth = change((10.0, 8.0));
+        assert!(-fifth.high < 20.0, "the sample shows no rounding: {fifth:?}");
+        assert_eq!(outcome(Way::Lower, 20.0, fifth), Outcome::Holds);
     }
 }

@@ -51,6 +51,11 @@ pub trait Criterion {
         self.studies().iter().all(is_run) && self.selections().iter().all(|of| has_all(of, evidence))
     }
 
+    /// Whether each problem group that it looks at could be posed under the evidence's reading: one that could not says nothing.
+    fn is_posed(&self, evidence: &Evidence<'_>) -> bool {
+        self.selections().iter().all(|of| of.is_posed(evidence))
+    }
+
     /// The results that it rests on under the evidence's reading, whatever the reading is called: equal text, equal results.
     fn results(&self, evidence: &Evidence<'_>) -> String {
         self.selections().into_iter().filter_map(|of| Some(selected(of, of.run(evidence)?))).collect()

@@ -15,6 +15,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{Estimate as Estimated, Resampling};
 use stats::interval::Interval;
+use stats::paired;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -102,7 +103,7 @@ impl<'a> Within<'a> {
         }
         let middle = self.printed.unwrap_or_else(|| accepted.low.midpoint(accepted.high));
         let is_same_side = self.statistic.no_difference().is_some_and(|none| {
-            let equal = if none == 0.0 { 0.0 } else { EQUAL };
+            let equal = if none == 0.0 { 100.0 * paired::EQUAL } else { EQUAL };
             let is_outside = !accepted.contains(none) || self.printed.is_some();
             let side = |low: f64, high: f64| low > none + equal || high < none - equal;
             is_outside && side(found.low, found.high) && (found.low > none) == (middle > none)

@@ -99,10 +99,10 @@ fn panel(title: &str, first: usize, series: &[(&String, Pairs)]) -> Result<Panel
         // Series may share points: the first ones are larger and show behind the last.
         let radius_pt = 2.0 + 0.9 * (series.len() - 1 - place) as f64;
         let of_end = |end: usize| pairs.iter().map(|pair| pair[end]).collect::<Vec<_>>();
+        // The caption says what a diamond is: a line of the legend for each would come apart from its circle's.
         let one = Points::of(of_end(0), Marker::Circle, radius_pt, series_color(index));
-        panel.add(one.labelled(format!("{label} ({}), one end", pairs.len())));
-        let other = Points::of(of_end(1), Marker::Diamond, radius_pt, series_color(index));
-        panel.add(other.labelled("the other end".to_owned()));
+        panel.add(one.labelled(format!("{label} ({})", pairs.len())));
+        panel.add(Points::of(of_end(1), Marker::Diamond, radius_pt, series_color(index)));
     }
     Ok(panel)
 }

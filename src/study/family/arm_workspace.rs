@@ -70,6 +70,10 @@ struct ArmWorkspace {
     obstacle_diameter_cm: f64,
     /// One shape for all obstacles, or one for each.
     obstacle_shapes: Vec<ShapeSetting>,
+    /// Shapes that the obstacles take in turn, in place of `obstacle_shapes`: for readings of problems with more obstacles and
+    /// with fewer.
+    #[serde(default)]
+    shapes_in_turn: Vec<ShapeSetting>,
     /// x and y of the middle of each obstacle.
     obstacles_cm: Vec<[f64; 2]>,
     /// Absent, as the goal, where the study looks for both.
@@ -79,6 +83,20 @@ struct ArmWorkspace {
     /// Which of the two ends a search begins at.
     #[serde(default)]
     direction: Direction,
+    /// What is made of a start or goal that is not free.
+    #[serde(default)]
+    blocked_ends: BlockedEnds,
+}
+
+/// What is made of a start or goal that is not free.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum BlockedEnds {
+    /// The study is wrong.
+    #[default]
+    Refused,
+    /// The problem cannot be posed under this reading: ends that one reading leaves free another may block.
+    InvalidProblem,
 }
 
 /// Which way a path is searched.
@@ -121,8 +139,11 @@ impl ArmWorkspace {
             hop: self.hop_check.into(),
         };
         let world = ArmWorld::new(rules, obstacles.clone());
-        self.check_ends(&world, settings)?;
-        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm })
+        let blocked = match (self.check_ends(&world, settings), self.blocked_ends) {
+            (Err(error), BlockedEnds::Refused) => return Err(error),
+            (found, _) => found.err().map(|error| Invalid(error.to_string())),
+        };
+        Ok(Posed { rules, obstacles, queries, goal_cm: self.goal_cm, blocked })
     }
 
     /// The query from the start to the goal; none where the study looks for both.
@@ -172,8 +193,13 @@ impl ArmWorkspace {
             );
             return Err(("obstacle_shapes".to_owned(), message));
         }
+        let in_turn = &self.shapes_in_turn;
+        let shape = |index: usize| match in_turn.len() {
+            0 => &shapes[index.min(shapes.len() - 1)],
+            turn => &in_turn[index % turn],
+        };
         let shaped = self.obstacles_cm.iter().enumerate().map(|(index, center)| {
-            shapes[index.min(shapes.len() - 1)]
+            shape(index)
                 .obstacle(*center, self.obstacle_diameter_cm)
                 .map_err(|e| (format!("obstacles_cm.{index}"), format!("obstacle {}: {e}", index + 1)))
         });
@@ -186,6 +212,8 @@ struct Posed {
     obstacles: Vec<Obstacle>,
     queries: Vec<Query>,
     goal_cm: Option<[f64; 2]>,
+    /// Why the problem cannot be posed.
+    blocked: Option<Invalid>,
 }
 
 impl Family for Posed {
@@ -194,6 +222,9 @@ impl Family for Posed {
     }
 
     fn prepare(&self, _seed: u64) -> Result<Prepared, Invalid> {
+        if let Some(blocked) = &self.blocked {
+            return Err(blocked.clone());
+        }
         let world = ArmWorld::new(self.rules, self.obstacles.clone());
         Ok(workspace_map::prepare(world, self.goal_cm))
     }
@@ -253,6 +284,28 @@ mod tests {
             let refused = build(changes).err().unwrap_or_else(|| panic!("{changes} was accepted"));
             assert!(parts.iter().all(|part| refused.contains(part)), "{changes}: {refused}");
         }
+    }
+
+    #[test]
+    fn a_blocked_end_is_a_problem_that_cannot_be_posed_where_the_study_says_so() {
+        let blocked = build("start_cm = [35, 18]\nblocked_ends = 'invalid_problem'").unwrap();
+        let Err(Invalid(reason)) = blocked.prepare(1) else { panic!("a start within an obstacle was posed") };
+        assert!(reason.contains("the start [35.0, 18.0] lies in obstacle 1"), "{reason}");
+        assert_eq!(blocked.queries().len(), 1, "its trials are rows all the same");
+        assert!(build("blocked_ends = 'invalid_problem'").unwrap().prepare(1).is_ok());
+    }
+
+    #[test]
+    fn obstacles_take_shapes_in_turn() {
+        let spots = |changes: &str| {
+            let world = build(changes).unwrap().prepare(1).unwrap().world;
+            let arm = world.as_arm().unwrap();
+            [[30.0, 18.0], [7.0, 30.0]].map(|point| arm.free_cell("point", &point).is_err())
+        };
+        // The rim of a circle touches what a triangle with its corner on top leaves free, left of it and below.
+        assert_eq!(spots("shapes_in_turn = ['circle', 'triangle', 'hexagon']"), [true, false]);
+        assert_eq!(spots("shapes_in_turn = ['triangle', 'circle']"), [false, true]);
+        assert_eq!(spots("shapes_in_turn = ['circle']"), spots("obstacle_shapes = ['circle']"));
     }
 
     #[test]
