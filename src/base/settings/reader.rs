@@ -129,7 +129,7 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
     }
 }
 
-impl<'de> IntoDeserializer<'de, Refused> for Reader<'_, '_> {
+impl IntoDeserializer<'_, Refused> for Reader<'_, '_> {
     type Deserializer = Self;
 
     fn into_deserializer(self) -> Self {
