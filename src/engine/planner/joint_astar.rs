@@ -15,7 +15,7 @@ use crate::geometry::Vec3;
 use crate::kinematics::{AXES, Joints};
 use crate::search::{Combined, Graph, Heap, Outcome, Rules, Search, Stop, Terms, Ties, sum};
 use crate::shorten::path_length;
-use crate::space::polyhedra::{CarriedArm, DOWN};
+use crate::space::polyhedra::{Apart, CarriedArm, DOWN};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use schemars::JsonSchema;
@@ -138,6 +138,7 @@ struct Space<'a> {
     delta: f64,
     steps: Vec<Cell>,
     states: &'a RefCell<States>,
+    apart: Apart,
 }
 
 fn angles(start: &Joints, cell: &Cell, delta: f64) -> Joints {
@@ -158,7 +159,7 @@ impl Space<'_> {
         (1..=count).rev().all(|k| {
             let share = f64::from(k) / f64::from(count);
             let q = std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share);
-            self.arm.is_clear(&q, self.world.bodies(), LEAST_CM, false)
+            self.arm.is_clear(&q, self.world.bodies(), LEAST_CM, false, &self.apart)
         })
     }
 }
@@ -237,8 +238,16 @@ impl Planner for JointAstar {
         })?;
         let delta = self.delta_deg.to_radians();
         let states = RefCell::new(States::of_start());
-        let mut graph = Space { world, arm, start, delta, steps: steps(self.neighbours), states: &states };
-        let probe = Space { world, arm, start, delta, steps: Vec::new(), states: &states };
+        let space = |steps| Space {
+            world,
+            arm,
+            start,
+            delta,
+            steps,
+            states: &states,
+            apart: arm.apart(world.bodies()),
+        };
+        let (mut graph, probe) = (space(steps(self.neighbours)), space(Vec::new()));
         let at = |node: u32| angles(&start, &states.borrow().cells[node as usize], delta);
         let h = |node: u32| greatest_difference(&at(node), &goal);
         let is_goal = |node: u32| h(node) <= delta * self.goal_steps && probe.is_clear(&at(node), &goal);

@@ -13,7 +13,7 @@ use super::posture::trails;
 use super::{Build, Ending, Entry, Plan, Request, Stage, Value};
 use crate::kinematics::{AXES, Joints};
 use crate::shorten::{cubic_spline, path_length};
-use crate::space::polyhedra::CarriedArm;
+use crate::space::polyhedra::{Apart, CarriedArm};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::{Accepted, Settings};
 use schemars::JsonSchema;
@@ -73,9 +73,9 @@ impl Stage for JointSpline {
         let world = polyhedra(request.world);
         let arm = world.arm().expect("a checked study gives this stage an arm");
         let trail: Vec<Joints> = plan.path.iter().map(|q| std::array::from_fn(|i| q[i])).collect();
-        let mut multiplicity = vec![1; trail.len()];
+        let (mut multiplicity, apart) = (vec![1; trail.len()], arm.apart(world.bodies()));
         let mut curve = self.curve(&trail, &multiplicity);
-        while self.guarded && raise(&curve, &mut multiplicity, |a, b| is_clear(world, arm, a, b)) {
+        while self.guarded && raise(&curve, &mut multiplicity, |a, b| is_clear(world, arm, a, b, &apart)) {
             curve = self.curve(&trail, &multiplicity);
         }
         let raised = multiplicity.iter().filter(|times| **times > 1).count();
@@ -108,14 +108,14 @@ impl JointSpline {
 }
 
 /// Whether no rod touches from `a` to `b`.
-fn is_clear(world: &PolyhedraWorld, arm: &CarriedArm, a: &Joints, b: &Joints) -> bool {
+fn is_clear(world: &PolyhedraWorld, arm: &CarriedArm, a: &Joints, b: &Joints, apart: &Apart) -> bool {
     let most = (0..AXES).map(|i| (b[i] - a[i]).abs()).fold(0.0, f64::max);
     let count = (most / CHECK_RAD).ceil().max(1.0) as u32;
     arm.arm().chain().allows(b)
         && (1..=count).all(|k| {
             let share = f64::from(k) / f64::from(count);
             let between = std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share);
-            arm.is_clear(&between, world.bodies(), LEAST_CM, false)
+            arm.is_clear(&between, world.bodies(), LEAST_CM, false, apart)
         })
 }
 

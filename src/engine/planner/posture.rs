@@ -130,6 +130,7 @@ impl Posture {
         let mut follower = Follower {
             settings: self,
             world,
+            apart: arm.apart(world.bodies()),
             arm,
             branch,
             q,
@@ -193,7 +194,13 @@ fn other(follower: &Follower<'_>, tip: &Vec3, reach: [f64; 3]) -> bool {
         let target = CarriedArm::target(tip, &(rotation::exp(&w) * follower.rotation));
         let solved = follower.arm.arm().inverse_on(&target, follower.branch, &follower.q);
         solved.is_some_and(|q| {
-            follower.arm.is_clear(&q, follower.world.bodies(), follower.settings.margin_cm, false)
+            follower.arm.is_clear(
+                &q,
+                follower.world.bodies(),
+                follower.settings.margin_cm,
+                false,
+                &follower.apart,
+            )
         })
     })
 }

@@ -52,7 +52,7 @@ fn joints(plan: &Plan) -> Vec<Joints> {
 fn is_free(world: &World, path: &[Joints]) -> bool {
     let polyhedra = world.as_polyhedra().unwrap();
     let arm = polyhedra.arm().unwrap();
-    path.windows(2).all(|pair| is_clear(polyhedra, arm, &pair[0], &pair[1]))
+    path.windows(2).all(|pair| is_clear(polyhedra, arm, &pair[0], &pair[1], &arm.apart(polyhedra.bodies())))
 }
 
 #[test]

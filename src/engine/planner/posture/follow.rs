@@ -1,13 +1,13 @@
 //! Following a tip path with the whole arm, turning the tip where a rod comes near.
 
-use super::potential::{direction, field, inverse};
+use super::potential::{Field, direction, field, inverse};
 use super::rotation::{exp, log};
 use super::settings::{Bounds, Pose, Posture};
 use crate::geometry::{Capsule, Vec3};
 use crate::kinematics::ik::Branch;
 use crate::kinematics::{AXES, Joints};
 use crate::space::PolyhedraWorld;
-use crate::space::polyhedra::{CarriedArm, DOWN};
+use crate::space::polyhedra::{Apart, CarriedArm, DOWN};
 use nalgebra::{Matrix3, Vector6};
 
 /// A joint that moves more than this between two stored configurations has jumped.
@@ -19,6 +19,7 @@ const CHECK_RAD: f64 = 0.01;
 pub(super) struct Follower<'a> {
     pub(super) settings: &'a Posture,
     pub(super) world: &'a PolyhedraWorld,
+    pub(super) apart: Apart,
     pub(super) arm: &'a CarriedArm,
     pub(super) branch: Branch,
     pub(super) q: Joints,
@@ -46,7 +47,7 @@ impl Follower<'_> {
         let recovered = self.recovered();
         let has_room = self.solve(next, &recovered, &self.q).is_some_and(|q| {
             let printed = self.settings.uses_printed_distance();
-            self.arm.is_clear(&q, self.world.bodies(), self.settings.act_cm, printed)
+            self.arm.is_clear(&q, self.world.bodies(), self.settings.act_cm, printed, &self.apart)
         });
         if has_room && self.turn_and_advance(here, next, recovered).is_some() {
             return Some(());
@@ -65,10 +66,14 @@ impl Follower<'_> {
         self.arm.arm().inverse_on(&CarriedArm::target(tip, rotation), self.branch, reference)
     }
 
+    fn field(&self, q: &Joints) -> Field {
+        field(self.settings, self.world, self.arm, q, &self.apart)
+    }
+
     /// The rod that is nearest to something where the arm would be at `next` with its present posture.
     pub(super) fn blocking(&self, next: &Vec3) -> Option<Capsule> {
         let q = self.solve(next, &self.rotation, &self.q)?;
-        let found = field(self.settings, self.world, self.arm, &q).contacts;
+        let found = self.field(&q).contacts;
         let nearest = found.iter().min_by(|a, b| a.clearance.total_cmp(&b.clearance))?;
         Some(self.arm.rods(&q)[nearest.rod])
     }
@@ -81,7 +86,7 @@ impl Follower<'_> {
         };
         let mut rotation = self.rotation;
         let mut q = self.solve(next, &rotation, &self.q)?;
-        let mut now = field(self.settings, self.world, self.arm, &q);
+        let mut now = self.field(&q);
         for _ in 0..self.settings.iterations {
             if now.clearance >= self.settings.act_cm {
                 break;
@@ -91,7 +96,7 @@ impl Follower<'_> {
                 let length = self.settings.step_rad / f64::from(1 << halving);
                 let turned = self.bounded(&origin, &(exp(&(direction * length)) * rotation));
                 let solved = self.solve(next, &turned, &q)?;
-                let then = field(self.settings, self.world, self.arm, &solved);
+                let then = self.field(&solved);
                 let improves = then.potential < now.potential || then.clearance > now.clearance;
                 (improves || self.settings.sign == super::settings::Sign::AsPrinted)
                     .then_some((turned, solved, then))
@@ -161,7 +166,13 @@ impl Follower<'_> {
             let share = f64::from(k) / f64::from(count);
             let between = std::array::from_fn(|i| self.q[i] + (q[i] - self.q[i]) * share);
             let printed = self.settings.uses_printed_distance();
-            if !self.arm.is_clear(&between, self.world.bodies(), self.settings.margin_cm, printed) {
+            if !self.arm.is_clear(
+                &between,
+                self.world.bodies(),
+                self.settings.margin_cm,
+                printed,
+                &self.apart,
+            ) {
                 return None;
             }
         }

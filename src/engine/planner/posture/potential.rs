@@ -7,7 +7,7 @@ use super::settings::{Clamp, Posture, Sign};
 use crate::geometry::Vec3;
 use crate::kinematics::Joints;
 use crate::space::PolyhedraWorld;
-use crate::space::polyhedra::{CarriedArm, Contact};
+use crate::space::polyhedra::{Apart, CarriedArm, Contact};
 use nalgebra::{Matrix6, RowVector6};
 
 /// The least distance that is put into the potential, unless it is taken literally.
@@ -23,9 +23,15 @@ pub(super) struct Field {
 }
 
 /// The field at `q`.
-pub(super) fn field(settings: &Posture, world: &PolyhedraWorld, arm: &CarriedArm, q: &Joints) -> Field {
+pub(super) fn field(
+    settings: &Posture,
+    world: &PolyhedraWorld,
+    arm: &CarriedArm,
+    q: &Joints,
+    apart: &Apart,
+) -> Field {
     let reach = settings.d0_cm.max(settings.act_cm);
-    let contacts = arm.contacts(q, world.bodies(), reach, settings.uses_printed_distance());
+    let contacts = arm.contacts_apart(q, world.bodies(), reach, settings.uses_printed_distance(), apart);
     let clearance = contacts.iter().map(|contact| contact.clearance).fold(reach, f64::min);
     let potential = contacts.iter().map(|contact| {
         let gap = gap(settings, contact.clearance);

@@ -4,6 +4,7 @@
 //! but joint angles. Rods meet obstacles and the floor only: the reproduced paper checks nothing else. Parts that the robot's file
 //! marks as self-only are left out.
 
+use super::apart::{Apart, SLACK_CM};
 use crate::geometry::{
     Aabb, Capsule, Convex, Frame, HalfSpace, Nearest, Segment, Vec3, nearest_segment_convex,
     nearest_segment_convex_printed, nearest_segment_half_space,
@@ -89,6 +90,11 @@ impl CarriedArm {
         self.arm.chain().forward(q).origin * CM_PER_M
     }
 
+    /// Nothing known yet of how rods lie apart from `bodies`.
+    pub fn apart(&self, bodies: &[Convex]) -> Apart {
+        Apart::new(self.parts().len(), bodies.len())
+    }
+
     /// The rods at `q`.
     pub fn rods(&self, q: &Joints) -> Vec<Capsule> {
         let mut rods = Vec::new();
@@ -102,21 +108,29 @@ impl CarriedArm {
     /// For every obstacle within `reach` of a rod's surface, the floor last, the rod nearest to it, by the exact distance or by the
     /// printed one. What the first joint alone moves keeps its distance to what the base stands on and is not held against it.
     pub fn contacts(&self, q: &Joints, bodies: &[Convex], reach: f64, printed: bool) -> Vec<Contact> {
+        self.contacts_apart(q, bodies, reach, printed, &self.apart(bodies))
+    }
+
+    /// [`contacts`](Self::contacts), with what is remembered of a configuration near by.
+    pub fn contacts_apart(
+        &self,
+        q: &Joints,
+        bodies: &[Convex],
+        reach: f64,
+        printed: bool,
+        apart: &Apart,
+    ) -> Vec<Contact> {
         let rods = self.rods(q);
-        let nearest = if printed { nearest_segment_convex_printed } else { nearest_segment_convex };
-        let of = |obstacle: usize, body: &Convex| {
+        let of = |(obstacle, body): (usize, &Convex)| {
             let mut best: Option<Contact> = None;
             for (rod, capsule) in rods.iter().enumerate() {
-                let is_under = self.has_pedestal && obstacle + 1 == bodies.len();
-                if is_under && self.body.parts()[rod].link() <= 1 {
+                if obstacle >= self.among(rod, bodies).len() {
                     continue;
                 }
-                if !Aabb::of_capsule(capsule).grown(reach).overlaps(body.aabb())
-                    || !printed && is_beyond(&capsule.segment, body, capsule.radius + reach)
-                {
-                    continue;
-                }
-                let Nearest { distance, on_a, on_b } = nearest(&capsule.segment, body);
+                // Nothing farther than this is of use.
+                let within = capsule.radius + best.map_or(reach, |known| known.clearance);
+                let found = measured(&capsule.segment, body, within, printed, ([rod, obstacle], apart));
+                let Some(Nearest { distance, on_a, on_b }) = found else { continue };
                 let clearance = distance - capsule.radius;
                 if clearance <= reach && best.is_none_or(|known| clearance < known.clearance) {
                     best = Some(Contact { obstacle, rod, clearance, on_rod: on_a, on_obstacle: on_b });
@@ -124,44 +138,74 @@ impl CarriedArm {
             }
             best
         };
-        let above = |floor: &HalfSpace| {
-            let moving = rods.iter().enumerate().filter(|(rod, _)| self.body.parts()[*rod].link() > 1);
-            let all = moving.map(|(rod, capsule)| {
-                let Nearest { distance, on_a, on_b } = nearest_segment_half_space(&capsule.segment, floor);
-                let clearance = distance - capsule.radius;
-                Contact { obstacle: bodies.len(), rod, clearance, on_rod: on_a, on_obstacle: on_b }
-            });
-            let least = all.min_by(|a, b| a.clearance.total_cmp(&b.clearance));
-            least.filter(|contact| contact.clearance <= reach)
-        };
-        let among = bodies.iter().enumerate().filter_map(|(obstacle, body)| of(obstacle, body));
+        let above = |floor: &HalfSpace| self.contact_above(floor, &rods, bodies.len(), reach);
+        let among = bodies.iter().enumerate().filter_map(of);
         among.chain(self.floor.as_ref().and_then(above)).collect()
+    }
+
+    /// The rod nearest to the floor, which counts as obstacle number `floor_number`.
+    fn contact_above(
+        &self,
+        floor: &HalfSpace,
+        rods: &[Capsule],
+        floor_number: usize,
+        reach: f64,
+    ) -> Option<Contact> {
+        let moving = rods.iter().enumerate().filter(|(rod, _)| self.moves(*rod));
+        let all = moving.map(|(rod, capsule)| {
+            let Nearest { distance, on_a, on_b } = nearest_segment_half_space(&capsule.segment, floor);
+            let clearance = distance - capsule.radius;
+            Contact { obstacle: floor_number, rod, clearance, on_rod: on_a, on_obstacle: on_b }
+        });
+        let least = all.min_by(|a, b| a.clearance.total_cmp(&b.clearance));
+        least.filter(|contact| contact.clearance <= reach)
     }
 
     /// How far the rods' surfaces are from the obstacles, or `reach` if that is further.
     pub fn clearance(&self, q: &Joints, bodies: &[Convex], reach: f64, printed: bool) -> f64 {
-        let contacts = self.contacts(q, bodies, reach, printed);
-        contacts.iter().map(|contact| contact.clearance).fold(reach, f64::min)
+        let (apart, mut least) = (self.apart(bodies), reach);
+        for (rod, capsule) in self.rods(q).iter().enumerate() {
+            let among = self.among(rod, bodies);
+            for (obstacle, body) in among.iter().enumerate() {
+                // Nothing farther than the nearest so far is of use.
+                let within = capsule.radius + least;
+                let pair = ([rod, obstacle], &apart);
+                let found = measured(&capsule.segment, body, within, printed, pair);
+                least = found.map_or(least, |nearest| least.min(nearest.distance - capsule.radius));
+            }
+            if let Some(floor) = self.floor.filter(|_| self.moves(rod)) {
+                let height = nearest_segment_half_space(&capsule.segment, &floor).distance;
+                least = least.min(height - capsule.radius);
+            }
+        }
+        least
+    }
+
+    /// Whether a rod moves with more than the first joint.
+    fn moves(&self, rod: usize) -> bool {
+        self.parts()[rod].link() > 1
+    }
+
+    /// What a rod is held against, the floor left out: what the base stands on, the last body, only if the rod moves.
+    fn among<'a>(&self, rod: usize, bodies: &'a [Convex]) -> &'a [Convex] {
+        let is_above = self.has_pedestal && !self.moves(rod);
+        &bodies[..bodies.len() - usize::from(is_above)]
     }
 
     /// Whether every rod's surface is `least` or more from the obstacles: what [`clearance`](Self::clearance) says, without measuring
-    /// what a face's plane shows to be farther, and only up to the first that is not.
-    pub fn is_clear(&self, q: &Joints, bodies: &[Convex], least: f64, printed: bool) -> bool {
+    /// what shows to be farther, and only up to the first that is not.
+    pub fn is_clear(&self, q: &Joints, bodies: &[Convex], least: f64, printed: bool, apart: &Apart) -> bool {
         let frames = self.arm.chain().frames(q);
-        let nearest = if printed { nearest_segment_convex_printed } else { nearest_segment_convex };
-        self.parts().iter().all(|part| {
+        self.parts().iter().enumerate().all(|(rod, part)| {
             let Capsule { segment, radius } = in_cm(part.placed(&frames));
-            let is_off = |body: &Convex| {
-                let reach = radius + 2.0 * least;
-                !Aabb::of_segment(&segment).grown(reach).overlaps(body.aabb())
-                    || !printed && is_beyond(&segment, body, reach)
-                    || nearest(&segment, body).distance - radius >= least
+            let is_off = |(obstacle, body): (usize, &Convex)| {
+                let found = measured(&segment, body, radius + least, printed, ([rod, obstacle], apart));
+                found.is_none_or(|nearest| nearest.distance - radius >= least)
             };
-            let moves = part.link() > 1;
-            let among = if self.has_pedestal && !moves { &bodies[..bodies.len() - 1] } else { bodies };
             let above =
                 |floor: &HalfSpace| nearest_segment_half_space(&segment, floor).distance - radius >= least;
-            among.iter().all(is_off) && (!moves || self.floor.as_ref().is_none_or(above))
+            let is_above = !self.moves(rod) || self.floor.as_ref().is_none_or(above);
+            is_above && self.among(rod, bodies).iter().enumerate().all(is_off)
         })
     }
 
@@ -188,10 +232,25 @@ fn in_cm(Capsule { segment: Segment { a, b }, radius }: Capsule) -> Capsule {
     Capsule { segment: Segment::new(a * CM_PER_M, b * CM_PER_M), radius: radius * CM_PER_M }
 }
 
-/// Whether the plane of some face shows that the segment is farther from the solid than `reach`, rounding included.
-fn is_beyond(segment: &Segment, body: &Convex, reach: f64) -> bool {
-    let reach = reach + 1e-6;
-    body.faces()
-        .iter()
-        .any(|face| face.plane.height(&segment.a) > reach && face.plane.height(&segment.b) > reach)
+/// The nearest points of a rod's axis and a body; none where something shows that they are farther apart than `within`. The
+/// printed distance may be greater than the true one, so that it is measured wherever the boxes about both meet.
+fn measured(
+    axis: &Segment,
+    body: &Convex,
+    within: f64,
+    printed: bool,
+    (pair, apart): ([usize; 2], &Apart),
+) -> Option<Nearest> {
+    if !Aabb::of_segment(axis).grown(within + SLACK_CM).overlaps(body.aabb()) {
+        return None;
+    }
+    if printed {
+        return Some(nearest_segment_convex_printed(axis, body));
+    }
+    if apart.at_least(pair, axis, body) > within || apart.is_beyond_a_face(pair, axis, body, within) {
+        return None;
+    }
+    let found = nearest_segment_convex(axis, body);
+    apart.learn(pair, &found);
+    Some(found)
 }

@@ -4,6 +4,7 @@
 //! point must keep clear of are the obstacles grown by a margin, every plane moved out by it; the arm's rods must
 //! keep clear of the obstacles themselves. Lengths are centimetres.
 
+mod apart;
 mod arm;
 mod error;
 mod motion;
@@ -11,6 +12,7 @@ mod scene;
 #[cfg(test)]
 mod tests;
 
+pub use apart::Apart;
 pub use arm::{CarriedArm, Contact, DOWN};
 pub use error::PolyhedraError;
 pub use motion::{Motion, motion};
