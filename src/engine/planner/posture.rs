@@ -8,6 +8,7 @@
 //! Tang, Zhou & Xu (2023), sections 3.2 and 3.3, eqs. 21 to 31.
 
 mod follow;
+mod place;
 mod potential;
 mod rotation;
 mod settings;
@@ -24,6 +25,7 @@ use crate::space::polyhedra::{CarriedArm, DOWN};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use follow::Follower;
+use place::Place;
 use settings::{Branches, Posture};
 
 /// The registry's entry.
@@ -133,7 +135,8 @@ impl Posture {
             apart: arm.apart(world.bodies()),
             arm,
             branch,
-            q,
+            here: Place::new(arm, &q),
+            ahead: None,
             rotation: DOWN,
             trail: vec![q],
             adjustments: 0,
@@ -192,7 +195,7 @@ fn other(follower: &Follower<'_>, tip: &Vec3, reach: [f64; 3]) -> bool {
     (0..729).any(|code| {
         let w = Vec3::new(turn(code % 9, 0), turn(code / 9 % 9, 1), turn(code / 81, 2));
         let target = CarriedArm::target(tip, &(rotation::exp(&w) * follower.rotation));
-        let solved = follower.arm.arm().inverse_on(&target, follower.branch, &follower.q);
+        let solved = follower.arm.arm().inverse_on(&target, follower.branch, &follower.here.q);
         solved.is_some_and(|q| {
             follower.arm.is_clear(
                 &q,

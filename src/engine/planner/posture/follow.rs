@@ -1,5 +1,6 @@
 //! Following a tip path with the whole arm, turning the tip where a rod comes near.
 
+use super::place::Place;
 use super::potential::{Field, direction, field, inverse};
 use super::rotation::{exp, log};
 use super::settings::{Bounds, Pose, Posture};
@@ -14,6 +15,8 @@ use nalgebra::{Matrix3, Vector6};
 const JUMP_RAD: f64 = 0.35;
 /// Between stored configurations rods are checked at least this often.
 const CHECK_RAD: f64 = 0.01;
+/// How far around it a configuration is looked at: what is left of it serves the next ones.
+const FAR_CM: f64 = 6.0;
 
 /// The arm on its way.
 pub(super) struct Follower<'a> {
@@ -22,7 +25,9 @@ pub(super) struct Follower<'a> {
     pub(super) apart: Apart,
     pub(super) arm: &'a CarriedArm,
     pub(super) branch: Branch,
-    pub(super) q: Joints,
+    pub(super) here: Place,
+    /// Where the arm would be next, if that was looked at.
+    pub(super) ahead: Option<Place>,
     pub(super) rotation: Matrix3<f64>,
     /// Every configuration stored.
     pub(super) trail: Vec<Joints>,
@@ -45,15 +50,30 @@ impl Follower<'_> {
             return self.advance(next, self.rotation);
         }
         let recovered = self.recovered();
-        let has_room = self.solve(next, &recovered, &self.q).is_some_and(|q| {
-            let printed = self.settings.uses_printed_distance();
-            self.arm.is_clear(&q, self.world.bodies(), self.settings.act_cm, printed, &self.apart)
-        });
-        if has_room && self.turn_and_advance(here, next, recovered).is_some() {
+        let solved = self.solve(next, &recovered, &self.here.q).filter(|q| self.has_room(q));
+        if let Some(q) = solved
+            && self.turn_and_advance(here, next, recovered, Some(q)).is_some()
+        {
             return Some(());
         }
         let turned = self.adjusted(next)?;
-        self.turn_and_advance(here, next, turned)
+        let q = self.solve(next, &turned, &self.here.q);
+        self.turn_and_advance(here, next, turned, q)
+    }
+
+    /// Whether no adjustment is needed at `q`.
+    fn has_room(&mut self, q: &Joints) -> bool {
+        if self.settings.uses_printed_distance() {
+            let bodies = self.world.bodies();
+            return self.arm.is_clear(q, bodies, self.settings.act_cm, true, &self.apart);
+        }
+        let mut place = Place::after(&self.here, self.arm, q);
+        if place.clearance_cm < self.settings.act_cm {
+            self.measure(&mut place);
+        }
+        let has_room = place.clearance_cm >= self.settings.act_cm;
+        self.ahead = Some(place);
+        has_room
     }
 
     fn recovered(&self) -> Matrix3<f64> {
@@ -72,7 +92,7 @@ impl Follower<'_> {
 
     /// The rod that is nearest to something where the arm would be at `next` with its present posture.
     pub(super) fn blocking(&self, next: &Vec3) -> Option<Capsule> {
-        let q = self.solve(next, &self.rotation, &self.q)?;
+        let q = self.solve(next, &self.rotation, &self.here.q)?;
         let found = self.field(&q).contacts;
         let nearest = found.iter().min_by(|a, b| a.clearance.total_cmp(&b.clearance))?;
         Some(self.arm.rods(&q)[nearest.rod])
@@ -85,7 +105,7 @@ impl Follower<'_> {
             Bounds::FromStart => DOWN,
         };
         let mut rotation = self.rotation;
-        let mut q = self.solve(next, &rotation, &self.q)?;
+        let mut q = self.solve(next, &rotation, &self.here.q)?;
         let mut now = self.field(&q);
         for _ in 0..self.settings.iterations {
             if now.clearance >= self.settings.act_cm {
@@ -116,14 +136,22 @@ impl Follower<'_> {
     }
 
     /// Turns in place and moves on; where there is no room to turn here, turns while moving.
-    fn turn_and_advance(&mut self, here: &Vec3, next: &Vec3, rotation: Matrix3<f64>) -> Option<()> {
-        let stored = (self.q, self.rotation, self.trail.len());
-        if self.turn(here, rotation).and_then(|()| self.advance(next, rotation)).is_some() {
+    /// `q` is the configuration at `next` with the posture `rotation`, solved from the present one.
+    fn turn_and_advance(
+        &mut self,
+        here: &Vec3,
+        next: &Vec3,
+        rotation: Matrix3<f64>,
+        q: Option<Joints>,
+    ) -> Option<()> {
+        let (place, before, stored) = (self.here.clone(), self.rotation, self.trail.len());
+        let turned = self.turn(here, rotation);
+        if turned.is_some() && self.trail.len() > stored && self.advance(next, rotation).is_some() {
             return Some(());
         }
-        (self.q, self.rotation) = (stored.0, stored.1);
-        self.trail.truncate(stored.2);
-        self.advance(next, rotation)
+        (self.here, self.rotation) = (place, before);
+        self.trail.truncate(stored);
+        self.store(q?, rotation)
     }
 
     /// Turns the tip in place, in steps that are stored.
@@ -135,7 +163,7 @@ impl Follower<'_> {
             let share = f64::from(k) / f64::from(count);
             let turned = exp(&(whole * share)) * origin;
             let q = match self.settings.pose {
-                Pose::Inverse => self.solve(here, &turned, &self.q)?,
+                Pose::Inverse => self.solve(here, &turned, &self.here.q)?,
                 Pose::Jacobian => self.dead_reckoned(&(whole / f64::from(count)))?,
             };
             self.store(q, turned)?;
@@ -145,39 +173,60 @@ impl Follower<'_> {
 
     /// The joints after turning by `w`, by the Jacobian alone.
     fn dead_reckoned(&self, w: &Vec3) -> Option<Joints> {
-        let inverse = inverse(&self.arm.tip_jacobian(&self.q), self.settings.damping)?;
+        let inverse = inverse(&self.arm.tip_jacobian(&self.here.q), self.settings.damping)?;
         let change = inverse * Vector6::new(0.0, 0.0, 0.0, w.x, w.y, w.z);
-        Some(std::array::from_fn(|i| self.q[i] + change[i]))
+        Some(std::array::from_fn(|i| self.here.q[i] + change[i]))
     }
 
     fn advance(&mut self, next: &Vec3, rotation: Matrix3<f64>) -> Option<()> {
-        let q = self.solve(next, &rotation, &self.q)?;
+        let q = self.solve(next, &rotation, &self.here.q)?;
         self.store(q, rotation)
     }
 
     /// Goes to `q` if nothing touches on the way.
     fn store(&mut self, q: Joints, rotation: Matrix3<f64>) -> Option<()> {
-        let most = (0..AXES).map(|i| (q[i] - self.q[i]).abs()).fold(0.0, f64::max);
+        let most = (0..AXES).map(|i| (q[i] - self.here.q[i]).abs()).fold(0.0, f64::max);
         if most > JUMP_RAD || !self.arm.arm().chain().allows(&q) {
             return None;
         }
-        let count = (most / CHECK_RAD).ceil().max(1.0) as u32;
-        for k in 1..=count {
-            let share = f64::from(k) / f64::from(count);
-            let between = std::array::from_fn(|i| self.q[i] + (q[i] - self.q[i]) * share);
-            let printed = self.settings.uses_printed_distance();
-            if !self.arm.is_clear(
-                &between,
-                self.world.bodies(),
-                self.settings.margin_cm,
-                printed,
-                &self.apart,
-            ) {
-                return None;
-            }
+        let ahead = self.ahead.take_if(|ahead| ahead.q == q);
+        let mut place = ahead.unwrap_or_else(|| Place::after(&self.here, self.arm, &q));
+        if !self.is_surely_clear(&mut place) && !self.is_clear_to(&q, most) {
+            return None;
         }
-        (self.q, self.rotation) = (q, rotation);
+        (self.here, self.rotation) = (place, rotation);
         self.trail.push(q);
         Some(())
+    }
+
+    /// Whether what the rods have around them at one end of the way to `place` shows that nothing touches on it.
+    fn is_surely_clear(&self, place: &mut Place) -> bool {
+        if self.settings.uses_printed_distance() {
+            return false;
+        }
+        let needed = self.settings.margin_cm + place.moved_cm(&self.here, self.arm);
+        if self.here.clearance_cm >= needed {
+            return true;
+        }
+        if place.clearance_cm < needed {
+            self.measure(place);
+        }
+        place.clearance_cm >= needed
+    }
+
+    fn measure(&self, place: &mut Place) {
+        let reach = self.settings.act_cm.max(FAR_CM);
+        place.measure(self.arm, self.world.bodies(), reach, &self.apart);
+    }
+
+    /// Whether nothing touches on the way to `q`, looked at in steps; no joint moves by more than `most`.
+    fn is_clear_to(&self, q: &Joints, most: f64) -> bool {
+        let count = (most / CHECK_RAD).ceil().max(1.0) as u32;
+        (1..=count).all(|k| {
+            let share = f64::from(k) / f64::from(count);
+            let between = std::array::from_fn(|i| self.here.q[i] + (q[i] - self.here.q[i]) * share);
+            let (bodies, printed) = (self.world.bodies(), self.settings.uses_printed_distance());
+            self.arm.is_clear(&between, bodies, self.settings.margin_cm, printed, &self.apart)
+        })
     }
 }

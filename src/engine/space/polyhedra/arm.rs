@@ -27,6 +27,7 @@ pub struct CarriedArm {
     arm: Arm,
     body: Body,
     floor: Option<HalfSpace>,
+    length_cm: f64,
     has_pedestal: bool,
 }
 
@@ -57,12 +58,19 @@ impl CarriedArm {
         })?;
         let floor = support.floor_m().map(|height| HalfSpace::below(height * CM_PER_M));
         let floor = floor.transpose().map_err(|e| e.to_string())?;
+        let (arm, body) = (robot.arm().placed(support.base()), found.exposed());
         Ok(Self {
-            arm: robot.arm().placed(support.base()),
-            body: found.exposed(),
+            length_cm: length_m(&arm, &body) * CM_PER_M,
+            arm,
+            body,
             floor,
             has_pedestal: support.pedestal().is_some(),
         })
+    }
+
+    /// No point of the arm is farther from the axis of a joint before it than this.
+    pub fn length_cm(&self) -> f64 {
+        self.length_cm
     }
 
     /// Forward and inverse kinematics, in metres.
@@ -163,13 +171,25 @@ impl CarriedArm {
 
     /// How far the rods' surfaces are from the obstacles, or `reach` if that is further.
     pub fn clearance(&self, q: &Joints, bodies: &[Convex], reach: f64, printed: bool) -> f64 {
-        let (apart, mut least) = (self.apart(bodies), reach);
-        for (rod, capsule) in self.rods(q).iter().enumerate() {
+        self.clearance_of(&self.rods(q), bodies, reach, printed, &self.apart(bodies))
+    }
+
+    /// The clearance of rods that are in place, with what is remembered of a configuration near by.
+    pub fn clearance_of(
+        &self,
+        rods: &[Capsule],
+        bodies: &[Convex],
+        reach: f64,
+        printed: bool,
+        apart: &Apart,
+    ) -> f64 {
+        let mut least = reach;
+        for (rod, capsule) in rods.iter().enumerate() {
             let among = self.among(rod, bodies);
             for (obstacle, body) in among.iter().enumerate() {
                 // Nothing farther than the nearest so far is of use.
                 let within = capsule.radius + least;
-                let pair = ([rod, obstacle], &apart);
+                let pair = ([rod, obstacle], apart);
                 let found = measured(&capsule.segment, body, within, printed, pair);
                 least = found.map_or(least, |nearest| least.min(nearest.distance - capsule.radius));
             }
@@ -219,6 +239,17 @@ impl CarriedArm {
     pub fn tip_jacobian(&self, q: &Joints) -> Matrix6<f64> {
         jacobian(&self.arm.chain().frames(q), AXES, &self.tip(q))
     }
+}
+
+/// All links one after the other, with the end of a rod that is farthest from its link's frame.
+fn length_m(arm: &Arm, body: &Body) -> f64 {
+    let frames = arm.chain().frames(&[0.0; AXES]);
+    let links: f64 = frames.windows(2).map(|pair| (pair[1].origin - pair[0].origin).norm()).sum();
+    let beyond = body.parts().iter().flat_map(|part| {
+        let Capsule { segment, .. } = part.placed(&frames);
+        [segment.a, segment.b].map(|end| (end - frames[part.link()].origin).norm())
+    });
+    links + beyond.fold(0.0, f64::max)
 }
 
 fn jacobian(frames: &[Frame; AXES + 1], link: usize, point: &Vec3) -> Matrix6<f64> {

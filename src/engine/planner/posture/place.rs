@@ -1,0 +1,48 @@
+//! Where the arm is and how much room its rods have there, so that a short way on need not be looked at.
+
+use crate::geometry::{Capsule, Convex};
+use crate::kinematics::{AXES, Joints};
+use crate::space::polyhedra::{Apart, CarriedArm};
+
+/// Beyond what rounding can do to a rod's place, in centimetres.
+const SLACK_CM: f64 = 1e-6;
+
+/// A configuration.
+#[derive(Debug, Clone)]
+pub(super) struct Place {
+    pub(super) q: Joints,
+    rods: Vec<Capsule>,
+    /// The rods' surfaces are as far from everything at least.
+    pub(super) clearance_cm: f64,
+}
+
+impl Place {
+    /// `q`, of whose surroundings nothing is known.
+    pub(super) fn new(arm: &CarriedArm, q: &Joints) -> Self {
+        Self { q: *q, rods: arm.rods(q), clearance_cm: f64::NEG_INFINITY }
+    }
+
+    /// `q`, with what is left of the room `before`.
+    pub(super) fn after(before: &Self, arm: &CarriedArm, q: &Joints) -> Self {
+        let mut place = Self::new(arm, q);
+        place.clearance_cm = before.clearance_cm - place.moved_cm(before, arm);
+        place
+    }
+
+    /// Measures the room by the exact distance, up to `reach`.
+    pub(super) fn measure(&mut self, arm: &CarriedArm, bodies: &[Convex], reach: f64, apart: &Apart) {
+        self.clearance_cm = arm.clearance_of(&self.rods, bodies, reach, false, apart);
+    }
+
+    /// No point of a rod is farther than this from where it is at either end, while the joints turn evenly from `before`.
+    ///
+    /// A point of the arm leaves the straight line between its ends by at most an eighth of its greatest second derivative,
+    /// which is the square of all turns together times the arm's length; points of a rod lie between its ends.
+    pub(super) fn moved_cm(&self, before: &Self, arm: &CarriedArm) -> f64 {
+        let ends = self.rods.iter().zip(&before.rods).flat_map(|(now, then)| {
+            [(now.segment.a, then.segment.a), (now.segment.b, then.segment.b)].map(|(a, b)| (a - b).norm())
+        });
+        let turned: f64 = (0..AXES).map(|i| (self.q[i] - before.q[i]).abs()).sum();
+        ends.fold(0.0, f64::max) + arm.length_cm() * turned * turned / 8.0 + SLACK_CM
+    }
+}
