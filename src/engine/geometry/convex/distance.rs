@@ -46,10 +46,20 @@ fn is_over(point: &Vec3, face: &Face, vertices: &[Vec3]) -> bool {
 
 /// The nearest points of a segment, which may be a point, and a convex polyhedron.
 pub fn nearest_segment_convex(segment: &Segment, convex: &Convex) -> Nearest {
+    nearest_by_edge(segment, convex, None).0
+}
+
+/// [`nearest_segment_convex`], with the edge on which the nearest point lies, none if it is in a face or inside; sooner found if
+/// `likely` is that edge, and the same whatever it is.
+pub fn nearest_by_edge(
+    segment: &Segment,
+    convex: &Convex,
+    likely: Option<usize>,
+) -> (Nearest, Option<usize>) {
     let (inside, visible) = entry(segment, convex);
     if let Some(share) = inside {
         let common = segment.at(share);
-        return Nearest { distance: 0.0, on_a: common, on_b: common };
+        return (Nearest { distance: 0.0, on_a: common, on_b: common }, None);
     }
     let mut best = Nearest { distance: f64::INFINITY, on_a: segment.a, on_b: segment.a };
     for (index, face) in convex.faces.iter().enumerate() {
@@ -61,21 +71,47 @@ pub fn nearest_segment_convex(segment: &Segment, convex: &Convex) -> Nearest {
             if height >= 0.0 && height < best.distance && is_over(&end, face, &convex.vertices) {
                 best = Nearest { distance: height, on_a: end, on_b: end - face.plane.normal * height };
                 if height <= other {
-                    return best;
+                    return (best, None);
                 }
             }
         }
     }
-    for edge in &convex.edges {
-        if visible & (1 << edge.faces[0] | 1 << edge.faces[1]) != 0 {
-            let [from, to] = edge.ends.map(|end| convex.vertices[end]);
-            let found = nearest_segment_segment(segment, &Segment::new(from, to));
-            if found.distance < best.distance {
-                best = found;
-            }
+    let (mut nearest, beyond) = (None, likely.map(|edge| Beyond::of(segment, &convex.side(edge))));
+    for (index, edge) in convex.edges.iter().enumerate() {
+        if visible & (1 << edge.faces[0] | 1 << edge.faces[1]) == 0 {
+            continue;
+        }
+        let side = convex.side(index);
+        if beyond.as_ref().is_some_and(|beyond| beyond.holds(&side)) {
+            continue;
+        }
+        let found = nearest_segment_segment(segment, &side);
+        if found.distance < best.distance {
+            (best, nearest) = (found, Some(index));
         }
     }
-    best
+    (best, nearest)
+}
+
+/// What is farther from a segment than a certain edge, told by extents along the line of their nearest points.
+struct Beyond {
+    direction: Vec3,
+    /// What lies below it along the direction is farther away than the edge.
+    below: f64,
+}
+
+impl Beyond {
+    fn of(segment: &Segment, edge: &Segment) -> Self {
+        let Nearest { distance, on_a, on_b } = nearest_segment_segment(segment, edge);
+        let direction = (on_a - on_b) / distance.max(f64::MIN_POSITIVE);
+        let least = direction.dot(&segment.a).min(direction.dot(&segment.b));
+        // More than rounding can do to what is as far away, so that of equals the first is still found.
+        Self { direction, below: least - distance - 1e-6 * (1.0 + least.abs()) }
+    }
+
+    fn holds(&self, edge: &Segment) -> bool {
+        self.direction.dot(&edge.a).max(self.direction.dot(&edge.b)) < self.below
+    }
 }
 
 /// The distance between a segment and a convex polyhedron.

@@ -12,7 +12,8 @@ mod primitives;
 mod printed;
 
 pub use distance::{
-    distance_point_convex, distance_segment_convex, intersects_segment_convex, nearest_segment_convex,
+    distance_point_convex, distance_segment_convex, intersects_segment_convex, nearest_by_edge,
+    nearest_segment_convex,
 };
 pub use primitives::Axis;
 pub use printed::{
@@ -20,7 +21,7 @@ pub use printed::{
     nearest_segment_segment_printed,
 };
 
-use super::{Aabb, Vec3};
+use super::{Aabb, Segment, Vec3};
 
 /// The most vertices, planes or faces a polyhedron may have.
 ///
@@ -85,6 +86,12 @@ impl Convex {
     /// The edges between faces, ordered by their vertices.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
+    }
+
+    /// Edge number `edge` as a segment.
+    fn side(&self, edge: usize) -> Segment {
+        let [from, to] = self.edges[edge].ends.map(|end| self.vertices[end]);
+        Segment::new(from, to)
     }
 
     /// The smallest axis-aligned box about the solid.

@@ -1,6 +1,6 @@
 //! What is remembered of how rods and obstacles lie apart, so that the next configuration need not be measured anew.
 
-use crate::geometry::{Convex, Face, Nearest, Segment, Vec3};
+use crate::geometry::{Convex, Face, Nearest, Segment, Vec3, nearest_by_edge};
 use std::cell::Cell;
 
 /// Beyond what rounding can do to a distance in a scene, in centimetres.
@@ -11,46 +11,56 @@ pub(super) const SLACK_CM: f64 = 1e-6;
 #[derive(Debug)]
 pub struct Apart {
     bodies: usize,
+    pairs: Vec<Cell<Pair>>,
+}
+
+/// What is remembered of a rod and an obstacle.
+#[derive(Debug, Clone, Copy, Default)]
+struct Pair {
     /// From the obstacle to the rod, of length 1; zero where none is known.
-    directions: Vec<Cell<Vec3>>,
+    direction: Vec3,
+    /// How far the obstacle reaches along it.
+    far: f64,
+    /// The obstacle's edge that was nearest.
+    edge: Option<usize>,
+}
+
+impl Pair {
+    fn along(direction: Vec3, convex: &Convex, edge: Option<usize>) -> Self {
+        let heights = convex.vertices().iter().map(|corner| direction.dot(corner));
+        Self { direction, far: heights.fold(f64::NEG_INFINITY, f64::max), edge }
+    }
 }
 
 impl Apart {
     /// Nothing known yet of `rods` among `bodies`.
     pub(super) fn new(rods: usize, bodies: usize) -> Self {
-        Self { bodies, directions: vec![Cell::new(Vec3::zeros()); rods * bodies] }
+        Self { bodies, pairs: vec![Cell::default(); rods * bodies] }
     }
 
-    /// A distance that a rod's axis and a body are apart at least; 0 or less says nothing.
-    pub(super) fn at_least(&self, [rod, body]: [usize; 2], axis: &Segment, convex: &Convex) -> f64 {
-        let direction = self.directions[rod * self.bodies + body].get();
-        let near = direction.dot(&axis.a).min(direction.dot(&axis.b));
-        let far =
-            convex.vertices().iter().map(|corner| direction.dot(corner)).fold(f64::NEG_INFINITY, f64::max);
-        near - far - SLACK_CM
-    }
-
-    /// Whether the plane of some face shows that they are farther apart than `within`; its normal is remembered.
-    pub(super) fn is_beyond_a_face(
+    /// The nearest points of rod `rod`'s axis and body `body`; none if they are farther apart than `within` for sure.
+    pub(super) fn nearest(
         &self,
         [rod, body]: [usize; 2],
         axis: &Segment,
         convex: &Convex,
         within: f64,
-    ) -> bool {
+    ) -> Option<Nearest> {
+        let pair = &self.pairs[rod * self.bodies + body];
+        let Pair { direction, far, edge } = pair.get();
+        if direction.dot(&axis.a).min(direction.dot(&axis.b)) - far > within + SLACK_CM {
+            return None;
+        }
         let height = |face: &Face| face.plane.height(&axis.a).min(face.plane.height(&axis.b));
-        let beyond = convex.faces().iter().find(|face| height(face) > within + SLACK_CM);
-        if let Some(face) = beyond {
-            self.directions[rod * self.bodies + body].set(face.plane.normal);
+        if let Some(face) = convex.faces().iter().find(|face| height(face) > within + SLACK_CM) {
+            pair.set(Pair::along(face.plane.normal, convex, edge));
+            return None;
         }
-        beyond.is_some()
-    }
-
-    /// Remembers in which direction they lie apart.
-    pub(super) fn learn(&self, [rod, body]: [usize; 2], nearest: &Nearest) {
-        if nearest.distance > SLACK_CM {
-            let direction = (nearest.on_a - nearest.on_b) / nearest.distance;
-            self.directions[rod * self.bodies + body].set(direction);
+        let (found, nearest) = nearest_by_edge(axis, convex, edge);
+        if found.distance > SLACK_CM {
+            let direction = (found.on_a - found.on_b) / found.distance;
+            pair.set(Pair::along(direction, convex, nearest.or(edge)));
         }
+        Some(found)
     }
 }

@@ -6,8 +6,8 @@
 
 use super::apart::{Apart, SLACK_CM};
 use crate::geometry::{
-    Aabb, Capsule, Convex, Frame, HalfSpace, Nearest, Segment, Vec3, nearest_segment_convex,
-    nearest_segment_convex_printed, nearest_segment_half_space,
+    Aabb, Capsule, Convex, Frame, HalfSpace, Nearest, Segment, Vec3, nearest_segment_convex_printed,
+    nearest_segment_half_space,
 };
 use crate::kinematics::{
     AXES, Arm, Joints, Robot,
@@ -278,10 +278,5 @@ fn measured(
     if printed {
         return Some(nearest_segment_convex_printed(axis, body));
     }
-    if apart.at_least(pair, axis, body) > within || apart.is_beyond_a_face(pair, axis, body, within) {
-        return None;
-    }
-    let found = nearest_segment_convex(axis, body);
-    apart.learn(pair, &found);
-    Some(found)
+    apart.nearest(pair, axis, body, within)
 }
