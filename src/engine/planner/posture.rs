@@ -25,7 +25,6 @@ use crate::space::polyhedra::{CarriedArm, DOWN};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use follow::Follower;
-use place::Place;
 use settings::{Branches, Posture};
 
 /// The registry's entry.
@@ -129,18 +128,7 @@ impl Posture {
         q: Joints,
         nodes: &[Vec3],
     ) -> Attempt<'a> {
-        let mut follower = Follower {
-            settings: self,
-            world,
-            apart: arm.apart(world.bodies()),
-            arm,
-            branch,
-            here: Place::new(arm, &q),
-            ahead: None,
-            rotation: DOWN,
-            trail: vec![q],
-            adjustments: 0,
-        };
+        let mut follower = Follower::new((self, world, arm), branch, q, DOWN);
         let failed_at = follower.follow(nodes).err();
         Attempt { follower, failed_at }
     }

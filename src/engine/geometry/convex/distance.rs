@@ -5,7 +5,7 @@
 //! faces with an end in front of them, and their edges, can hold one. An end whose foot lies in a face and
 //! which is not above the other end is nearest at once: its height bounds every distance from below.
 
-use super::{Convex, Face};
+use super::{Convex, Edge, Face};
 use crate::geometry::{Nearest, Segment, Vec3, nearest_segment_segment};
 
 /// The share at which the segment enters the solid; `None` if it passes by.
@@ -76,13 +76,12 @@ pub fn nearest_by_edge(
             }
         }
     }
-    let (mut nearest, beyond) = (None, likely.map(|edge| Beyond::of(segment, &convex.side(edge))));
+    let is_visible = |edge: &Edge| visible & (1 << edge.faces[0] | 1 << edge.faces[1]) != 0;
+    let first = likely.or_else(|| convex.edges.iter().position(is_visible));
+    let (mut nearest, beyond) = (None, first.map(|edge| Beyond::of(segment, &convex.side(edge))));
     for (index, edge) in convex.edges.iter().enumerate() {
-        if visible & (1 << edge.faces[0] | 1 << edge.faces[1]) == 0 {
-            continue;
-        }
         let side = convex.side(index);
-        if beyond.as_ref().is_some_and(|beyond| beyond.holds(&side)) {
+        if !is_visible(edge) || beyond.as_ref().is_some_and(|beyond| beyond.holds(&side)) {
             continue;
         }
         let found = nearest_segment_segment(segment, &side);

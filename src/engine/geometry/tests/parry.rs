@@ -5,7 +5,7 @@
 
 use super::sample;
 use crate::geometry::{
-    Segment, Vec3, distance_segment_box, distance_segment_convex, distance_segment_segment,
+    Segment, Vec3, distance_segment_box, distance_segment_convex, distance_segment_segment, nearest_by_edge,
 };
 use base::seed;
 use parry3d::{
@@ -49,6 +49,31 @@ fn segments_and_boxes_are_as_far_apart_as_parry_finds_them() {
         let ours = distance_segment_box(&p, &shape);
         assert!((ours - theirs).abs() < 1e-12, "seed {seed} pair {index}: {ours}, not {theirs}");
     }
+}
+
+#[test]
+fn the_nearest_points_are_the_same_wherever_they_are_looked_for_first() {
+    let seed = 605;
+    let mut stream = seed::stream(seed);
+    let mut on_edges = 0;
+    for index in 0..2_000 {
+        let solid = sample::polyhedron(&mut stream);
+        let p = sample::segment_beside(&mut stream, &sample::convex_faces(&solid));
+        let (found, edge) = nearest_by_edge(&p, &solid, None);
+        for likely in 0..solid.edges().len() {
+            let other = nearest_by_edge(&p, &solid, Some(likely));
+            assert_eq!(other, (found, edge), "seed {seed} pair {index}, edge {likely}");
+        }
+        let sides = solid.edges().iter().map(|edge| edge.ends.map(|end| solid.vertices()[end]));
+        let least = sides.map(|[a, b]| distance_segment_segment(&p, &Segment::new(a, b)));
+        let least = least.fold(f64::INFINITY, f64::min);
+        assert!(
+            found.distance <= least && (edge.is_none() || found.distance == least),
+            "seed {seed} pair {index}"
+        );
+        on_edges += u32::from(edge.is_some());
+    }
+    assert!((400..1_800).contains(&on_edges), "one-sided sample: {on_edges} of 2000 on edges");
 }
 
 #[test]

@@ -22,12 +22,13 @@ const FAR_CM: f64 = 6.0;
 pub(super) struct Follower<'a> {
     pub(super) settings: &'a Posture,
     pub(super) world: &'a PolyhedraWorld,
+    /// What is remembered of where obstacles are.
     pub(super) apart: Apart,
     pub(super) arm: &'a CarriedArm,
     pub(super) branch: Branch,
     pub(super) here: Place,
     /// Where the arm would be next, if that was looked at.
-    pub(super) ahead: Option<Place>,
+    ahead: Option<Place>,
     pub(super) rotation: Matrix3<f64>,
     /// Every configuration stored.
     pub(super) trail: Vec<Joints>,
@@ -35,7 +36,28 @@ pub(super) struct Follower<'a> {
     pub(super) adjustments: u64,
 }
 
-impl Follower<'_> {
+impl<'a> Follower<'a> {
+    /// At `q` on `branch`, where the tip has the posture `rotation`.
+    pub(super) fn new(
+        (settings, world, arm): (&'a Posture, &'a PolyhedraWorld, &'a CarriedArm),
+        branch: Branch,
+        q: Joints,
+        rotation: Matrix3<f64>,
+    ) -> Self {
+        Self {
+            settings,
+            world,
+            apart: arm.apart(world.bodies()),
+            arm,
+            branch,
+            here: Place::new(arm, &q),
+            ahead: None,
+            rotation,
+            trail: vec![q],
+            adjustments: 0,
+        }
+    }
+
     /// Follows `nodes` from the second on; the index of the node that could not be reached, if there is one.
     pub(super) fn follow(&mut self, nodes: &[Vec3]) -> Result<(), usize> {
         for (index, pair) in nodes.windows(2).enumerate() {
@@ -86,16 +108,17 @@ impl Follower<'_> {
         self.arm.arm().inverse_on(&CarriedArm::target(tip, rotation), self.branch, reference)
     }
 
-    fn field(&self, q: &Joints) -> Field {
-        field(self.settings, self.world, self.arm, q, &self.apart)
+    fn field(&self, place: &Place) -> Field {
+        field(self.settings, self.world, self.arm, &place.rods, &self.apart)
     }
 
     /// The rod that is nearest to something where the arm would be at `next` with its present posture.
     pub(super) fn blocking(&self, next: &Vec3) -> Option<Capsule> {
         let q = self.solve(next, &self.rotation, &self.here.q)?;
-        let found = self.field(&q).contacts;
+        let place = Place::new(self.arm, &q);
+        let found = self.field(&place).contacts;
         let nearest = found.iter().min_by(|a, b| a.clearance.total_cmp(&b.clearance))?;
-        Some(self.arm.rods(&q)[nearest.rod])
+        Some(place.rods[nearest.rod])
     }
 
     /// The posture for `next` after descending the potential there, within bounds; `None` if a rod still touches.
@@ -105,26 +128,28 @@ impl Follower<'_> {
             Bounds::FromStart => DOWN,
         };
         let mut rotation = self.rotation;
-        let mut q = self.solve(next, &rotation, &self.here.q)?;
-        let mut now = self.field(&q);
+        let mut place = Place::new(self.arm, &self.solve(next, &rotation, &self.here.q)?);
+        let mut now = self.field(&place);
         for _ in 0..self.settings.iterations {
             if now.clearance >= self.settings.act_cm {
                 break;
             }
-            let Some(direction) = direction(self.settings, self.arm, &q, &now) else { break };
+            let Some(direction) = direction(self.settings, self.arm, &place.q, &now) else { break };
             let tried = (0..=self.settings.halvings).find_map(|halving| {
                 let length = self.settings.step_rad / f64::from(1 << halving);
                 let turned = self.bounded(&origin, &(exp(&(direction * length)) * rotation));
-                let solved = self.solve(next, &turned, &q)?;
-                let then = self.field(&solved);
+                let moved = Place::new(self.arm, &self.solve(next, &turned, &place.q)?);
+                let then = self.field(&moved);
                 let improves = then.potential < now.potential || then.clearance > now.clearance;
                 (improves || self.settings.sign == super::settings::Sign::AsPrinted)
-                    .then_some((turned, solved, then))
+                    .then_some((turned, moved, then))
             });
-            let Some((turned, solved, then)) = tried else { break };
+            let Some((turned, moved, then)) = tried else { break };
             self.adjustments += 1;
-            (rotation, q, now) = (turned, solved, then);
+            (rotation, place, now) = (turned, moved, then);
         }
+        place.clearance_cm = now.clearance;
+        self.ahead = Some(place);
         (now.clearance >= self.settings.margin_cm).then_some(rotation)
     }
 
@@ -173,7 +198,8 @@ impl Follower<'_> {
 
     /// The joints after turning by `w`, by the Jacobian alone.
     fn dead_reckoned(&self, w: &Vec3) -> Option<Joints> {
-        let inverse = inverse(&self.arm.tip_jacobian(&self.here.q), self.settings.damping)?;
+        let frames = self.arm.arm().chain().frames(&self.here.q);
+        let inverse = inverse(&self.arm.tip_jacobian(&frames), self.settings.damping)?;
         let change = inverse * Vector6::new(0.0, 0.0, 0.0, w.x, w.y, w.z);
         Some(std::array::from_fn(|i| self.here.q[i] + change[i]))
     }

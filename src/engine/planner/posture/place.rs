@@ -11,7 +11,7 @@ const SLACK_CM: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(super) struct Place {
     pub(super) q: Joints,
-    rods: Vec<Capsule>,
+    pub(super) rods: Vec<Capsule>,
     /// The rods' surfaces are as far from everything at least.
     pub(super) clearance_cm: f64,
 }
@@ -44,5 +44,45 @@ impl Place {
         });
         let turned: f64 = (0..AXES).map(|i| (self.q[i] - before.q[i]).abs()).sum();
         ends.fold(0.0, f64::max) + arm.length_cm() * turned * turned / 8.0 + SLACK_CM
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Frame;
+    use crate::kinematics::Robot;
+    use crate::space::Support;
+    use base::seed;
+    use rand::RngExt as _;
+    use std::path::Path;
+
+    #[test]
+    fn no_rod_moves_farther_on_its_way_than_is_said() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/aubo_i10.toml");
+        let support = Support::on_floor(Frame::IDENTITY);
+        let arm = CarriedArm::new(&Robot::load(&file).unwrap(), "mesh", &support).unwrap();
+        let (seed, mut tightest) = (79, f64::INFINITY);
+        let mut stream = seed::stream(seed);
+        for way in 0..2_000 {
+            let reach = [0.01, 0.1, 0.5][way % 3];
+            let mut random =
+                |reach: f64| -> Joints { std::array::from_fn(|_| stream.random_range(-reach..reach)) };
+            let (from, turn) = (random(3.0), random(reach));
+            let at = |share: f64| Place::new(&arm, &std::array::from_fn(|i| from[i] + share * turn[i]));
+            let (start, end) = (at(0.0), at(1.0));
+            let said = end.moved_cm(&start, &arm);
+            for share in [0.1, 0.3, 0.5, 0.7, 0.9, 1.0] {
+                let between = at(share);
+                for (rod, then) in between.rods.iter().zip(&start.rods) {
+                    let moved = (rod.segment.at(0.4) - then.segment.at(0.4)).norm();
+                    assert!(moved <= said, "seed {seed} way {way} at {share}: {moved}, not {said}");
+                    let ends = (rod.segment.b - then.segment.b).norm();
+                    assert!(ends <= said, "seed {seed} way {way} at {share}: {ends}, not {said}");
+                    tightest = tightest.min(said / ends);
+                }
+            }
+        }
+        assert!(tightest < 1.01, "the bound is never near: {tightest}");
     }
 }

@@ -4,7 +4,7 @@
 //! Tang, Zhou & Xu (2023), eqs. 21 to 26. Only the direction of the gradient is used, so the gain kr is left out.
 
 use super::settings::{Clamp, Posture, Sign};
-use crate::geometry::Vec3;
+use crate::geometry::{Capsule, Vec3};
 use crate::kinematics::Joints;
 use crate::space::PolyhedraWorld;
 use crate::space::polyhedra::{Apart, CarriedArm, Contact};
@@ -22,16 +22,16 @@ pub(super) struct Field {
     pub(super) contacts: Vec<Contact>,
 }
 
-/// The field at `q`.
+/// The field of rods that are in place.
 pub(super) fn field(
     settings: &Posture,
     world: &PolyhedraWorld,
     arm: &CarriedArm,
-    q: &Joints,
+    rods: &[Capsule],
     apart: &Apart,
 ) -> Field {
     let reach = settings.d0_cm.max(settings.act_cm);
-    let contacts = arm.contacts_apart(q, world.bodies(), reach, settings.uses_printed_distance(), apart);
+    let contacts = arm.contacts_of(rods, world.bodies(), reach, settings.uses_printed_distance(), apart);
     let clearance = contacts.iter().map(|contact| contact.clearance).fold(reach, f64::min);
     let potential = contacts.iter().map(|contact| {
         let gap = gap(settings, contact.clearance);
@@ -63,7 +63,7 @@ pub(super) fn direction(settings: &Posture, arm: &CarriedArm, q: &Joints, field:
         let moves = arm.rod_jacobian(&frames, contact.rod, &contact.on_rod);
         gradient += away.transpose() * moves.fixed_rows::<3>(0) * slope;
     }
-    let turning = gradient * inverse(&arm.tip_jacobian(q), settings.damping)?;
+    let turning = gradient * inverse(&arm.tip_jacobian(&frames), settings.damping)?;
     let turning = Vec3::new(turning[3], turning[4], turning[5]);
     let unit = turning.try_normalize(1e-300).filter(|unit| unit.iter().all(|c| c.is_finite()))?;
     Some(match settings.sign {

@@ -76,7 +76,9 @@ fn turning_goes_down_the_potential_and_the_printed_sign_up() {
         for (branch, q) in solved.iter() {
             let settings = posture(("damping = 0.02", "damping = 0.0")).unwrap();
             let printed = posture(("sign = 'down'", "sign = 'as_printed'")).unwrap();
-            let now = field(&settings, polyhedra, arm, q);
+            let around =
+                |q: &Joints| field(&settings, polyhedra, arm, &arm.rods(q), &arm.apart(polyhedra.bodies()));
+            let now = around(q);
             if now.potential == 0.0 || now.clearance < 0.3 {
                 continue;
             }
@@ -84,7 +86,7 @@ fn turning_goes_down_the_potential_and_the_printed_sign_up() {
             let then = |by: f64| {
                 let turned = rotation::exp(&(way * by)) * DOWN;
                 let q = arm.arm().inverse_on(&CarriedArm::target(&tip, &turned), branch, q).unwrap();
-                field(&settings, polyhedra, arm, &q).potential
+                around(&q).potential
             };
             assert!(then(1e-4) < now.potential && then(-1e-4) > now.potential, "case {i}");
             let up = direction(&printed, arm, q, &now).unwrap();
@@ -125,19 +127,10 @@ fn a_singular_pose_is_solved_and_an_unreachable_one_ends_without_a_path() {
     let branch = arm.arm().branch_of(&q);
     let settings = posture(("", "")).unwrap();
     let polyhedra = world.as_polyhedra().unwrap();
-    let mut follower = Follower {
-        settings: &settings,
-        world: polyhedra,
-        arm,
-        branch,
-        q,
-        rotation: pose.rotation,
-        trail: vec![q],
-        adjustments: 0,
-    };
+    let mut follower = Follower::new((&settings, polyhedra, arm), branch, q, pose.rotation);
     let tip = pose.origin * 100.0;
     assert_eq!(follower.follow(&[tip, tip]), Ok(()));
-    assert!((arm.tip(&follower.q) - tip).norm() < 1e-9);
+    assert!((arm.tip(&follower.here.q) - tip).norm() < 1e-9);
     let plan = along(&settings, &world, [60.0, 0.0, 40.0], [99.0, 99.0, 140.0]);
     assert_eq!(plan.ending, Ending::NoPath);
     let share = plan.counts["followed_share"].as_f64();

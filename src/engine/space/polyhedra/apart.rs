@@ -52,7 +52,10 @@ impl Apart {
             return None;
         }
         let height = |face: &Face| face.plane.height(&axis.a).min(face.plane.height(&axis.b));
-        if let Some(face) = convex.faces().iter().find(|face| height(face) > within + SLACK_CM) {
+        let beyond = |face: &&Face| height(face) > within + SLACK_CM;
+        if direction == Vec3::zeros()
+            && let Some(face) = convex.faces().iter().find(beyond)
+        {
             pair.set(Pair::along(face.plane.normal, convex, edge));
             return None;
         }

@@ -116,19 +116,18 @@ impl CarriedArm {
     /// For every obstacle within `reach` of a rod's surface, the floor last, the rod nearest to it, by the exact distance or by the
     /// printed one. What the first joint alone moves keeps its distance to what the base stands on and is not held against it.
     pub fn contacts(&self, q: &Joints, bodies: &[Convex], reach: f64, printed: bool) -> Vec<Contact> {
-        self.contacts_apart(q, bodies, reach, printed, &self.apart(bodies))
+        self.contacts_of(&self.rods(q), bodies, reach, printed, &self.apart(bodies))
     }
 
-    /// [`contacts`](Self::contacts), with what is remembered of a configuration near by.
-    pub fn contacts_apart(
+    /// The contacts of rods that are in place, with what is remembered of a configuration near by.
+    pub fn contacts_of(
         &self,
-        q: &Joints,
+        rods: &[Capsule],
         bodies: &[Convex],
         reach: f64,
         printed: bool,
         apart: &Apart,
     ) -> Vec<Contact> {
-        let rods = self.rods(q);
         let of = |(obstacle, body): (usize, &Convex)| {
             let mut best: Option<Contact> = None;
             for (rod, capsule) in rods.iter().enumerate() {
@@ -146,7 +145,7 @@ impl CarriedArm {
             }
             best
         };
-        let above = |floor: &HalfSpace| self.contact_above(floor, &rods, bodies.len(), reach);
+        let above = |floor: &HalfSpace| self.contact_above(floor, rods, bodies.len(), reach);
         let among = bodies.iter().enumerate().filter_map(of);
         among.chain(self.floor.as_ref().and_then(above)).collect()
     }
@@ -236,8 +235,9 @@ impl CarriedArm {
     }
 
     /// How the tip moves with the joints, as [`rod_jacobian`](Self::rod_jacobian).
-    pub fn tip_jacobian(&self, q: &Joints) -> Matrix6<f64> {
-        jacobian(&self.arm.chain().frames(q), AXES, &self.tip(q))
+    pub fn tip_jacobian(&self, frames: &[Frame; AXES + 1]) -> Matrix6<f64> {
+        let tip = (frames[AXES] * *self.arm.chain().tool()).origin * CM_PER_M;
+        jacobian(frames, AXES, &tip)
     }
 }
 

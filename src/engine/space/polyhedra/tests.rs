@@ -5,6 +5,7 @@ use crate::geometry::Frame;
 use crate::kinematics::Robot;
 use crate::space::Support;
 use base::settings::Document;
+use rand::RngExt as _;
 use std::path::Path;
 
 fn parse(text: &str) -> Result<Scene, String> {
@@ -172,10 +173,41 @@ fn rods_and_tip_move_as_their_jacobians_say() {
             assert!((measured - column).norm() < 1e-5, "rod {rod}, joint {joint}: {measured} {column}");
         }
     }
-    let column = arm.tip_jacobian(&q).fixed_view::<3, 1>(0, 1).into_owned();
+    let column = arm.tip_jacobian(&arm.arm().chain().frames(&q)).fixed_view::<3, 1>(0, 1).into_owned();
     let mut other = q;
     other[1] += 1e-6;
     assert!(((arm.tip(&other) - arm.tip(&q)) / 1e-6 - column).norm() < 1e-3);
+}
+
+#[test]
+fn what_is_remembered_of_rods_and_obstacles_changes_no_answer() {
+    let pedestal = Convex::cuboid(Vec3::new(0.0, 0.0, -30.0), Vec3::new(20.0, 20.0, 60.0)).unwrap();
+    let boxes = [([60.0, 10.0, 45.0], 12.0), ([40.0, -30.0, 70.0], 20.0)];
+    let cuboid = |(center, side): ([f64; 3], f64)| Convex::cuboid(center.into(), Vec3::repeat(side)).unwrap();
+    let bodies: Vec<Convex> = boxes.into_iter().map(cuboid).chain([pedestal]).collect();
+    let arm = CarriedArm::new(&aubo(), "paper", &Support::on_floor(Frame::IDENTITY)).unwrap();
+    let (seed, apart) = (77, arm.apart(&bodies));
+    let mut stream = base::seed::stream(seed);
+    let (mut q, mut clear, mut near) = ([0.4, -0.9, 1.2, 0.3, 1.5, 0.1], 0, 0);
+    for step in 0..3_000 {
+        q.iter_mut().for_each(|angle| *angle += stream.random_range(-0.2..0.2));
+        let fresh = || arm.apart(&bodies);
+        for least in [0.1, 2.0] {
+            let found = arm.is_clear(&q, &bodies, least, false, &apart);
+            let all = arm.contacts(&q, &bodies, 50.0, false);
+            let measured = all.iter().map(|contact| contact.clearance).fold(50.0, f64::min);
+            assert_eq!(found, measured >= least, "seed {seed} step {step}: {measured}");
+            assert_eq!(found, arm.is_clear(&q, &bodies, least, false, &fresh()));
+            clear += u32::from(found);
+        }
+        let rods = arm.rods(&q);
+        let found = arm.contacts_of(&rods, &bodies, 5.0, false, &apart);
+        assert_eq!(found, arm.contacts(&q, &bodies, 5.0, false), "seed {seed} step {step}");
+        let clearance = arm.clearance_of(&rods, &bodies, 6.0, false, &apart);
+        assert_eq!(clearance, arm.clearance(&q, &bodies, 6.0, false), "seed {seed} step {step}");
+        near += u32::from(!found.is_empty());
+    }
+    assert!((600..5_400).contains(&clear) && (300..2_900).contains(&near), "one-sided: {clear}, {near}");
 }
 
 #[test]

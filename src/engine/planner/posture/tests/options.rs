@@ -29,16 +29,7 @@ fn ways(settings: &Posture, world: &World) -> Vec<Way> {
     let arm = polyhedra.arm().unwrap();
     let follow = |nodes: Vec<Vec3>| {
         let (branch, q) = settings.starts(polyhedra, arm, &nodes[0]).first().copied()?;
-        let mut follower = Follower {
-            settings,
-            world: polyhedra,
-            arm,
-            branch,
-            q,
-            rotation: DOWN,
-            trail: vec![q],
-            adjustments: 0,
-        };
+        let mut follower = Follower::new((settings, polyhedra, arm), branch, q, DOWN);
         let mut stood = vec![DOWN];
         for pair in nodes.windows(2) {
             if follower.follow(pair).is_err() {
@@ -148,7 +139,8 @@ fn a_distance_clamped_to_nothing_has_an_infinite_potential_and_no_direction() {
     let polyhedra = touched.as_polyhedra().unwrap();
     let [floor, literal] =
         [("", ""), ("clamp = 'floor'", "clamp = 'literal'")].map(|change| posture(change).unwrap());
-    let [floored, clamped] = [&floor, &literal].map(|settings| field(settings, polyhedra, &arm, &q));
+    let [floored, clamped] = [&floor, &literal]
+        .map(|settings| field(settings, polyhedra, &arm, &arm.rods(&q), &arm.apart(polyhedra.bodies())));
     assert!(floored.clearance < 0.0 && floored.clearance == clamped.clearance, "{}", floored.clearance);
     assert!(floored.potential.is_finite() && clamped.potential.is_infinite());
     assert!(direction(&floor, &arm, &q, &floored).is_some());
@@ -185,8 +177,8 @@ fn printed_distances_stand_in_for_the_exact_ones_if_asked() {
     let mut differ = 0;
     for way in ways(&exact, &world) {
         for q in way.trail.iter().step_by(3) {
-            let [one, other] =
-                [&exact, &printed].map(|settings| field(settings, polyhedra, arm, q).clearance);
+            let [one, other] = [&exact, &printed]
+                .map(|settings| field(settings, polyhedra, arm, &arm.rods(q), &arm.apart(&bodies)).clearance);
             let [truth, formula] = [false, true].map(|is_printed| arm.clearance(q, &bodies, 5.0, is_printed));
             assert_eq!((one, other), (truth, formula));
             differ += u32::from((one - other).abs() > 1e-6);
