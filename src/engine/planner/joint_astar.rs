@@ -238,14 +238,9 @@ impl Planner for JointAstar {
         })?;
         let delta = self.delta_deg.to_radians();
         let states = RefCell::new(States::of_start());
-        let space = |steps| Space {
-            world,
-            arm,
-            start,
-            delta,
-            steps,
-            states: &states,
-            apart: arm.apart(world.bodies()),
+        let space = |steps| {
+            let apart = arm.apart(world.bodies());
+            Space { world, arm, start, delta, steps, states: &states, apart }
         };
         let (mut graph, probe) = (space(steps(self.neighbours)), space(Vec::new()));
         let at = |node: u32| angles(&start, &states.borrow().cells[node as usize], delta);

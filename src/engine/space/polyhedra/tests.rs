@@ -190,7 +190,9 @@ fn what_is_remembered_of_rods_and_obstacles_changes_no_answer() {
     let mut stream = base::seed::stream(seed);
     let (mut q, mut clear, mut near) = ([0.4, -0.9, 1.2, 0.3, 1.5, 0.1], 0, 0);
     for step in 0..3_000 {
-        q.iter_mut().for_each(|angle| *angle += stream.random_range(-0.2..0.2));
+        for angle in &mut q {
+            *angle += stream.random_range(-0.2..0.2);
+        }
         let fresh = || arm.apart(&bodies);
         for least in [0.1, 2.0] {
             let found = arm.is_clear(&q, &bodies, least, false, &apart);
