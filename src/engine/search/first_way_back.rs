@@ -138,6 +138,9 @@ impl FirstWayBack {
     /// If `goal` is outside the grid.
     pub fn length(&mut self, goal: u32, most: u32) -> Result<Option<Octile>, Unsettled> {
         (self.goal, self.query, self.left) = (self.node(goal), self.query + 1, MOST_ASKED);
+        if self.goal == self.start {
+            return Ok(Some(Octile::ZERO));
+        }
         let first = Answer { f: self.key(0.0, self.start), g: Octile::ZERO };
         self.known[self.start] = Known { query: self.query, depth: 0, answer: first };
         // As in the search forwards.

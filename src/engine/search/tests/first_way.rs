@@ -47,7 +47,7 @@ fn the_specialised_search_has_the_lengths_of_the_general_one_up_to_its_bound() {
 #[test]
 fn lengths_found_backwards_are_those_of_every_order_among_equals() {
     let (mut settled, mut longer, mut beyond, mut count) = (0, 0, 0, 0);
-    for case in cases(400, 0.25) {
+    for case in cases(100, 0.25) {
         let mut flood = OctileAstar::new(&case.moves).unwrap();
         let mut back = FirstWayBack::new(&case.moves);
         let orders = [Ties::Fifo, Ties::Lifo, Ties::LargerG];
