@@ -266,11 +266,12 @@ pub trait Question {
     /// The answers where paths are shortest, one for each alternative of [`engine::length_inversion::pairs`].
     fn shortest(&self, cases: &[Vec<Moves>], rule: Match) -> Vec<Self::Answer>;
 
-    /// The answer where A* never lowers open nodes, on one grid a case.
-    fn never_lowered(&self, cases: &[Moves], ties: Ties) -> Self::Answer;
+    /// The answers where A* never lowers open nodes, on one grid a case, one for each order of `ties`.
+    fn never_lowered(&self, cases: &[Moves], ties: &[Ties]) -> Vec<Self::Answer>;
 }
 
-/// The answer under each of `variants`; all that have one shape and shortest paths are searched together.
+/// The answer under each of `variants`; all that have one shape and shortest paths are searched together, and so are those on the
+/// same grids where A* never lowers open nodes.
 ///
 /// # Errors
 /// A sentence for a variant of which an obstacle cannot be made.
@@ -292,16 +293,49 @@ pub fn answers<Q: Question>(
     let of_case = |case: usize| together.iter().map(|grids| grids[case][0].clone()).collect();
     let by_case: Vec<Vec<Moves>> = (0..cases.len()).map(of_case).collect();
     let mut together = question.shortest(&by_case, Match::ByPlace).into_iter();
-    let answer = |(variant, grids): (&&Variant, Result<Vec<Vec<Moves>>, String>)| {
+    let mut never = never_lowered(question, variants, &grids);
+    let answer = |((place, variant), grids): ((usize, &&Variant), Result<Vec<Vec<Moves>>, String>)| {
         let grids = grids?;
         let answer = match variant.never_lowered() {
-            Some(ties) => Some(question.never_lowered(&grids.concat(), ties)),
+            Some(_) => never[place].take(),
             None if variant.is_free() => question.shortest(&grids, Match::Freely).pop(),
             None => together.next(),
         };
         Ok(answer.expect("a question has an answer for each alternative"))
     };
-    variants.iter().zip(grids).map(answer).collect()
+    variants.iter().enumerate().zip(grids).map(answer).collect()
+}
+
+/// The answers under those of `variants` where A* never lowers open nodes; all orders among equals on the same grids are asked for
+/// at once.
+fn never_lowered<Q: Question>(
+    question: &Q,
+    variants: &[&Variant],
+    grids: &[Result<Vec<Vec<Moves>>, String>],
+) -> Vec<Option<Q::Answer>> {
+    let mut answers: Vec<Option<Q::Answer>> = variants.iter().map(|_| None).collect();
+    let mut asked: Vec<(usize, Vec<Moves>, Ties)> = Vec::new();
+    for (place, (variant, grids)) in variants.iter().zip(grids).enumerate() {
+        if let (Some(ties), Ok(grids)) = (variant.never_lowered(), grids) {
+            asked.push((place, grids.concat(), ties));
+        }
+    }
+    while let Some((_, grids, _)) = asked.first() {
+        let grids = grids.clone();
+        let is_same = |other: &[Moves]| other.iter().zip(&grids).all(|(one, other)| is_equal(one, other));
+        let (same, rest): (Vec<_>, Vec<_>) = asked.into_iter().partition(|(_, other, _)| is_same(other));
+        let ties: Vec<Ties> = same.iter().map(|(_, _, ties)| *ties).collect();
+        for ((place, ..), answer) in same.iter().zip(question.never_lowered(&grids, &ties)) {
+            answers[*place] = Some(answer);
+        }
+        asked = rest;
+    }
+    answers
+}
+
+fn is_equal(one: &Moves, other: &Moves) -> bool {
+    let size = |moves: &Moves| (moves.width(), moves.cell_count());
+    size(one) == size(other) && (0..one.cell_count()).all(|cell| one.mask(cell) == other.mask(cell))
 }
 
 /// The moves on the lattice of `rules` if a point is free unless one of `blocked` has it.

@@ -2,10 +2,11 @@
 //!
 //! Its path then need not be a shortest one, and depends on the goal, so that no single-source search finds it. It is
 //! never shorter than a shortest path; pairs are tried whose shortest lengths lie at most a stated excess below
-//! those asked for. The same trial serves one pair of printed lengths and all targets around it.
+//! those asked for. The same trial serves one pair of printed lengths and all targets around it, and all orders among equal
+//! f where these do not matter.
 
 use super::{Pair, Targets, search, union};
-use crate::search::{FirstWayAstar, OctileAstar, ScaledOctile, Ties};
+use crate::search::{FirstWayAstar, FirstWayBack, OctileAstar, ScaledOctile, Ties};
 use base::grid::Moves;
 use rayon::prelude::*;
 
@@ -21,108 +22,132 @@ pub struct NeverLowered {
 impl NeverLowered {
     /// Tries every ordered pair whose shortest lengths are at most `excess` steps below `lengths`, one a case.
     pub fn find(moves: &[Moves], lengths: &[u32], excess: f64, ties: Ties) -> Self {
-        let cells = moves.first().map_or(0, Moves::cell_count);
-        let printed = || Trial::new(moves, lengths.iter().map(|length| [*length; 2]), excess, ties);
-        let found: Vec<(Vec<Pair>, usize)> = (0..cells)
-            .into_par_iter()
-            .map_init(printed, |trial, goal| {
-                let mut pairs = Vec::new();
-                let candidates = trial.towards(goal, |start, _| pairs.push([start, goal]));
-                (pairs, candidates)
-            })
-            .collect();
-        let candidates = found.iter().map(|(_, candidates)| candidates).sum();
-        let mut pairs: Vec<Pair> = found.into_iter().flat_map(|(pairs, _)| pairs).collect();
+        let bounds: Vec<[u32; 2]> = lengths.iter().map(|length| [*length; 2]).collect();
+        let Tried { candidates, met, open } = Tried::all(moves, &bounds, excess);
+        let forwards = settled(&open, moves, &bounds, ties);
+        let mut pairs: Vec<Pair> = met.into_iter().chain(forwards).map(|met| met.pair).collect();
         pairs.sort_unstable();
         Self { pairs, candidates }
     }
 
-    /// Which `targets`, by number, this search would have found a pair for.
-    pub fn hits(targets: &Targets, moves: &[Moves; 2], excess: f64, ties: Ties) -> Vec<bool> {
-        let bounds = || [0, 1].map(|case| targets.bounds(case));
-        let begun = || (Trial::new(moves, bounds(), excess, ties), targets.none());
-        let mark = |(mut trial, mut hits): (Trial, Vec<bool>), goal| {
-            trial.towards(goal, |_, lengths| targets.mark(&mut hits, [lengths[0], lengths[1]]));
-            (trial, hits)
+    /// Which `targets`, by number, this search would have found a pair for, for each order of `ties`.
+    pub fn hits(targets: &Targets, moves: &[Moves; 2], excess: f64, ties: &[Ties]) -> Vec<Vec<bool>> {
+        let bounds = [0, 1].map(|case| targets.bounds(case));
+        let Tried { met, open, .. } = Tried::all(moves, &bounds, excess);
+        let marked = |met: &[Met]| {
+            let mut hits = targets.none();
+            met.iter().for_each(|met| targets.mark(&mut hits, [met.lengths[0], met.lengths[1]]));
+            hits
         };
-        let goals = (0..moves[0].cell_count()).into_par_iter();
-        goals.fold(begun, mark).map(|(_, hits)| hits).reduce(|| targets.none(), union)
+        let of_all = marked(&met);
+        let hits = |ties: &Ties| union(of_all.clone(), marked(&settled(&open, moves, &bounds, *ties)));
+        ties.iter().map(hits).collect()
     }
 }
 
-/// That A* in all cases, with what the trials of one thread share. Lengths are in the units of [`ScaledOctile`].
-struct Trial {
-    cases: Vec<CaseTrial>,
-    excess: u32,
+/// A pair with the lengths that A* returns, one a case, in the units of [`ScaledOctile`].
+struct Met {
+    pair: Pair,
     lengths: Vec<u32>,
 }
 
+/// A pair of which the lengths of some cases take a search forwards.
+struct Open {
+    pair: Pair,
+    cases: Vec<Length>,
+}
+
+/// A length, in the units of [`ScaledOctile`].
+#[derive(Clone, Copy)]
+enum Length {
+    /// It is this one.
+    Known(u32),
+    /// It is not known; beyond this it is of no use.
+    AtMost(u32),
+}
+
+/// What comes out where the order among equals does not matter.
+#[derive(Default)]
+struct Tried {
+    /// How many pairs were tried.
+    candidates: usize,
+    met: Vec<Met>,
+    open: Vec<Open>,
+}
+
+impl Tried {
+    /// All pairs whose shortest lengths are within `bounds`, or by an excess below them.
+    fn all(moves: &[Moves], bounds: &[[u32; 2]], excess_steps: f64) -> Self {
+        let excess = (excess_steps * f64::from(ScaledOctile::STRAIGHT)) as u32;
+        let begun = || {
+            let case = |(moves, bounds): (&Moves, &[u32; 2])| CaseTrial::new(moves, *bounds);
+            (moves.iter().zip(bounds).map(case).collect(), Self::default())
+        };
+        let starts = (0..moves.first().map_or(0, Moves::cell_count)).into_par_iter();
+        let tried = starts.fold(begun, |(mut cases, mut tried): (Vec<CaseTrial>, Self), start| {
+            tried.from_start(&mut cases, start, excess);
+            (cases, tried)
+        });
+        tried.map(|(_, tried)| tried).reduce(Self::default, |mut one, other| {
+            one.candidates += other.candidates;
+            one.met.extend(other.met);
+            one.open.extend(other.open);
+            one
+        })
+    }
+
+    fn from_start(&mut self, cases: &mut [CaseTrial], start: u32, excess: u32) {
+        let mut goals: Option<Vec<u32>> = None;
+        for case in &mut *cases {
+            let near = case.near(start, excess);
+            goals = Some(match goals {
+                None => near,
+                Some(before) => {
+                    before.into_iter().filter(|goal| case.shortest[*goal as usize].is_some()).collect()
+                }
+            });
+        }
+        for goal in goals.unwrap_or_default() {
+            self.candidates += 1;
+            let lengths: Option<Vec<Length>> =
+                cases.iter_mut().map(|case| case.length(goal, excess)).collect();
+            let (Some(cases), pair) = (lengths, [start, goal]) else { continue };
+            let known = |length: &Length| match length {
+                Length::Known(length) => Some(*length),
+                Length::AtMost(_) => None,
+            };
+            match cases.iter().map(known).collect() {
+                Some(lengths) => self.met.push(Met { pair, lengths }),
+                None => self.open.push(Open { pair, cases }),
+            }
+        }
+    }
+}
+
+/// What the trials of one thread share in a case. Lengths are in the units of [`ScaledOctile`].
 struct CaseTrial {
     /// The least and the largest length that is asked for.
     bounds: [u32; 2],
     flood: OctileAstar,
-    astar: FirstWayAstar,
-    /// The shortest length from each cell to the goal where it is worth a try.
+    back: FirstWayBack,
+    /// The shortest length from the start to each cell where it is worth a try.
     shortest: Vec<Option<u32>>,
 }
 
-impl Trial {
-    fn new(
-        moves: &[Moves],
-        bounds: impl IntoIterator<Item = [u32; 2]>,
-        excess_steps: f64,
-        ties: Ties,
-    ) -> Self {
-        let case = |(moves, bounds): (&Moves, [u32; 2])| CaseTrial {
-            bounds,
-            flood: search(moves),
-            astar: FirstWayAstar::new(moves, ties),
-            shortest: vec![None; moves.cell_count() as usize],
-        };
-        Self {
-            cases: moves.iter().zip(bounds).map(case).collect(),
-            excess: (excess_steps * f64::from(ScaledOctile::STRAIGHT)) as u32,
-            lengths: Vec::new(),
-        }
-    }
-
-    /// Tells `meet` each start from which A* reaches `goal` at a length within the bounds and the excess in every case,
-    /// with these lengths; gives how many starts were tried.
-    fn towards(&mut self, goal: u32, mut meet: impl FnMut(u32, &[u32])) -> usize {
-        let mut starts: Option<Vec<u32>> = None;
-        for case in &mut self.cases {
-            let near = case.near(goal, self.excess);
-            starts = Some(match starts {
-                None => near,
-                Some(before) => {
-                    before.into_iter().filter(|start| case.shortest[*start as usize].is_some()).collect()
-                }
-            });
-        }
-        let starts = starts.unwrap_or_default();
-        if !starts.is_empty() {
-            self.cases.iter_mut().for_each(|case| case.astar.aim(goal));
-        }
-        for start in &starts {
-            self.lengths.clear();
-            let (cases, excess) = (&mut self.cases, self.excess);
-            self.lengths.extend(cases.iter_mut().map_while(|case| case.length(*start, excess)));
-            if self.lengths.len() == self.cases.len() {
-                meet(*start, &self.lengths);
-            }
-        }
-        starts.len()
-    }
-}
-
 impl CaseTrial {
-    /// The starts whose shortest lengths to `goal` are worth a try; moves are symmetric, so one search from the goal
-    /// finds them.
-    fn near(&mut self, goal: u32, excess: u32) -> Vec<u32> {
+    fn new(moves: &Moves, bounds: [u32; 2]) -> Self {
+        let shortest = vec![None; moves.cell_count() as usize];
+        Self { bounds, flood: search(moves), back: FirstWayBack::new(moves), shortest }
+    }
+
+    /// The goals whose shortest lengths from `start` are worth a try.
+    fn near(&mut self, start: u32, excess: u32) -> Vec<u32> {
         let ([lowest, highest], mut near) = (self.bounds, Vec::new());
-        let shortest = &mut self.shortest;
+        let (shortest, back) = (&mut self.shortest, &mut self.back);
         shortest.fill(None);
-        self.flood.flood(goal, highest, |cell, cost| {
+        back.begin(start);
+        self.flood.flood(start, highest, |cell, cost| {
+            back.tell(cell, cost);
             if cost + excess >= lowest {
                 shortest[cell as usize] = Some(cost);
                 near.push(cell);
@@ -131,10 +156,36 @@ impl CaseTrial {
         near
     }
 
-    /// What A* from `start` returns if that is within the bounds and the excess.
-    fn length(&mut self, start: u32, excess: u32) -> Option<u32> {
-        let ([lowest, highest], shortest) = (self.bounds, self.shortest[start as usize]?);
-        let length = self.astar.length(start, highest.min(shortest + excess))?;
-        Some(ScaledOctile::scaled(length)).filter(|length| *length >= lowest)
+    /// What A* returns to `goal`; nothing if that is not within the bounds and the excess.
+    fn length(&mut self, goal: u32, excess: u32) -> Option<Length> {
+        let ([lowest, highest], shortest) = (self.bounds, self.shortest[goal as usize]?);
+        let most = highest.min(shortest + excess);
+        let Ok(length) = self.back.length(goal, most) else { return Some(Length::AtMost(most)) };
+        length.map(ScaledOctile::scaled).filter(|length| *length >= lowest).map(Length::Known)
     }
+}
+
+/// Those of `open` whose lengths A* returns within `bounds`; one search is aimed at all starts of a goal.
+fn settled(open: &[Open], moves: &[Moves], bounds: &[[u32; 2]], ties: Ties) -> Vec<Met> {
+    let mut by_goal: Vec<&Open> = open.iter().collect();
+    by_goal.sort_unstable_by_key(|open| [open.pair[1], open.pair[0]]);
+    let groups: Vec<&[&Open]> = by_goal.chunk_by(|one, other| one.pair[1] == other.pair[1]).collect();
+    let searches = || moves.iter().map(|moves| FirstWayAstar::new(moves, ties)).collect();
+    let of_goal = |searches: &mut Vec<FirstWayAstar>, group: &&[&Open]| {
+        searches.iter_mut().for_each(|search| search.aim(group[0].pair[1]));
+        let met = |open: &&Open| {
+            let cases = searches.iter_mut().zip(&open.cases).zip(bounds);
+            let length = |((search, length), bounds): ((&mut FirstWayAstar, &Length), &[u32; 2])| match length
+            {
+                Length::Known(length) => Some(*length),
+                Length::AtMost(most) => {
+                    let length = search.length(open.pair[0], *most)?;
+                    Some(ScaledOctile::scaled(length)).filter(|length| *length >= bounds[0])
+                }
+            };
+            Some(Met { pair: open.pair, lengths: cases.map(length).collect::<Option<Vec<u32>>>()? })
+        };
+        group.iter().filter_map(met).collect::<Vec<Met>>()
+    };
+    groups.par_iter().map_init(searches, of_goal).flatten_iter().collect()
 }

@@ -74,8 +74,11 @@ impl Question for Pairs {
         pairs(grids, &cases().each_ref().map(Case::target), rule)
     }
 
-    fn never_lowered(&self, grids: &[Moves], _: Ties) -> Vec<Pair> {
-        vec![[grids.len() as u32; 2]]
+    fn never_lowered(&self, grids: &[Moves], ties: &[Ties]) -> Vec<Vec<Pair>> {
+        // How many are asked for at once, and for which order.
+        ties.iter()
+            .map(|of| vec![[(grids.len() * ties.len()) as u32, u32::from(*of == Ties::Lifo)]])
+            .collect()
     }
 }
 
@@ -86,10 +89,16 @@ fn every_variant_gets_its_own_answer_and_free_shapes_include_what_uniform_ones_g
     let (free, never) = (variant(FREE), variant("shape = 'circle'\nopen_node = 'never'\nties = 'lifo'"));
     let impossible = Variant { diameter_cm: -1.0, ..variant("shape = 'circle'") };
     let [circles, squares, hexagons, triangles] = &uniform;
-    let variants = [circles, &impossible, squares, &free, hexagons, &never, triangles];
+    let never_fifo = variant("shape = 'circle'\nopen_node = 'never'\nties = 'fifo'");
+    let elsewhere = variant("shape = 'square'\nopen_node = 'never'\nties = 'lifo'");
+    let variants =
+        [circles, &impossible, squares, &free, hexagons, &never, triangles, &elsewhere, &never_fifo];
     let answers = answers(&Pairs, &base(), &cases(), &variants);
     assert!(answers[1].as_ref().unwrap_err().contains("-0.5"), "{:?}", answers[1]);
-    assert_eq!(answers[5].as_ref().unwrap(), &[[2, 2]]);
+    // The orders on the same grids are asked for together.
+    for (place, answer) in [(5, [4, 1]), (7, [2, 1]), (8, [4, 0])] {
+        assert_eq!(answers[place].as_ref().unwrap(), &[answer]);
+    }
     let of_free = answers[3].as_ref().unwrap();
     for (place, variant) in [(0, circles), (2, squares), (4, hexagons), (6, triangles)] {
         let grids = variant.grids(&base(), &cases()).unwrap();

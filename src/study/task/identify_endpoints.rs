@@ -112,10 +112,13 @@ impl Question for Identify {
         found.into_iter().map(|pairs| Found { pairs, candidates: None }).collect()
     }
 
-    fn never_lowered(&self, cases: &[Moves], ties: Ties) -> Found {
-        let NeverLowered { pairs, candidates } =
-            NeverLowered::find(cases, &self.lengths(), self.excess_steps, ties);
-        Found { pairs, candidates: Some(candidates) }
+    fn never_lowered(&self, cases: &[Moves], ties: &[Ties]) -> Vec<Found> {
+        let found = |ties: &Ties| {
+            let NeverLowered { pairs, candidates } =
+                NeverLowered::find(cases, &self.lengths(), self.excess_steps, *ties);
+            Found { pairs, candidates: Some(candidates) }
+        };
+        ties.iter().map(found).collect()
     }
 }
 

@@ -150,10 +150,11 @@ impl Question for Asked<'_> {
         met.map(|Met { hits, attainable }| Hits { hits, attainable: Some(attainable) }).collect()
     }
 
-    fn never_lowered(&self, cases: &[Moves], ties: Ties) -> Hits {
+    fn never_lowered(&self, cases: &[Moves], ties: &[Ties]) -> Vec<Hits> {
         let cases = cases.first_chunk().expect("there are two cases");
         let excess = self.null.excess_steps.expect("a study without it has no such variant");
-        Hits { hits: NeverLowered::hits(&self.targets, cases, excess, ties), attainable: None }
+        let hits = NeverLowered::hits(&self.targets, cases, excess, ties).into_iter();
+        hits.map(|hits| Hits { hits, attainable: None }).collect()
     }
 }
 

@@ -43,3 +43,36 @@ fn the_specialised_search_has_the_lengths_of_the_general_one_up_to_its_bound() {
     assert!((count / 4..count).contains(&solved), "one-sided sample: {solved} of {count} solvable");
     assert!(beyond > 1_000 && longer > 100, "{beyond} bounds below a length, {longer} not shortest");
 }
+
+#[test]
+fn lengths_found_backwards_are_those_of_every_order_among_equals() {
+    let (mut settled, mut longer, mut beyond, mut count) = (0, 0, 0, 0);
+    for case in cases(100, 0.25) {
+        let mut flood = OctileAstar::new(&case.moves).unwrap();
+        let mut back = FirstWayBack::new(&case.moves);
+        let orders = [Ties::Fifo, Ties::Lifo, Ties::LargerG];
+        let mut forwards = orders.map(|ties| FirstWayAstar::new(&case.moves, ties));
+        let mut shortest = Vec::new();
+        back.begin(case.ends[0]);
+        flood.flood(case.ends[0], 1_000_000, |cell, length| {
+            back.tell(cell, length);
+            shortest.push((cell, length));
+        });
+        for (goal, least) in shortest {
+            for most in [1_000_000, least + 408, least] {
+                count += 1;
+                let Ok(length) = back.length(goal, most) else { continue };
+                for forwards in &mut forwards {
+                    forwards.aim(goal);
+                    let what = format!("seed {}, {:?} to {goal}, at most {most}", case.seed, case.ends);
+                    assert_eq!(forwards.length(case.ends[0], most), length, "{what}");
+                }
+                settled += 1;
+                longer += u32::from(length.is_some_and(|length| ScaledOctile::scaled(length) > least));
+                beyond += u32::from(length.is_none());
+            }
+        }
+    }
+    assert!((count / 2..count).contains(&settled), "one-sided sample: {settled} of {count} settled");
+    assert!(longer > 100 && beyond > 100, "{longer} are not shortest, {beyond} beyond their bounds");
+}
