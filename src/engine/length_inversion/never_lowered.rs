@@ -36,7 +36,9 @@ impl NeverLowered {
         let Tried { met, open, .. } = Tried::all(moves, &bounds, excess);
         let marked = |met: &[Met]| {
             let mut hits = targets.none();
-            met.iter().for_each(|met| targets.mark(&mut hits, [met.lengths[0], met.lengths[1]]));
+            for met in met {
+                targets.mark(&mut hits, [met.lengths[0], met.lengths[1]]);
+            }
             hits
         };
         let of_all = marked(&met);
@@ -85,7 +87,7 @@ impl Tried {
         };
         let starts = (0..moves.first().map_or(0, Moves::cell_count)).into_par_iter();
         let tried = starts.fold(begun, |(mut cases, mut tried): (Vec<CaseTrial>, Self), start| {
-            tried.from_start(&mut cases, start, excess);
+            tried.try_start(&mut cases, start, excess);
             (cases, tried)
         });
         tried.map(|(_, tried)| tried).reduce(Self::default, |mut one, other| {
@@ -96,7 +98,7 @@ impl Tried {
         })
     }
 
-    fn from_start(&mut self, cases: &mut [CaseTrial], start: u32, excess: u32) {
+    fn try_start(&mut self, cases: &mut [CaseTrial], start: u32, excess: u32) {
         let mut goals: Option<Vec<u32>> = None;
         for case in &mut *cases {
             let near = case.near(start, excess);
@@ -172,7 +174,9 @@ fn settled(open: &[Open], moves: &[Moves], bounds: &[[u32; 2]], ties: Ties) -> V
     let groups: Vec<&[&Open]> = by_goal.chunk_by(|one, other| one.pair[1] == other.pair[1]).collect();
     let searches = || moves.iter().map(|moves| FirstWayAstar::new(moves, ties)).collect();
     let of_goal = |searches: &mut Vec<FirstWayAstar>, group: &&[&Open]| {
-        searches.iter_mut().for_each(|search| search.aim(group[0].pair[1]));
+        for search in &mut *searches {
+            search.aim(group[0].pair[1]);
+        }
         let met = |open: &&Open| {
             let cases = searches.iter_mut().zip(&open.cases).zip(bounds);
             let length = |((search, length), bounds): ((&mut FirstWayAstar, &Length), &[u32; 2])| match length
