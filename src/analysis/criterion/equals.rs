@@ -58,7 +58,11 @@ impl<'a> Equals<'a> {
         let metric = of.metric(context)?;
         let truth = settings.truth.as_ref().map(|name| context.metric(name, of.study)).transpose()?;
         if truth.is_some() == of.against.is_some() {
-            return Err(context.settings.error("one of `truth` and `of.against` is accepted"));
+            return Err(context
+                .settings
+                .error("one of `truth` and `of.against` is accepted")
+                .about("truth")
+                .about("against"));
         }
         Ok(Self { of, metric, truth, within: settings.within, plan: plan(&context.seed_names()) })
     }

@@ -86,7 +86,13 @@ impl<'a> Within<'a> {
                 context.rising("accepted", [low, high], [f64::MIN, f64::MAX])?;
                 (Interval::new(low, high), None)
             }
-            _ => return Err(context.settings.error("one of `margin` and `accepted` is accepted")),
+            _ => {
+                return Err(context
+                    .settings
+                    .error("one of `margin` and `accepted` is accepted")
+                    .about("margin")
+                    .about("accepted"));
+            }
         };
         let plan = plan(&context.seed_names());
         Ok(Self { of, metric, statistic: settings.statistic, accepted, printed, plan })

@@ -103,10 +103,10 @@ struct CellQueries {
     /// What moves straight between neighbours.
     path: PathSetting,
     /// How far the tool may move between two configurations that are checked.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.1, max = 1000.0))]
     step_mm: f64,
     /// How far the tool may turn between two configurations that are checked.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.1, max = 180.0))]
     step_deg: f64,
     /// How far a joint may move between two of them before the path counts as broken.
     #[schemars(extend("exclusiveMinimum" = 0))]

@@ -75,7 +75,7 @@ struct JointQueries {
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
     /// How far a joint may move between two configurations that are checked.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(range(min = 0.1, max = 180.0))]
     step_deg: f64,
 }
 
