@@ -16,8 +16,8 @@ import pytest
 
 from statistics_judge import classes
 from statistics_judge.intervals import (
-    agreed,
     End,
+    agreed,
     band,
     bootstrap,
     clopper_pearson,
