@@ -66,8 +66,8 @@ def clopper_pearson(hits: int, trials: int) -> Interval:
 def agreed(hits: Reals, chances: Reals) -> Interval | None:
     """The exact interval of a share whose draws are all hits, or all misses; none for other draws.
 
-    The mean of values in [0, 1] that are all 1 is at least the tail's n-th root: a beta quantile. A share weighs
-    draws by their chances, so the largest over the mean widens it.
+    The mean of values in [0, 1] that are all 1 is at least the tail's n-th root: a beta quantile. A share
+    weighs draws by their chances, so the largest over the mean widens it.
     """
     misses = chances - hits
     if hits.any() and misses.any():
