@@ -63,6 +63,21 @@ def clopper_pearson(hits: int, trials: int) -> Interval:
     return End.exact(low), End.exact(high)
 
 
+def agreed(hits: Reals, chances: Reals) -> Interval | None:
+    """The exact interval of a share whose draws are all hits, or all misses; none for other draws.
+
+    The mean of values in [0, 1] that are all 1 is at least the tail's n-th root: a beta quantile. A share
+    weighs draws by their chances, so the largest over the mean widens it.
+    """
+    misses = chances - hits
+    if hits.any() and misses.any():
+        return None
+    wide = float(stats.beta.isf((1 - LEVEL) / 2, 1, len(chances)) * chances.max() / chances.mean())
+    if hits.any():
+        return End.exact(max(1 - wide, 0.0)), End.exact(1.0)
+    return End.exact(0.0), End.exact(min(wide, 1.0))
+
+
 def predictive(draws: Reals) -> Interval | None:
     """Order statistics between which one more draw lies; none where the extremes do not reach the level."""
     outside = 0

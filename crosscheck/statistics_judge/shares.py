@@ -4,7 +4,7 @@ import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
 from statistics_judge.found import Asked, Estimate, Found, certain, outcomes
-from statistics_judge.intervals import bootstrap, clopper_pearson, ratio_of_sums, sums_by_unit
+from statistics_judge.intervals import agreed, bootstrap, clopper_pearson, ratio_of_sums, sums_by_unit
 from statistics_judge.records import Flags, Places, Reals
 from statistics_judge.selection import Cases
 
@@ -13,7 +13,7 @@ EQUAL = 1e-9
 
 
 def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
-    """A share by units with chances: exact where each has one, else by bootstrap over two units or more."""
+    """A share by units with chances: exact where each has one or all agree at an end, else by bootstrap."""
     asked = chances > 0
     hits, chances = hits[asked], chances[asked]
     if not asked.any():
@@ -21,6 +21,11 @@ def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
     value = float(hits.sum() / chances.sum())
     if (chances == 1).all():
         return Estimate(value, len(hits), clopper_pearson(int(hits.sum()), int(chances.sum())))
+    if len(hits) < 2:
+        return Estimate(value, len(hits), None)
+    exact = agreed(hits, chances)
+    if exact:
+        return Estimate(value, len(hits), exact)
     return Estimate(value, len(hits), bootstrap(ratio_of_sums(hits, chances), len(hits), seed))
 
 

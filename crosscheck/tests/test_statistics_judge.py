@@ -17,6 +17,7 @@ import pytest
 from statistics_judge import classes
 from statistics_judge.intervals import (
     End,
+    agreed,
     band,
     bootstrap,
     clopper_pearson,
@@ -32,6 +33,7 @@ from statistics_judge.medians import over
 from statistics_judge.printed import Printed
 from statistics_judge.printed_cells import as_far, level_rank
 from statistics_judge.records import Metric, Paper
+from statistics_judge.shares import share
 
 ROOT = Path(__file__).parents[2]
 REQUEST = ROOT / "target/replan/crosscheck/statistics.json"
@@ -47,6 +49,22 @@ def test_exact_intervals_are_those_that_r_prints() -> None:
     ]:
         found = [end.at for end in clopper_pearson(hits, trials)]
         assert found == pytest.approx([low, high], abs=1e-7)
+
+
+def test_draws_that_agree_at_an_end_leave_a_root_of_the_tail() -> None:
+    for n in (2, 10, 20):
+        root = 0.025 ** (1 / n)
+        chances = np.full(n, 7.0)
+        for hits, expected in ((chances, [root, 1]), (0 * chances, [0, 1 - root])):
+            found = share(hits, chances, "a test")
+            assert found is not None
+            assert found.interval is not None
+            assert [end.at for end in found.interval] == pytest.approx(expected, abs=1e-12)
+    uneven = np.array([6.0] * 4 + [2.25] * 16)
+    low = agreed(uneven, uneven)
+    assert low is not None
+    assert low[0].at == pytest.approx(1 - 2 * (1 - 0.025**0.05), abs=1e-12)
+    assert agreed(np.full(9, 1.0), np.full(9, 2.0)) is None
 
 
 def test_one_more_draw_needs_39_draws() -> None:

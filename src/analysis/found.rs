@@ -20,6 +20,8 @@ pub struct Found {
     pub limits: Vec<f64>,
     /// What takes more of to narrow that interval.
     pub units: &'static str,
+    /// Our number is a share on which every unit agrees, at 0 or 1, and its interval is exact.
+    pub is_agreed: bool,
     /// The claim is met by one input among many.
     pub existential: bool,
     /// Hardly any printed value could have been refused.

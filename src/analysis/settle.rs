@@ -2,7 +2,8 @@
 
 use super::class::{Caps, SESSIONS, Sessions};
 use super::found::Found;
-use stats::proportion::units_for_margin;
+use super::statistic::LEVEL;
+use stats::proportion::{agreeing_for_width, units_for_margin};
 
 /// A hundred times as many draws tell apart what differs by a tenth of what now can be told; a larger number is an estimate of
 /// noise.
@@ -34,6 +35,9 @@ pub fn settles(found: &Found, caps: Caps) -> String {
     if found.existential {
         return "the paper's own input, on which one trial would do".to_owned();
     }
+    if found.is_agreed {
+        return agreeing_draws(found);
+    }
     more_draws(found)
         .unwrap_or_else(|| "the paper's own inputs: what is measured here stands neither way".to_owned())
 }
@@ -55,6 +59,27 @@ fn more_draws(found: &Found) -> Option<String> {
         ));
     }
     Some(format!("about {needed} {}, not {}, if our number is what it seems to be", found.units, ours.n))
+}
+
+/// How many units that all agree, as ours do, would bring the interval to this side of every limit.
+fn agreeing_draws(found: &Found) -> String {
+    let ours = found.ours.as_ref().filter(|ours| ours.interval.is_some_and(|[low, high]| low < high));
+    let Some((ours, [low, high])) = ours.and_then(|ours| ours.interval.map(|interval| (ours, interval)))
+    else {
+        return "units to count among".to_owned();
+    };
+    let distances = found.limits.iter().map(|limit| (ours.value - limit).abs());
+    let width = distances.filter(|distance| *distance > 0.0).fold(f64::INFINITY, f64::min);
+    if width >= high - low {
+        return format!(
+            "no number of {}: however many agree, the share of all may be another than {}",
+            found.units, ours.value
+        );
+    }
+    // Unequal chances make ours wider than as many equal ones do; they will do so of more.
+    let of_equal = -libm::expm1(libm::log((1.0 - LEVEL) / 2.0) / ours.n as f64);
+    let needed = agreeing_for_width(width * of_equal / (high - low), LEVEL);
+    format!("{needed} {}, not {}, if all agree as ours do", found.units, ours.n)
 }
 
 #[cfg(test)]
@@ -82,6 +107,19 @@ mod tests {
         for no_number in [[0.4, 0.5, 0.6], [0.6, 0.7, 0.8]] {
             assert!(said(no_number).starts_with("the paper's own inputs"), "{no_number:?}");
         }
+    }
+
+    #[test]
+    fn draws_that_agree_ask_for_as_many_agreeing_ones_as_reach_the_limit() {
+        let said = |limits: [f64; 2], [low, value, high]: [f64; 3]| {
+            let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 20));
+            let (limits, units) = (limits.to_vec(), "draws");
+            settles(&Found { ours, limits, units, is_agreed: true, ..Found::default() }, Caps::default())
+        };
+        let low = libm::pow(0.025, 0.05);
+        assert_eq!(said([0.9, 1.0], [low, 1.0, 1.0]), "36 draws, not 20, if all agree as ours do");
+        assert_eq!(said([0.0, 0.1], [0.0, 0.0, 1.0 - low]), "36 draws, not 20, if all agree as ours do");
+        assert!(said([1.0, 1.0], [low, 1.0, 1.0]).starts_with("no number of draws"));
     }
 
     #[test]

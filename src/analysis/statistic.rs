@@ -11,7 +11,7 @@ use serde::Deserialize;
 use stats::bootstrap::{Estimate, Resampling};
 use stats::interval::Interval;
 use stats::pooled;
-use stats::proportion::clopper_pearson;
+use stats::proportion::{clopper_pearson, mean_of_agreed};
 use stats::summary;
 pub use stats::summary::{mean, median, quantile_type7 as quantile};
 use std::collections::BTreeMap;
@@ -196,22 +196,29 @@ pub struct Share {
     pub value: f64,
     /// Its interval; none for a single draw of several chances.
     pub interval: Option<Interval>,
+    /// Whether the interval is exact, not a bootstrap's.
+    pub is_exact: bool,
     /// How many draws it rests on.
     pub draws: usize,
 }
 
 impl Share {
     /// That of `counts`, the hits and chances of each draw; none without chances. The interval is exact where every draw
-    /// has one chance, else by bootstrap over draws.
+    /// has one chance, or where all draws are hits throughout or misses throughout, else by bootstrap over draws.
+    ///
+    /// Draws that agree on a share between 0 and 1 have an interval without width: what they agree on was not known
+    /// before they were drawn, and no exact interval is claimed for it. Differences of shares are not looked at here.
     pub fn of(counts: &[[f64; 2]], plan: Resampling) -> Option<Self> {
         let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
         let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
-        let interval = if counts.iter().all(|count| count[1] == 1.0) {
+        let exact = if counts.iter().all(|count| count[1] == 1.0) {
             clopper_pearson(hits as usize, counts.len(), LEVEL)
         } else {
-            pooled::ratio_of_sums(&counts, plan).map(|found| found.interval)
+            mean_of_agreed(&counts, LEVEL).filter(|_| counts.len() > 1)
         };
-        (chances > 0.0).then(|| Self { value: hits / chances, interval, draws: counts.len() })
+        let interval = exact.or_else(|| pooled::ratio_of_sums(&counts, plan).map(|found| found.interval));
+        let (draws, is_exact) = (counts.len(), exact.is_some());
+        (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, draws })
     }
 
     /// It as our number beside a printed one: the share of `what`.
@@ -243,6 +250,17 @@ mod tests {
         let single = Share::of(&[[3.0, 4.0]], plan).unwrap();
         assert_eq!((single.value, single.interval), (0.75, None), "one draw has no interval");
         assert!(Share::of(&[[0.0, 0.0]], plan).is_none() && Share::of(&[], plan).is_none());
+    }
+
+    #[test]
+    fn draws_that_all_agree_at_an_end_leave_an_exact_interval() {
+        let plan = plan(&["a test"]);
+        let of = |hits: f64| Share::of(&[[hits, 10.0]; 20], plan).unwrap();
+        let interval = |hits: f64| of(hits).interval.map(|found| [found.low, found.high]).unwrap();
+        assert!((interval(10.0)[0] - 0.831_566_5).abs() < 1e-6 && interval(10.0)[1] == 1.0, "{:?}", of(10.0));
+        assert!((interval(0.0)[1] - 0.168_433_5).abs() < 1e-6 && interval(0.0)[0] == 0.0, "{:?}", of(0.0));
+        assert!(of(10.0).is_exact && of(0.0).is_exact);
+        assert_eq!((of(7.0).is_exact, interval(7.0)), (false, [0.7, 0.7]), "between the ends");
     }
 
     #[test]

@@ -55,6 +55,44 @@ pub fn clopper_pearson(hits: usize, trials: usize, level: f64) -> Option<Interva
     })
 }
 
+/// The exact interval for a mean of values in [0, 1], from `draws` of hits and chances that are all hits, or none of any draw;
+/// none for other draws, and without any.
+///
+/// If n independent values in [0, 1] are all 1, their mean is at least L with Lⁿ = (1 − level) / 2, whatever they are drawn
+/// from: P(all are 1) ≤ meanⁿ. Draws of unequal chances weigh unequally, and a miss may lie on the largest: the interval is
+/// wider by the largest number of chances over the mean one, which is exact only where no draw could have more chances.
+///
+/// # Panics
+/// If `level` is not inside (0, 1).
+///
+/// # Source
+/// Clopper & Pearson, Biometrika 26 (1934) 404–413, at n of n; P(X = 1) ≤ E X for X in [0, 1] is Markov's inequality.
+pub fn mean_of_agreed(draws: &[[f64; 2]], level: f64) -> Option<Interval> {
+    assert!(level > 0.0 && level < 1.0, "an interval at level {level}");
+    let are_all = |share: f64| draws.iter().all(|[hits, chances]| *chances > 0.0 && *hits == share * chances);
+    let chances =
+        |of: fn(f64, f64) -> f64| draws.iter().fold(0.0, |so_far, [_, chances]| of(so_far, *chances));
+    let n = draws.len() as f64;
+    let missed =
+        (1.0 - libm::pow((1.0 - level) / 2.0, 1.0 / n)) * chances(f64::max) * n / chances(|a, b| a + b);
+    if draws.is_empty() {
+        None
+    } else if are_all(1.0) {
+        Some(Interval::new((1.0 - missed).max(0.0), 1.0))
+    } else {
+        are_all(0.0).then(|| Interval::new(0.0, missed.min(1.0)))
+    }
+}
+
+/// The least number of units that must all agree for the interval of [`mean_of_agreed`] to be no wider than `width`.
+///
+/// # Panics
+/// If `width` or `level` is not inside (0, 1).
+pub fn agreeing_for_width(width: f64, level: f64) -> usize {
+    assert!(width > 0.0 && width < 1.0 && level > 0.0 && level < 1.0, "a width of {width} at level {level}");
+    (libm::log((1.0 - level) / 2.0) / libm::log1p(-width)).ceil() as usize
+}
+
 /// The least number of trials for which Wilson's interval about `share` is at most `margin` to either side.
 ///
 /// # Panics

@@ -48,6 +48,37 @@ fn clopper_pearson_gives_what_newcombe_and_r_print() {
 }
 
 #[test]
+fn draws_that_agree_at_an_end_have_the_closed_form() {
+    for n in [1_u8, 5, 10, 20, 145] {
+        let low = libm::pow(0.025, 1.0 / f64::from(n));
+        let all = |hits: f64| mean_of_agreed(&vec![[hits, 7.0]; usize::from(n)], 0.95);
+        close(all(7.0), low, 1.0, 1e-12);
+        close(all(0.0), 0.0, 1.0 - low, 1e-12);
+        let exact = clopper_pearson(usize::from(n), usize::from(n), 0.95).unwrap();
+        close(all(7.0), exact.low, exact.high, 1e-12);
+    }
+    // Twice the mean number of chances on the largest draw: twice as wide.
+    let uneven: Vec<[f64; 2]> = (0..20).map(|i| if i < 4 { [6.0, 6.0] } else { [2.25, 2.25] }).collect();
+    close(mean_of_agreed(&uneven, 0.95), 1.0 - 2.0 * (1.0 - libm::pow(0.025, 0.05)), 1.0, 1e-12);
+}
+
+#[test]
+fn draws_that_agree_inside_or_not_at_all_have_no_exact_interval() {
+    for draws in [vec![], vec![[1.0, 2.0]; 9], vec![[1.0, 1.0], [0.0, 1.0]], vec![[0.0, 0.0]]] {
+        assert_eq!(mean_of_agreed(&draws, 0.95), None, "{draws:?}");
+    }
+}
+
+#[test]
+fn so_many_agreeing_draws_reach_a_width_and_one_fewer_do_not() {
+    for (width, needed) in [(0.1, 36), (0.005, 736), (0.5, 6)] {
+        let found = |n: usize| mean_of_agreed(&vec![[1.0, 1.0]; n], 0.95).unwrap().low;
+        assert_eq!(agreeing_for_width(width, 0.95), needed);
+        assert!(found(needed) >= 1.0 - width && found(needed - 1) < 1.0 - width, "{width}");
+    }
+}
+
+#[test]
 fn binomial_tails_add_up_to_what_pascals_triangle_gives() {
     for trials in 1..40 {
         for share in [0.01, 0.3, 0.5, 0.97] {
