@@ -8,6 +8,9 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// The largest number, either way, that is accepted where none is said: a thousand kilometres in millimetres.
+const LARGEST: f64 = 1e9;
+
 /// Something that is not accepted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Fault {
@@ -197,7 +200,12 @@ fn plain(node: Node<'_>, subject: Subject<'_>, found: &mut Found) {
 
 fn is_within(node: Node<'_>, number: f64) -> bool {
     let ((low, high), (above, below)) = (node.bounds(), node.open_bounds());
-    number.is_finite() && low <= number && number <= high && above < number && number < below
+    is_usable(node, number) && low <= number && number <= high && above < number && number < below
+}
+
+/// Whether sums and products of such numbers stay finite, in single precision too.
+fn is_usable(node: Node<'_>, number: f64) -> bool {
+    number.is_finite() && (number.abs() <= LARGEST || !node.kinds().contains(&"number"))
 }
 
 fn array(node: Node<'_>, subject: Subject<'_>, elements: &[Spanned<DeValue<'_>>], found: &mut Found) {
@@ -262,9 +270,13 @@ fn missing(node: Node<'_>, key: &str) -> String {
 
 fn refused(subject: Subject<'_>, accepted: &str) -> Fault {
     let found = shown(subject.value.get_ref());
-    let is_finite = number(subject.value.get_ref()).is_none_or(f64::is_finite);
-    let accepted =
-        if is_finite { accepted.to_owned() } else { accepted.replace("a number", "a finite number") };
+    let accepted = match number(subject.value.get_ref()) {
+        Some(number) if !number.is_finite() => accepted.replace("a number", "a finite number"),
+        Some(number) if number.abs() > LARGEST && accepted == "a number" => {
+            format!("a number from -{LARGEST:e} to {LARGEST:e}")
+        }
+        _ => accepted.to_owned(),
+    };
     let name = if subject.name.is_empty() { "the value".to_owned() } else { format!("`{}`", subject.name) };
     Fault::new(subject.span(), format!("{name} is {found}; {accepted} is accepted"))
 }

@@ -76,13 +76,19 @@ impl Joint {
         ];
         let unreal = numbers.into_iter().find(|(_, value)| !value.is_finite());
         let unreal = unreal.map(|(key, value)| (key, value, "a finite number"));
+        let endless = numbers.into_iter().find(|(_, value)| value.abs() > LARGEST);
+        let endless =
+            endless.map(|(key, value)| (key, value, "at most a thousand kilometres or 10^6 rad, either way"));
         let crossed = self.upper_rad <= self.lower_rad;
         let crossed = crossed.then_some(("upper_deg", self.upper_rad, "more than lower_deg"));
         let stuck = self.speed_rad_s <= 0.0;
         let stuck = stuck.then_some(("speed_deg_s", self.speed_rad_s, "more than 0"));
-        unreal.or(crossed).or(stuck)
+        unreal.or(endless).or(crossed).or(stuck)
     }
 }
+
+/// Metres, radians and radians a second beyond which nothing is meant, and beyond which single precision overflows.
+const LARGEST: f64 = 1e6;
 
 /// Sine and cosine of a twist. A twist that is a multiple of a right angle to within rounding is taken as
 /// one, so that its sine and cosine are 0, 1 or -1 and the closed forms that rely on it are exact.
