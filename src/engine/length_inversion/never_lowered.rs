@@ -20,14 +20,18 @@ pub struct NeverLowered {
 }
 
 impl NeverLowered {
-    /// Tries every ordered pair whose shortest lengths are at most `excess` steps below `lengths`, one a case.
-    pub fn find(moves: &[Moves], lengths: &[u32], excess: f64, ties: Ties) -> Self {
+    /// Tries every ordered pair whose shortest lengths are at most `excess` steps below `lengths`, one a case, for each order of
+    /// `ties`.
+    pub fn find(moves: &[Moves], lengths: &[u32], excess: f64, ties: &[Ties]) -> Vec<Self> {
         let bounds: Vec<[u32; 2]> = lengths.iter().map(|length| [*length; 2]).collect();
         let Tried { candidates, met, open } = Tried::all(moves, &bounds, excess);
-        let forwards = settled(&open, moves, &bounds, ties);
-        let mut pairs: Vec<Pair> = met.into_iter().chain(forwards).map(|met| met.pair).collect();
-        pairs.sort_unstable();
-        Self { pairs, candidates }
+        let found = |ties: &Ties| {
+            let forwards = settled(&open, moves, &bounds, *ties);
+            let mut pairs: Vec<Pair> = met.iter().chain(&forwards).map(|met| met.pair).collect();
+            pairs.sort_unstable();
+            Self { pairs, candidates }
+        };
+        ties.iter().map(found).collect()
     }
 
     /// Which `targets`, by number, this search would have found a pair for, for each order of `ties`.

@@ -113,12 +113,8 @@ impl Question for Identify {
     }
 
     fn never_lowered(&self, cases: &[Moves], ties: &[Ties]) -> Vec<Found> {
-        let found = |ties: &Ties| {
-            let NeverLowered { pairs, candidates } =
-                NeverLowered::find(cases, &self.lengths(), self.excess_steps, *ties);
-            Found { pairs, candidates: Some(candidates) }
-        };
-        ties.iter().map(found).collect()
+        let found = NeverLowered::find(cases, &self.lengths(), self.excess_steps, ties).into_iter();
+        found.map(|found| Found { pairs: found.pairs, candidates: Some(found.candidates) }).collect()
     }
 }
 
