@@ -65,22 +65,9 @@ pub fn nearest_by_edge(
     let first = likely.or_else(|| convex.edges.iter().position(is_visible));
     let first = first.map(|index| (index, nearest_segment_segment(segment, &convex.side(index))));
     let beyond = first.map(|(_, found)| Beyond::of(segment, &found));
-    let mut best = Nearest { distance: f64::INFINITY, on_a: segment.a, on_b: segment.a };
-    for (index, face) in convex.faces.iter().enumerate() {
-        if visible >> index & 1 == 0 {
-            continue;
-        }
-        let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
-        for (height, other, end) in [(a, b, segment.a), (b, a, segment.b)] {
-            let may_be_nearest = height >= 0.0 && height < best.distance;
-            let is_farther = beyond.as_ref().is_some_and(|beyond| height > beyond.distance);
-            if may_be_nearest && !is_farther && is_over(&end, face, &convex.vertices) {
-                best = Nearest { distance: height, on_a: end, on_b: end - face.plane.normal * height };
-                if height <= other {
-                    return (best, None);
-                }
-            }
-        }
+    let (mut best, is_least) = over_face(segment, convex, visible, beyond.as_ref());
+    if is_least {
+        return (best, None);
     }
     let mut nearest = None;
     for (index, edge) in convex.edges.iter().enumerate() {
@@ -102,6 +89,29 @@ pub fn nearest_by_edge(
         }
     }
     (best, nearest)
+}
+
+/// The nearest foot of an end in one of the `visible` faces, and whether nothing can be nearer; what is `beyond` is left out.
+#[inline]
+fn over_face(segment: &Segment, convex: &Convex, visible: u128, beyond: Option<&Beyond>) -> (Nearest, bool) {
+    let mut best = Nearest { distance: f64::INFINITY, on_a: segment.a, on_b: segment.a };
+    for (index, face) in convex.faces.iter().enumerate() {
+        if visible >> index & 1 == 0 {
+            continue;
+        }
+        let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
+        for (height, other, end) in [(a, b, segment.a), (b, a, segment.b)] {
+            let may_be_nearest = height >= 0.0 && height < best.distance;
+            let is_farther = beyond.is_some_and(|beyond| height > beyond.distance);
+            if may_be_nearest && !is_farther && is_over(&end, face, &convex.vertices) {
+                best = Nearest { distance: height, on_a: end, on_b: end - face.plane.normal * height };
+                if height <= other {
+                    return (best, true);
+                }
+            }
+        }
+    }
+    (best, false)
 }
 
 /// What is farther from a segment than a certain edge, told by extents along the line of their nearest points.

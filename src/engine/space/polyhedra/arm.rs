@@ -201,7 +201,7 @@ impl CarriedArm {
         if let Some([rod, obstacle]) = first {
             least = measure(rod, obstacle, least).unwrap_or(least);
         }
-        for rod in 0..rods.len() {
+        for (rod, capsule) in rods.iter().enumerate() {
             for obstacle in 0..self.among(rod, bodies).len() {
                 if first == Some([rod, obstacle]) {
                     continue;
@@ -212,8 +212,8 @@ impl CarriedArm {
                 }
             }
             if let Some(floor) = self.floor.filter(|_| self.moves(rod)) {
-                let height = nearest_segment_half_space(&rods[rod].segment, &floor).distance;
-                least = least.min(height - rods[rod].radius);
+                let height = nearest_segment_half_space(&capsule.segment, &floor).distance;
+                least = least.min(height - capsule.radius);
             }
         }
         least
