@@ -170,6 +170,10 @@ pub static COLUMNS: &[Column] = &[
     count("colliding", "samples whose exact distance is 0"),
     count("missed", "colliding samples whose printed distance is above 0"),
     count("overestimated_listed", "separated samples whose distance by the listed diagonals is too long"),
+    count(
+        "overestimated_listed_first",
+        "separated samples whose distance by the first list, without a face's closing edge, is too long",
+    ),
     count("segment_pairs", "pairs of segments compared"),
     count("segment_pairs_wrong", "pairs of segments whose printed distance is not the exact one"),
     count(

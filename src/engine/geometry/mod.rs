@@ -27,7 +27,8 @@ pub use aabb::{Aabb, BroadPhase};
 pub use convex::{
     Axis, Convex, Edge, Face, Plane, distance_point_convex, distance_segment_convex,
     intersects_segment_convex, nearest_by_edge, nearest_segment_convex, nearest_segment_convex_listed,
-    nearest_segment_convex_printed, nearest_segment_segment_literal, nearest_segment_segment_printed,
+    nearest_segment_convex_listed_first, nearest_segment_convex_printed, nearest_segment_segment_literal,
+    nearest_segment_segment_printed,
 };
 pub use error::GeometryError;
 pub use frame::Frame;

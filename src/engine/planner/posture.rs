@@ -163,9 +163,7 @@ impl Posture {
             }
             return without_path(plan);
         }
-        let tips: Vec<Vec<f64>> =
-            follower.trail.iter().map(|q| follower.arm.tip(q).as_slice().to_vec()).collect();
-        plan.cost = Some(path_length(&tips));
+        plan.cost = Some(path_length(&follower.tips));
         plan.path = follower.trail.iter().map(|q| q.to_vec()).collect();
         plan
     }

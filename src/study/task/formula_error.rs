@@ -4,7 +4,8 @@
 //! overestimated if the printed distance is longer by more than a millionth of the obstacle's extent, and a
 //! collision is missed if the printed distance is not 0. The clamped formula for two segments is compared with the
 //! exact one on pairs of segments of the same samples; so is the same formula to the letter, with s and t as eqs. 11 and 12 name
-//! them and the ends as the text after eq. 18 takes them. `overestimated_listed` has the diagonals that the text lists, not all.
+//! them and the ends as the text after eq. 18 takes them. `overestimated_listed` has the diagonals that the text lists, not all;
+//! `overestimated_listed_first` has the first list of the text, which leaves out the face's closing edge too.
 
 use super::{Entry, Task};
 use crate::study::key::TrialKey;
@@ -14,7 +15,8 @@ use base::seed::{self, Stream};
 use base::settings::{Accepted, Settings};
 use engine::geometry::{
     Convex, Segment, Vec3, distance_segment_convex, distance_segment_segment, nearest_segment_convex_listed,
-    nearest_segment_convex_printed, nearest_segment_segment_literal, nearest_segment_segment_printed,
+    nearest_segment_convex_listed_first, nearest_segment_convex_printed, nearest_segment_segment_literal,
+    nearest_segment_segment_printed,
 };
 use engine::planner::Value;
 use rand::RngExt as _;
@@ -25,13 +27,14 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "formula_error",
     about: "how often the printed distance of a segment and a polyhedron is wrong, on random segments",
-    revision: 2,
+    revision: 3,
     columns: &[
         "separated",
         "overestimated",
         "colliding",
         "missed",
         "overestimated_listed",
+        "overestimated_listed_first",
         "segment_pairs",
         "segment_pairs_wrong",
         "segment_pairs_wrong_literal",
@@ -78,6 +81,7 @@ struct Counted {
     colliding: u64,
     missed: u64,
     overestimated_listed: u64,
+    overestimated_listed_first: u64,
     pairs: u64,
     pairs_wrong: u64,
     pairs_wrong_literal: u64,
@@ -94,6 +98,8 @@ impl Counted {
             self.overestimated += u64::from(printed > truth + SAME * extent);
             let listed = nearest_segment_convex_listed(segment, convex).distance;
             self.overestimated_listed += u64::from(listed > truth + SAME * extent);
+            let first = nearest_segment_convex_listed_first(segment, convex).distance;
+            self.overestimated_listed_first += u64::from(first > truth + SAME * extent);
             self.largest_excess = self.largest_excess.max(printed - truth);
         } else {
             self.colliding += 1;
@@ -114,6 +120,7 @@ impl Counted {
             ("colliding", self.colliding),
             ("missed", self.missed),
             ("overestimated_listed", self.overestimated_listed),
+            ("overestimated_listed_first", self.overestimated_listed_first),
             ("segment_pairs", self.pairs),
             ("segment_pairs_wrong", self.pairs_wrong),
             ("segment_pairs_wrong_literal", self.pairs_wrong_literal),

@@ -61,30 +61,29 @@ pub fn nearest_by_edge(
         let common = segment.at(share);
         return (Nearest { distance: 0.0, on_a: common, on_b: common }, None);
     }
-    let mut best = Nearest { distance: f64::INFINITY, on_a: segment.a, on_b: segment.a };
-    for (index, face) in convex.faces.iter().enumerate() {
-        if visible >> index & 1 == 0 {
-            continue;
-        }
-        let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
-        for (height, other, end) in [(a, b, segment.a), (b, a, segment.b)] {
-            if height >= 0.0 && height < best.distance && is_over(&end, face, &convex.vertices) {
-                best = Nearest { distance: height, on_a: end, on_b: end - face.plane.normal * height };
-                if height <= other {
-                    return (best, None);
-                }
-            }
-        }
-    }
     let is_visible = |edge: &Edge| visible & (1 << edge.faces[0] | 1 << edge.faces[1]) != 0;
     let first = likely.or_else(|| convex.edges.iter().position(is_visible));
-    let (mut nearest, beyond) = (None, first.map(|edge| Beyond::of(segment, &convex.side(edge))));
+    let first = first.map(|index| (index, nearest_segment_segment(segment, &convex.side(index))));
+    let beyond = first.map(|(_, found)| Beyond::of(segment, &found));
+    let (mut best, is_least) = over_face(segment, convex, visible, beyond.as_ref());
+    if is_least {
+        return (best, None);
+    }
+    let mut nearest = None;
     for (index, edge) in convex.edges.iter().enumerate() {
-        let side = convex.side(index);
-        if !is_visible(edge) || beyond.as_ref().is_some_and(|beyond| beyond.holds(&side)) {
+        if !is_visible(edge) {
             continue;
         }
-        let found = nearest_segment_segment(segment, &side);
+        let found = match first {
+            Some((known, found)) if known == index => found,
+            _ => {
+                let side = convex.side(index);
+                if beyond.as_ref().is_some_and(|beyond| beyond.holds(&side)) {
+                    continue;
+                }
+                nearest_segment_segment(segment, &side)
+            }
+        };
         if found.distance < best.distance {
             (best, nearest) = (found, Some(index));
         }
@@ -92,20 +91,45 @@ pub fn nearest_by_edge(
     (best, nearest)
 }
 
+/// The nearest foot of an end in one of the `visible` faces, and whether nothing can be nearer; what is `beyond` is left out.
+#[inline]
+fn over_face(segment: &Segment, convex: &Convex, visible: u128, beyond: Option<&Beyond>) -> (Nearest, bool) {
+    let mut best = Nearest { distance: f64::INFINITY, on_a: segment.a, on_b: segment.a };
+    for (index, face) in convex.faces.iter().enumerate() {
+        if visible >> index & 1 == 0 {
+            continue;
+        }
+        let (a, b) = (face.plane.height(&segment.a), face.plane.height(&segment.b));
+        for (height, other, end) in [(a, b, segment.a), (b, a, segment.b)] {
+            let may_be_nearest = height >= 0.0 && height < best.distance;
+            let is_farther = beyond.is_some_and(|beyond| height > beyond.distance);
+            if may_be_nearest && !is_farther && is_over(&end, face, &convex.vertices) {
+                best = Nearest { distance: height, on_a: end, on_b: end - face.plane.normal * height };
+                if height <= other {
+                    return (best, true);
+                }
+            }
+        }
+    }
+    (best, false)
+}
+
 /// What is farther from a segment than a certain edge, told by extents along the line of their nearest points.
 struct Beyond {
     direction: Vec3,
     /// What lies below it along the direction is farther away than the edge.
     below: f64,
+    /// What is farther away than this is so too.
+    distance: f64,
 }
 
 impl Beyond {
-    fn of(segment: &Segment, edge: &Segment) -> Self {
-        let Nearest { distance, on_a, on_b } = nearest_segment_segment(segment, edge);
+    fn of(segment: &Segment, Nearest { distance, on_a, on_b }: &Nearest) -> Self {
         let direction = (on_a - on_b) / distance.max(f64::MIN_POSITIVE);
         let least = direction.dot(&segment.a).min(direction.dot(&segment.b));
         // More than rounding can do to what is as far away, so that of equals the first is still found.
-        Self { direction, below: least - distance - 1e-6 * (1.0 + least.abs()) }
+        let slack = 1e-6 * (1.0 + least.abs());
+        Self { direction, below: least - distance - slack, distance: distance + slack }
     }
 
     fn holds(&self, edge: &Segment) -> bool {

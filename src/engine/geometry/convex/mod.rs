@@ -17,8 +17,8 @@ pub use distance::{
 };
 pub use primitives::Axis;
 pub use printed::{
-    nearest_segment_convex_listed, nearest_segment_convex_printed, nearest_segment_segment_literal,
-    nearest_segment_segment_printed,
+    nearest_segment_convex_listed, nearest_segment_convex_listed_first, nearest_segment_convex_printed,
+    nearest_segment_segment_literal, nearest_segment_segment_printed,
 };
 
 use super::{Aabb, Segment, Vec3};

@@ -90,6 +90,12 @@ pub fn nearest_segment_convex_listed(segment: &Segment, convex: &Convex) -> Near
     nearest_by_lines(segment, convex, |i, j, count| i < 2 || j == i + 1 || (i, j + 1) == (0, count))
 }
 
+/// The same with the first of the text's two lists, after eq. 10: it leaves out the closing edge too, from the last corner to the first.
+pub fn nearest_segment_convex_listed_first(segment: &Segment, convex: &Convex) -> Nearest {
+    let is_closing = |i, j, count| (i, j + 1) == (0, count);
+    nearest_by_lines(segment, convex, |i, j, count| !is_closing(i, j, count) && (i < 2 || j == i + 1))
+}
+
 /// The same by the edges and diagonals for which `is_taken` holds, of the two corners' places and the number of corners.
 fn nearest_by_lines(
     segment: &Segment,

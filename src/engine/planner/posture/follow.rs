@@ -32,6 +32,8 @@ pub(super) struct Follower<'a> {
     pub(super) rotation: Matrix3<f64>,
     /// Every configuration stored.
     pub(super) trail: Vec<Joints>,
+    /// Where the tip is at each.
+    pub(super) tips: Vec<[f64; 3]>,
     /// Steps of adjustment taken.
     pub(super) adjustments: u64,
 }
@@ -44,13 +46,15 @@ impl<'a> Follower<'a> {
         q: Joints,
         rotation: Matrix3<f64>,
     ) -> Self {
+        let here = Place::new(arm, &q);
         Self {
             settings,
             world,
             apart: arm.apart(world.bodies()),
             arm,
             branch,
-            here: Place::new(arm, &q),
+            tips: vec![arm.tip_in(&here.frames).into()],
+            here,
             ahead: None,
             rotation,
             trail: vec![q],
@@ -134,7 +138,7 @@ impl<'a> Follower<'a> {
             if now.clearance >= self.settings.act_cm {
                 break;
             }
-            let Some(direction) = direction(self.settings, self.arm, &place.q, &now) else { break };
+            let Some(direction) = direction(self.settings, self.arm, &place.frames, &now) else { break };
             let tried = (0..=self.settings.halvings).find_map(|halving| {
                 let length = self.settings.step_rad / f64::from(1 << halving);
                 let turned = self.bounded(&origin, &(exp(&(direction * length)) * rotation));
@@ -169,6 +173,10 @@ impl<'a> Follower<'a> {
         rotation: Matrix3<f64>,
         q: Option<Joints>,
     ) -> Option<()> {
+        if rotation == self.rotation {
+            // No turn: neither it nor a way back is to be kept.
+            return self.store(q?, rotation);
+        }
         let (place, before, stored) = (self.here.clone(), self.rotation, self.trail.len());
         let turned = self.turn(here, rotation);
         if turned.is_some() && self.trail.len() > stored && self.advance(next, rotation).is_some() {
@@ -176,6 +184,7 @@ impl<'a> Follower<'a> {
         }
         (self.here, self.rotation) = (place, before);
         self.trail.truncate(stored);
+        self.tips.truncate(stored);
         self.store(q?, rotation)
     }
 
@@ -198,8 +207,7 @@ impl<'a> Follower<'a> {
 
     /// The joints after turning by `w`, by the Jacobian alone.
     fn dead_reckoned(&self, w: &Vec3) -> Option<Joints> {
-        let frames = self.arm.arm().chain().frames(&self.here.q);
-        let inverse = inverse(&self.arm.tip_jacobian(&frames), self.settings.damping)?;
+        let inverse = inverse(&self.arm.tip_jacobian(&self.here.frames), self.settings.damping)?;
         let change = inverse * Vector6::new(0.0, 0.0, 0.0, w.x, w.y, w.z);
         Some(std::array::from_fn(|i| self.here.q[i] + change[i]))
     }
@@ -220,8 +228,9 @@ impl<'a> Follower<'a> {
         if !self.is_surely_clear(&mut place) && !self.is_clear_to(&q, most) {
             return None;
         }
-        (self.here, self.rotation) = (place, rotation);
         self.trail.push(q);
+        self.tips.push(self.arm.tip_in(&place.frames).into());
+        (self.here, self.rotation) = (place, rotation);
         Some(())
     }
 

@@ -1,6 +1,6 @@
 //! Where the arm is and how much room its rods have there, so that a short way on need not be looked at.
 
-use crate::geometry::{Capsule, Convex};
+use crate::geometry::{Capsule, Convex, Frame};
 use crate::kinematics::{AXES, Joints};
 use crate::space::polyhedra::{Apart, CarriedArm};
 
@@ -11,6 +11,8 @@ const SLACK_CM: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(super) struct Place {
     pub(super) q: Joints,
+    /// The links' frames at `q`.
+    pub(super) frames: [Frame; AXES + 1],
     pub(super) rods: Vec<Capsule>,
     /// The rods' surfaces are as far from everything at least.
     pub(super) clearance_cm: f64,
@@ -19,7 +21,8 @@ pub(super) struct Place {
 impl Place {
     /// `q`, of whose surroundings nothing is known.
     pub(super) fn new(arm: &CarriedArm, q: &Joints) -> Self {
-        Self { q: *q, rods: arm.rods(q), clearance_cm: f64::NEG_INFINITY }
+        let frames = arm.arm().chain().frames(q);
+        Self { q: *q, frames, rods: arm.rods_in(&frames), clearance_cm: f64::NEG_INFINITY }
     }
 
     /// `q`, with what is left of the room `before`.
@@ -50,7 +53,6 @@ impl Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Frame;
     use crate::kinematics::Robot;
     use crate::space::Support;
     use base::seed;

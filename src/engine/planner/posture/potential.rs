@@ -4,8 +4,8 @@
 //! Tang, Zhou & Xu (2023), eqs. 21 to 26. Only the direction of the gradient is used, so the gain kr is left out.
 
 use super::settings::{Clamp, Posture, Sign};
-use crate::geometry::{Capsule, Vec3};
-use crate::kinematics::Joints;
+use crate::geometry::{Capsule, Frame, Vec3};
+use crate::kinematics::AXES;
 use crate::space::PolyhedraWorld;
 use crate::space::polyhedra::{Apart, CarriedArm, Contact};
 use nalgebra::{Matrix6, RowVector6};
@@ -50,9 +50,13 @@ fn gap(settings: &Posture, clearance: f64) -> f64 {
 
 /// The unit rotation vector along which the tip is turned: against the gradient of U, or along it as eqs. 23 and 24
 /// print it. `None` where there is no gradient: at contact taken literally, in a singular pose without damping.
-pub(super) fn direction(settings: &Posture, arm: &CarriedArm, q: &Joints, field: &Field) -> Option<Vec3> {
+pub(super) fn direction(
+    settings: &Posture,
+    arm: &CarriedArm,
+    frames: &[Frame; AXES + 1],
+    field: &Field,
+) -> Option<Vec3> {
     let mut gradient = RowVector6::zeros();
-    let frames = arm.arm().chain().frames(q);
     for contact in &field.contacts {
         let gap = gap(settings, contact.clearance);
         if gap >= settings.d0_cm {
@@ -60,10 +64,10 @@ pub(super) fn direction(settings: &Posture, arm: &CarriedArm, q: &Joints, field:
         }
         let slope = (1.0 / settings.d0_cm - 1.0 / gap) / (gap * gap);
         let Some(away) = (contact.on_rod - contact.on_obstacle).try_normalize(1e-9) else { continue };
-        let moves = arm.rod_jacobian(&frames, contact.rod, &contact.on_rod);
+        let moves = arm.rod_jacobian(frames, contact.rod, &contact.on_rod);
         gradient += away.transpose() * moves.fixed_rows::<3>(0) * slope;
     }
-    let turning = gradient * inverse(&arm.tip_jacobian(&frames), settings.damping)?;
+    let turning = gradient * inverse(&arm.tip_jacobian(frames), settings.damping)?;
     let turning = Vec3::new(turning[3], turning[4], turning[5]);
     let unit = turning.try_normalize(1e-300).filter(|unit| unit.iter().all(|c| c.is_finite()))?;
     Some(match settings.sign {

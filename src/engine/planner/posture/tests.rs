@@ -82,14 +82,14 @@ fn turning_goes_down_the_potential_and_the_printed_sign_up() {
             if now.potential == 0.0 || now.clearance < 0.3 {
                 continue;
             }
-            let Some(way) = direction(&settings, arm, q, &now) else { continue };
+            let Some(way) = direction(&settings, arm, &arm.arm().chain().frames(q), &now) else { continue };
             let then = |by: f64| {
                 let turned = rotation::exp(&(way * by)) * DOWN;
                 let q = arm.arm().inverse_on(&CarriedArm::target(&tip, &turned), branch, q).unwrap();
                 around(&q).potential
             };
             assert!(then(1e-4) < now.potential && then(-1e-4) > now.potential, "case {i}");
-            let up = direction(&printed, arm, q, &now).unwrap();
+            let up = direction(&printed, arm, &arm.arm().chain().frames(q), &now).unwrap();
             assert!(up.dot(&way) < -0.9, "case {i}: the printed sign points the other way");
             compared += 1;
         }

@@ -12,6 +12,8 @@ pub(super) const SLACK_CM: f64 = 1e-6;
 pub struct Apart {
     bodies: usize,
     pairs: Vec<Cell<Pair>>,
+    /// The rod and the obstacle that were nearest to each other.
+    closest: Cell<Option<[usize; 2]>>,
 }
 
 /// What is remembered of a rod and an obstacle.
@@ -35,7 +37,17 @@ impl Pair {
 impl Apart {
     /// Nothing known yet of `rods` among `bodies`.
     pub(super) fn new(rods: usize, bodies: usize) -> Self {
-        Self { bodies, pairs: vec![Cell::default(); rods * bodies] }
+        Self { bodies, pairs: vec![Cell::default(); rods * bodies], closest: Cell::new(None) }
+    }
+
+    /// The rod and the obstacle that were last nearest to each other.
+    pub(super) fn closest(&self) -> Option<[usize; 2]> {
+        self.closest.get()
+    }
+
+    /// Remembers who is nearest to whom.
+    pub(super) fn set_closest(&self, pair: [usize; 2]) {
+        self.closest.set(Some(pair));
     }
 
     /// The nearest points of rod `rod`'s axis and body `body`; none if they are farther apart than `within` for sure.

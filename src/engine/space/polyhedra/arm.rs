@@ -105,12 +105,17 @@ impl CarriedArm {
 
     /// The rods at `q`.
     pub fn rods(&self, q: &Joints) -> Vec<Capsule> {
-        let mut rods = Vec::new();
-        self.body.place(&self.arm.chain().frames(q), &mut rods);
-        for rod in &mut rods {
-            *rod = in_cm(*rod);
-        }
-        rods
+        self.rods_in(&self.arm.chain().frames(q))
+    }
+
+    /// The rods where `frames` are those of the links.
+    pub fn rods_in(&self, frames: &[Frame; AXES + 1]) -> Vec<Capsule> {
+        self.parts().iter().map(|part| in_cm(part.placed(frames))).collect()
+    }
+
+    /// Where the tip is when `frames` are those of the links; the same as [`tip`](Self::tip).
+    pub fn tip_in(&self, frames: &[Frame; AXES + 1]) -> Vec3 {
+        (frames[AXES] * *self.arm.chain().tool()).origin * CM_PER_M
     }
 
     /// For every obstacle within `reach` of a rod's surface, the floor last, the rod nearest to it, by the exact distance or by the
@@ -183,14 +188,28 @@ impl CarriedArm {
         apart: &Apart,
     ) -> f64 {
         let mut least = reach;
+        let measure = |rod: usize, obstacle: usize, least: f64| {
+            let capsule = &rods[rod];
+            // Nothing farther than the nearest so far is of use.
+            let within = capsule.radius + least;
+            let pair = ([rod, obstacle], apart);
+            let found = measured(&capsule.segment, &bodies[obstacle], within, printed, pair)?;
+            Some(found.distance - capsule.radius).filter(|clearance| *clearance < least)
+        };
+        // The pair that was nearest before shows most others to be farther.
+        let first = apart.closest();
+        if let Some([rod, obstacle]) = first {
+            least = measure(rod, obstacle, least).unwrap_or(least);
+        }
         for (rod, capsule) in rods.iter().enumerate() {
-            let among = self.among(rod, bodies);
-            for (obstacle, body) in among.iter().enumerate() {
-                // Nothing farther than the nearest so far is of use.
-                let within = capsule.radius + least;
-                let pair = ([rod, obstacle], apart);
-                let found = measured(&capsule.segment, body, within, printed, pair);
-                least = found.map_or(least, |nearest| least.min(nearest.distance - capsule.radius));
+            for obstacle in 0..self.among(rod, bodies).len() {
+                if first == Some([rod, obstacle]) {
+                    continue;
+                }
+                if let Some(clearance) = measure(rod, obstacle, least) {
+                    least = clearance;
+                    apart.set_closest([rod, obstacle]);
+                }
             }
             if let Some(floor) = self.floor.filter(|_| self.moves(rod)) {
                 let height = nearest_segment_half_space(&capsule.segment, &floor).distance;
@@ -236,8 +255,7 @@ impl CarriedArm {
 
     /// How the tip moves with the joints, as [`rod_jacobian`](Self::rod_jacobian).
     pub fn tip_jacobian(&self, frames: &[Frame; AXES + 1]) -> Matrix6<f64> {
-        let tip = (frames[AXES] * *self.arm.chain().tool()).origin * CM_PER_M;
-        jacobian(frames, AXES, &tip)
+        jacobian(frames, AXES, &self.tip_in(frames))
     }
 }
 

@@ -143,8 +143,9 @@ fn a_distance_clamped_to_nothing_has_an_infinite_potential_and_no_direction() {
         .map(|settings| field(settings, polyhedra, &arm, &arm.rods(&q), &arm.apart(polyhedra.bodies())));
     assert!(floored.clearance < 0.0 && floored.clearance == clamped.clearance, "{}", floored.clearance);
     assert!(floored.potential.is_finite() && clamped.potential.is_infinite());
-    assert!(direction(&floor, &arm, &q, &floored).is_some());
-    assert_eq!(direction(&literal, &arm, &q, &clamped), None);
+    let frames = arm.arm().chain().frames(&q);
+    assert!(direction(&floor, &arm, &frames, &floored).is_some());
+    assert_eq!(direction(&literal, &arm, &frames, &clamped), None);
 }
 
 #[test]
