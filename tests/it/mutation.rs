@@ -2,10 +2,12 @@
 //!
 //! Each case damages one committed file and has it read as `check` reads it: a study with its families, planners, claims
 //! and figures; a paper with its studies as they are; a robot, scene or map through a study that uses it. The case ends
-//! well or with an error that names a file and a place in it. `REPLAN_MUTATIONS` sets how many cases there are.
+//! well or with an error that names a file and a place in it. What is accepted must run, too: that is tried on small papers
+//! ([`running`]). `REPLAN_MUTATIONS` sets how many cases there are.
 
 mod audited;
 mod damage;
+mod running;
 mod stored;
 mod subject;
 

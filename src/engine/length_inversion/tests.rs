@@ -294,9 +294,13 @@ fn where_open_nodes_are_never_lowered_pairs_and_targets_are_those_of_the_kernels
                 met.iter().filter(|(of, _)| of == lengths).map(|(_, pair)| *pair).collect();
             assert_eq!(found.pairs, pairs, "{ties:?}, {lengths:?}");
             assert!(found.candidates > pairs.len(), "{ties:?}: {} candidates", found.candidates);
+            let together = NeverLowered::find(moves, &scaled(*lengths), EXCESS, &ORDERS);
+            let place = ORDERS.iter().position(|order| *order == ties).unwrap();
+            assert_eq!(together[place], found, "{ties:?}, {lengths:?}: beside other orders");
         }
         of_orders.push(hits);
     }
+    assert!(NeverLowered::hits(targets, moves, EXCESS, &ORDERS) == of_orders, "beside other orders");
     assert!(of_orders[0] != of_orders[1], "the order among equals does not matter here");
     let shortest = hits_of(targets, &moves.each_ref().map(|moves| vec![moves.clone()]), Match::ByPlace);
     assert!(of_orders[0] != shortest[0], "shortest lengths meet the same targets");

@@ -111,7 +111,7 @@ fn of_text(stream: &mut Stream, bytes: &[u8], kind: usize) -> Vec<u8> {
 }
 
 /// Where numbers stand.
-fn numbers(bytes: &[u8]) -> Vec<Range<usize>> {
+pub fn numbers(bytes: &[u8]) -> Vec<Range<usize>> {
     runs(
         bytes,
         |byte| byte.is_ascii_digit() || b".-+_".contains(&byte),
