@@ -20,8 +20,8 @@ pub struct Found {
     pub limits: Vec<f64>,
     /// What takes more of to narrow that interval.
     pub units: &'static str,
-    /// Our number is a share on which every unit agrees, at 0 or 1, and its interval is exact.
-    pub is_agreed: bool,
+    /// How that interval narrows.
+    pub narrows: Narrows,
     /// The claim is met by one input among many.
     pub existential: bool,
     /// Hardly any printed value could have been refused.
@@ -32,6 +32,16 @@ pub struct Found {
     pub without_premises: bool,
     /// The draws that it takes at least, where there are fewer.
     pub needs: Option<usize>,
+}
+
+/// How an interval narrows as there are more units.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum Narrows {
+    /// As one over the square root of their number.
+    #[default]
+    AsTheRoot,
+    /// About as one over their number: a share of 0 or 1 on which all of them agree, whose interval is exact.
+    AsTheNumber,
 }
 
 impl Found {

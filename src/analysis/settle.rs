@@ -1,7 +1,7 @@
 //! What would settle a claim that is undecided: more draws, more sessions of the clock, or what the paper leaves out.
 
 use super::class::{Caps, SESSIONS, Sessions};
-use super::found::Found;
+use super::found::{Found, Narrows};
 use super::statistic::LEVEL;
 use stats::proportion::{agreeing_for_width, units_for_margin};
 
@@ -35,7 +35,7 @@ pub fn settles(found: &Found, caps: Caps) -> String {
     if found.existential {
         return "the paper's own input, on which one trial would do".to_owned();
     }
-    if found.is_agreed {
+    if found.narrows == Narrows::AsTheNumber {
         return agreeing_draws(found);
     }
     more_draws(found)
@@ -114,7 +114,10 @@ mod tests {
         let said = |limits: [f64; 2], [low, value, high]: [f64; 3]| {
             let ours = Some(Estimate::new(value, Interval::new(low, high), "a share", 20));
             let (limits, units) = (limits.to_vec(), "draws");
-            settles(&Found { ours, limits, units, is_agreed: true, ..Found::default() }, Caps::default())
+            settles(
+                &Found { ours, limits, units, narrows: Narrows::AsTheNumber, ..Found::default() },
+                Caps::default(),
+            )
         };
         let low = libm::pow(0.025, 0.05);
         assert_eq!(said([0.9, 1.0], [low, 1.0, 1.0]), "36 draws, not 20, if all agree as ours do");

@@ -4,7 +4,7 @@ use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::found::Found;
+use crate::analysis::found::{Found, Narrows};
 use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, needs, plan};
@@ -278,6 +278,7 @@ impl Criterion for Counted<'_> {
         let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         let undecided = self.settings.accepted.map(|_| Outcome::Open);
         let outcome = share.interval.map_or(undecided, |interval| self.outcome(interval));
+        let is_agreed = share.is_exact && (share.value == 0.0 || share.value == 1.0);
         Found {
             outcome,
             ours: Some(share.estimate(&self.said()).of_cases(solved(&draws))),
@@ -287,7 +288,7 @@ impl Criterion for Counted<'_> {
             units: "draws",
             censored: self.censored(&draws, outcome),
             needs: needs(share.draws).filter(|_| !share.is_exact),
-            is_agreed: share.is_exact && (share.value == 0.0 || share.value == 1.0),
+            narrows: if is_agreed { Narrows::AsTheNumber } else { Narrows::AsTheRoot },
             ..Found::default()
         }
     }

@@ -10,13 +10,16 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// So many cases of reading go with one that runs.
 const READ_FOR_ONE: u64 = 100;
 
-/// A run may take this long on a busy machine; unchanged papers take a second.
-const LONGEST: Duration = Duration::from_secs(90);
+/// A run is looked at this often.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// So many looks, a minute and a half, a run may take on a busy machine; unchanged papers take a second.
+const MOST_LOOKS: usize = 18_000;
 
 /// What stands in place of a number: small, large, and what a slip of units or of a decimal point makes of one.
 const NUMBERS: [&str; 12] =
@@ -25,18 +28,16 @@ const NUMBERS: [&str; 12] =
 /// Whether `run` ended well and not with a refusal; what else it did.
 fn ended(mut run: Command) -> Result<bool, String> {
     let mut child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    let begun = Instant::now();
-    let code = loop {
-        match child.try_wait().unwrap() {
-            Some(status) => break status.code(),
-            None if begun.elapsed() > LONGEST => {
-                child.kill().unwrap();
-                child.wait().unwrap();
-                return Err("it did not end".to_owned());
-            }
-            None => sleep(Duration::from_millis(5)),
-        }
+    let looked = (0..MOST_LOOKS).find_map(|_| {
+        sleep(LOOK);
+        child.try_wait().unwrap()
+    });
+    let Some(status) = looked else {
+        child.kill().unwrap();
+        child.wait().unwrap();
+        return Err("it did not end".to_owned());
     };
+    let code = status.code();
     let mut said = String::new();
     child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
     let is_fit = matches!(code, Some(0 | 2)) && !said.contains("panicked");
