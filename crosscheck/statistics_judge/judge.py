@@ -86,9 +86,14 @@ def of_claim(paper: Paper, claim: dict[str, Any]) -> Claim:
     return Claim(claim["id"], findings, names, "untestable" in claim, parts)
 
 
-def with_row(paper: Paper, claim: str) -> list[str]:
-    """The claim, and the table row that it is a cell of: what was fitted to a row was fitted to its cells."""
-    return [claim, *(row["id"] for row in paper.claims if claim in row.get("cells", []))]
+def fitted_with(paper: Paper, claim: dict[str, Any]) -> list[str]:
+    """The claim, those that ask the same of the same printed number, and the table rows that any is a cell of."""
+    alike = [
+        other["id"]
+        for other in paper.claims
+        if all(claim.get(key) == other.get(key) for key in ("printed", "check", "shows"))
+    ]
+    return alike + [row["id"] for row in paper.claims if set(alike) & set(row.get("cells", []))]
 
 
 def of_criterion(
@@ -116,7 +121,7 @@ def of_criterion(
             fitted=any(
                 one in study.spec.get("fitted_to", [])
                 for study in studies
-                for one in with_row(paper, claim["id"])
+                for one in fitted_with(paper, claim)
             ),
             existential=found.existential,
             powerless=found.powerless,

@@ -256,11 +256,12 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         said
     });
     let is_fitted = |id: &str| studies.iter().any(|study| study.fitted_to.iter().any(|other| other == id));
-    // A cell of a row that something was chosen to meet was met with it.
-    let row = evidence.paper.whole_of(&claim.id).filter(|whole| matches!(whole.parts, Parts::Cells(_)));
+    // A cell of a row that something was chosen to meet was met with it, and so was a sentence that repeats such a number.
+    let row = |id: &str| evidence.paper.whole_of(id).filter(|whole| matches!(whole.parts, Parts::Cells(_)));
+    let is_met = |id: &str| is_fitted(id) || row(id).is_some_and(|row| is_fitted(&row.id));
     let caps = Caps {
         searched: studies.iter().any(|study| study.searched),
-        fitted: is_fitted(&claim.id) || row.is_some_and(|row| is_fitted(&row.id)),
+        fitted: evidence.paper.claims.iter().any(|other| is_met(&other.id) && other.asks_as(claim)),
         existential: found.existential,
         powerless: found.powerless,
         censored: found.censored > 0,

@@ -128,6 +128,15 @@ impl Claim {
         self.asked.iter().map(|(asked, name, settings)| (*asked, name.as_str(), settings))
     }
 
+    /// Whether it holds the same number against the same trials, in the same way.
+    pub fn asks_as(&self, other: &Self) -> bool {
+        let same =
+            |((a, b), (c, d)): ((&str, &Settings), (&str, &Settings))| a == c && b.table() == d.table();
+        self.printed == other.printed
+            && self.criteria().count() == other.criteria().count()
+            && self.criteria().zip(other.criteria()).all(same)
+    }
+
     /// Every criterion that decides or is shown, with its settings.
     pub fn criteria(&self) -> impl Iterator<Item = (&str, &Settings)> {
         let criteria = self.asked().filter(|(asked, ..)| *asked != Asked::Rule);
