@@ -239,6 +239,19 @@ fn a_reading_that_contradicts_what_the_study_was_calibrated_to_is_not_counted() 
 }
 
 #[test]
+fn a_sentence_that_repeats_a_number_which_the_study_was_fitted_to_is_fitted() {
+    const CALIBRATED: &str = "id = \"calibrated\"\nat = \"section 3\"\nprinted = \"4\"\n\
+        check.prints_as.of = { study = \"room\", problems = \"room\", metric = \"expansions\", contender = \"A*\" }\n";
+    let again = CALIBRATED.replace("calibrated", "repeated");
+    let other = CALIBRATED.replace("calibrated", "other").replace("expansions", "path_cost_cells");
+    let three = format!("{CALIBRATED}[[claim]]\n{again}[[claim]]\n{}", other.replace("\"4\"", "\"5.66\""));
+    let toy = Toy::unexplored(&[FITTED, (CALIBRATED, &three)]);
+    toy.0.done(&["judge", "./toy"]);
+    let [calibrated, repeated, other] = ["calibrated", "repeated", "other"].map(|id| toy.said(id).0);
+    assert_eq!([calibrated, repeated, other], ["fitted", "fitted", "reproduced"].map(str::to_owned));
+}
+
+#[test]
 fn where_nothing_is_compatible_all_voting_readings_are_judged_and_it_is_said() {
     let toy = Toy::new(&[CITED, FITTED, ("printed = \"4\"", "printed = \"7\"")]);
     toy.0.done(&["confirm", "./toy"]);
