@@ -87,7 +87,7 @@ def of_claim(paper: Paper, claim: dict[str, Any]) -> Claim:
 
 
 def fitted_with(paper: Paper, claim: dict[str, Any]) -> list[str]:
-    """The claim, those that ask the same of the same printed number, and the table rows that any is a cell of."""
+    """The claim, those that ask the same of the same number, and the table rows that any is a cell of."""
     alike = [
         other["id"]
         for other in paper.claims
