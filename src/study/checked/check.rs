@@ -33,6 +33,7 @@ impl Study {
         self.check_sweeps(faults);
         self.check_defaults(faults);
         self.check_stages_of_readings(faults);
+        self.check_what_defaults_hide(faults);
         let mut known = Families::default();
         if let Some(points) = keep(faults, self.single_options())? {
             for point in &points {
@@ -81,6 +82,29 @@ impl Study {
                 let message = none_called("planner or stage", stage, known);
                 let place = format!("reading.{index}.option.{option}.stage.{stage}");
                 faults.add(self.document.error_at(&place, message));
+            }
+        }
+    }
+
+    /// Refuses defaults that lay something else over what a contender says: it would never run as it is written.
+    fn check_what_defaults_hide(&self, faults: &mut Faults) {
+        for (index, reading) in self.readings.iter().enumerate() {
+            let Some(default) = reading.options.get(&reading.default) else { continue };
+            let uses =
+                self.contenders.iter().flat_map(|own| own.stages.iter().map(move |stage| (own, stage)));
+            for (contender, stage) in uses {
+                let over = default.stage.get(stage.entry.name).into_iter().flatten();
+                let is_filled = |key: &str| stage.settings.filled().any(|(filled, _)| filled == key);
+                let written = |key: &str| stage.settings.table().get(key).filter(|_| !is_filled(key));
+                for (key, value) in over.filter(|(key, value)| written(key).is_some_and(|own| own != *value))
+                {
+                    let message = format!(
+                        "the default of reading `{}` lays `{key} = {value}` over what contender `{}` says there; the same, or no \
+                         reading of it in this study, is accepted",
+                        reading.id, contender.label
+                    );
+                    faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
+                }
             }
         }
     }
