@@ -56,6 +56,24 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
 }
 
 #[test]
+fn a_default_that_hides_what_a_contender_says_is_refused() {
+    let bench = Bench::new();
+    let other = "problem = { corner_rule = \"allow\" }\nstage.astar = { ties = \"lifo\" }";
+    bench.edit("mini/draws.toml", "problem = { corner_rule = \"allow\" }", other);
+    let said = bench.run(&["check", "./mini"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert_told(
+        &said.err,
+        &[
+            "draws.toml:44:11: the default of reading `corners` lays `ties = \"lifo\"` over what contender `A*` says there; ",
+        ],
+    );
+    // What says nothing is not hidden, and the same is no other.
+    bench.edit("mini/draws.toml", "stage.astar = { ties = \"lifo\" }", "stage.astar = { ties = \"fifo\" }");
+    assert!(bench.run(&["check", "./mini"]).code == Some(0), "the same");
+}
+
+#[test]
 fn a_fault_is_told_once_whatever_readings_and_sweeps_lie_over_it() {
     let bench = Bench::new();
     bench.edit("mini/draws.toml", "weight = 1,", "weight = -1,");
