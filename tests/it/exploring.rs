@@ -184,7 +184,6 @@ fn noisy() -> Toy {
         ("goal = [11, 9]", "goal = [9, 9]"),
         ("draws = 20", "draws = 10"),
         ("size_cells = [12, 12]", "size_cells = [10, 12]"),
-        ("settings = { weight = 3, ties = \"fifo\" }", "settings = { weight = 1, ties = \"fifo\" }"),
     ];
     Toy::unexplored(&edits)
 }
