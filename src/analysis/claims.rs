@@ -261,7 +261,7 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
     let is_met = |id: &str| is_fitted(id) || row(id).is_some_and(|row| is_fitted(&row.id));
     let caps = Caps {
         searched: studies.iter().any(|study| study.searched),
-        fitted: evidence.paper.claims.iter().any(|other| is_met(&other.id) && other.asks_as(claim)),
+        fitted: evidence.paper.claims.iter().any(|other| other.asks_as(claim) && is_met(&other.id)),
         existential: found.existential,
         powerless: found.powerless,
         censored: found.censored > 0,

@@ -130,11 +130,9 @@ impl Claim {
 
     /// Whether it holds the same number against the same trials, in the same way.
     pub fn asks_as(&self, other: &Self) -> bool {
-        let same =
-            |((a, b), (c, d)): ((&str, &Settings), (&str, &Settings))| a == c && b.table() == d.table();
+        let asked = self.criteria().map(|(name, settings)| (name, settings.table()));
         self.printed == other.printed
-            && self.criteria().count() == other.criteria().count()
-            && self.criteria().zip(other.criteria()).all(same)
+            && asked.eq(other.criteria().map(|(name, settings)| (name, settings.table())))
     }
 
     /// Every criterion that decides or is shown, with its settings.
