@@ -56,21 +56,27 @@ fn fourteen_faults_of_as_many_kinds_are_told_in_one_round_and_once_each() {
 }
 
 #[test]
-fn a_default_that_hides_what_a_contender_says_is_refused() {
+fn a_default_that_hides_what_a_contender_or_a_problem_says_is_refused() {
     let bench = Bench::new();
-    let other = "problem = { corner_rule = \"allow\" }\nstage.astar = { ties = \"lifo\" }";
-    bench.edit("mini/draws.toml", "problem = { corner_rule = \"allow\" }", other);
+    let written = "problem = { corner_rule = \"allow\" }";
+    let other = "problem = { corner_rule = \"forbid_any\" }\nstage.astar = { ties = \"lifo\" }";
+    bench.edit("mini/draws.toml", written, other);
     let said = bench.run(&["check", "./mini"]);
     assert_eq!(said.code, Some(2), "{}", said.err);
     assert_told(
         &said.err,
         &[
-            "draws.toml:44:11: the default of reading `corners` lays `ties = \"lifo\"` over what contender `A*` says there; ",
+            "draws.toml:44:11: the default of reading `corners` changes the `ties` that contender `A*` says; the same",
+            "draws.toml:44:11: the default of reading `corners` changes the `corner_rule` that problems `drawn` say; the same",
         ],
     );
-    // What says nothing is not hidden, and the same is no other.
-    bench.edit("mini/draws.toml", "stage.astar = { ties = \"lifo\" }", "stage.astar = { ties = \"fifo\" }");
-    assert!(bench.run(&["check", "./mini"]).code == Some(0), "the same");
+    // The same is no other, and what is not said is not hidden.
+    let same = format!(
+        "{written}\nstage.astar = {{ ties = \"fifo\" }}\nstage.delete_inflections = {{ corners = \"kept\" }}"
+    );
+    bench.edit("mini/draws.toml", other, &same);
+    let said = bench.run(&["check", "./mini"]);
+    assert!(!said.err.contains("the default of reading"), "{}", said.err);
 }
 
 #[test]

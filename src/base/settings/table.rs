@@ -200,6 +200,15 @@ impl Settings {
         self.filled.iter().filter_map(|key| Some((key.as_str(), self.table.get(key)?)))
     }
 
+    /// The keys that were written and stand otherwise in `over`.
+    pub fn hidden_by(&self, over: &Table) -> Vec<String> {
+        let is_hidden = |key: &str, value: &toml::Value| {
+            let is_filled = self.filled.iter().any(|filled| filled == key);
+            !is_filled && self.table.get(key).is_some_and(|own| own != value)
+        };
+        over.iter().filter(|(key, value)| is_hidden(key, value)).map(|(key, _)| key.clone()).collect()
+    }
+
     /// The settings as a `T`, held against the schema of `T` first.
     ///
     /// # Errors

@@ -86,22 +86,25 @@ impl Study {
         }
     }
 
-    /// Refuses defaults that lay something else over what a contender says: it would never run as it is written.
+    /// Refuses defaults that lay something else over what contenders or problems say: they would never run as they are written.
     fn check_what_defaults_hide(&self, faults: &mut Faults) {
         for (index, reading) in self.readings.iter().enumerate() {
             let Some(default) = reading.options.get(&reading.default) else { continue };
             let uses =
                 self.contenders.iter().flat_map(|own| own.stages.iter().map(move |stage| (own, stage)));
-            for (contender, stage) in uses {
-                let over = default.stage.get(stage.entry.name).into_iter().flatten();
-                let is_filled = |key: &str| stage.settings.filled().any(|(filled, _)| filled == key);
-                let written = |key: &str| stage.settings.table().get(key).filter(|_| !is_filled(key));
-                for (key, value) in over.filter(|(key, value)| written(key).is_some_and(|own| own != *value))
-                {
+            let stages = uses.filter_map(|(own, stage)| {
+                let over = default.stage.get(stage.entry.name)?;
+                Some((format!("contender `{}` says", own.label), stage.settings.hidden_by(over)))
+            });
+            let problems = self.groups.iter().map(|group| {
+                (format!("problems `{}` say", group.label), group.settings.hidden_by(&default.problem))
+            });
+            for (whose, hidden) in stages.chain(problems) {
+                for key in hidden {
                     let message = format!(
-                        "the default of reading `{}` lays `{key} = {value}` over what contender `{}` says there; the same, or no \
-                         reading of it in this study, is accepted",
-                        reading.id, contender.label
+                        "the default of reading `{}` changes the `{key}` that {whose}; the same, or no reading of it in this \
+                         study, is accepted",
+                        reading.id
                     );
                     faults.add(self.document.error_at(&format!("reading.{index}.default"), message));
                 }
