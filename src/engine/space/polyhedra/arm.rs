@@ -119,12 +119,8 @@ impl CarriedArm {
     }
 
     /// For every obstacle within `reach` of a rod's surface, the floor last, the rod nearest to it, by the exact distance or by the
-    /// printed one. What the first joint alone moves keeps its distance to what the base stands on and is not held against it.
-    pub fn contacts(&self, q: &Joints, bodies: &[Convex], reach: f64, printed: bool) -> Vec<Contact> {
-        self.contacts_of(&self.rods(q), bodies, reach, printed, &self.apart(bodies))
-    }
-
-    /// The contacts of rods that are in place, with what is remembered of a configuration near by.
+    /// printed one, with what is remembered of a configuration near by. What the first joint alone moves keeps its distance to what
+    /// the base stands on and is not held against it.
     pub fn contacts_of(
         &self,
         rods: &[Capsule],

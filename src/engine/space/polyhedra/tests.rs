@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::geometry::Frame;
-use crate::kinematics::Robot;
+use crate::kinematics::{Joints, Robot};
 use crate::space::Support;
 use base::settings::Document;
 use rand::RngExt as _;
@@ -138,17 +138,22 @@ fn aubo() -> Robot {
     Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/aubo_i10.toml")).unwrap()
 }
 
+/// The contacts at `q`, measured exactly with nothing remembered.
+fn contacts(arm: &CarriedArm, q: &Joints, bodies: &[Convex], reach: f64) -> Vec<Contact> {
+    arm.contacts_of(&arm.rods(q), bodies, reach, false, &arm.apart(bodies))
+}
+
 #[test]
 fn a_box_pierced_by_a_rod_is_touched_and_one_beside_it_is_as_far_as_its_face() {
     let arm = CarriedArm::new(&aubo(), "paper", &Support::on_floor(Frame::IDENTITY)).unwrap();
     // Upright, the upper arm stands on z at y = -20.13 and is 8 thick.
     let beside = |y: f64| vec![Convex::cuboid(Vec3::new(0.0, y, 50.0), Vec3::new(6.0, 6.0, 6.0)).unwrap()];
-    let pierced = arm.contacts(&[0.0; 6], &beside(-20.13), 5.0, false);
+    let pierced = contacts(&arm, &[0.0; 6], &beside(-20.13), 5.0);
     assert_eq!((pierced.len(), pierced[0].clearance), (1, -8.0));
-    let near = arm.contacts(&[0.0; 6], &beside(-34.13), 5.0, false);
+    let near = contacts(&arm, &[0.0; 6], &beside(-34.13), 5.0);
     assert_eq!(near.len(), 1);
     assert!((near[0].clearance - 3.0).abs() < 1e-9, "{near:?}");
-    assert!(arm.contacts(&[0.0; 6], &beside(-40.13), 5.0, false).is_empty(), "9 cm is out of reach");
+    assert!(contacts(&arm, &[0.0; 6], &beside(-40.13), 5.0).is_empty(), "9 cm is out of reach");
     assert_eq!(
         CarriedArm::new(&aubo(), "bones", &Support::on_floor(Frame::IDENTITY)).unwrap_err(),
         "robot `aubo_i10` has no body `bones`; it has paper, mesh"
@@ -196,7 +201,7 @@ fn what_is_remembered_of_rods_and_obstacles_changes_no_answer() {
         let fresh = || arm.apart(&bodies);
         for least in [0.1, 2.0] {
             let found = arm.is_clear(&q, &bodies, least, false, &apart);
-            let all = arm.contacts(&q, &bodies, 50.0, false);
+            let all = contacts(&arm, &q, &bodies, 50.0);
             let measured = all.iter().map(|contact| contact.clearance).fold(50.0, f64::min);
             assert_eq!(found, measured >= least, "seed {seed} step {step}: {measured}");
             assert_eq!(found, arm.is_clear(&q, &bodies, least, false, &fresh()));
@@ -204,7 +209,7 @@ fn what_is_remembered_of_rods_and_obstacles_changes_no_answer() {
         }
         let rods = arm.rods(&q);
         let found = arm.contacts_of(&rods, &bodies, 5.0, false, &apart);
-        assert_eq!(found, arm.contacts(&q, &bodies, 5.0, false), "seed {seed} step {step}");
+        assert_eq!(found, contacts(&arm, &q, &bodies, 5.0), "seed {seed} step {step}");
         let clearance = arm.clearance_of(&rods, &bodies, 6.0, false, &apart);
         assert_eq!(clearance, arm.clearance(&q, &bodies, 6.0, false), "seed {seed} step {step}");
         near += u32::from(!found.is_empty());
