@@ -230,7 +230,7 @@ class Across:
         holds, fails, left, every = votes.count(1), votes.count(-1), votes.count(0), len(votes)
         tail = f", open under {left}" if left else ""
         if every == 1:
-            return "no reading moves it"
+            return "asked under the defaults alone" if self.is_of_defaults(claim) else "no reading moves it"
         if counted.existential and holds:
             first = counted.results[votes.index(1)]
             tail = f", {self.name(first)} among them" if self.departs(first) else ""
@@ -245,6 +245,19 @@ class Across:
                 by_class = self.by_class(claim, counted.results) if firm and way == 1 else ""
                 return f"{verb} under {speaks} of {every}{tail}{by_class}"
         return f"open under {left} of {every}"
+
+    def is_of_defaults(self, claim: str) -> bool:
+        """Whether some reading changes trials, and none of the studies that the claim looks at has any."""
+        assert self.first is not None
+        changing = (option for axis in self.axes for option in axis.options.values())
+        if not any(option.get(key) for option in changing for key in ("problem", "stage")):
+            return False
+        looked_at = set(self.first["claims"][claim]["studies"])
+        for study in self.paper.studies.values():
+            names = {study.name, study.spec.get("explore", {}).get("stands_for")}
+            if names & looked_at and study.readings:
+                return False
+        return bool(looked_at)
 
     def by_class(self, claim: str, results: list[Result]) -> str:
         """What the class hangs on where no result speaks against the claim, but not all for it alike."""

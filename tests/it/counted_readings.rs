@@ -54,8 +54,17 @@ fn a_reading_that_the_study_of_a_witness_does_not_have_is_not_looked_at_if_it_to
     assert_eq!(sights, [(Sight::Looked, 2), (Sight::Unexplored, 2)]);
     let across = toy.claim("witness").across.unwrap();
     assert_eq!((across.counted, across.looked, across.not_looked_at), (1, 2, 2));
-    assert_eq!(across.said, "no reading moves it");
+    assert_eq!(across.said, "asked under the defaults alone");
     assert!(across.effects.is_empty(), "{:?}", across.effects);
+}
+
+#[test]
+fn what_a_study_without_readings_says_is_asked_under_the_defaults_alone() {
+    let toy = readings_of_one_study("", &[]);
+    assert_eq!(toy.said("calibrated").1, "asked under the defaults alone");
+    assert_eq!(toy.said("shorter").1, "fails under 1 of 2 only, open under 1");
+    // With the readings in the room too, all of them were asked.
+    assert_eq!(Toy::new(&[]).said("calibrated").1, "no reading moves it");
 }
 
 const DEPARTS: &str = r#"

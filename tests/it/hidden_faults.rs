@@ -90,6 +90,11 @@ fn several_values_of_one_table_that_make_no_sense_are_told_together() {
         "compare.toml:24:14: side_cells is [8, 2]",
     ];
     assert_told("grid", &changes, &wanted);
+    // Values that are wrong by themselves are told together too.
+    let negative = ("compare.toml", "start = [2, 2]", "start = [2, -2]");
+    let none = ("compare.toml", "side_cells = [2, 8]", "side_cells = [0, 8]");
+    let wanted = ["compare.toml:21:13: `start[1]` is -2", "compare.toml:24:15: `side_cells[0]` is 0"];
+    assert_told("grid", &[negative, none], &wanted);
 }
 
 #[test]

@@ -4,9 +4,9 @@
 use super::super::class::{Polarity, Verdict};
 use super::super::verdict::{Fit, SettingFit};
 use super::glance::Sight;
-use super::stored::{Exploration, ExploredResult, Now};
-use crate::study::Reading;
+use super::stored::{Exploration, ExploredClaim, ExploredResult, Now};
 use crate::study::paper::Paper;
+use crate::study::{Reading, Study};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The readings of a paper.
@@ -45,6 +45,8 @@ pub struct Counted {
     pub none_compatible: bool,
     /// One witness would do.
     pub is_existential: bool,
+    /// Its studies have no readings, so that it is asked under the defaults alone though other readings change trials.
+    pub is_of_defaults: bool,
 }
 
 impl Counted {
@@ -102,6 +104,7 @@ impl Axes {
             incompatible: voting.len() - judged.len(),
             none_compatible,
             is_existential: claim.existential,
+            is_of_defaults: self.is_of_defaults(paper, claim),
             ..Counted::default()
         };
         for result in &claim.results {
@@ -109,6 +112,19 @@ impl Axes {
         }
         counted.groups.sort_by_key(|group| group.reading);
         counted
+    }
+
+    /// Whether readings change trials, but none of those of the studies, or of what stands for them, that `claim` looks at.
+    fn is_of_defaults(&self, paper: &Paper, claim: &ExploredClaim) -> bool {
+        let stands_for = |study: &Study| study.explore.as_ref().and_then(|explore| explore.stands_for.clone());
+        let is_asked = |study: &&Study| {
+            claim.studies.contains(&study.name)
+                || stands_for(study).is_some_and(|other| claim.studies.contains(&other))
+        };
+        let mut asked = paper.studies.iter().filter(is_asked).peekable();
+        self.readings.iter().any(Reading::touches_trials)
+            && asked.peek().is_some()
+            && asked.all(|study| study.readings.is_empty())
     }
 
     /// The readings of `first` that vote and are compatible with every calibration claim; all that vote if none is.

@@ -96,11 +96,16 @@ fn across(
     let votes = counted_as(first, second, &judged.claim, &counted.groups);
     let class = combine::combined(&votes, counted.is_existential);
     let count = |wanted| votes.iter().filter(|vote| vote.polarity() == wanted).count();
+    let said = if counted.is_of_defaults && votes.len() == 1 {
+        "asked under the defaults alone".to_owned()
+    } else {
+        hangs::said(axes, first, &judged.claim, &counted.groups, &votes, class, counted.is_existential)
+    };
     let unconfirmed = votes.iter().zip(&counted.groups).filter(|(vote, group)| **vote != group.class).count();
     Some(Across {
         class,
         default: judged.verdict,
-        said: hangs::said(axes, first, &judged.claim, &counted.groups, &votes, class, counted.is_existential),
+        said,
         counted: votes.len(),
         looked: counted.looked,
         holds: count(Polarity::For),

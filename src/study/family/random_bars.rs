@@ -55,5 +55,6 @@ struct RandomBars {
     #[schemars(range(max = 1_000_000))]
     count: u32,
     /// Least and most length.
+    #[schemars(inner(range(min = 1)))]
     length_cells: [u32; 2],
 }

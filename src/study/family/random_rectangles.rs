@@ -57,5 +57,6 @@ struct RandomRectangles {
     #[schemars(range(max = 1_000_000))]
     count: u32,
     /// Least and most side.
+    #[schemars(inner(range(min = 1)))]
     side_cells: [u32; 2],
 }
