@@ -8,12 +8,13 @@ use crate::study::record::Row;
 use base::seed;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::{Estimate, Resampling};
-use stats::interval::Interval;
+pub use stats::bootstrap::Estimate;
+use stats::bootstrap::Resampling;
+pub use stats::interval::Interval;
 use stats::pooled;
 use stats::proportion::{clopper_pearson, mean_of_agreed};
 use stats::summary;
-pub use stats::summary::{mean, median, quantile_type7 as quantile};
+pub(super) use stats::summary::{mean, median, quantile_type7 as quantile};
 use std::collections::BTreeMap;
 
 /// Level of every interval.
@@ -29,7 +30,7 @@ pub fn needs(draws: usize) -> Option<usize> {
 }
 
 /// A bootstrap as every verdict makes it, with the stream of draws that belongs to `names`.
-pub fn plan(names: &[&str]) -> Resampling {
+pub(super) fn plan(names: &[&str]) -> Resampling {
     Resampling { resamples: 2000, level: LEVEL, seed: seed::derive(0, names) }
 }
 

@@ -146,6 +146,23 @@ fn modules_name_only_lower_floors() {
 }
 
 #[test]
+fn what_shows_results_computes_no_statistic() {
+    let files = files();
+    let names_it = |file: &&File| {
+        let mut words = file.code.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        words.any(|word| word == "stats")
+    };
+    let of =
+        |floor: &str| files.iter().filter(move |file| file.modules().first().is_some_and(|own| own == floor));
+    assert!(of("analysis").filter(names_it).count() > 10, "the reader is blind");
+    for floor in ["render", "page", "cli"] {
+        assert!(of(floor).count() > 5, "no files of `{floor}` were read");
+        let found: Vec<_> = of(floor).filter(names_it).map(|file| file.path.display().to_string()).collect();
+        assert!(found.is_empty(), "statistics are analysis's, and these files name them: {found:?}");
+    }
+}
+
+#[test]
 fn the_verifier_depends_on_base_alone() {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/verify/Cargo.toml");
     let manifest: toml::Table = std::fs::read_to_string(manifest).unwrap().parse().unwrap();
