@@ -278,7 +278,6 @@ impl Criterion for Counted<'_> {
         let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         let undecided = self.settings.accepted.map(|_| Outcome::Open);
         let outcome = share.interval.map_or(undecided, |interval| self.outcome(interval));
-        let is_agreed = share.is_exact && (share.value == 0.0 || share.value == 1.0);
         Found {
             outcome,
             ours: Some(share.estimate(&self.said()).of_cases(solved(&draws))),
@@ -288,7 +287,7 @@ impl Criterion for Counted<'_> {
             units: "draws",
             censored: self.censored(&draws, outcome),
             needs: needs(share.draws).filter(|_| !share.is_exact),
-            narrows: if is_agreed { Narrows::AsTheNumber } else { Narrows::AsTheRoot },
+            narrows: if share.is_agreed { Narrows::AsTheNumber } else { Narrows::AsTheRoot },
             ..Found::default()
         }
     }
