@@ -100,9 +100,6 @@ def share_within(asked: Asked) -> Found:
     """A share lies within bounds."""
     cases, settings = asked.cases(), asked.settings
     hits, chances = hits_of(asked, cases)
-    if "among" in settings:
-        asked_at_all = cases.study.status[cases.own] == settings["among"]
-        hits, chances = np.where(asked_at_all, hits, 0), np.where(asked_at_all, chances, 0)
     hits, chances = sums_by_unit(cases.unit, cases.units, hits, chances)
     if settings["hits"] == "lower_throughout":
         hits, chances = ((hits == chances) & (chances > 0)).astype(float), (chances > 0).astype(float)
