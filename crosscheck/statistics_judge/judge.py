@@ -140,7 +140,9 @@ FEWEST_DRAWS = 10
 
 def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
     """Whether an interval that is not exact rests on too few draws."""
-    resampled = name in ("lower", "share", "trend", "within") and settings.get("statistic") != "ratio_of_groups"
+    resampled = (
+        name in ("lower", "share", "trend", "within") and settings.get("statistic") != "ratio_of_groups"
+    )
     ours = found.estimate
     return resampled and ours is not None and not ours.exact and ours.n < FEWEST_DRAWS
 

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from statistics_judge import classes
+from statistics_judge.found import Found
 from statistics_judge.intervals import (
     End,
     agreed,
@@ -28,7 +29,6 @@ from statistics_judge.intervals import (
     ratio_of_sums,
     slope,
 )
-from statistics_judge.found import Found
 from statistics_judge.judge import CRITERIA, Claim, compare, is_few, recomputed
 from statistics_judge.medians import over
 from statistics_judge.printed import Printed
