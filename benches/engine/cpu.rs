@@ -25,7 +25,7 @@ impl Measurement for CpuTime {
     }
 
     fn end(&self, begun: Duration) -> Duration {
-        spent() - begun
+        spent().saturating_sub(begun)
     }
 
     fn add(&self, a: &Duration, b: &Duration) -> Duration {

@@ -49,7 +49,9 @@ impl Task for PlanTask {
         } else {
             (0..queries.len()).map(run).collect()
         };
-        done.into_iter().for_each(|part| batch.add(part));
+        for part in done {
+            batch.add(part);
+        }
         batch
     }
 
@@ -114,7 +116,9 @@ fn run_query(
     } else {
         unit.entrants.iter().map(|entrant| run(entrant)).collect()
     };
-    done.into_iter().for_each(|part| batch.add(part));
+    for part in done {
+        batch.add(part);
+    }
 }
 
 impl Batch {
