@@ -1,33 +1,31 @@
 //! The clock of the benches: processor time of the thread at work, which other processes do not stretch.
 //!
-//! Linux tells it in nanoseconds; elsewhere it is the time on the wall. What a library computes on threads of its own is not
-//! counted; nothing that is measured here has any.
+//! It is the system's clock of the thread, which is exact whenever it is read; what `/proc` says of a thread may lag by a tick
+//! of the scheduler. What a library computes on threads of its own is not counted; nothing that is measured here has any.
 
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
+use rustix::time::{ClockId, clock_gettime};
 use std::time::Duration;
 
 /// Processor time of the thread at work.
 pub struct CpuTime(WallTime);
 
-/// When a measurement began: by the processor, where it is told, and on the wall.
-pub struct Begun(Option<u64>, <WallTime as Measurement>::Intermediate);
-
-/// Nanoseconds that this thread was on a processor.
-fn spent_ns() -> Option<u64> {
-    std::fs::read_to_string("/proc/thread-self/schedstat").ok()?.split(' ').next()?.parse().ok()
+/// What this thread has spent on a processor.
+fn spent() -> Duration {
+    let read = clock_gettime(ClockId::ThreadCPUTime);
+    Duration::new(read.tv_sec as u64, read.tv_nsec as u32)
 }
 
 impl Measurement for CpuTime {
-    type Intermediate = Begun;
+    type Intermediate = Duration;
     type Value = Duration;
 
-    fn start(&self) -> Begun {
-        Begun(spent_ns(), self.0.start())
+    fn start(&self) -> Duration {
+        spent()
     }
 
-    fn end(&self, Begun(ns, at): Begun) -> Duration {
-        let spent = ns.zip(spent_ns()).map(|(from, to)| Duration::from_nanos(to - from));
-        spent.filter(|spent| !spent.is_zero()).unwrap_or_else(|| self.0.end(at))
+    fn end(&self, begun: Duration) -> Duration {
+        spent().saturating_sub(begun)
     }
 
     fn add(&self, a: &Duration, b: &Duration) -> Duration {

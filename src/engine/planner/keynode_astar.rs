@@ -14,11 +14,11 @@ mod open;
 mod tests;
 mod walk;
 
-use super::lattice26_astar::{self, Checked};
+use super::lattice26_astar::{self, Checked, LatticeSearch};
 use super::polyhedra::{Posed, plan};
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
 use crate::geometry::{Segment, Vec3};
-use crate::search::{Heap, Search, Ties};
+use crate::search::Ties;
 use crate::shorten::{Resume, stepwise_straightening};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
@@ -171,7 +171,7 @@ impl Planner for Keynode {
         };
         let falls_back = self.last_resort && walked.ending == Ending::NoPath;
         if falls_back {
-            let mut memory = Search::new(Heap::new(Ties::Fifo));
+            let mut memory = LatticeSearch::new(Ties::Fifo);
             let left = request.expansions - walked.tally.expansions;
             // From a start that sees no node of the lattice there is nothing left to try.
             if let Ok(found) = lattice26_astar::search(&posed, Checked::Segments, &mut memory, left) {

@@ -5,7 +5,9 @@ use super::polyhedra::{Posed, plan};
 use super::pool::Pool;
 use super::{Build, Counts, Ending, Entry, Invalid, Plan, Planner, Request, Value};
 use crate::geometry::{Segment, Vec3};
-use crate::search::{Combined, Graph, Heap, Outcome, Report, Rules, Search, Stop, Terms, sum};
+use crate::search::{
+    Combined, CubicAstar, CubicQuery, Graph, Heap, Outcome, Report, Rules, Search, Stop, Terms, Ties, sum,
+};
 use crate::space::{PolyhedraWorld, WorldKind};
 use base::grid::STEPS_26;
 use base::settings::Accepted;
@@ -52,21 +54,68 @@ struct Lattice26 {
     pool: Pool<LatticeSearch>,
 }
 
-/// Memory that serves one query after another.
-pub(super) type LatticeSearch = Search<f64, Heap>;
+/// A search that serves one query after another.
+pub(super) enum LatticeSearch {
+    /// For the orders that it knows.
+    Cubic(Box<CubicAstar>),
+    /// For the others.
+    General(Search<f64, Heap>),
+}
+
+impl LatticeSearch {
+    /// A search that takes open nodes of equal f in the order of `ties`.
+    pub(super) fn new(ties: Ties) -> Self {
+        match CubicAstar::new(ties) {
+            Some(search) => Self::Cubic(Box::new(search)),
+            None => Self::General(Search::new(Heap::new(ties))),
+        }
+    }
+
+    fn run(
+        &mut self,
+        mut neighbours: Neighbours<'_>,
+        start: u32,
+        h: impl Fn(u32) -> f64,
+        is_goal: impl Fn(u32) -> bool,
+        max_expansions: u64,
+    ) -> Report<f64> {
+        match self {
+            Self::Cubic(search) => search.run(&CubicQuery {
+                grid: neighbours.world.grid(),
+                spacing: neighbours.world.step(),
+                may_step: |node, to| neighbours.may_step(node, to),
+                is_near: |node| neighbours.is_near(node),
+                h,
+                is_goal,
+                start,
+                max_expansions,
+            }),
+            Self::General(search) => {
+                let estimate = &Combined { h, combine: sum };
+                let terms = Terms { graph: &mut neighbours, estimate, observer: &mut (), update: UPDATE };
+                let rules = Rules { stop: Stop::GoalPopped, max_expansions };
+                search.run(terms, start, is_goal, rules, &mut ())
+            }
+        }
+    }
+}
 
 /// The free nodes with their 26 neighbours.
+#[derive(Clone, Copy)]
 struct Neighbours<'a> {
     world: &'a PolyhedraWorld,
-    steps: [(i32, f64); 26],
     checked: Checked,
 }
 
-impl<'a> Neighbours<'a> {
-    fn new(world: &'a PolyhedraWorld, checked: Checked) -> Self {
-        let length = |step: [i32; 3]| f64::from(step.map(|c| c * c).iter().sum::<i32>()).sqrt();
-        let steps = STEPS_26.map(|step| (world.grid().offset(step), length(step) * world.step()));
-        Self { world, steps, checked }
+impl Neighbours<'_> {
+    /// Whether a move from `node` to a free neighbour may touch an obstacle that matters.
+    fn is_near(&self, node: u32) -> bool {
+        self.checked == Checked::Segments && self.world.is_near(node)
+    }
+
+    /// Whether a move from a node that is near obstacles to a free one is free.
+    fn may_step(&self, node: u32, to: u32) -> bool {
+        self.world.is_clear(&Segment::new(self.world.point(node), self.world.point(to)))
     }
 }
 
@@ -78,16 +127,13 @@ impl Graph for Neighbours<'_> {
     }
 
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
-        let careful = self.checked == Checked::Segments && self.world.is_near(node);
-        for (offset, length) in self.steps {
-            let to = node.wrapping_add_signed(offset);
-            if !self.world.grid().is_free(to) {
-                continue;
+        let (grid, is_near) = (self.world.grid(), self.is_near(node));
+        for step in STEPS_26 {
+            let to = node.wrapping_add_signed(grid.offset(step));
+            if grid.is_free(to) && (!is_near || self.may_step(node, to)) {
+                let length = f64::from(step.map(|c| c * c).iter().sum::<i32>()).sqrt();
+                visit(to, length * self.world.step());
             }
-            if careful && !self.world.is_clear(&Segment::new(self.world.point(node), self.world.point(to))) {
-                continue;
-            }
-            visit(to, length);
         }
     }
 }
@@ -116,14 +162,7 @@ pub(super) fn search(
         (at - goal).norm() < world.step()
             && (checked == Checked::Nodes || world.is_clear(&Segment::new(at, goal)))
     };
-    let terms = Terms {
-        graph: &mut Neighbours::new(world, checked),
-        estimate: &Combined { h, combine: sum },
-        observer: &mut (),
-        update: UPDATE,
-    };
-    let rules = Rules { stop: Stop::GoalPopped, max_expansions };
-    let report = memory.run(terms, first, is_goal, rules, &mut ());
+    let report = memory.run(Neighbours { world, checked }, first, h, is_goal, max_expansions);
     let (ending, mut points) = match &report.outcome {
         Outcome::Solved(route) => {
             let inner = route.nodes.iter().map(|node| world.point(*node));
@@ -151,7 +190,7 @@ fn entrance(world: &PolyhedraWorld, start: &Vec3) -> Option<u32> {
 impl Planner for Lattice26 {
     fn plan(&self, request: &Request<'_>) -> Result<Plan, Invalid> {
         let posed = Posed::new(request)?;
-        let mut memory = self.pool.any(|| Search::new(Heap::new(self.ties.into())));
+        let mut memory = self.pool.any(|| LatticeSearch::new(self.ties.into()));
         let found = search(&posed, self.checked, &mut memory, request.expansions);
         self.pool.keep(memory);
         let found = found?;

@@ -12,16 +12,13 @@
     reason = "the search is compiled for the instructions of the function it ends up in"
 )]
 
-use super::cost::quantised;
 use super::frontier::Ties;
 use super::neighbourhood::{MOST_ROWS, Shape, Successors, reach, strides};
+use super::node_lists::{Node, NodeLists, Way, improved};
 use super::observe::{ListScans, Lists};
-use super::sorted_buckets::{Order, SortedBuckets};
-use super::{Counters, Outcome, Report, Route};
-use crate::geometry::lanes::{LANES, Lane, Row, Simd, SimdBase as _, SimdMask as _, dispatch, level};
-use base::grid::{Bits, Columns, MAX_REACH_CELLS, Offsets};
-
-const NONE: u32 = u32::MAX;
+use super::{Counters, Outcome, Report};
+use crate::geometry::lanes::{LANES, Simd, dispatch, level};
+use base::grid::{Columns, MAX_REACH_CELLS, Offsets};
 
 /// One query of a [`LatticeAstar`].
 #[derive(Debug)]
@@ -51,77 +48,15 @@ pub struct LatticeAstar {
     lists: NodeLists,
 }
 
-/// OPEN and CLOSED.
-#[derive(Clone, Debug)]
-struct NodeLists {
-    /// What makes a node's place among equal f of its rank, and its rank of the place: 0, or every bit.
-    flip: u32,
-    /// By place: what a way to the cell must stay below to be taken. Infinite for cells that were not opened, and minus
-    /// infinite for those that take no other way.
-    bounds: Vec<f64>,
-    /// By place: how many nodes were opened before.
-    ranks: Vec<u32>,
-    closed: Bits,
-    /// By rank.
-    nodes: Vec<Node>,
-    open: SortedBuckets<Waiting, ByPlace>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    g: f64,
-    h: f64,
-    cell: u32,
-    place: u32,
-    /// The rank of the node before it on its way.
-    parent: u32,
-    is_closed: bool,
-}
-
-/// An open node in the queue.
-#[derive(Clone, Copy, Debug)]
-struct Waiting {
-    f: u64,
-    /// What orders it among equal f: its rank, or the complement of it.
-    place: u32,
-}
-
-/// The order of [`Waiting`].
-#[derive(Clone, Copy, Debug)]
-struct ByPlace;
-
-impl Order<Waiting> for ByPlace {
-    #[inline]
-    fn f(&self, item: &Waiting) -> u64 {
-        item.f
-    }
-
-    #[inline]
-    fn is_after(&self, one: &Waiting, other: &Waiting) -> bool {
-        (one.f, one.place) > (other.f, other.place)
-    }
-}
-
 impl LatticeAstar {
     /// The search with the neighbourhood `offsets` that takes open nodes of equal f in the order of `ties`; `None` for
     /// an order or a neighbourhood that it does not know.
     pub fn new(offsets: &Offsets, ties: Ties) -> Option<Self> {
-        let flip = match ties {
-            Ties::Fifo => 0,
-            Ties::Lifo => u32::MAX,
-            Ties::LargerG | Ties::Smaller => return None,
-        };
+        let lists = NodeLists::new(ties)?;
         (reach(offsets) <= MAX_REACH_CELLS as i32).then(|| Self {
             offsets: offsets.clone(),
             shape: Shape::default(),
-            lists: NodeLists {
-                flip,
-                bounds: Vec::new(),
-                ranks: Vec::new(),
-                closed: Bits::default(),
-                nodes: Vec::new(),
-                open: SortedBuckets::new(ByPlace, 0),
-            },
+            lists,
         })
     }
 
@@ -151,7 +86,8 @@ impl LatticeAstar {
             lists: Lists { open: 1, closed: 0 },
             scans: ListScans::default(),
         };
-        let mut best = Some(self.lists.open_start(start, query));
+        let (place, h) = (query.columns.place(start), (query.h)(start));
+        let mut best = Some(self.lists.open_start(start, place, h));
         let outcome = loop {
             let Some(rank) = best else { break Outcome::NoPath };
             if self.lists.nodes[rank as usize].cell == goal {
@@ -171,21 +107,11 @@ impl LatticeAstar {
     /// Makes room for the cells of `columns`, and works out the steps if the last query's were others.
     fn fit(&mut self, columns: &Columns, spacing: f64) {
         let Self { offsets, shape, lists } = self;
-        if (shape.spacing, shape.strides) != (spacing, strides(columns)) {
+        let is_other = (shape.spacing, shape.strides) != (spacing, strides(columns));
+        if is_other {
             *shape = Shape::new(offsets, columns, spacing);
-            lists.open = SortedBuckets::new(ByPlace, shape.bucket_bits());
         }
-        for node in lists.nodes.drain(..) {
-            lists.bounds[node.place as usize] = f64::INFINITY;
-        }
-        let count = columns.place_count();
-        if lists.ranks.len() < count {
-            // A sweep at the last place takes lanes beyond it.
-            lists.bounds.resize(count + LANES * MOST_ROWS, f64::INFINITY);
-            lists.ranks.resize(count, NONE);
-            lists.closed = Bits::none(count);
-        }
-        lists.closed.clear();
+        lists.fit(columns.place_count(), LANES * MOST_ROWS, is_other.then(|| shape.longest()));
     }
 
     /// Closes a node and deals with its successors.
@@ -218,7 +144,8 @@ impl LatticeAstar {
                 let step = block.steps[bit as usize];
                 let [place, cell] =
                     [(place, step.place), (cell, step.cell)].map(|(at, by)| at.wrapping_add_signed(by));
-                if lists.take(&Way { g: g + step.length, parent: rank, place, cell }, query) {
+                let way = Way { g: g + step.length, parent: rank, place, cell };
+                if lists.take(&way, query.lower_open, &query.h) {
                     seen.lists.open += 1;
                     looked_up.before_new += looked_up.open + u64::from((open << (63 - bit)).count_ones());
                 }
@@ -230,90 +157,6 @@ impl LatticeAstar {
         seen.counters.generated += looked_up.all;
         seen.scans.membership_comparisons += looked_up.comparisons(before, seen.lists.open - before.open);
     }
-}
-
-impl NodeLists {
-    /// Opens the start and takes it.
-    fn open_start<S, H: Fn(u32) -> f64>(&mut self, start: u32, query: &LatticeQuery<'_, S, H>) -> u32 {
-        let (place, h) = (query.columns.place(start), (query.h)(start));
-        self.nodes.push(Node { g: 0.0, h, cell: start, place, parent: NONE, is_closed: false });
-        self.open.begin(Waiting { f: quantised(h), place: self.flip });
-        0
-    }
-
-    /// Takes the best open node.
-    #[inline(always)]
-    fn best(&mut self) -> Option<u32> {
-        loop {
-            let rank = self.open.pop()?.place ^ self.flip;
-            if !self.nodes[rank as usize].is_closed {
-                return Some(rank);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn close(&mut self, rank: u32) -> Node {
-        let node = &mut self.nodes[rank as usize];
-        node.is_closed = true;
-        self.bounds[node.place as usize] = f64::NEG_INFINITY;
-        self.closed.insert(node.place);
-        *node
-    }
-
-    /// Takes a way that is better than what is known; tells whether it opens the cell.
-    #[inline(always)]
-    fn take<S, H: Fn(u32) -> f64>(&mut self, way: &Way, query: &LatticeQuery<'_, S, H>) -> bool {
-        let Way { g, parent, place, cell } = *way;
-        let bound = &mut self.bounds[place as usize];
-        let is_new = *bound == f64::INFINITY;
-        *bound = if query.lower_open { g } else { f64::NEG_INFINITY };
-        let (rank, h) = if is_new {
-            let (rank, h) = (self.nodes.len() as u32, (query.h)(cell));
-            self.ranks[place as usize] = rank;
-            self.nodes.push(Node { g, h, cell, place, parent, is_closed: false });
-            (rank, h)
-        } else {
-            let rank = self.ranks[place as usize];
-            let node = &mut self.nodes[rank as usize];
-            (node.g, node.parent) = (g, parent);
-            (rank, node.h)
-        };
-        self.open.push(Waiting { f: quantised(g + h), place: rank ^ self.flip });
-        is_new
-    }
-
-    /// The way to the node of this rank.
-    fn route(&self, rank: u32) -> Route<f64> {
-        let (mut nodes, mut at) = (Vec::new(), rank);
-        while let Some(node) = self.nodes.get(at as usize) {
-            nodes.push(node.cell);
-            at = node.parent;
-        }
-        nodes.reverse();
-        Route { nodes, cost: self.nodes[rank as usize].g }
-    }
-}
-
-/// A way to a cell.
-struct Way {
-    g: f64,
-    /// The rank of the node before the cell.
-    parent: u32,
-    place: u32,
-    cell: u32,
-}
-
-/// Which of the ways from a node at cost `g` along steps of these lengths stay below their bounds, a bit each.
-#[inline(always)]
-fn improved<I: Simd>(simd: I, g: f64, lengths: &[Row], bounds: &[f64]) -> u64 {
-    let (from, mut bits) = (Lane::splat(simd, g), 0);
-    for (row, (lengths, bounds)) in lengths.iter().zip(bounds.as_chunks().0).enumerate() {
-        let reached = from + Lane::load_array_ref(simd, lengths);
-        let is_below = reached.simd_lt(Lane::load_array_ref(simd, bounds));
-        bits |= is_below.to_bitmask() << (LANES * row);
-    }
-    bits
 }
 
 /// What a query has done.

@@ -7,7 +7,7 @@
 //! ([`BeforeExpansion`]) and who watches ([`Observer`]). [`Search`] runs one side, [`Bidirectional`] two, [`AnyAngle`] one
 //! whose ways leave the moves of the grid.
 //! [`OctileAstar`] is the declared specialisation for 8-connected grids, [`LatticeAstar`] the one for neighbourhoods of any
-//! size, [`FirstWayAstar`] the one for the lengths of an A*
+//! size, [`CubicAstar`] the one for cubic lattices with 26 neighbours, [`FirstWayAstar`] the one for the lengths of an A*
 //! that never lowers open nodes there, [`ManyGrids`] the one for the costs on many such grids at once; tests hold each
 //! equal to the general form.
 //!
@@ -34,6 +34,7 @@ mod any_angle;
 mod bidirectional;
 mod buckets;
 mod cost;
+mod cubic_astar;
 mod estimate;
 mod first_way;
 mod first_way_back;
@@ -43,6 +44,7 @@ mod jump;
 mod lattice_astar;
 mod many;
 mod neighbourhood;
+mod node_lists;
 mod observe;
 mod octile;
 mod one_way;
@@ -57,6 +59,7 @@ pub use any_angle::{AnyAngle, Seen, Sighted, When};
 pub use bidirectional::{Bidirectional, BidirectionalReport, BidirectionalRules, End, Meeting, SideChoice};
 pub use buckets::Buckets;
 pub use cost::{Cost, Octile, quantised};
+pub use cubic_astar::{CubicAstar, CubicQuery};
 pub use estimate::{Combined, Estimate, ScaledOctile, euclidean_to, falling, octile_to, sum, weighted};
 pub use first_way::FirstWayAstar;
 pub use first_way_back::{FirstWayBack, Unsettled};

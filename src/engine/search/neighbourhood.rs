@@ -1,7 +1,5 @@
 //! Neighbourhoods of any size, looked at a column at a time.
 
-use super::buckets::BUCKETS;
-use super::cost::quantised;
 use super::graph::Graph;
 use crate::geometry::lanes::{LANES, Row};
 use base::grid::{Columns, MAX_REACH_CELLS, Offsets};
@@ -85,12 +83,10 @@ impl Shape {
         Self { spacing, strides: strides(columns), reach, rows: side.div_ceil(LANES), blocks }
     }
 
-    /// Log₂ of the keys that a bucket must span to hold every f that can be open.
-    pub(super) fn bucket_bits(&self) -> u32 {
+    /// The longest step.
+    pub(super) fn longest(&self) -> f64 {
         let lengths = self.blocks.iter().flat_map(|block| &block.steps).map(|step| step.length);
-        let longest = lengths.filter(|length| length.is_finite()).fold(0.0, f64::max);
-        let rise = quantised(3.0 * longest) / (BUCKETS as u64 - 2);
-        u64::BITS - rise.leading_zeros()
+        lengths.filter(|length| length.is_finite()).fold(0.0, f64::max)
     }
 }
 

@@ -58,7 +58,7 @@ tool_mm = 100
 /// Draws per wanted sample after which a cell counts as full.
 const DRAWS_PER_SAMPLE: u32 = 1000;
 /// How many configurations are drawn and looked at together.
-const DRAWN_TOGETHER: usize = 128;
+const DRAWN_TOGETHER: usize = 256;
 /// How far the region around the queries' poses reaches beyond them.
 const AROUND_DEG: f64 = 20.0;
 

@@ -50,8 +50,7 @@ impl Task for PlanTask {
             (0..queries.len()).map(run).collect()
         };
         for part in done {
-            batch.rows.extend(part.rows);
-            batch.kept.extend(part.kept);
+            batch.add(part);
         }
         batch
     }
@@ -98,19 +97,37 @@ fn run_query(
     batch: &mut Batch,
 ) {
     let known = unit.family.known(index);
-    for &entrant in &unit.entrants {
+    let run = |entrant: &Entrant<'_>| {
+        let mut batch = Batch::default();
         for repeat in 0..entrant.contender.repeats {
             let trial = Trial { unit, query, entrant, repeat, known: &known };
             match (prepared, truth) {
-                (Ok(prepared), Some(truth)) => trial.run(prepared, truth, batch),
+                (Ok(prepared), Some(truth)) => trial.run(prepared, truth, &mut batch),
                 (Err(invalid), _) => batch.rows.push(trial.invalid(invalid)),
                 (Ok(_), None) => unreachable!("the truth is known wherever the world is"),
             }
         }
+        batch
+    };
+    // Among polyhedra a single trial may take seconds, and nothing is learnt from one to the next.
+    let is_long = prepared.is_ok_and(|p| p.world.as_polyhedra().is_some());
+    let done: Vec<Batch> = if is_long {
+        unit.entrants.par_iter().map(|entrant| run(entrant)).collect()
+    } else {
+        unit.entrants.iter().map(|entrant| run(entrant)).collect()
+    };
+    for part in done {
+        batch.add(part);
     }
 }
 
 impl Batch {
+    /// Adds trials and what is kept of them.
+    fn add(&mut self, part: Self) {
+        self.rows.extend(part.rows);
+        self.kept.extend(part.kept);
+    }
+
     fn keep(&mut self, of: &Owner, exhibits: Vec<Exhibit>) {
         self.kept.extend(exhibits.into_iter().map(|exhibit| Kept { of: of.clone(), exhibit }));
     }

@@ -112,14 +112,16 @@ impl Obstacles {
         let axes: Vec<Segment> = self.body.parts.iter().map(axis).collect();
         let parts = self.body.parts.iter().enumerate();
         for (index, part) in parts.filter(|(_, part)| part.exposed) {
-            let reach_m = part.radius_m - ROUNDING_M;
-            if let Some(hit) = self.stills.iter().position(|still| is_within(&axes[index], still, reach_m)) {
+            let (axis, reach_m) = (&axes[index], part.radius_m - ROUNDING_M);
+            let bounds = Aabb::new(axis.a.min(axis.b), axis.a.max(axis.b));
+            let is_hit = |still: &Still| is_within(axis, &bounds, still, reach_m);
+            if let Some(hit) = self.stills.iter().position(is_hit) {
                 return Some(format!("part {} touches obstacle {}", index + 1, hit + 1));
             }
         }
         let touching = self.body.pairs.iter().find(|[a, b]| {
             let reach_m = self.body.parts[*a].radius_m + self.body.parts[*b].radius_m - ROUNDING_M;
-            segments_m(&axes[*a], &axes[*b]) < reach_m
+            !are_far(&axes[*a], &axes[*b], reach_m) && segments_m(&axes[*a], &axes[*b]) < reach_m
         });
         touching.map(|[a, b]| format!("part {} touches part {}", a + 1, b + 1))
     }
@@ -136,19 +138,26 @@ fn pose(frame: &Matrix4<f64>) -> Pose {
     )
 }
 
-fn is_within(axis: &Segment, still: &Still, reach_m: f64) -> bool {
+/// Whether an axis, which lies in `bounds`, is nearer to something still than `reach_m`.
+fn is_within(axis: &Segment, bounds: &Aabb, still: &Still, reach_m: f64) -> bool {
     match still {
         Still::Behind(normal, offset_m) => {
             let height = |p: Vector| normal.x * p.x + normal.y * p.y + normal.z * p.z - offset_m;
             height(axis.a).min(height(axis.b)) < reach_m
         }
         Still::Round(other, radius_m) => segments_m(axis, other) < reach_m + radius_m,
-        Still::Solid(at, shape, bounds) => {
+        Still::Solid(at, shape, about) => {
             let gap_m =
                 || query::distance(&Pose::IDENTITY, axis, at, &**shape).expect("parry knows these shapes");
-            bounds.loosened(reach_m.max(0.0)).intersects(&axis.local_aabb()) && gap_m().distance < reach_m
+            about.loosened(reach_m.max(0.0)).intersects(bounds) && gap_m().distance < reach_m
         }
     }
+}
+
+/// Whether the balls about two segments are further apart than `reach_m`, without a doubt: most pairs are, and need no distance.
+fn are_far(p: &Segment, q: &Segment, reach_m: f64) -> bool {
+    let apart_m = ((p.a + p.b) - (q.a + q.b)).length();
+    apart_m > (p.b - p.a).length() + (q.b - q.a).length() + 2.0 * (reach_m + ROUNDING_M)
 }
 
 /// The distance between two segments: of an end to the other segment, or between points inside both.
@@ -171,5 +180,34 @@ fn segments_m(p: &Segment, q: &Segment) -> f64 {
         least.min(w.dot(normal).abs() / normal.length())
     } else {
         least
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use base::seed;
+    use rand::RngExt as _;
+
+    #[test]
+    fn segments_that_are_far_are_no_nearer_than_their_reach() {
+        let mut stream = seed::stream(61);
+        let (mut far, mut others) = (0, 0);
+        for index in 0..200_000 {
+            let mut point = || Vector::from([0; 3].map(|_| stream.random_range(-1.0..1.0)));
+            let (p, apart) = (Segment::new(point(), point()), point());
+            // One in three is parallel to the other, one in three goes on where the other ends.
+            let q = match index % 3 {
+                0 => Segment::new(p.a + apart, p.b + apart),
+                1 => Segment::new(p.b + (p.b - p.a) * 0.3, p.b + (p.b - p.a)),
+                _ => Segment::new(apart, point()),
+            };
+            // As far as they are, or somewhat less or more.
+            let reach_m = segments_m(&p, &q) * [1.0, 1.0 - 1e-9, 0.9, 0.3, 1.1][index % 5];
+            let is_far = are_far(&p, &q, reach_m);
+            assert!(!is_far || segments_m(&p, &q) >= reach_m, "seed 61 case {index}: {p:?} {q:?} {reach_m}");
+            (far, others) = (far + u32::from(is_far), others + u32::from(!is_far));
+        }
+        assert!(far > 20_000 && others > 20_000, "one-sided sample: {far} far, {others} not");
     }
 }

@@ -15,8 +15,8 @@ pub use contact::{Body, Part, Shape};
 pub use follow::{Leg, Stop};
 
 use contact::Obstacles;
-use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::sync::{Mutex, MutexGuard};
 
 /// Joint angles.
 pub type Angles = [f64; 6];
@@ -58,8 +58,11 @@ pub struct Case {
     chain: Chain,
     obstacles: Obstacles,
     rules: Rules,
-    known: RefCell<BTreeMap<[[u64; 6]; 2], Result<Leg, String>>>,
+    known: Mutex<Known>,
 }
+
+/// Legs by their ends, and what became of them.
+type Known = BTreeMap<[[u64; 6]; 2], Result<Leg, String>>;
 
 /// What the motion along a path amounts to.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,7 +80,7 @@ pub struct Motion {
 impl Case {
     /// The case of an arm among obstacles.
     pub fn new(chain: Chain, body: Body, shapes: &[Shape], rules: Rules) -> Self {
-        Self { chain, obstacles: Obstacles::new(body, shapes), rules, known: RefCell::default() }
+        Self { chain, obstacles: Obstacles::new(body, shapes), rules, known: Mutex::default() }
     }
 
     /// The motion along `path`, whose first and last configurations must be `start` and `goal`.
@@ -116,11 +119,15 @@ impl Case {
 
     fn leg(&self, from: &Angles, to: &Angles) -> Result<Leg, String> {
         let key = [from.map(f64::to_bits), to.map(f64::to_bits)];
-        if let Some(known) = self.known.borrow().get(&key) {
+        if let Some(known) = self.known().get(&key) {
             return known.clone();
         }
         let found = follow::leg(self, from, to);
-        self.known.borrow_mut().insert(key, found.clone());
+        self.known().insert(key, found.clone());
         found
+    }
+
+    fn known(&self) -> MutexGuard<'_, Known> {
+        self.known.lock().expect("no thread panics while it looks a leg up")
     }
 }

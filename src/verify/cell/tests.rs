@@ -119,7 +119,7 @@ fn a_tool_that_is_too_fast_for_a_joint_is_refused() {
     let far = moved(&case, &home, [0.0, 0.3, 0.0]);
     assert!(case.motion(&[home, far], [&home, &far]).is_ok());
     case.rules.speed = Some([20.0, 400.0]);
-    case.known.borrow_mut().clear();
+    case.known().clear();
     let refusal = case.motion(&[home, far], [&home, &far]).unwrap_err();
     assert!(refusal.contains("faster than it can be"), "{refusal}");
 }

@@ -2,6 +2,7 @@
 
 mod any_angle;
 mod bidirectional;
+mod cubic_astar;
 mod first_way;
 mod jump;
 mod lattice_astar;

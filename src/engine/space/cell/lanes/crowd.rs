@@ -1,9 +1,9 @@
 //! Configurations that have nothing to do with each other, eight at once: which of them are free.
 //!
-//! Bodies are placed eight at a time and their parts' boxes held against those of the obstacles. Few of eight unrelated
-//! configurations come near the same thing, so pairs that may touch wait until eight have gathered, whatever
-//! configurations they belong to, and their distances are found together. A configuration in contact is not asked about
-//! again.
+//! Bodies are placed eight at a time and held against half-spaces where they stand. Few of eight unrelated configurations come
+//! near the same thing else: pairs whose boxes overlap are copied side by side, whatever configurations they belong to, and
+//! their distances are found together once all are copied. A processor reads what it has just written in smaller pieces
+//! only after a while, so no pair is measured right after it was copied.
 #![expect(
     clippy::inline_always,
     reason = "lanes are compiled for the instructions of the function they end up in"
@@ -12,22 +12,20 @@
 use super::outline::Outline;
 use super::place::place_block;
 use super::stand::overlaps;
-use super::{Axis, is_rough, load};
+use super::{Axis, is_rough, load, store};
 use crate::geometry::lanes::{
-    Point, ROUGH_LANES, Rough, RoughRow, Simd, SimdBase, SimdFloat, SimdMask, dispatch, far_balls, level,
+    Point, ROUGH_LANES, Rough, RoughRow, RoughSolid, Simd, SimdBase, SimdFloat, SimdMask, dispatch, level,
     squared_distance_segment_segment_lanes,
 };
 use crate::kinematics::{AXES, Joints};
 use crate::space::cell::Cell;
 
-/// How many configurations are taken together; their placed bodies stay in the nearest cache.
-const CROWD: usize = 128;
-/// How many obstacles are held against a block in a row: eight bits each fill a word.
-const OBSTACLES: usize = 8;
+/// How many configurations are taken together; what is kept of them stays in the near caches.
+const CROWD: usize = 256;
+/// How many parts or pairs are looked at in a row: eight bits each fill a word.
+const IN_A_ROW: usize = 8;
 /// A byte times this is that byte in every byte.
 const EVERY: u64 = u64::MAX / 0xff;
-/// From so many of eight on, pairs of parts are measured where they stand.
-const MOST: u32 = 3;
 
 const ALL: u8 = u8::MAX;
 
@@ -48,46 +46,63 @@ impl Known {
     }
 }
 
-/// Pairs that may touch, up to eight.
+/// Eight axes, or pairs of them, that are measured together.
 #[derive(Debug, Clone)]
-struct Waiting {
-    count: usize,
-    /// Where each pair's configuration is: its block and its lane.
+struct Group<const SIDES: usize> {
+    /// Where the configuration of each is: its block and its lane.
     states: [[u8; 2]; ROUGH_LANES],
-    axes: [Axis; 2],
-    radii: RoughRow,
+    axes: [Axis; SIDES],
+    /// How far apart each is when it touches.
+    touch_m: RoughRow,
 }
 
-impl Waiting {
-    const EMPTY: Self = Self {
-        count: 0,
-        states: [[0; 2]; ROUGH_LANES],
-        axes: [[[0.0; ROUGH_LANES]; 6]; 2],
-        radii: [0.0; ROUGH_LANES],
-    };
+/// What is to be measured.
+#[derive(Debug, Clone)]
+struct Waiting<const SIDES: usize> {
+    count: usize,
+    /// Those in use and others, whose memory is used again.
+    groups: Vec<Group<SIDES>>,
+}
 
-    /// Puts a pair on the list; whether the list is full.
+impl<const SIDES: usize> Waiting<SIDES> {
+    const EMPTY: Self = Self { count: 0, groups: Vec::new() };
+
     #[inline(always)]
-    fn push<const SIDES: usize>(&mut self, at: [usize; 2], axes: [&Axis; SIDES], radius_m: f32) -> bool {
-        let [block, lane] = at;
-        let place = self.count;
-        self.states[place] = [block as u8, lane as u8];
-        for (waiting, axis) in self.axes.iter_mut().zip(axes) {
+    fn push(&mut self, [block, lane]: [usize; 2], axes: [&Axis; SIDES], touch_m: f32) {
+        let (number, place) = (self.count / ROUGH_LANES, self.count % ROUGH_LANES);
+        if number == self.groups.len() {
+            self.grow();
+        }
+        let group = &mut self.groups[number];
+        group.states[place] = [block as u8, lane as u8];
+        for (waiting, axis) in group.axes.iter_mut().zip(axes) {
             for (row, from) in waiting.iter_mut().zip(axis) {
                 row[place] = from[lane];
             }
         }
-        self.radii[place] = radius_m;
-        self.count = (place + 1) % ROUGH_LANES;
-        self.count == 0
+        group.touch_m[place] = touch_m;
+        self.count += 1;
     }
 
-    /// Tells the first `count` configurations what was found.
+    #[cold]
+    fn grow(&mut self) {
+        self.groups.push(Group {
+            states: [[0; 2]; ROUGH_LANES],
+            axes: [[[0.0; ROUGH_LANES]; 6]; SIDES],
+            touch_m: [0.0; ROUGH_LANES],
+        });
+    }
+
+    /// Tells all configurations on the list what `measure` finds, and empties it.
     #[inline(always)]
-    fn tell(&self, count: usize, found: [u8; 2], known: &mut [Known]) {
-        for (place, [block, lane]) in self.states[..count].iter().enumerate() {
-            known[usize::from(*block)].add(found.map(|bits| (bits >> place & 1) << lane));
+    fn tell(&mut self, known: &mut [Known], mut measure: impl FnMut(&Group<SIDES>) -> [u8; 2]) {
+        for (first, group) in (0..self.count).step_by(ROUGH_LANES).zip(&self.groups) {
+            let found = measure(group);
+            for (place, [block, lane]) in group.states.iter().enumerate().take(self.count - first) {
+                known[usize::from(*block)].add(found.map(|bits| (bits >> place & 1) << lane));
+            }
         }
+        self.count = 0;
     }
 }
 
@@ -98,28 +113,31 @@ fn sorted<S: Simd>(gap: Rough<S>, band: f32) -> [u8; 2] {
     [contact, !(free | contact)].map(|mask| mask.to_bitmask() as u8)
 }
 
-/// Up to so many configurations and their bodies.
+/// Up to so many configurations and what of them is to be measured.
 struct Crowd<'a> {
     outline: &'a Outline,
     known: Vec<Known>,
-    /// By block, then by part.
+    /// The parts of eight bodies, and the boxes about them: the least corner, then the greatest.
     placed: Vec<Axis>,
-    waiting: Vec<Waiting>,
+    boxes: Vec<Axis>,
+    /// By obstacle.
+    at_obstacles: Vec<Waiting<1>>,
+    pairs: Waiting<2>,
 }
 
 impl<'a> Crowd<'a> {
     fn new(outline: &'a Outline) -> Self {
-        let waiting = vec![Waiting::EMPTY; outline.solids.len()];
-        Self { outline, known: Vec::new(), placed: Vec::new(), waiting }
+        let parts = vec![[[0.0; ROUGH_LANES]; 6]; outline.radii_m.len()];
+        let at_obstacles = vec![Waiting::EMPTY; outline.solids.len()];
+        let known = Vec::new();
+        Self { outline, known, placed: parts.clone(), boxes: parts, at_obstacles, pairs: Waiting::EMPTY }
     }
 
     /// Looks at `states`, of which only those that `is_asked` are of interest.
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, states: &[Joints], is_asked: impl Fn(&Joints) -> bool) {
-        let (blocks, parts) = (states.len().div_ceil(ROUGH_LANES), self.outline.radii_m.len());
-        self.placed.resize(blocks * parts, [[0.0; ROUGH_LANES]; 6]);
         self.known.clear();
-        for (states, placed) in states.chunks(ROUGH_LANES).zip(self.placed.chunks_exact_mut(parts.max(1))) {
+        for (block, states) in states.chunks(ROUGH_LANES).enumerate() {
             let (mut angles, mut shut) = ([[0.0; ROUGH_LANES]; AXES], ALL);
             for (lane, q) in states.iter().enumerate().filter(|(_, q)| is_asked(q)) {
                 shut &= !(1 << lane);
@@ -127,120 +145,113 @@ impl<'a> Crowd<'a> {
                     row[lane] = *angle as f32;
                 }
             }
-            self.known.push(Known { shut, unsure: 0 });
-            place_block(simd, self.outline, &angles, placed);
+            place_block(simd, self.outline, &angles, &mut self.placed);
+            let mut known = Known { shut, unsure: 0 };
+            self.behind_walls(simd, &mut known);
+            self.known.push(known);
+            self.bound(simd);
+            let open = u64::from(!known.shut) * EVERY;
+            self.meet_obstacles(simd, block, open);
+            self.meet_themselves(simd, block, open);
         }
-        self.among_obstacles(simd);
-        self.among_themselves(simd);
+        let (outline, known) = (self.outline, &mut self.known);
+        self.pairs.tell(known, |group| own_gaps(simd, outline, group));
+        for (waiting, solid) in self.at_obstacles.iter_mut().zip(&outline.solids) {
+            let Some(solid) = solid else { continue };
+            waiting.tell(known, |group| gaps(simd, solid, group, outline.band_m));
+        }
     }
 
+    /// Holds eight bodies against the half-spaces.
     #[inline(always)]
-    fn among_obstacles<S: Simd>(&mut self, simd: S) {
-        let (outline, parts) = (self.outline, self.outline.radii_m.len());
-        for &part in &outline.exposed {
-            let radius = outline.radii_m[part];
-            let reach = Rough::splat(simd, radius + 2.0 * outline.band_m);
+    fn behind_walls<S: Simd>(&self, simd: S, known: &mut Known) {
+        let outline = self.outline;
+        for solid in outline.walls.iter().filter_map(|wall| outline.solids[*wall].as_ref()) {
+            for &part in &outline.exposed {
+                let gap = solid.distance(simd, load(simd, &self.placed[part])) - outline.radii_m[part];
+                known.add(sorted(gap, outline.band_m));
+            }
+        }
+    }
+
+    /// Writes the boxes about the parts, error band included.
+    #[inline(always)]
+    fn bound<S: Simd>(&mut self, simd: S) {
+        for ((part, placed), bounds) in self.placed.iter().enumerate().zip(&mut self.boxes) {
+            let axis = load(simd, placed);
+            let reach = Rough::splat(simd, self.outline.radii_m[part] + 2.0 * self.outline.band_m);
             let reach = Point { x: reach, y: reach, z: reach };
-            for block in 0..self.known.len() {
-                let axis = load(simd, &self.placed[block * parts + part]);
-                let bounds = [axis[0].min(axis[1]) - reach, axis[0].max(axis[1]) + reach];
-                let open = u64::from(!self.known[block].shut) * EVERY;
-                for (first, corners) in outline.boxes.chunks(OBSTACLES).enumerate() {
-                    // A byte an obstacle: whether any is met is not asked of each, the answer is too often another one.
-                    let mut met = 0;
-                    for (byte, corners) in corners.iter().enumerate() {
-                        let corners = corners.map(|corner| Point::splat_rough(simd, corner));
-                        met |= overlaps(bounds, corners) << (8 * byte);
-                    }
-                    self.meet(simd, [block, part, first * OBSTACLES], met & open);
+            store([axis[0].min(axis[1]) - reach, axis[0].max(axis[1]) + reach], bounds);
+        }
+    }
+
+    /// Puts parts on the lists of obstacles whose boxes they meet.
+    #[inline(always)]
+    fn meet_obstacles<S: Simd>(&mut self, simd: S, block: usize, open: u64) {
+        let outline = self.outline;
+        for &obstacle in &outline.bounded {
+            let corners = outline.boxes[obstacle].map(|corner| Point::splat_rough(simd, corner));
+            for parts in outline.exposed.chunks(IN_A_ROW) {
+                // A byte a part: whether any is met is not asked of each, the answer is too often another one.
+                let mut met = 0;
+                for (byte, part) in parts.iter().enumerate() {
+                    met |= overlaps(load(simd, &self.boxes[*part]), corners) << (8 * byte);
                 }
-            }
-        }
-        for obstacle in 0..self.waiting.len() {
-            let count = std::mem::take(&mut self.waiting[obstacle].count);
-            self.judge_waiting(simd, obstacle, count);
-        }
-    }
-
-    /// Puts the configurations `met` of a block, a part of which is in the boxes about obstacles from `first` on, on the lists of
-    /// these obstacles.
-    #[inline(always)]
-    fn meet<S: Simd>(&mut self, simd: S, [block, part, first]: [usize; 3], mut met: u64) {
-        let (outline, radius) = (self.outline, self.outline.radii_m[part]);
-        while met != 0 {
-            let bit = met.trailing_zeros() as usize;
-            met &= met - 1;
-            let (obstacle, lane) = (first + bit / ROUGH_LANES, bit % ROUGH_LANES);
-            let axis = &self.placed[block * outline.radii_m.len() + part];
-            if outline.solids[obstacle].is_none() {
-                self.known[block].unsure |= 1 << lane;
-            } else if self.waiting[obstacle].push([block, lane], [axis], radius) {
-                self.judge_waiting(simd, obstacle, ROUGH_LANES);
-            }
-        }
-    }
-
-    /// Judges the first `count` of what waits for an obstacle.
-    #[inline(always)]
-    fn judge_waiting<S: Simd>(&mut self, simd: S, obstacle: usize, count: usize) {
-        if count > 0 {
-            let waiting = &self.waiting[obstacle];
-            let found = gaps(simd, self.outline, obstacle, &waiting.axes[0], &waiting.radii);
-            waiting.tell(count, found, &mut self.known);
-        }
-    }
-
-    #[inline(always)]
-    fn among_themselves<S: Simd>(&mut self, simd: S) {
-        let (outline, parts) = (self.outline, self.outline.radii_m.len());
-        let mut waiting = Waiting::EMPTY;
-        for pair in &outline.pairs {
-            let reach = Rough::splat(simd, pair.balls_m + 2.0 * outline.band_m);
-            for block in 0..self.known.len() {
-                let axes = pair.parts.map(|part| &self.placed[block * parts + part]);
-                let far = far_balls(load(simd, axes[0]), load(simd, axes[1]), reach) as u8;
-                let mut near = !(far | self.known[block].shut);
-                if near.count_ones() >= MOST {
-                    let found = own_gaps(simd, outline, axes, &[pair.touch_m; ROUGH_LANES]);
-                    self.known[block].add(found.map(|bits| bits & near));
-                    continue;
-                }
-                while near != 0 {
-                    let lane = near.trailing_zeros() as usize;
-                    near &= near - 1;
-                    if waiting.push([block, lane], axes, pair.touch_m) {
-                        let found = own_gaps(simd, outline, waiting.axes.each_ref(), &waiting.radii);
-                        waiting.tell(ROUGH_LANES, found, &mut self.known);
+                met &= open;
+                while met != 0 {
+                    let bit = met.trailing_zeros() as usize;
+                    met &= met - 1;
+                    let (part, lane) = (parts[bit / ROUGH_LANES], bit % ROUGH_LANES);
+                    if outline.solids[obstacle].is_none() {
+                        self.known[block].unsure |= 1 << lane;
+                    } else {
+                        let radius_m = outline.radii_m[part];
+                        self.at_obstacles[obstacle].push([block, lane], [&self.placed[part]], radius_m);
                     }
                 }
             }
         }
-        let found = own_gaps(simd, outline, waiting.axes.each_ref(), &waiting.radii);
-        waiting.tell(waiting.count, found, &mut self.known);
+    }
+
+    /// Puts pairs of parts whose boxes overlap on the list.
+    #[inline(always)]
+    fn meet_themselves<S: Simd>(&mut self, simd: S, block: usize, open: u64) {
+        for pairs in self.outline.pairs.chunks(IN_A_ROW) {
+            let mut met = 0;
+            for (byte, pair) in pairs.iter().enumerate() {
+                let [a, b] = pair.parts.map(|part| load(simd, &self.boxes[part]));
+                met |= overlaps(a, b) << (8 * byte);
+            }
+            met &= open;
+            while met != 0 {
+                let bit = met.trailing_zeros() as usize;
+                met &= met - 1;
+                let (pair, lane) = (&pairs[bit / ROUGH_LANES], bit % ROUGH_LANES);
+                self.pairs.push([block, lane], pair.parts.map(|part| &self.placed[part]), pair.touch_m);
+            }
+        }
     }
 }
 
-/// Which of eight axes, thickened by `radii`, touch an obstacle, and which of them may.
-fn gaps<S: Simd>(simd: S, outline: &Outline, obstacle: usize, axis: &Axis, radii: &RoughRow) -> [u8; 2] {
+/// Which of eight axes touch an obstacle, and which of them may.
+fn gaps<S: Simd>(simd: S, solid: &RoughSolid, group: &Group<1>, band_m: f32) -> [u8; 2] {
     simd.vectorize(
         #[inline(always)]
         || {
-            let radii = Rough::load_array_ref(simd, radii);
-            outline.solids[obstacle].as_ref().map_or([0, ALL], |solid| {
-                sorted(solid.distance(simd, load(simd, axis)) - radii, outline.band_m)
-            })
+            let gap = solid.distance(simd, load(simd, &group.axes[0]));
+            sorted(gap - Rough::load_array_ref(simd, &group.touch_m), band_m)
         },
     )
 }
 
-/// Which of eight pairs of axes, as far apart as given when they touch, do so, and which of them may.
-fn own_gaps<S: Simd>(simd: S, outline: &Outline, axes: [&Axis; 2], touching: &RoughRow) -> [u8; 2] {
+/// Which of eight pairs of axes touch, and which of them may.
+fn own_gaps<S: Simd>(simd: S, outline: &Outline, group: &Group<2>) -> [u8; 2] {
     simd.vectorize(
         #[inline(always)]
         || {
-            let [p, q] = axes.map(|axis| load(simd, axis));
+            let [p, q] = group.axes.each_ref().map(|axis| load(simd, axis));
             let apart = squared_distance_segment_segment_lanes(p, q).sqrt();
-            sorted(apart - Rough::load_array_ref(simd, touching), outline.band_m)
+            sorted(apart - Rough::load_array_ref(simd, &group.touch_m), outline.band_m)
         },
     )
 }

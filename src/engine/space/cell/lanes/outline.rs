@@ -36,6 +36,9 @@ pub(in crate::space::cell) struct Outline {
     pub(super) exposed: Vec<usize>,
     /// The obstacles; `None` for one that has no lanes.
     pub(super) solids: Vec<Option<RoughSolid>>,
+    /// Which of them are half-spaces, and which are not.
+    pub(super) walls: Vec<usize>,
+    pub(super) bounded: Vec<usize>,
     /// The least and the greatest corner of the box about each.
     pub(super) boxes: Vec<[[f32; 3]; 2]>,
     /// The same, eight obstacles a block: the least x, y and z, then the greatest.
@@ -79,6 +82,8 @@ impl Outline {
             _ => RoughSolid::of(solid),
         };
         let boxes: Vec<_> = solids.clone().map(corners).collect();
+        let (walls, bounded) = (0..scene.obstacles().len())
+            .partition(|obstacle| matches!(scene.obstacles()[*obstacle].solid, Solid::HalfSpace(_)));
         Self {
             chain: RoughChain::of(chain),
             axes,
@@ -86,6 +91,8 @@ impl Outline {
             radii_m: body.parts().iter().map(|part| part.capsule().radius as f32).collect(),
             exposed: exposed.to_vec(),
             solids: solids.map(rough_solid).collect(),
+            walls,
+            bounded,
             bounds: boxes.chunks(ROUGH_LANES).map(block).collect(),
             boxes,
             pairs: self_pairs.iter().map(|parts| pair(body, *parts, reach_m)).collect(),
