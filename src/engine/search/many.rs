@@ -3,6 +3,10 @@
 //! It finds what [`OctileAstar::flood`](super::OctileAstar::flood) finds on each grid alone; a test holds the two equal. A
 //! set of grids is the bits of a word, and a cell is expanded once for all grids on which it costs the same. Grids that
 //! differ in few cells thus cost little more than one.
+//!
+//! Of equally short ways only those are followed that move diagonally as early as they can (canonical orderings, Sturtevant
+//! and Rabin, IJCAI 2016): a cell is left by a move only if, on some grid, no way round the cell is as good for a way that
+//! entered it as this one did. In the open that leaves one move of eight after a straight one and three after a diagonal one.
 
 use super::SearchError;
 use super::buckets::Buckets;
@@ -24,10 +28,24 @@ pub struct ManyGrids {
     legal: Vec<[GridSet; 8]>,
     /// On which grids the cell's cost is known.
     closed: Vec<GridSet>,
-    /// The least cost that the cell was offered at, and on which grids.
-    offered: Vec<(u32, GridSet)>,
+    /// For each cell and each move into it, by which moves it may be left; bit `i` is `DIRECTIONS[i]`.
+    exits: Vec<[u8; 8]>,
+    offered: Vec<Offered>,
     open: Buckets<(u32, GridSet)>,
 }
+
+/// The best that a cell was offered.
+#[derive(Clone, Copy, Debug)]
+struct Offered {
+    /// The least cost.
+    cost: u32,
+    /// By which moves the cell may be left after one of the moves into it at that cost.
+    exits: u8,
+    /// On which grids.
+    on: GridSet,
+}
+
+const NOTHING: Offered = Offered { cost: u32::MAX, exits: 0, on: 0 };
 
 impl ManyGrids {
     /// How many grids a search holds at most.
@@ -57,13 +75,15 @@ impl ManyGrids {
                 }
             }
         }
+        let steps = DIRECTIONS.map(|[dx, dy]| dy * width as i32 + dx);
         Ok(Self {
             before,
             all: GridSet::MAX >> (Self::MOST - grids.len()),
-            steps: DIRECTIONS.map(|[dx, dy]| dy * width as i32 + dx),
+            exits: exits(&legal, steps),
+            steps,
             legal,
             closed: vec![0; padded],
-            offered: vec![(u32::MAX, 0); padded],
+            offered: vec![NOTHING; padded],
             open: Buckets::default(),
         })
     }
@@ -83,7 +103,8 @@ impl ManyGrids {
         assert!(start < self.cell_count(), "{start} is no cell");
         self.open.clear();
         self.closed.fill(0);
-        self.offered.fill((u32::MAX, 0));
+        self.offered.fill(NOTHING);
+        self.offered[(start + self.before) as usize] = Offered { cost: 0, exits: u8::MAX, on: self.all };
         self.open.push(0, (start + self.before, self.all));
         while let Some((cost, (node, grids))) = self.open.pop() {
             if cost > u64::from(most) {
@@ -100,22 +121,71 @@ impl ManyGrids {
 
     #[inline]
     fn expand(&mut self, node: u32, cost: u32, grids: GridSet) {
-        for ((step, length), legal) in self.steps.into_iter().zip(COSTS).zip(self.legal[node as usize]) {
-            let (to, reached) = (node.wrapping_add_signed(step), cost + length);
-            let (known, on) = &mut self.offered[to as usize];
-            let mut new = grids & legal & !self.closed[to as usize];
-            if reached >= *known {
-                new &= !*on;
-            }
+        let best = self.offered[node as usize];
+        // What was offered at more than the least cost is not told apart by the moves into the cell.
+        let mut left = if best.cost == cost { best.exits } else { u8::MAX };
+        let legal = self.legal[node as usize];
+        while left != 0 {
+            let bit = left.trailing_zeros() as usize % 8;
+            left &= left - 1;
+            let (to, reached) = (node.wrapping_add_signed(self.steps[bit]), cost + COSTS[bit]);
+            let mut new = grids & legal[bit] & !self.closed[to as usize];
             if new == 0 {
                 continue;
             }
-            if reached < *known {
-                (*known, *on) = (reached, new);
-            } else if reached == *known {
-                *on |= new;
+            let exits = self.exits[to as usize][bit];
+            let known = &mut self.offered[to as usize];
+            if reached < known.cost {
+                *known = Offered { cost: reached, exits, on: new };
+            } else {
+                new &= !known.on;
+                if reached == known.cost {
+                    known.exits |= exits;
+                    known.on |= new;
+                }
             }
-            self.open.push(u64::from(reached), (to, new));
+            if new != 0 {
+                self.open.push(u64::from(reached), (to, new));
+            }
         }
     }
+}
+
+/// A way of one or two moves to where two others lead: what makes the second of these needless on a grid where it is legal.
+#[derive(Clone, Copy)]
+struct WayRound {
+    first: usize,
+    second: Option<usize>,
+}
+
+/// The ways that are shorter than move `into` and then move `out`, or as long with the diagonal move first.
+fn ways_round(into: usize, out: usize) -> Vec<WayRound> {
+    let sum = |one: usize, two: usize| [0, 1].map(|axis| DIRECTIONS[one][axis] + DIRECTIONS[two][axis]);
+    let (target, cost) = (sum(into, out), COSTS[into] + COSTS[out]);
+    let direct = (0..8).filter(|first| DIRECTIONS[*first] == target);
+    let direct = direct.map(|first| WayRound { first, second: None });
+    let in_two = (0..64).map(|both| (both / 8, both % 8)).filter(|(first, second)| {
+        let other = COSTS[*first] + COSTS[*second];
+        sum(*first, *second) == target && (other < cost || (other == cost && COSTS[*first] > COSTS[into]))
+    });
+    direct.chain(in_two.map(|(first, second)| WayRound { first, second: Some(second) })).collect()
+}
+
+/// For each cell and each move into it the moves out of it that no way round the cell makes needless, on at least one grid.
+fn exits(legal: &[[GridSet; 8]], steps: [i32; 8]) -> Vec<[u8; 8]> {
+    let ways: Vec<Vec<WayRound>> = (0..64).map(|both| ways_round(both / 8, both % 8)).collect();
+    let of_move = |cell: usize, into: usize| {
+        let from = cell.wrapping_add_signed(-steps[into] as isize);
+        let Some(before) = legal.get(from) else { return 0 };
+        let is_needed = |out: &usize| {
+            let round = ways[into * 8 + out].iter().fold(0, |round, way| {
+                let middle = from.wrapping_add_signed(steps[way.first] as isize);
+                let then = |second: usize| legal.get(middle).map_or(0, |moves| moves[second]);
+                round | before[way.first] & way.second.map_or(GridSet::MAX, then)
+            });
+            out + into != 7 && before[into] & legal[cell][*out] & !round != 0
+        };
+        (0..8).filter(is_needed).fold(0, |exits, out| exits | 1 << out)
+    };
+    (0..legal.len()).map(|cell| std::array::from_fn(|into| of_move(cell, into))).collect()
 }
