@@ -9,7 +9,6 @@ use crate::study::paper::Paper;
 use crate::study::record::{PreparedRow, Row, Status};
 use crate::study::store::{KeptExhibits, Records, read_numbers};
 use crate::study::{ReadingChoice, Study, StudyError};
-use audit::turns::{Polyline, TurnQuery};
 use base::hash::sha256;
 use engine::planner::Exhibit;
 use rayon::prelude::*;
@@ -18,6 +17,7 @@ use std::collections::BTreeMap;
 use std::mem;
 use std::path::Path;
 use std::sync::Arc;
+use turns::{Polyline, TurnQuery};
 
 /// A paper with the stored runs of its studies.
 pub struct Evidence<'a> {
@@ -106,7 +106,7 @@ impl<'a> Evidence<'a> {
         self
     }
 
-    /// [`shortest_polyline`](audit::turns::shortest_polyline), searched once however many rules ask under however many
+    /// [`shortest_polyline`](turns::shortest_polyline), searched once however many rules ask under however many
     /// readings.
     ///
     /// # Panics

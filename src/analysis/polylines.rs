@@ -4,12 +4,12 @@
 //! found; losing it costs time alone.
 
 use crate::study::store::write_whole;
-use audit::turns::{self, Polyline, TurnQuery, shortest_polyline};
 use base::hash::sha256;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use turns::{Polyline, TurnQuery, shortest_polyline};
 
 /// Answers by what names them.
 type Answers = BTreeMap<String, Option<Polyline>>;
@@ -68,8 +68,8 @@ fn named(query: &TurnQuery) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use audit::turns::Convention;
     use stats::interval::Interval;
+    use turns::Convention;
 
     #[test]
     fn what_is_kept_is_found_again_and_a_damaged_file_costs_time_alone() {

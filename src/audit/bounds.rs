@@ -4,7 +4,6 @@
 //! Euclidean length in the same unit, and a saving is relative to the printed baseline. No map is assumed.
 
 use super::exact::{Exact, Print, add, mul, sub, whole};
-use super::{Cell, distance};
 use stats::interval::Interval;
 use std::cmp::Ordering;
 
@@ -12,15 +11,6 @@ use std::cmp::Ordering;
 pub fn straight_line(a: [f64; 2], b: [f64; 2]) -> f64 {
     let (dx, dy) = (a[0] - b[0], a[1] - b[1]);
     (dx * dx + dy * dy).sqrt()
-}
-
-/// The shortest straight line from any of `starts` to any of `goals`, in cells; none if either is empty.
-///
-/// With a cell's [neighbourhood](super::neighbourhood) on either side this is the bound that survives when
-/// the printed ends are off by one cell.
-pub fn straight_line_between(starts: &[Cell], goals: &[Cell]) -> Option<f64> {
-    let pairs = starts.iter().flat_map(|&start| goals.iter().map(move |&goal| distance(start, goal)));
-    pairs.min_by(f64::total_cmp)
 }
 
 /// Which moves there are.
@@ -83,6 +73,7 @@ pub fn largest_saving_percent(baseline: Interval, least: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{super::neighbourhood, super::printed::Digits, super::printed::Printed, *};
+    use turns::straight_line_between;
 
     fn interval(text: &str) -> Interval {
         text.parse::<Printed>().unwrap().interval(Digits::Unknown)

@@ -21,7 +21,7 @@
 //! [`reader`] makes an [`input`] of CSV, Markdown or TOML; [`checks`] are one a file, each a question with its source;
 //! [`report`] asks them all, with power and mends; [`certificate`] and [`witness`] are what a finding rests on; [`coverage`]
 //! looks for numbers that no macro backs. What a column can be is [`meaning::ITEMS`]. [`reach`], [`form`], [`clock`],
-//! [`lattice`], [`bounds`], [`turns`], [`sight`] and [`fvalues`] are the mathematics; [`proof`] is what claims of papers ask of
+//! [`lattice`], [`bounds`], [`mod@turns`], [`octile_turns`], [`sight`] and [`fvalues`] are the mathematics; [`proof`] is what claims of papers ask of
 //! it, one number at a time.
 //!
 //! Nothing here reads a record. Every bound states its premises and takes the printed digits' slack in the
@@ -40,6 +40,7 @@ pub mod fvalues;
 pub mod input;
 pub mod lattice;
 pub mod meaning;
+pub mod octile_turns;
 pub mod output;
 pub mod printed;
 pub mod proof;
@@ -51,11 +52,10 @@ pub mod sample;
 pub mod sight;
 pub mod statistic;
 pub mod table;
-pub mod turns;
 pub mod witness;
 
-/// A lattice cell `[x, y]`.
-pub type Cell = [i32; 2];
+pub use turns::Cell;
+use turns::distance;
 
 /// Why an audit could not be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -87,12 +87,6 @@ pub fn with_an_end_moved([start, goal]: [Cell; 2], size: [i32; 2]) -> Vec<[Cell;
 pub fn at_most(bound: f64, decimals: usize) -> String {
     let scale = libm::pow(10.0, decimals as f64);
     format!("{:.decimals$}", libm::ceil(bound * scale - 1e-9) / scale)
-}
-
-/// Distance between two cell centres.
-fn distance(a: Cell, b: Cell) -> f64 {
-    let (dx, dy) = (f64::from(a[0] - b[0]), f64::from(a[1] - b[1]));
-    (dx * dx + dy * dy).sqrt()
 }
 
 #[cfg(test)]

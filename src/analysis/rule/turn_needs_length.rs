@@ -2,10 +2,10 @@
 
 use super::{Entry, check_search, refused, rule};
 use audit::proof::{self, Ends, Search};
-use audit::turns::Convention;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use turns::Convention;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -7,11 +7,11 @@ use crate::exact::{Exact, Print, floor, whole};
 use crate::input::Input;
 use crate::relation::Relation;
 use crate::table::{Fault, Quoted};
-use crate::turns::{Convention, Polyline, TurnQuery, shortest_polyline};
 use crate::{Cell, distance};
 use stats::interval::Interval;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use turns::{Convention, Polyline, TurnQuery, shortest_polyline};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

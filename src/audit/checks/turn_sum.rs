@@ -8,12 +8,13 @@ use crate::exact::{Print, spelled, whole};
 use crate::input::Input;
 use crate::lattice::Octile;
 use crate::meaning::{Kind, Lattice};
+use crate::octile_turns::octile_turn_sums;
 use crate::relation::Relation;
 use crate::table::{Fault, Quoted, Table, named_by, quoted};
-use crate::turns::{Convention, octile::octile_turn_sums};
 use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use turns::Convention;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -21,7 +22,7 @@ pub static ENTRY: Entry = Entry {
     about: "can an 8-connected path of the printed length turn by the printed sum of angles?",
     example: "turn sum 229.17 beside length 14.65 from 22:15 to 26:28",
     premises: "moves go to one of eight neighbours; the sum is of changes of direction, or of the angles between moves",
-    source: "enumeration over moves (crate::turns::octile); for any-angle paths see crate::turns",
+    source: "enumeration over moves (crate::octile_turns); for any-angle paths see the package turns",
     tests,
     relation: Some(FromRelation { keys: &["turns", "length", "from", "to"], build }),
 };

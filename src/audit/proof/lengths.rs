@@ -1,13 +1,14 @@
 //! Printed lengths, distances and savings against what the ends allow.
 
 use super::{Ends, Proof, displacement, spelled};
-use crate::bounds::{self, Moves, largest_saving_percent, straight_line_between};
+use crate::bounds::{self, Moves, largest_saving_percent};
 use crate::exact::{Exact, Print};
 use crate::lattice::{Octile, Step, lengths_printing, nearest_lengths, octile_distance};
 use crate::printed::Digits;
 use crate::sight::shortest_seen;
 use crate::{Cell, at_most, neighbourhood, with_an_end_moved};
 use stats::interval::Interval;
+use turns::straight_line_between;
 
 /// Whether a printed distance is the Euclidean one between two printed points; also that distance.
 pub fn point_distance(print: Print, from: [f64; 2], to: [f64; 2]) -> (f64, Proof) {

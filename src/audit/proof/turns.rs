@@ -3,8 +3,8 @@
 use super::{Ends, Proof};
 use crate::exact::Print;
 use crate::neighbourhood;
-use crate::turns::{Convention, Polyline, TurnQuery};
 use stats::interval::Interval;
+use turns::{Convention, Polyline, TurnQuery};
 
 /// Polylines between printed ends that turn by a printed sum.
 pub struct Search<'a> {

@@ -3,7 +3,7 @@
 use super::{Case, turned};
 use parry2d::math::{Pose, Vector};
 use parry2d::query;
-use parry2d::shape::{Ball, ConvexPolygon, Segment, Shape};
+use parry2d::shape::{Ball, ConvexPolygon, Segment};
 
 /// An obstacle.
 #[derive(Debug, Clone)]
@@ -37,13 +37,16 @@ impl Body {
     /// The distance from a segment, 0 in contact.
     fn distance(&self, [a, b]: [[f64; 2]; 2]) -> f64 {
         let link = Segment::new(vector(a), vector(b));
-        let (at, shape): (Pose, &dyn Shape) = match &self.0 {
-            Outline::Disc { center_cm: [x, y], shape } => (Pose::translation(*x, *y), shape),
-            Outline::Polygon { shape, .. } => (Pose::IDENTITY, shape),
-        };
-        query::distance(&at, shape, &Pose::IDENTITY, &link)
-            .expect("parry2d measures segments against balls and polygons")
-            .distance
+        // Of known shapes, so that the search is compiled, and optimised, with this package.
+        match &self.0 {
+            Outline::Disc { center_cm: [x, y], shape } => {
+                let from_disc = Pose::translation(*x, *y).inverse();
+                query::details::distance_ball_convex_polyhedron(&from_disc, shape, &link)
+            }
+            Outline::Polygon { shape, .. } => {
+                query::details::distance_support_map_support_map(&Pose::IDENTITY, shape, &link)
+            }
+        }
     }
 
     /// The least shift that takes a segment in contact out of the body.

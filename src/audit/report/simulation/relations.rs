@@ -2,10 +2,10 @@
 
 use super::{Style, Walk, moments, quantile, values};
 use crate::exact::{Exact, whole};
-use crate::turns::{Convention, turn_sum_deg};
 use rand::{RngExt, rngs::SmallRng};
 use stats::interval::Interval;
 use stats::proportion::{clopper_pearson, wilson};
+use turns::{Convention, turn_sum_deg};
 
 /// Some relations and samples.
 pub(super) fn document(rng: &mut SmallRng) -> String {

@@ -13,19 +13,20 @@
 //! windows are widened by 1e-5 on either side in return: widening can only admit more polylines, so what is
 //! not found does not exist.
 
-use super::{Cell, bounds::straight_line_between, distance};
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
 
 mod half;
 mod net;
-pub mod octile;
 mod reserve;
 
 #[cfg(test)]
 mod tests;
 
 use half::{Half, Label};
+
+/// A lattice cell `[x, y]`.
+pub type Cell = [i32; 2];
 
 /// How a bend counts towards a turn sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,13 +68,8 @@ pub struct TurnQuery {
 }
 
 /// The text of this module, so that an answer that is kept can be told from one that other code would give.
-pub const SOURCE: [&str; 5] = [
-    include_str!("turns.rs"),
-    include_str!("turns/half.rs"),
-    include_str!("turns/net.rs"),
-    include_str!("turns/octile.rs"),
-    include_str!("turns/reserve.rs"),
-];
+pub const SOURCE: [&str; 4] =
+    [include_str!("lib.rs"), include_str!("half.rs"), include_str!("net.rs"), include_str!("reserve.rs")];
 
 /// A polyline through cell centres.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -108,6 +104,18 @@ pub fn shortest_polyline(query: &TurnQuery) -> Option<Polyline> {
         }
     }
     None
+}
+
+/// The shortest straight line from any of `starts` to any of `goals`, in cells; none if either is empty.
+pub fn straight_line_between(starts: &[Cell], goals: &[Cell]) -> Option<f64> {
+    let pairs = starts.iter().flat_map(|&start| goals.iter().map(move |&goal| distance(start, goal)));
+    pairs.min_by(f64::total_cmp)
+}
+
+/// Distance between two cell centres.
+pub fn distance(a: Cell, b: Cell) -> f64 {
+    let (dx, dy) = (f64::from(a[0] - b[0]), f64::from(a[1] - b[1]));
+    (dx * dx + dy * dy).sqrt()
 }
 
 /// How much further each search looks, cells.

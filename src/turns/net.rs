@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{super::Cell, Convention, SLACK, TurnQuery, change_deg, difference, distance};
+use super::{Cell, Convention, SLACK, TurnQuery, change_deg, difference, distance};
 
 /// A segment from some cell.
 pub(super) struct Segment {

@@ -5,7 +5,7 @@ use std::{
     collections::{BTreeMap, BinaryHeap},
 };
 
-use super::{super::Cell, SLACK, TurnQuery, fits, net::Net, reserve::Reserve};
+use super::{Cell, SLACK, TurnQuery, fits, net::Net, reserve::Reserve};
 
 /// A way to a cell. `parent` leads back to the start; there is none for the first segment.
 #[derive(Debug, Clone, Copy)]
