@@ -201,29 +201,48 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
     }
     let along = Key::line("axes of the rods on the way", axis(0.0));
     let mut keys = vec![along, cell_key("arm at the end", shade(1.0))];
-    for (name, label, color) in
-        [("tip_path", "path to be followed", PURPLE), ("tip_trail", "way of the tip", VERMILLION)]
-    {
-        if let Some(found) = scene.run.exhibit(&row.key, name) {
-            let stroke = Stroke::solid(color, 1.3);
-            solids.polyline(points(found), stroke);
-            keys.push(Key::line(label, stroke));
-        }
-    }
-    if let Some(rod) = scene.run.exhibit(&row.key, "blocking_rod").map(|found| &found.values) {
-        solids.capsule([rod[0], rod[1], rod[2]], [rod[3], rod[4], rod[5]], rod[6], Paint::solid(VERMILLION));
-        keys.push(cell_key("rod that would touch at the next node", VERMILLION));
-    }
+    let trail = scene.run.exhibit(&row.key, "tip_trail").map(points).unwrap_or_default();
     // The whole way, where it is stored: a trail that stops short does not show the goal.
-    let path = scene.run.exhibit(&row.key, "tip_path");
-    let way = points(path.map_or_else(|| ask::exhibit(scene, &row.key, "tip_trail"), Ok)?);
-    for (at, color, label) in [(way.first(), GREEN, "start"), (way.last(), PURPLE, "goal")] {
+    let path = scene.run.exhibit(&row.key, "tip_path").map_or_else(|| trail.clone(), points);
+    if way(&path) > way(&trail) + END_CM {
+        let stroke = Stroke::solid(PURPLE, 1.3);
+        solids.polyline(path.clone(), stroke);
+        keys.push(Key::line("path to be followed", stroke));
+    }
+    keys.extend(seen_through(solids, trail, ["way of the tip", "the same behind something"], (BLACK, 1.3)));
+    if let Some(rod) = scene.run.exhibit(&row.key, "blocking_rod").map(|found| &found.values) {
+        let stroke = Stroke::solid(VERMILLION, 2.4);
+        solids.overlay(vec![[rod[0], rod[1], rod[2]], [rod[3], rod[4], rod[5]]], stroke);
+        keys.push(Key::line("axis of the rod that would touch at the next node", stroke));
+    }
+    add_ends(solids, &path, END_CM);
+    Ok(keys)
+}
+
+/// Adds a line of this colour and width, thin and dashed where it is hidden; its entries in the legend.
+fn seen_through(
+    solids: &mut Solids,
+    points: Vec<Vec3>,
+    labels: [&str; 2],
+    (color, width): (Rgb, f64),
+) -> [Key; 2] {
+    let (stroke, hidden) = (Stroke::solid(color, width), Stroke::solid(color, 0.7).dashed(Dash::Dashed));
+    solids.polyline(points.clone(), stroke);
+    solids.overlay(points, hidden);
+    [Key::line(labels[0], stroke), Key::line(labels[1], hidden)]
+}
+
+/// Radius of the balls at the ends of the arm's path.
+const END_CM: f64 = 2.2;
+
+/// Marks and names both ends of a path.
+fn add_ends(solids: &mut Solids, path: &[Vec3], radius: f64) {
+    for (at, color, label) in [(path.first(), GREEN, "start"), (path.last(), PURPLE, "goal")] {
         if let Some(at) = at {
-            solids.capsule(*at, *at, 2.2, Paint::solid(color));
+            solids.capsule(*at, *at, radius, Paint::solid(color));
             solids.tag(*at, label);
         }
     }
-    Ok(keys)
 }
 
 /// Two paths whose lengths differ by less than this look the same.
@@ -238,28 +257,17 @@ fn way(points: &[Vec3]) -> f64 {
 /// Adds the path as searched and as returned, with their ends.
 fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, RenderError> {
     let mut keys = Vec::new();
-    let mut line = |solids: &mut Solids, name: &str, label: &str, stroke: Stroke| {
-        if let Some(found) = scene.run.exhibit(&row.key, name) {
-            solids.polyline(points(found), stroke);
-            keys.push(Key::line(label, stroke));
-        }
-    };
     let path = points(ask::exhibit(scene, &row.key, "path")?);
     let raw = scene.run.exhibit(&row.key, "raw_path").map(points);
     // A path that was searched is told from the returned one only where straightening did something.
-    if raw.is_some_and(|raw| (way(&raw) - way(&path)).abs() > SEEN_CM) {
-        line(solids, "raw_path", "path as searched", Stroke::solid(BLUE, 0.8));
+    if let Some(raw) = raw.filter(|raw| (way(raw) - way(&path)).abs() > SEEN_CM) {
+        let stroke = Stroke::solid(BLUE, 0.8);
+        solids.polyline(raw, stroke);
+        keys.push(Key::line("path as searched", stroke));
     }
-    line(solids, "path", "returned path", Stroke::solid(VERMILLION, 1.5));
-    let hidden = Stroke::solid(VERMILLION, 0.7).dashed(Dash::Dashed);
-    solids.overlay(path.clone(), hidden);
-    keys.push(Key::line("the same behind an obstacle", hidden));
-    for (at, color, label) in [(path.first(), GREEN, "start"), (path.last(), PURPLE, "goal")] {
-        if let Some(at) = at {
-            solids.capsule(*at, *at, 1.6, Paint::solid(color));
-            keys.push(cell_key(label, color));
-        }
-    }
+    let labels = ["returned path", "the same behind an obstacle"];
+    keys.extend(seen_through(solids, path.clone(), labels, (VERMILLION, 1.5)));
+    add_ends(solids, &path, 1.6);
     Ok(keys)
 }
 
