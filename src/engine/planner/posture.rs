@@ -38,9 +38,9 @@ pub static ENTRY: Entry = Entry {
         "beyond_bounds",
         "branches_tried",
         "followed_share",
+        "posture_nodes",
         "posture_within_bounds",
         "posture_within_rad",
-        "stored_postures",
     ],
     settings: Accepted::of::<Posture>(),
     example: r#"
@@ -65,8 +65,6 @@ diagnose = true
 
 /// How many postures of the arm a figure shows along its path.
 const SHOWN: usize = 7;
-/// A turn that was cut to a bound may pass it by this much, by rounding.
-const ROUNDING_RAD: f64 = 1e-6;
 
 /// How far the arm came on one branch.
 struct Attempt<'a> {
@@ -137,15 +135,6 @@ impl Posture {
         Attempt { follower, failed_at }
     }
 
-    /// How many configurations of a trail have their tip turned from the first posture by more than a bound about some axis.
-    fn beyond_bounds(&self, arm: &CarriedArm, trail: &[Joints]) -> u64 {
-        let is_beyond = |q: &&Joints| {
-            let turn = turn(arm, q);
-            (0..3).any(|axis| turn[axis].abs() > self.bounds_rad[axis] + ROUNDING_RAD)
-        };
-        trail.iter().filter(is_beyond).count() as u64
-    }
-
     fn conclude(
         &self,
         request: &Request<'_>,
@@ -176,8 +165,8 @@ impl Posture {
             }
             return without_path(plan);
         }
-        plan.counts.insert("beyond_bounds", Value::Count(self.beyond_bounds(follower.arm, &follower.trail)));
-        plan.counts.insert("stored_postures", Value::Count(follower.trail.len() as u64));
+        plan.counts.insert("beyond_bounds", Value::Count(follower.beyond));
+        plan.counts.insert("posture_nodes", Value::Count(nodes.len() as u64));
         plan.cost = Some(path_length(&follower.tips));
         plan.path = follower.trail.iter().map(|q| q.to_vec()).collect();
         plan
@@ -209,15 +198,11 @@ fn other(follower: &Follower<'_>, tip: &Vec3, reach: [f64; 3]) -> bool {
     })
 }
 
-/// The rotation vector from pointing down to the tip's posture at `q`.
-fn turn(arm: &CarriedArm, q: &Joints) -> Vec3 {
-    rotation::log(&(arm.arm().chain().forward(q).rotation * DOWN.transpose()))
-}
-
 /// What figures need of a trail: rods, the tip's way, and its turns from pointing down.
 pub(super) fn trails(arm: &CarriedArm, trail: &[Joints]) -> Vec<Exhibit> {
     let tips: Vec<Vec3> = trail.iter().map(|q| arm.tip(q)).collect();
-    let turns: Vec<Vec3> = trail.iter().map(|q| turn(arm, q)).collect();
+    let turn = |q: &Joints| rotation::log(&(arm.arm().chain().forward(q).rotation * DOWN.transpose()));
+    let turns: Vec<Vec3> = trail.iter().map(turn).collect();
     vec![rods(arm, trail), exhibit("tip_trail", &tips), exhibit("posture_trail", &turns)]
 }
 

@@ -121,9 +121,10 @@ impl Kind for Polyhedra {
             let row = self.row(scene, contender)?;
             for view in views {
                 let mut solids = Solids::default();
-                add_obstacles(&mut solids, scene, &row.key.on, !is_arm)?;
-                let keys =
+                let around = add_obstacles(&mut solids, scene, &row.key.on, !is_arm)?;
+                let mut keys =
                     if *is_arm { arm(&mut solids, scene, row)? } else { paths(&mut solids, scene, row)? };
+                keys.extend(around);
                 let seen = if views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
                 let title = format!("{}: {}{seen}", row.key.contender, self.said(row));
                 sheet.add(panel(title, solids, *view, keys));
@@ -209,7 +210,7 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
         solids.polyline(path.clone(), stroke);
         keys.push(Key::line("path to be followed", stroke));
     }
-    keys.extend(seen_through(solids, trail, ["way of the tip", "the same behind something"], (BLACK, 1.3)));
+    keys.extend(seen_through(solids, trail, ["way of the tip", "the same, hidden"], (BLACK, 1.3)));
     if let Some(rod) = scene.run.exhibit(&row.key, "blocking_rod").map(|found| &found.values) {
         let stroke = Stroke::solid(VERMILLION, 2.4);
         solids.overlay(vec![[rod[0], rod[1], rod[2]], [rod[3], rod[4], rod[5]]], stroke);
@@ -276,13 +277,16 @@ fn points(exhibit: &Exhibit) -> Vec<Vec3> {
     exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1], point[2]]).collect()
 }
 
-/// Adds the obstacles of the prepared object `of`, and with `frame` the edges of the domain.
+/// Adds the obstacles of the prepared object `of`, the floor if there is one, and with `frame` the edges of the domain; the
+/// legend's entries.
 fn add_obstacles(
     solids: &mut Solids,
     scene: &Scene<'_>,
     of: &Arc<DrawKey>,
     frame: bool,
-) -> Result<(), RenderError> {
+) -> Result<Vec<Key>, RenderError> {
+    let (blue, grey) = (SKY.mixed(WHITE, 0.25), BLACK.mixed(WHITE, 0.88));
+    let mut keys = vec![cell_key("obstacle", blue)];
     let vertices = points(ask::exhibit(scene, of, "bodies_vertices")?);
     let listed = ask::exhibit(scene, of, "bodies_faces")?;
     let mut faces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -290,10 +294,11 @@ fn add_obstacles(
         faces.entry(pair[0] as usize).or_default().push(pair[1] as usize);
     }
     for (vertices, faces) in bodies(&vertices, faces.into_values().collect()) {
-        solids.polyhedron(vertices, faces, Paint::sheer(SKY.mixed(WHITE, 0.25), 0.82));
+        solids.polyhedron(vertices, faces, Paint::sheer(blue, 0.82));
     }
     if let Some(floor) = scene.run.exhibit(of, "floor") {
-        solids.sheet(points(floor), Paint::sheer(BLACK.mixed(WHITE, 0.88), 0.9));
+        solids.sheet(points(floor), Paint::sheer(grey, 0.9));
+        keys.push(cell_key("floor", grey));
     }
     if frame {
         let corners = points(ask::exhibit(scene, of, "domain")?);
@@ -301,7 +306,7 @@ fn add_obstacles(
             solids.polyline(edge.to_vec(), Stroke::solid(BLACK.mixed(WHITE, 0.7), 0.4));
         }
     }
-    Ok(())
+    Ok(keys)
 }
 
 /// Faces that share vertices, taken together with vertices numbered from 0.
@@ -333,8 +338,7 @@ fn edges(low: Vec3, high: Vec3) -> Vec<[Vec3; 2]> {
 }
 
 /// A panel that shows `scene`.
-fn panel(title: String, scene: Solids, view: View, mut keys: Vec<Key>) -> Panel {
-    keys.push(cell_key("obstacle", SKY.mixed(WHITE, 0.25)));
+fn panel(title: String, scene: Solids, view: View, keys: Vec<Key>) -> Panel {
     let bar = Some(ScaleBar { length: 20.0, label: "20 cm".to_owned() });
     SceneMark { scene, camera: view.camera(), bar, keys }.panel(title)
 }

@@ -78,7 +78,8 @@ fn a_box_between_two_free_configurations_is_found_however_small() {
 #[test]
 fn solids_that_are_not_measured_are_none_that_could_be_nearest() {
     let arm = Arm { floor: Some(-7.0), ..arm() };
-    let corners = [[70.0, 40.0, 0.0], [90.0, 44.0, 3.0], [76.0, 60.0, 2.0], [80.0, 46.0, 21.0], [65.0, 52.0, 9.0]];
+    let corners =
+        [[70.0, 40.0, 0.0], [90.0, 44.0, 3.0], [76.0, 60.0, 2.0], [80.0, 46.0, 21.0], [65.0, 52.0, 9.0]];
     let solids = [cube([60.0, 60.0, 0.0], 4.0), cube([-30.0, 40.0, 8.0], 9.0), Solid::new(&corners).unwrap()];
     let exact = |q: &[f64; 6]| {
         let frames = arm.frames(q);

@@ -95,7 +95,7 @@ pub fn nearest_segment_convex_listed_first(segment: &Segment, convex: &Convex) -
     nearest_by_lines(segment, convex, is_listed_first)
 }
 
-/// Whether the list before Fig. 8 has the line between the corners `i < j` of `count`, numbered from 0.
+/// Whether the list before eq. 11 has the line between the corners `i < j` of `count`, numbered from 0.
 fn is_listed(i: usize, j: usize, count: usize) -> bool {
     is_listed_first(i, j, count) || is_closing(i, j, count)
 }
@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn both_lists_have_the_lines_that_the_text_prints() {
-        // After eq. 10, and before Fig. 8, where p5p1 is added; both leave out p3p5.
+        // After eq. 10, and before eq. 11, where p5p1 is added; both leave out p3p5.
         assert_eq!(lines(is_listed_first), "p1p2 p1p3 p1p4 p2p3 p2p4 p2p5 p3p4 p4p5");
         assert_eq!(lines(is_listed), "p1p2 p1p3 p1p4 p1p5 p2p3 p2p4 p2p5 p3p4 p4p5");
     }
