@@ -13,7 +13,7 @@ mod potential;
 mod rotation;
 mod settings;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 use super::polyhedra::{densified, exhibit, points, polyhedra};
 use super::{Build, Ending, Entry, Exhibit, Plan, Request, Stage, Value};
@@ -31,14 +31,12 @@ use settings::{Branches, Posture};
 pub static ENTRY: Entry = Entry {
     name: "posture",
     about: "the whole arm follows a tip path, turning its tip down the rods' repulsive potential",
-    revision: 2,
+    revision: 1,
     needs: WorldKind::ArmAmongPolyhedra,
     columns: &[
         "adjustments",
-        "beyond_bounds",
         "branches_tried",
         "followed_share",
-        "posture_nodes",
         "posture_within_bounds",
         "posture_within_rad",
     ],
@@ -165,8 +163,6 @@ impl Posture {
             }
             return without_path(plan);
         }
-        plan.counts.insert("beyond_bounds", Value::Count(follower.beyond));
-        plan.counts.insert("posture_nodes", Value::Count(nodes.len() as u64));
         plan.cost = Some(path_length(&follower.tips));
         plan.path = follower.trail.iter().map(|q| q.to_vec()).collect();
         plan
@@ -204,6 +200,12 @@ pub(super) fn trails(arm: &CarriedArm, trail: &[Joints]) -> Vec<Exhibit> {
     let turn = |q: &Joints| rotation::log(&(arm.arm().chain().forward(q).rotation * DOWN.transpose()));
     let turns: Vec<Vec3> = trail.iter().map(turn).collect();
     vec![rods(arm, trail), exhibit("tip_trail", &tips), exhibit("posture_trail", &turns)]
+}
+
+/// The rotation vector that takes the tip's posture at `from` to that at `to`.
+pub(super) fn turn_between(arm: &CarriedArm, from: &Joints, to: &Joints) -> Vec3 {
+    let [from, to] = [from, to].map(|q| arm.arm().chain().forward(q).rotation);
+    rotation::log(&(to * from.transpose()))
 }
 
 /// The rod that would touch at the next node: both ends, radius.

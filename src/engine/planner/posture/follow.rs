@@ -15,8 +15,6 @@ use nalgebra::{Matrix3, Vector6};
 const JUMP_RAD: f64 = 0.35;
 /// Between stored configurations rods are checked at least this often.
 const CHECK_RAD: f64 = 0.01;
-/// A turn that was cut to a bound may pass it by this much, by rounding.
-const ROUNDING_RAD: f64 = 1e-6;
 /// How far around it a configuration is looked at: what is left of it serves the next ones.
 const FAR_CM: f64 = 6.0;
 
@@ -38,8 +36,6 @@ pub(super) struct Follower<'a> {
     pub(super) tips: Vec<[f64; 3]>,
     /// Steps of adjustment taken.
     pub(super) adjustments: u64,
-    /// Nodes at which the posture is turned from the first by more than a bound about some axis.
-    pub(super) beyond: u64,
 }
 
 impl<'a> Follower<'a> {
@@ -63,7 +59,6 @@ impl<'a> Follower<'a> {
             rotation,
             trail: vec![q],
             adjustments: 0,
-            beyond: 0,
         }
     }
 
@@ -71,14 +66,8 @@ impl<'a> Follower<'a> {
     pub(super) fn follow(&mut self, nodes: &[Vec3]) -> Result<(), usize> {
         for (index, pair) in nodes.windows(2).enumerate() {
             self.step(&pair[0], &pair[1]).ok_or(index + 1)?;
-            self.beyond += u64::from(self.is_beyond());
         }
         Ok(())
-    }
-
-    fn is_beyond(&self) -> bool {
-        let turn = log(&(self.rotation * DOWN.transpose()));
-        turn.iter().zip(self.settings.bounds_rad).any(|(angle, bound)| angle.abs() > bound + ROUNDING_RAD)
     }
 
     /// One node on: returns towards the first posture where there is room, turns away where there is not.
