@@ -114,9 +114,8 @@ impl Kind for Polyhedra {
         // One view each: contenders stand side by side.
         let columns = if views.len() == 1 { contenders.len() } else { views.len() };
         let mut sheet = Sheet::new(Width::Double, columns, if *is_arm { 220.0 } else { 205.0 });
-        if *is_arm {
-            sheet = sheet.noted("Rod radii are assumed.");
-        }
+        let note = if *is_arm { " Rod radii are assumed." } else { "" };
+        sheet = sheet.noted(format!("What is hidden of a path is dashed.{note}"));
         for contender in contenders {
             let row = self.row(scene, contender)?;
             for view in views {
@@ -210,7 +209,7 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
         solids.polyline(path.clone(), stroke);
         keys.push(Key::line("path to be followed", stroke));
     }
-    keys.extend(seen_through(solids, trail, ["way of the tip", "the same, hidden"], (BLACK, 1.3)));
+    keys.push(seen_through(solids, trail, "way of the tip", Stroke::solid(BLACK, 1.3)));
     if let Some(rod) = scene.run.exhibit(&row.key, "blocking_rod").map(|found| &found.values) {
         let stroke = Stroke::solid(VERMILLION, 2.4);
         solids.overlay(vec![[rod[0], rod[1], rod[2]], [rod[3], rod[4], rod[5]]], stroke);
@@ -220,17 +219,11 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
     Ok(keys)
 }
 
-/// Adds a line of this colour and width, thin and dashed where it is hidden; its entries in the legend.
-fn seen_through(
-    solids: &mut Solids,
-    points: Vec<Vec3>,
-    labels: [&str; 2],
-    (color, width): (Rgb, f64),
-) -> [Key; 2] {
-    let (stroke, hidden) = (Stroke::solid(color, width), Stroke::solid(color, 0.7).dashed(Dash::Dashed));
-    solids.polyline(points.clone(), stroke);
-    solids.overlay(points, hidden);
-    [Key::line(labels[0], stroke), Key::line(labels[1], hidden)]
+/// Adds a line, thin and dashed where it is hidden; its entry in the legend.
+fn seen_through(solids: &mut Solids, points: Vec<Vec3>, label: &str, stroke: Stroke) -> Key {
+    solids.overlay(points.clone(), Stroke::solid(stroke.color, 0.7).dashed(Dash::Dashed));
+    solids.polyline(points, stroke);
+    Key::line(label, stroke)
 }
 
 /// Radius of the balls at the ends of the arm's path.
@@ -266,8 +259,7 @@ fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, 
         solids.polyline(raw, stroke);
         keys.push(Key::line("path as searched", stroke));
     }
-    let labels = ["returned path", "the same behind an obstacle"];
-    keys.extend(seen_through(solids, path.clone(), labels, (VERMILLION, 1.5)));
+    keys.push(seen_through(solids, path.clone(), "returned path", Stroke::solid(VERMILLION, 1.5)));
     add_ends(solids, &path, 1.6);
     Ok(keys)
 }
