@@ -42,7 +42,7 @@ def draw(model_path: Path, to: Path, key: str, view: View) -> None:
 
 
 def name_obstacles(model: mujoco.MjModel, data: mujoco.MjData, scene: mujoco.MjvScene) -> None:
-    """Write at each obstacle its name in the scene's file; one that would cover another stands above it."""
+    """Write across each obstacle's middle its name; one that would cover another stands above it."""
     eye = scene.camera[0]
     right, up = np.cross(eye.forward, eye.up), np.asarray(eye.up)
     placed: list[tuple[float, float, float]] = []
@@ -51,12 +51,13 @@ def name_obstacles(model: mujoco.MjModel, data: mujoco.MjData, scene: mujoco.Mjv
         name = geom.name.removeprefix("still:")
         beyond = data.geom_xpos[geom.id] - eye.pos
         metres_per_pixel = beyond @ eye.forward * eye.frustum_top / eye.frustum_near / (HEIGHT / 2)
-        x, y = beyond @ right / metres_per_pixel, beyond @ up / metres_per_pixel
         width, lift = LETTER * len(name), 0.0
+        x, y = beyond @ right / metres_per_pixel - width / 2, beyond @ up / metres_per_pixel
         while any(covers((x, y + lift, width), other) for other in placed):
             lift += LINE / 4
         placed.append((x, y + lift, width))
-        add_label(scene, data.geom_xpos[geom.id] + lift * metres_per_pixel * up, name)
+        # A label starts at its place.
+        add_label(scene, data.geom_xpos[geom.id] + metres_per_pixel * (lift * up - width / 2 * right), name)
 
 
 def covers(one: tuple[float, float, float], other: tuple[float, float, float]) -> bool:

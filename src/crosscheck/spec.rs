@@ -333,12 +333,13 @@ fn given<'a>(
     Ok(given)
 }
 
-/// One of a scene's convex solids, which have no names and are in centimetres.
-fn convex_still(index: usize, body: &Convex) -> Still {
+/// One of a scene's convex solids, which are in centimetres and have no names but the block under the arm.
+fn convex_still(index: usize, body: &Convex, is_pedestal: bool) -> Still {
     const M: f64 = 1e-2;
     let vertices = body.vertices().iter().map(|vertex| vertex * M).collect();
     let solid = Convex::from_vertices(vertices).expect("a solid stays one in another unit");
-    Still { name: format!("obstacle {}", index + 1), solid: Solid::Convex(solid) }
+    let name = if is_pedestal { "pedestal".to_owned() } else { format!("obstacle {}", index + 1) };
+    Still { name, solid: Solid::Convex(solid) }
 }
 
 /// A robot where a scene puts it, and what stands around it.
@@ -364,7 +365,10 @@ impl SceneFormat {
             }
             Self::Polyhedra => {
                 let (bodies, support) = armed(path)?;
-                let solids = bodies.iter().enumerate().map(|(index, body)| convex_still(index, body));
+                // The block stands last.
+                let is_pedestal = |index| support.pedestal().is_some() && index + 1 == bodies.len();
+                let named = |(index, body)| convex_still(index, body, is_pedestal(index));
+                let solids = bodies.iter().enumerate().map(named);
                 let floor = support.solids().unwrap_or_default().into_iter().filter_map(|(name, solid)| {
                     matches!(solid, Solid::HalfSpace(_)).then(|| Still { name: name.to_owned(), solid })
                 });

@@ -159,6 +159,11 @@ pub static COLUMNS: &[Column] = &[
     count("raised_points", "control points that count more often so that the smoothed path is free"),
     count("adjustments", "steps of posture adjustment taken, on all branches tried"),
     count("branches_tried", "branches of the inverse kinematics tried from the start"),
+    count(
+        "beyond_bounds",
+        "nodes of the followed path at which the posture is turned from the first by more than one node's bounds",
+    ),
+    count("posture_nodes", "nodes of the path that the arm followed"),
     real("followed_share", "share of the tip path's nodes that the arm followed on its best branch"),
     count("posture_within_bounds", "1 if the node that failed has a free posture within one node's bounds"),
     count(

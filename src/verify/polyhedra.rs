@@ -39,6 +39,13 @@ impl Solid {
         &self.shape
     }
 
+    /// A length that the segment keeps from the solid at least, cheap to tell: how far both its ends are beyond that plane of the
+    /// solid that parts them best.
+    pub(super) fn keeps_at_least(&self, from: Point, to: Point) -> f64 {
+        let beyond = |(normal, offset): &(Point, f64)| dot(from, *normal).min(dot(to, *normal)) - offset;
+        self.planes.iter().map(beyond).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Whether the segment comes deeper than the tolerance into the solid with its planes moved out by `growth`.
     fn is_entered(&self, from: Point, to: Point, growth: f64) -> bool {
         let (mut enter, mut leave) = (0.0_f64, 1.0_f64);

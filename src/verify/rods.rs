@@ -15,6 +15,8 @@ use parry3d::shape::Segment;
 pub const FINEST_CM: f64 = 0.01;
 /// How far the tip may be from start and goal.
 const TIP_CM: f64 = 1e-5;
+/// Beyond what rounding can do to a distance.
+const ROUNDING_CM: f64 = 1e-6;
 
 /// One row of a standard Denavit–Hartenberg table with the joint's limits; centimetres and radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,8 +91,8 @@ impl Arm {
         moved(&self.frames(q)[6], self.tip)
     }
 
-    /// The distance from the rods' surfaces to the solids and the floor; infinite without either.
-    fn clearance(&self, solids: &[Solid], q: &[f64; 6]) -> f64 {
+    /// The distance from the rods' surfaces to the solids and the floor if it is at most `enough`; else anything that is more.
+    fn clearance(&self, solids: &[Solid], q: &[f64; 6], enough: f64) -> f64 {
         let frames = self.frames(q);
         let mut least = f64::INFINITY;
         for rod in &self.rods {
@@ -100,6 +102,10 @@ impl Arm {
             }
             let axis = Segment::new(Vector::new(a[0], a[1], a[2]), Vector::new(b[0], b[1], b[2]));
             for solid in solids {
+                // What cannot be the least is not measured.
+                if solid.keeps_at_least(a, b) - rod.radius > least.min(enough) + ROUNDING_CM {
+                    continue;
+                }
                 let found = query::distance(&Pose::IDENTITY, &axis, &Pose::IDENTITY, solid.shape());
                 let apart = found.expect("parry measures segments against convex polyhedra").distance;
                 least = least.min(apart - rod.radius);
@@ -187,8 +193,8 @@ impl Case<'_> {
     /// The clearance of a configuration between `a` and `b` that is too near a solid; `None` if all are proved free.
     fn refuse_stretch(&self, reaches: &[f64; 6], a: &[f64; 6], b: &[f64; 6]) -> Option<f64> {
         let middle: [f64; 6] = std::array::from_fn(|i| f64::midpoint(a[i], b[i]));
-        let clearance = self.arm.clearance(self.solids, &middle);
         let sway: f64 = (0..6).map(|i| reaches[i] * (b[i] - a[i]).abs() / 2.0).sum();
+        let clearance = self.arm.clearance(self.solids, &middle, sway.max(FINEST_CM));
         if clearance > sway {
             return None;
         }

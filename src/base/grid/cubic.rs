@@ -23,7 +23,8 @@ pub const STEPS_26: [[i32; 3]; 26] = {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grid3 {
     size: [u32; 3],
-    blocked: Vec<bool>,
+    free: Vec<bool>,
+    free_count: u64,
 }
 
 impl Grid3 {
@@ -38,11 +39,11 @@ impl Grid3 {
             return Err(GridError::Space { size });
         }
         let [x, y, z] = size.map(|side| side as usize + 2);
-        let mut grid = Self { size, blocked: vec![true; x * y * z] };
+        let mut grid = Self { size, free: vec![false; x * y * z], free_count: nodes() };
         for k in 0..size[2] {
             for j in 0..size[1] {
                 let row = grid.number([0, j, k]) as usize;
-                grid.blocked[row..row + size[0] as usize].fill(false);
+                grid.free[row..row + size[0] as usize].fill(true);
             }
         }
         Ok(grid)
@@ -55,7 +56,7 @@ impl Grid3 {
 
     /// A number above every node's.
     pub fn node_count(&self) -> usize {
-        self.blocked.len()
+        self.free.len()
     }
 
     fn number(&self, [x, y, z]: [u32; 3]) -> u32 {
@@ -86,7 +87,7 @@ impl Grid3 {
     /// If there is no such node.
     #[inline]
     pub fn is_free(&self, node: u32) -> bool {
-        !self.blocked[node as usize]
+        self.free[node as usize]
     }
 
     /// Marks `node` as blocked.
@@ -94,12 +95,14 @@ impl Grid3 {
     /// # Panics
     /// If there is no such node.
     pub fn block(&mut self, node: u32) {
-        self.blocked[node as usize] = true;
+        let free = &mut self.free[node as usize];
+        self.free_count -= u64::from(*free);
+        *free = false;
     }
 
     /// Number of free nodes.
     pub fn free_count(&self) -> u64 {
-        self.blocked.iter().filter(|blocked| !**blocked).count() as u64
+        self.free_count
     }
 }
 
@@ -124,6 +127,18 @@ mod tests {
             }
         }
         assert!(inside > 0 && inside < 60 * 26, "{inside}");
+    }
+
+    #[test]
+    fn a_node_that_is_blocked_twice_is_missing_once() {
+        let mut grid = Grid3::new([3, 2, 2]).unwrap();
+        for at in [[0, 0, 0], [2, 1, 1], [0, 0, 0]] {
+            grid.block(grid.node(at).unwrap());
+        }
+        grid.block(0);
+        let nodes = 0..grid.node_count() as u32;
+        assert_eq!(grid.free_count(), nodes.filter(|&node| grid.is_free(node)).count() as u64);
+        assert_eq!(grid.free_count(), 10);
     }
 
     #[test]

@@ -29,6 +29,7 @@ mod mirrors;
 mod polyhedra;
 mod pool;
 mod posture;
+mod posture_turns;
 mod roadmap;
 mod roadmap_astar;
 mod shorten_best;
@@ -58,6 +59,7 @@ pub static REGISTRY: &[&Entry] = &[
     &lattice_astar::ENTRY,
     &lazy_theta_star::ENTRY,
     &posture::ENTRY,
+    &posture_turns::ENTRY,
     &roadmap_astar::ENTRY,
     &shorten_best::ENTRY,
     &straighten::ENTRY,

@@ -13,7 +13,7 @@ mod potential;
 mod rotation;
 mod settings;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 use super::polyhedra::{densified, exhibit, points, polyhedra};
 use super::{Build, Ending, Entry, Exhibit, Plan, Request, Stage, Value};
@@ -200,6 +200,12 @@ pub(super) fn trails(arm: &CarriedArm, trail: &[Joints]) -> Vec<Exhibit> {
     let turn = |q: &Joints| rotation::log(&(arm.arm().chain().forward(q).rotation * DOWN.transpose()));
     let turns: Vec<Vec3> = trail.iter().map(turn).collect();
     vec![rods(arm, trail), exhibit("tip_trail", &tips), exhibit("posture_trail", &turns)]
+}
+
+/// The rotation vector that takes the tip's posture at `from` to that at `to`.
+pub(super) fn turn_between(arm: &CarriedArm, from: &Joints, to: &Joints) -> Vec3 {
+    let [from, to] = [from, to].map(|q| arm.arm().chain().forward(q).rotation);
+    rotation::log(&(to * from.transpose()))
 }
 
 /// The rod that would touch at the next node: both ends, radius.

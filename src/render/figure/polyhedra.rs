@@ -114,16 +114,16 @@ impl Kind for Polyhedra {
         // One view each: contenders stand side by side.
         let columns = if views.len() == 1 { contenders.len() } else { views.len() };
         let mut sheet = Sheet::new(Width::Double, columns, if *is_arm { 220.0 } else { 205.0 });
-        if *is_arm {
-            sheet = sheet.noted("Rod radii are assumed.");
-        }
+        let note = if *is_arm { " Rod radii are assumed." } else { "" };
+        sheet = sheet.noted(format!("What is hidden of a path is dashed.{note}"));
         for contender in contenders {
             let row = self.row(scene, contender)?;
             for view in views {
                 let mut solids = Solids::default();
-                add_obstacles(&mut solids, scene, &row.key.on, !is_arm)?;
-                let keys =
+                let around = add_obstacles(&mut solids, scene, &row.key.on, !is_arm)?;
+                let mut keys =
                     if *is_arm { arm(&mut solids, scene, row)? } else { paths(&mut solids, scene, row)? };
+                keys.extend(around);
                 let seen = if views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
                 let title = format!("{}: {}{seen}", row.key.contender, self.said(row));
                 sheet.add(panel(title, solids, *view, keys));
@@ -201,29 +201,42 @@ fn arm(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, Re
     }
     let along = Key::line("axes of the rods on the way", axis(0.0));
     let mut keys = vec![along, cell_key("arm at the end", shade(1.0))];
-    for (name, label, color) in
-        [("tip_path", "path to be followed", PURPLE), ("tip_trail", "way of the tip", VERMILLION)]
-    {
-        if let Some(found) = scene.run.exhibit(&row.key, name) {
-            let stroke = Stroke::solid(color, 1.3);
-            solids.polyline(points(found), stroke);
-            keys.push(Key::line(label, stroke));
-        }
-    }
-    if let Some(rod) = scene.run.exhibit(&row.key, "blocking_rod").map(|found| &found.values) {
-        solids.capsule([rod[0], rod[1], rod[2]], [rod[3], rod[4], rod[5]], rod[6], Paint::solid(VERMILLION));
-        keys.push(cell_key("rod that would touch at the next node", VERMILLION));
-    }
+    let trail = scene.run.exhibit(&row.key, "tip_trail").map(points).unwrap_or_default();
     // The whole way, where it is stored: a trail that stops short does not show the goal.
-    let path = scene.run.exhibit(&row.key, "tip_path");
-    let way = points(path.map_or_else(|| ask::exhibit(scene, &row.key, "tip_trail"), Ok)?);
-    for (at, color, label) in [(way.first(), GREEN, "start"), (way.last(), PURPLE, "goal")] {
+    let path = scene.run.exhibit(&row.key, "tip_path").map_or_else(|| trail.clone(), points);
+    if way(&path) > way(&trail) + END_CM {
+        let stroke = Stroke::solid(PURPLE, 1.3);
+        solids.polyline(path.clone(), stroke);
+        keys.push(Key::line("path to be followed", stroke));
+    }
+    keys.push(seen_through(solids, trail, "way of the tip", Stroke::solid(BLACK, 1.3)));
+    if let Some(rod) = scene.run.exhibit(&row.key, "blocking_rod").map(|found| &found.values) {
+        let stroke = Stroke::solid(VERMILLION, 2.4);
+        solids.overlay(vec![[rod[0], rod[1], rod[2]], [rod[3], rod[4], rod[5]]], stroke);
+        keys.push(Key::line("axis of the rod that would touch at the next node", stroke));
+    }
+    add_ends(solids, &path, END_CM);
+    Ok(keys)
+}
+
+/// Adds a line, thin and dashed where it is hidden; its entry in the legend.
+fn seen_through(solids: &mut Solids, points: Vec<Vec3>, label: &str, stroke: Stroke) -> Key {
+    solids.overlay(points.clone(), Stroke::solid(stroke.color, 0.7).dashed(Dash::Dashed));
+    solids.polyline(points, stroke);
+    Key::line(label, stroke)
+}
+
+/// Radius of the balls at the ends of the arm's path.
+const END_CM: f64 = 2.2;
+
+/// Marks and names both ends of a path.
+fn add_ends(solids: &mut Solids, path: &[Vec3], radius: f64) {
+    for (at, color, label) in [(path.first(), GREEN, "start"), (path.last(), PURPLE, "goal")] {
         if let Some(at) = at {
-            solids.capsule(*at, *at, 2.2, Paint::solid(color));
+            solids.capsule(*at, *at, radius, Paint::solid(color));
             solids.tag(*at, label);
         }
     }
-    Ok(keys)
 }
 
 /// Two paths whose lengths differ by less than this look the same.
@@ -238,28 +251,16 @@ fn way(points: &[Vec3]) -> f64 {
 /// Adds the path as searched and as returned, with their ends.
 fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, RenderError> {
     let mut keys = Vec::new();
-    let mut line = |solids: &mut Solids, name: &str, label: &str, stroke: Stroke| {
-        if let Some(found) = scene.run.exhibit(&row.key, name) {
-            solids.polyline(points(found), stroke);
-            keys.push(Key::line(label, stroke));
-        }
-    };
     let path = points(ask::exhibit(scene, &row.key, "path")?);
     let raw = scene.run.exhibit(&row.key, "raw_path").map(points);
     // A path that was searched is told from the returned one only where straightening did something.
-    if raw.is_some_and(|raw| (way(&raw) - way(&path)).abs() > SEEN_CM) {
-        line(solids, "raw_path", "path as searched", Stroke::solid(BLUE, 0.8));
+    if let Some(raw) = raw.filter(|raw| (way(raw) - way(&path)).abs() > SEEN_CM) {
+        let stroke = Stroke::solid(BLUE, 0.8);
+        solids.polyline(raw, stroke);
+        keys.push(Key::line("path as searched", stroke));
     }
-    line(solids, "path", "returned path", Stroke::solid(VERMILLION, 1.5));
-    let hidden = Stroke::solid(VERMILLION, 0.7).dashed(Dash::Dashed);
-    solids.overlay(path.clone(), hidden);
-    keys.push(Key::line("the same behind an obstacle", hidden));
-    for (at, color, label) in [(path.first(), GREEN, "start"), (path.last(), PURPLE, "goal")] {
-        if let Some(at) = at {
-            solids.capsule(*at, *at, 1.6, Paint::solid(color));
-            keys.push(cell_key(label, color));
-        }
-    }
+    keys.push(seen_through(solids, path.clone(), "returned path", Stroke::solid(VERMILLION, 1.5)));
+    add_ends(solids, &path, 1.6);
     Ok(keys)
 }
 
@@ -268,13 +269,16 @@ fn points(exhibit: &Exhibit) -> Vec<Vec3> {
     exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1], point[2]]).collect()
 }
 
-/// Adds the obstacles of the prepared object `of`, and with `frame` the edges of the domain.
+/// Adds the obstacles of the prepared object `of`, the floor if there is one, and with `frame` the edges of the domain; the
+/// legend's entries.
 fn add_obstacles(
     solids: &mut Solids,
     scene: &Scene<'_>,
     of: &Arc<DrawKey>,
     frame: bool,
-) -> Result<(), RenderError> {
+) -> Result<Vec<Key>, RenderError> {
+    let (blue, grey) = (SKY.mixed(WHITE, 0.25), BLACK.mixed(WHITE, 0.88));
+    let mut keys = vec![cell_key("obstacle", blue)];
     let vertices = points(ask::exhibit(scene, of, "bodies_vertices")?);
     let listed = ask::exhibit(scene, of, "bodies_faces")?;
     let mut faces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -282,10 +286,11 @@ fn add_obstacles(
         faces.entry(pair[0] as usize).or_default().push(pair[1] as usize);
     }
     for (vertices, faces) in bodies(&vertices, faces.into_values().collect()) {
-        solids.polyhedron(vertices, faces, Paint::sheer(SKY.mixed(WHITE, 0.25), 0.82));
+        solids.polyhedron(vertices, faces, Paint::sheer(blue, 0.82));
     }
     if let Some(floor) = scene.run.exhibit(of, "floor") {
-        solids.sheet(points(floor), Paint::sheer(BLACK.mixed(WHITE, 0.88), 0.9));
+        solids.sheet(points(floor), Paint::sheer(grey, 0.9));
+        keys.push(cell_key("floor", grey));
     }
     if frame {
         let corners = points(ask::exhibit(scene, of, "domain")?);
@@ -293,7 +298,7 @@ fn add_obstacles(
             solids.polyline(edge.to_vec(), Stroke::solid(BLACK.mixed(WHITE, 0.7), 0.4));
         }
     }
-    Ok(())
+    Ok(keys)
 }
 
 /// Faces that share vertices, taken together with vertices numbered from 0.
@@ -325,8 +330,7 @@ fn edges(low: Vec3, high: Vec3) -> Vec<[Vec3; 2]> {
 }
 
 /// A panel that shows `scene`.
-fn panel(title: String, scene: Solids, view: View, mut keys: Vec<Key>) -> Panel {
-    keys.push(cell_key("obstacle", SKY.mixed(WHITE, 0.25)));
+fn panel(title: String, scene: Solids, view: View, keys: Vec<Key>) -> Panel {
     let bar = Some(ScaleBar { length: 20.0, label: "20 cm".to_owned() });
     SceneMark { scene, camera: view.camera(), bar, keys }.panel(title)
 }

@@ -1,7 +1,7 @@
 //! A scene as a mark on a sheet.
 
 use super::order::{Item, Look, back_to_front};
-use super::{Camera, Scene, Vec3, dot, sub};
+use super::{Camera, Chain, Scene, Tag, Vec3, dot, sub};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
 use crate::render::chart::{Axis, Key, Mark, Panel, Trim, View};
 use crate::render::style::{BLUE, Fill, GREEN, HAIR_PT, INK, Rgb, Stroke, TextSize, VERMILLION};
@@ -202,28 +202,57 @@ fn draw_items(canvas: &mut Canvas, lens: &Lens, items: &[Item]) {
     }
 }
 
+/// A tag: a dotted one stands on that side of its point where least of the lines drawn over everything passes.
+fn draw_tag(canvas: &mut Canvas, lens: &Lens, tag: &Tag, overlays: &[Vec<[f64; 2]>]) {
+    let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
+    let [x, y] = lens.at(tag.at);
+    if !tag.dotted {
+        canvas.text([x, y], &tag.text, &set.aligned(Align::Middle, Stand::Centre));
+        return;
+    }
+    canvas.circle([x, y], 1.3, Some(Fill::solid(INK)), None);
+    let (width, half) = (set.width_pt(&tag.text), TextSize::TICK.pt() / 2.0);
+    let sides = [(1.0, -3.0), (-1.0, -3.0), (1.0, 5.0), (-1.0, 5.0)];
+    let covered = |(side, down): (f64, f64)| {
+        let near = side * (3.5 + width / 2.0);
+        let place = Rect { x: x + near - width / 2.0, y: y + down - half, w: width, h: 2.0 * half };
+        overlays.iter().map(|line| inside(line, &place)).sum::<usize>()
+    };
+    let (side, down) = sides.into_iter().min_by_key(|&side| covered(side)).unwrap_or(sides[0]);
+    let align = if side > 0.0 { Align::Start } else { Align::End };
+    canvas.text([x + side * 3.5, y + down], &tag.text, &set.aligned(align, Stand::Centre));
+}
+
+/// How many points of a line, one a point of length, lie in `place`.
+fn inside(line: &[[f64; 2]], place: &Rect) -> usize {
+    let holds = |[x, y]: [f64; 2]| x > place.x && x < place.right() && y > place.y && y < place.bottom();
+    let points = line.windows(2).flat_map(|pair| {
+        let [dx, dy] = [0, 1].map(|axis| pair[1][axis] - pair[0][axis]);
+        let count = libm::hypot(dx, dy).ceil().max(1.0);
+        (0..=count as u32).map(move |k| {
+            let share = f64::from(k) / count;
+            [pair[0][0] + share * dx, pair[0][1] + share * dy]
+        })
+    });
+    points.filter(|&at| holds(at)).count()
+}
+
 impl Mark for SceneMark {
     fn draw(&self, canvas: &mut Canvas, view: &View) {
         let frame = view.frame;
         let room = Rect { x: frame.x + 6.0, y: frame.y + 3.0, w: frame.w - 12.0, h: frame.h - FOOT_PT - 3.0 };
         let lens = Lens::fitting(&self.scene, self.camera, room);
         draw_items(canvas, &lens, &self.items());
-        for chain in &self.scene.overlays {
-            let points: Vec<[f64; 2]> = chain.points.iter().map(|&point| lens.at(point)).collect();
-            canvas.polyline(&points, &chain.stroke);
+        let over = |chain: &Chain| chain.points.iter().map(|&point| lens.at(point)).collect();
+        let overlays: Vec<Vec<[f64; 2]>> = self.scene.overlays.iter().map(over).collect();
+        for (points, chain) in overlays.iter().zip(&self.scene.overlays) {
+            canvas.polyline(points, &chain.stroke);
         }
         let foot = Rect { y: frame.bottom() - FOOT_PT, h: FOOT_PT, ..frame };
         self.triad(canvas, foot);
         self.scale_bar(canvas, &lens, foot);
-        let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
         for tag in &self.scene.tags {
-            let [x, y] = lens.at(tag.at);
-            if tag.dotted {
-                canvas.circle([x, y], 1.3, Some(Fill::solid(INK)), None);
-                canvas.text([x + 3.5, y - 3.0], &tag.text, &set);
-            } else {
-                canvas.text([x, y], &tag.text, &set.aligned(Align::Middle, Stand::Centre));
-            }
+            draw_tag(canvas, &lens, tag, &overlays);
         }
     }
 

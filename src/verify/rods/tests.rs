@@ -74,3 +74,41 @@ fn a_box_between_two_free_configurations_is_found_however_small() {
         assert_eq!(refusal.is_some(), refused, "{height}: {refusal:?}");
     }
 }
+
+#[test]
+fn solids_that_are_not_measured_are_none_that_could_be_nearest() {
+    let arm = Arm { floor: Some(-7.0), ..arm() };
+    let corners =
+        [[70.0, 40.0, 0.0], [90.0, 44.0, 3.0], [76.0, 60.0, 2.0], [80.0, 46.0, 21.0], [65.0, 52.0, 9.0]];
+    let solids = [cube([60.0, 60.0, 0.0], 4.0), cube([-30.0, 40.0, 8.0], 9.0), Solid::new(&corners).unwrap()];
+    let exact = |q: &[f64; 6]| {
+        let frames = arm.frames(q);
+        let of_rod = |rod: &Rod| {
+            let [a, b] = [rod.from, rod.to].map(|end| moved(&frames[rod.link], end));
+            let [from, to] = [a, b].map(|[x, y, z]| Vector::new(x, y, z));
+            let apart = |solid: &Solid| {
+                let axis = Segment::new(from, to);
+                query::distance(&Pose::IDENTITY, &axis, &Pose::IDENTITY, solid.shape()).unwrap().distance
+            };
+            solids.iter().map(apart).fold(a[2].min(b[2]) + 7.0, f64::min) - rod.radius
+        };
+        arm.rods.iter().map(of_rod).fold(f64::INFINITY, f64::min)
+    };
+    let (mut near, mut far) = (0, 0);
+    for k in 0..4_000 {
+        let share = f64::from(k) / 4_000.0;
+        // Turns that fill the plane.
+        let q = [2.0 * PI * share, 2.0 * PI * (share * 61.8) % (2.0 * PI) - PI, 0.3 * share, 0.0, 0.0, 0.0];
+        for enough in [0.01, 1.0, 2.5, 30.0] {
+            let (found, truth) = (arm.clearance(&solids, &q, enough), exact(&q));
+            if truth <= enough {
+                assert_eq!(found, truth, "configuration {k}, {enough}");
+                near += 1;
+            } else {
+                assert!(found > enough, "configuration {k}: {found}, not {truth}, {enough}");
+                far += 1;
+            }
+        }
+    }
+    assert!(near > 1_000 && far > 1_000, "one-sided: {near} near, {far} far");
+}

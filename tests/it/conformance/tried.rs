@@ -104,6 +104,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
              bounds = 'per_node'\nrecovery_rad = 0.02\nbranches = 'all'\ndiagnose = false",
         ],
     ),
+    ("posture_turns", &["bounds_rad = [0.2, 0.2, 0.1]"]),
     (
         "roadmap_astar",
         &[
@@ -144,8 +145,11 @@ pub const CIRCLE: &[Exception] = &[("keynode_astar", "search", "literal")];
 pub const DRIFT: &[Exception] = &[("joint_bspline", "control", "trail"), ("posture", "pose", "jacobian")];
 
 /// Stages that are told to leave a path as it is.
-pub const OFF: &[Exception] =
-    &[("joint_bspline", "control", "off"), ("straighten_from_previous", "resume", "off")];
+pub const OFF: &[Exception] = &[
+    ("joint_bspline", "control", "off"),
+    ("posture_turns", "bounds_rad", "[0.2, 0.2, 0.1]"),
+    ("straighten_from_previous", "resume", "off"),
+];
 
 /// Stages that take the paths of another kind of world's planners: `posture` makes joint angles of a tip's path.
 pub const FED_BY: &[(&str, WorldKind)] = &[("posture", WorldKind::Polyhedra)];

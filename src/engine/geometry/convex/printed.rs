@@ -87,13 +87,26 @@ pub fn nearest_segment_convex_printed(segment: &Segment, convex: &Convex) -> Nea
 /// The same with the diagonals that the text lists for a face of five corners, by the rule that they follow: those from the first
 /// two corners. Faces of three or four corners have no others.
 pub fn nearest_segment_convex_listed(segment: &Segment, convex: &Convex) -> Nearest {
-    nearest_by_lines(segment, convex, |i, j, count| i < 2 || j == i + 1 || (i, j + 1) == (0, count))
+    nearest_by_lines(segment, convex, is_listed)
 }
 
 /// The same with the first of the text's two lists, after eq. 10: it leaves out the closing edge too, from the last corner to the first.
 pub fn nearest_segment_convex_listed_first(segment: &Segment, convex: &Convex) -> Nearest {
-    let is_closing = |i, j, count| (i, j + 1) == (0, count);
-    nearest_by_lines(segment, convex, |i, j, count| !is_closing(i, j, count) && (i < 2 || j == i + 1))
+    nearest_by_lines(segment, convex, is_listed_first)
+}
+
+/// Whether the list before eq. 11 has the line between the corners `i < j` of `count`, numbered from 0.
+fn is_listed(i: usize, j: usize, count: usize) -> bool {
+    is_listed_first(i, j, count) || is_closing(i, j, count)
+}
+
+/// Whether the list after eq. 10 has it.
+fn is_listed_first(i: usize, j: usize, count: usize) -> bool {
+    !is_closing(i, j, count) && (i < 2 || j == i + 1)
+}
+
+fn is_closing(i: usize, j: usize, count: usize) -> bool {
+    (i, j + 1) == (0, count)
 }
 
 /// The same by the edges and diagonals for which `is_taken` holds, of the two corners' places and the number of corners.
@@ -205,5 +218,49 @@ mod tests {
             listed > all + 1e-9
         });
         assert!((5..150).contains(&longer.count()));
+    }
+
+    /// The lines of a face of five corners that a list has, as the text names them.
+    fn lines(is_taken: fn(usize, usize, usize) -> bool) -> String {
+        let pairs = (0..5).flat_map(|i| (i + 1..5).map(move |j| (i, j)));
+        let taken = pairs.filter(|&(i, j)| is_taken(i, j, 5));
+        taken.map(|(i, j)| format!("p{}p{}", i + 1, j + 1)).collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn both_lists_have_the_lines_that_the_text_prints() {
+        // After eq. 10, and before eq. 11, where p5p1 is added; both leave out p3p5.
+        assert_eq!(lines(is_listed_first), "p1p2 p1p3 p1p4 p2p3 p2p4 p2p5 p3p4 p4p5");
+        assert_eq!(lines(is_listed), "p1p2 p1p3 p1p4 p1p5 p2p3 p2p4 p2p5 p3p4 p4p5");
+    }
+
+    #[test]
+    fn the_first_list_measures_from_a_closing_edge_only_by_the_face_beside_it() {
+        let tetrahedron = |order: [usize; 4]| {
+            let corners = [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()];
+            Convex::from_vertices(order.map(|index| corners[index]).to_vec()).unwrap()
+        };
+        let (mut missing, mut present) = (0, 0);
+        for convex in [tetrahedron([0, 1, 2, 3]), tetrahedron([3, 1, 0, 2]), cube()] {
+            let middle = convex.vertices().iter().sum::<Vec3>() / convex.vertices().len() as f64;
+            let ends = |face: &Face| -> Vec<(usize, usize)> {
+                let next = face.corners.iter().cycle().skip(1);
+                face.corners.iter().zip(next).map(|(&a, &b)| (a.min(b), a.max(b))).collect()
+            };
+            for (a, b) in convex.faces().iter().flat_map(ends) {
+                let closing = |face: &&Face| ends(face).last() == Some(&(a, b));
+                let edge = [convex.vertices()[a], convex.vertices()[b]];
+                let at = edge[0].lerp(&edge[1], 0.45);
+                let out = (at - middle).normalize();
+                let segment = Segment::new(at + out * 0.01, at + out);
+                let truth = nearest_segment_convex(&segment, &convex).distance;
+                let first = nearest_segment_convex_listed_first(&segment, &convex).distance;
+                let is_missing = convex.faces().iter().filter(closing).count() == 2;
+                assert_eq!(first > truth + 1e-6, is_missing, "edge {a}-{b}: {first}, not {truth}");
+                missing += u32::from(is_missing);
+                present += u32::from(!is_missing);
+            }
+        }
+        assert!(missing > 0 && present > 0, "one-sided: {missing} missing, {present} present");
     }
 }

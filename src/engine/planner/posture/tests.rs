@@ -12,6 +12,7 @@ use base::settings::Settings;
 use std::path::Path;
 
 mod options;
+pub(in crate::planner) use options::followed;
 
 const RECIPE: &str = "adjust = true\nsign = 'down'\nclamp = 'floor'\ndistance = 'exact'\npose = 'inverse'\n\
     damping = 0.02\nact_cm = 2.0\nd0_cm = 5.0\nstep_rad = 0.03\niterations = 20\nbounds_rad = [0.2, 0.2, 0.1]\n\

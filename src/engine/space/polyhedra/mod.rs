@@ -107,9 +107,10 @@ impl PolyhedraWorld {
                 (low[axis].floor() as i64).clamp(0, last)..=(high[axis].ceil() as i64).clamp(-1, last)
             };
             for (z, y) in range(2).flat_map(|z| range(1).map(move |y| (z, y))) {
+                let row =
+                    self.grid.node([0, y as i32, z as i32]).expect("the range was clamped to the lattice");
                 for x in range(0) {
-                    let at = [x as i32, y as i32, z as i32];
-                    let node = self.grid.node(at).expect("the range was clamped to the lattice");
+                    let node = row + x as u32;
                     self.near[node as usize] = true;
                     if self.holds(&self.obstacles[index], &self.point(node)) {
                         self.grid.block(node);

@@ -15,6 +15,19 @@ fn lines(step: f64) -> Vec<Vec<Vec3>> {
     (52..62).flat_map(|x| (34..64).step_by(5).map(move |z| line(f64::from(x), f64::from(z)))).collect()
 }
 
+/// Every line followed with bounds of 0.05 rad about each axis, which count from where `bounds` says; and in which world.
+pub(in crate::planner) fn followed(bounds: &str) -> (World, Vec<(Vec<Vec3>, Plan)>) {
+    let world = beside();
+    let text = RECIPE.replace("[0.2, 0.2, 0.1]", "[0.05, 0.05, 0.05]").replace("per_node", bounds);
+    let settings = Posture::read(&Settings::composed("test", toml::from_str(&text).unwrap())).unwrap();
+    let follow = |nodes: Vec<Vec3>| {
+        let plan = along(&settings, &world, nodes[0].into(), nodes[nodes.len() - 1].into());
+        (nodes, plan)
+    };
+    let plans = lines(1.0).into_iter().map(follow).collect();
+    (world, plans)
+}
+
 /// What was stored on one line, how the posture stood at its nodes, and which way it went.
 struct Way {
     nodes: Vec<Vec3>,
