@@ -142,8 +142,7 @@ impl LatticeAstar {
                 let bit = better.trailing_zeros();
                 better &= better - 1;
                 let step = block.steps[bit as usize];
-                let [place, cell] =
-                    [(place, step.place), (cell, step.cell)].map(|(at, by)| at.wrapping_add_signed(by));
+                let (place, cell) = step.target(place, cell);
                 let way = Way { g: g + step.length, parent: rank, place, cell };
                 if lists.take(&way, query.lower_open, &query.h) {
                     seen.lists.open += 1;

@@ -59,6 +59,14 @@ pub(super) struct Step {
     pub(super) cell: i32,
 }
 
+impl Step {
+    /// The place and the cell that it leads to.
+    #[inline(always)]
+    pub(super) fn target(&self, place: u32, cell: u32) -> (u32, u32) {
+        (place.wrapping_add_signed(self.place), cell.wrapping_add_signed(self.cell))
+    }
+}
+
 /// The steps of a neighbourhood along one column.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
