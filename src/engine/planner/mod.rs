@@ -31,6 +31,7 @@ mod pool;
 mod posture;
 mod roadmap;
 mod roadmap_astar;
+mod roadmap_cost;
 mod shorten_best;
 mod straighten;
 mod straighten_from_previous;
@@ -59,6 +60,7 @@ pub static REGISTRY: &[&Entry] = &[
     &lazy_theta_star::ENTRY,
     &posture::ENTRY,
     &roadmap_astar::ENTRY,
+    &roadmap_cost::ENTRY,
     &shorten_best::ENTRY,
     &straighten::ENTRY,
     &straighten_from_previous::ENTRY,

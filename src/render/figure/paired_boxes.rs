@@ -35,6 +35,9 @@ savings = ["length.least", "length.greatest"]
         let metric = ask::metric(settings, &read.metric)?;
         let printed = ask::all_printed(settings, paper, "savings", read.savings.iter().flatten())?;
         let sweep = ask::sweep(settings, study, &read.sweep)?;
+        for query in &read.queries {
+            ask::query(settings, study, &read.problems, query, (&["queries"], query))?;
+        }
         Ok(Box::new(PairedBoxes { read, metric, sweep, printed }))
     },
 };
@@ -48,6 +51,9 @@ struct Read {
     metric: String,
     /// The contenders, by their labels.
     contenders: Vec<String>,
+    /// The queries, by their names; all if empty.
+    #[serde(default)]
+    queries: Vec<String>,
     /// What stands along the axis.
     axis: String,
     /// The point of the sweeps, in a study that has any.
@@ -90,7 +96,8 @@ impl PairedBoxes {
         let mut order: Vec<String> = Vec::new();
         let (problems, all) = (&self.read.problems, self.asked(scene));
         for row in self.read.contenders.iter().flat_map(|label| all.rows(scene.run, problems, label)) {
-            if !order.iter().any(|name| name == row.query()) {
+            let is_asked = self.read.queries.is_empty() || self.read.queries.iter().any(|name| name == row.query());
+            if is_asked && !order.iter().any(|name| name == row.query()) {
                 order.push(row.query().to_owned());
             }
         }
