@@ -141,6 +141,12 @@ mod tests {
     }
 
     #[test]
+    fn shares_over_readings_keep_a_digit_that_says_something() {
+        assert_eq!(percents([0.0, 0.436]), "0 to 44 %");
+        assert_eq!(percents([0.0051, 0.0149]), "0.5 to 1 %");
+    }
+
+    #[test]
     fn lines_break_at_words_and_never_before_what_would_begin_a_list() {
         assert_eq!(wrapped("- ", "one two three", 2, 8), "- one\n  two\n  three");
         assert_eq!(wrapped("", "it is 9 + 4 = 13. or more", 0, 7), "it is 9 +\n4 = 13.\nor more");

@@ -116,7 +116,8 @@ impl Axes {
 
     /// Whether readings change trials, but none of those of the studies, or of what stands for them, that `claim` looks at.
     fn is_of_defaults(&self, paper: &Paper, claim: &ExploredClaim) -> bool {
-        let stands_for = |study: &Study| study.explore.as_ref().and_then(|explore| explore.stands_for.clone());
+        let stands_for =
+            |study: &Study| study.explore.as_ref().and_then(|explore| explore.stands_for.clone());
         let is_asked = |study: &&Study| {
             claim.studies.contains(&study.name)
                 || stands_for(study).is_some_and(|other| claim.studies.contains(&other))

@@ -96,7 +96,8 @@ impl PairedBoxes {
         let mut order: Vec<String> = Vec::new();
         let (problems, all) = (&self.read.problems, self.asked(scene));
         for row in self.read.contenders.iter().flat_map(|label| all.rows(scene.run, problems, label)) {
-            let is_asked = self.read.queries.is_empty() || self.read.queries.iter().any(|name| name == row.query());
+            let is_asked =
+                self.read.queries.is_empty() || self.read.queries.iter().any(|name| name == row.query());
             if is_asked && !order.iter().any(|name| name == row.query()) {
                 order.push(row.query().to_owned());
             }
