@@ -13,12 +13,16 @@ from statistics_judge.selection import Cases, select
 
 @dataclass(frozen=True)
 class Estimate:
-    """Our number: with its interval, how many independent draws it rests on, cases solved and asked."""
+    """Our number: with its interval, how many independent draws it rests on, cases solved and asked.
+
+    Few draws are no reason to doubt an interval that is exact.
+    """
 
     value: float
     n: int
     interval: Interval | None = None
     solved: tuple[int, int] | None = None
+    exact: bool = False
 
 
 @dataclass(frozen=True)

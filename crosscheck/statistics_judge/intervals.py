@@ -64,18 +64,16 @@ def clopper_pearson(hits: int, trials: int) -> Interval:
 
 
 def agreed(hits: Reals, chances: Reals) -> Interval | None:
-    """The exact interval of a share whose draws are all hits, or all misses; none for other draws.
+    """The interval of a share on which all draws agree, whatever they are drawn from; none for other draws.
 
-    The mean of values in [0, 1] that are all 1 is at least the tail's n-th root: a beta quantile. A share
-    weighs draws by their chances, so the largest over the mean widens it.
+    At the tail's level no more than a beta quantile of all draws differ from those seen, by hits or by misses
+    throughout. A share weighs draws by their chances, so the largest over the mean widens it.
     """
-    misses = chances - hits
-    if hits.any() and misses.any():
+    if (hits * chances[0] != hits[0] * chances).any():
         return None
+    share = float(hits[0] / chances[0])
     wide = float(stats.beta.isf((1 - LEVEL) / 2, 1, len(chances)) * chances.max() / chances.mean())
-    if hits.any():
-        return End.exact(max(1 - wide, 0.0)), End.exact(1.0)
-    return End.exact(0.0), End.exact(min(wide, 1.0))
+    return End.exact(max(share - share * wide, 0.0)), End.exact(min(share + (1 - share) * wide, 1.0))
 
 
 def predictive(draws: Reals) -> Interval | None:

@@ -139,9 +139,12 @@ FEWEST_DRAWS = 10
 
 
 def is_few(name: str, settings: dict[str, Any], found: Found) -> bool:
-    """Whether a bootstrap interval over draws rests on too few of them."""
-    resampled = name in ("lower", "trend", "within") and settings.get("statistic") != "ratio_of_groups"
-    return resampled and found.estimate is not None and found.estimate.n < FEWEST_DRAWS
+    """Whether an interval that is not exact rests on too few draws."""
+    resampled = (
+        name in ("lower", "share", "trend", "within") and settings.get("statistic") != "ratio_of_groups"
+    )
+    ours = found.estimate
+    return resampled and ours is not None and not ours.exact and ours.n < FEWEST_DRAWS
 
 
 def studies_of(settings: dict[str, Any]) -> list[str]:

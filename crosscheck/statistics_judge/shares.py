@@ -1,11 +1,13 @@
 """Criteria that count: equals, on_every and share."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
 from statistics_judge.found import Asked, Estimate, Found, certain, outcomes
 from statistics_judge.intervals import agreed, bootstrap, clopper_pearson, ratio_of_sums, sums_by_unit
-from statistics_judge.records import Flags, Places, Reals
+from statistics_judge.records import Flags, Reals
 from statistics_judge.selection import Cases
 
 # Numbers no farther apart are equal.
@@ -13,19 +15,22 @@ EQUAL = 1e-9
 
 
 def share(hits: Reals, chances: Reals, seed: str) -> Estimate | None:
-    """A share by units with chances: exact where each has one or all agree at an end, else by bootstrap."""
+    """A share by units with chances: exact where each has one or all agree at an end.
+
+    Where all agree on another share it allows for units that differ; else it is by bootstrap.
+    """
     asked = chances > 0
     hits, chances = hits[asked], chances[asked]
     if not asked.any():
         return None
     value = float(hits.sum() / chances.sum())
     if (chances == 1).all():
-        return Estimate(value, len(hits), clopper_pearson(int(hits.sum()), int(chances.sum())))
+        return Estimate(value, len(hits), clopper_pearson(int(hits.sum()), int(chances.sum())), exact=True)
     if len(hits) < 2:
         return Estimate(value, len(hits), None)
-    exact = agreed(hits, chances)
-    if exact:
-        return Estimate(value, len(hits), exact)
+    allowing = agreed(hits, chances)
+    if allowing:
+        return Estimate(value, len(hits), allowing, exact=value in (0.0, 1.0))
     return Estimate(value, len(hits), bootstrap(ratio_of_sums(hits, chances), len(hits), seed))
 
 
@@ -38,7 +43,7 @@ def counted(cases: Cases, asked: Flags, hit: Flags, seed: str) -> Estimate | Non
 
 def with_cases(estimate: Estimate | None, solved: tuple[int, int]) -> Estimate | None:
     """The estimate with how many cases were solved."""
-    return estimate and Estimate(estimate.value, estimate.n, estimate.interval, solved)
+    return estimate and replace(estimate, solved=solved)
 
 
 def equals(asked: Asked) -> Found:
@@ -62,15 +67,8 @@ def equals(asked: Asked) -> Found:
 def on_every(asked: Asked) -> Found:
     """It holds on every case: one counterexample ends it, and an equality leaves the sign alone."""
     cases, that = asked.cases(), asked.settings["that"]
-    if that == "higher_share":
-        says, unit = higher_share(cases)
-        keep, spoken = says > 0, np.ones(len(says), dtype=bool)
-        hits, chances = sums_by_unit(unit, cases.units, keep.astype(float), np.ones(len(says)))
-        estimate = share(hits, chances, asked.seed)
-    else:
-        says, spoken = said(cases, that, asked.settings.get("bound", 0.0))
-        estimate = counted(cases, spoken, says > 0, asked.seed)
-    estimate = with_cases(estimate, cases.solved_of_all())
+    says, spoken = said(cases, that, asked.settings.get("bound", 0.0))
+    estimate = with_cases(counted(cases, spoken, says > 0, asked.seed), cases.solved_of_all())
     kept, equal, broken = (int((says[spoken] == way).sum()) for way in (1, 0, -1))
     if kept + equal + broken == 0:
         return certain(OPEN, estimate)
@@ -98,21 +96,10 @@ def said(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:
     return np.where(value <= bound + EQUAL, 1.0, -1.0), returned & ~np.isnan(value)
 
 
-def higher_share(cases: Cases) -> tuple[Reals, Places]:
-    """How each unit speaks at each point of the sweep of whose share is higher, and which unit it is."""
-    points = cases.study.sweep[0][cases.own]
-    places, at = np.unique(np.stack([cases.unit, points]), axis=1, return_inverse=True)
-    gain = cases.own_solved.astype(float) - cases.base_solved.astype(float)
-    return np.sign(np.bincount(at.ravel(), weights=gain)), places[0]
-
-
 def share_within(asked: Asked) -> Found:
     """A share lies within bounds."""
     cases, settings = asked.cases(), asked.settings
     hits, chances = hits_of(asked, cases)
-    if "among" in settings:
-        asked_at_all = cases.study.status[cases.own] == settings["among"]
-        hits, chances = np.where(asked_at_all, hits, 0), np.where(asked_at_all, chances, 0)
     hits, chances = sums_by_unit(cases.unit, cases.units, hits, chances)
     if settings["hits"] == "lower_throughout":
         hits, chances = ((hits == chances) & (chances > 0)).astype(float), (chances > 0).astype(float)

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from statistics_judge import classes
+from statistics_judge.found import Found
 from statistics_judge.intervals import (
     End,
     agreed,
@@ -28,7 +29,7 @@ from statistics_judge.intervals import (
     ratio_of_sums,
     slope,
 )
-from statistics_judge.judge import CRITERIA, Claim, compare, recomputed
+from statistics_judge.judge import CRITERIA, Claim, compare, is_few, recomputed
 from statistics_judge.medians import over
 from statistics_judge.printed import Printed
 from statistics_judge.printed_cells import as_far, level_rank
@@ -64,7 +65,26 @@ def test_draws_that_agree_at_an_end_leave_a_root_of_the_tail() -> None:
     low = agreed(uneven, uneven)
     assert low is not None
     assert low[0].at == pytest.approx(1 - 2 * (1 - 0.025**0.05), abs=1e-12)
-    assert agreed(np.full(9, 1.0), np.full(9, 2.0)) is None
+    assert agreed(np.array([1.0, 1.0]), np.array([2.0, 3.0])) is None
+
+
+def test_draws_that_agree_between_the_ends_allow_for_those_that_differ() -> None:
+    found = agreed(np.full(20, 3.0), np.full(20, 4.0))
+    differ = 1 - 0.025**0.05
+    assert found is not None
+    assert [end.at for end in found] == pytest.approx([0.75 - 0.75 * differ, 0.75 + 0.25 * differ], abs=1e-12)
+
+
+def test_few_draws_say_nothing_firm_of_a_share_unless_its_interval_is_exact() -> None:
+    def is_firm(hits: list[float], chances: list[float]) -> bool:
+        found = Found(None, frozenset(), share(np.array(hits), np.array(chances), "a test"))
+        return not is_few("share", {}, found)
+
+    assert is_firm([1.0, 0.0, 1.0], [1.0] * 3), "one chance each"
+    assert is_firm([4.0] * 3, [4.0] * 3), "all agree at an end"
+    assert not is_firm([3.0] * 9, [4.0] * 9), "all agree between the ends"
+    assert is_firm([3.0] * 10, [4.0] * 10)
+    assert not is_firm([3.0, 2.0, 4.0], [4.0] * 3), "a bootstrap"
 
 
 def test_one_more_draw_needs_39_draws() -> None:

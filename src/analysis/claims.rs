@@ -37,7 +37,7 @@ pub fn validate(paper: &Paper) -> Result<(), SettingsError> {
     for claim in &paper.claims {
         for (asked, name, settings) in claim.asked() {
             let context = Context { claim, settings, paper, point: &point };
-            faults.keep(Built::new(asked, name, &context).map(|_| ()));
+            faults.keep(built(asked, name, &context).map(|_| ()));
         }
     }
     faults.done()
@@ -122,29 +122,22 @@ pub fn records(evidence: &Evidence<'_>) -> BTreeMap<String, String> {
     evidence.runs().map(|run| (run.study.name.clone(), run.manifest.records_hash())).collect()
 }
 
-/// A criterion or rule, built.
-enum Built<'a> {
-    Criterion(Box<dyn Criterion + 'a>, &'static criterion::Entry),
-    Rule(Box<dyn rule::Rule + 'a>),
-}
-
-impl<'a> Built<'a> {
-    fn new(asked: Asked, name: &str, context: &Context<'a>) -> Result<Self, SettingsError> {
-        let unknown = |what: &str, known: Vec<&'static str>| {
-            let message =
-                format!("claim `{}`: {}", context.claim.id, none_called(what, name, known.into_iter()));
-            context.settings.error(message)
-        };
-        if asked == Asked::Rule {
-            let entry = rule::find(name)
-                .ok_or_else(|| unknown("rule", rule::REGISTRY.iter().map(|entry| entry.name).collect()))?;
-            return Ok(Self::Rule((entry.build)(context)?));
-        }
-        let entry = criterion::find(name).ok_or_else(|| {
-            unknown("criterion", criterion::REGISTRY.iter().map(|entry| entry.name).collect())
-        })?;
-        Ok(Self::Criterion((entry.build)(context)?, entry))
-    }
+/// The criterion or rule called `name`, built.
+fn built<'a>(
+    asked: Asked,
+    name: &str,
+    context: &Context<'a>,
+) -> Result<Box<dyn Criterion + 'a>, SettingsError> {
+    let (what, registry, found) = match asked {
+        Asked::Rule => ("rule", rule::REGISTRY, rule::find(name)),
+        Asked::Decides | Asked::Shown => ("criterion", criterion::REGISTRY, criterion::find(name)),
+    };
+    let unknown = || {
+        let known = registry.iter().map(|entry| entry.name);
+        let message = format!("claim `{}`: {}", context.claim.id, none_called(what, name, known));
+        context.settings.error(message)
+    };
+    (found.ok_or_else(unknown)?.build)(context)
 }
 
 /// A finding, how the trials behind it came about, and what they are.
@@ -172,16 +165,11 @@ pub fn weighed(evidence: &Evidence<'_>, claim: &Claim, hashed: bool) -> Result<V
     let mut all = Vec::new();
     for (asked, name, settings) in claim.asked() {
         let context = Context { claim, settings, paper: evidence.paper, point: &evidence.point };
-        let mut one = match Built::new(asked, name, &context)? {
-            Built::Rule(rule) => of_rule(name, rule.find(evidence)),
-            Built::Criterion(criterion, entry) => {
-                let mut one = of_criterion(entry.name, &*criterion, evidence, claim);
-                if hashed {
-                    one.results = sha256(criterion.results(evidence).as_bytes()).chars().take(16).collect();
-                }
-                one
-            }
-        };
+        let criterion = built(asked, name, &context)?;
+        let mut one = of_criterion(name, &*criterion, evidence, claim);
+        if hashed && !one.studies.is_empty() {
+            one.results = sha256(criterion.results(evidence).as_bytes()).chars().take(16).collect();
+        }
         if asked == Asked::Shown {
             (one.finding.verdict, one.finding.settles) = (None, None);
         }
@@ -223,16 +211,6 @@ fn judged(evidence: &Evidence<'_>, claim: &Claim, verdict: Verdict, mut findings
     }
 }
 
-fn of_rule(name: &str, found: Found) -> Weighed {
-    let caps =
-        Caps { existential: found.existential, without_premises: found.without_premises, ..Caps::default() };
-    let mut finding = finding(name, found, caps);
-    if caps.without_premises && finding.verdict.is_none() {
-        finding.because.push("the premises of the proof do not hold under this reading".to_owned());
-    }
-    Weighed { finding, caps, is_covered: true, is_posed: true, results: String::new(), studies: Vec::new() }
-}
-
 fn finding(criterion: &str, found: Found, caps: Caps) -> Finding {
     let verdict = found.outcome.and_then(|outcome| class::of_finding(outcome, caps));
     let settles = (verdict == Some(Verdict::Undecided)).then(|| settles(&found, caps));
@@ -271,14 +249,11 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
     };
     let studies = studies.iter().map(|study| study.name.clone()).collect();
     let (is_covered, is_posed) = (of.is_covered(evidence), of.is_posed(evidence));
-    Weighed {
-        finding: finding(name, found, caps),
-        caps,
-        is_covered,
-        is_posed,
-        results: String::new(),
-        studies,
+    let mut finding = finding(name, found, caps);
+    if caps.without_premises && finding.verdict.is_none() {
+        finding.because.push("the premises of the proof do not hold under this reading".to_owned());
     }
+    Weighed { finding, caps, is_covered, is_posed, results: String::new(), studies }
 }
 
 /// What the stored sessions of the clock say, each judged by itself, and what each of them found.

@@ -21,6 +21,7 @@ pub mod rule;
 pub mod selection;
 pub mod selection_spec;
 pub mod settle;
+pub mod shown;
 pub mod statistic;
 pub mod tabulated;
 pub mod together;

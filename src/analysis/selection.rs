@@ -12,6 +12,7 @@ use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
 
 /// A selection whose every name was found.
+#[derive(Clone)]
 pub struct Selection<'a> {
     /// The study.
     pub study: &'a Study,
@@ -55,6 +56,11 @@ pub struct Draw<'e> {
 }
 
 impl Case<'_> {
+    /// Whether the trial is one of the contender called `label`.
+    pub fn is_by(&self, label: &str) -> bool {
+        *self.row.key.contender == *label
+    }
+
     /// Both numbers, the other contender's first.
     pub fn pair(&self) -> Option<(f64, f64)> {
         self.base_value.zip(self.value)
@@ -255,8 +261,8 @@ impl Draw<'_> {
     /// What it holds of one contender.
     #[must_use]
     pub fn by(&self, contender: &str) -> Self {
-        let is_own = |case: &&Case<'_>| *case.row.key.contender == *contender;
-        Self { group: self.group, cases: self.cases.iter().filter(is_own).copied().collect() }
+        let own = self.cases.iter().filter(|case| case.is_by(contender));
+        Self { group: self.group, cases: own.copied().collect() }
     }
 
     /// What it holds at one point of the sweeps.

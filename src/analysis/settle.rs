@@ -68,9 +68,14 @@ fn agreeing_draws(found: &Found) -> String {
     else {
         return "units to count among".to_owned();
     };
-    let distances = found.limits.iter().map(|limit| (ours.value - limit).abs());
-    let width = distances.filter(|distance| *distance > 0.0).fold(f64::INFINITY, f64::min);
-    if width >= high - low {
+    // How far each limit is, in the part of the interval on its side.
+    let far = |limit: &f64| {
+        let side = if *limit < ours.value { ours.value - low } else { high - ours.value };
+        (ours.value - limit).abs() / side
+    };
+    let others = found.limits.iter().filter(|limit| **limit != ours.value);
+    let nearest = others.map(far).fold(f64::INFINITY, f64::min);
+    if nearest >= 1.0 {
         return format!(
             "no number of {}: however many agree, the share of all may be another than {}",
             found.units, ours.value
@@ -78,7 +83,7 @@ fn agreeing_draws(found: &Found) -> String {
     }
     // Unequal chances make ours wider than as many equal ones do; they will do so of more.
     let of_equal = -libm::expm1(libm::log((1.0 - LEVEL) / 2.0) / ours.n as f64);
-    let needed = agreeing_for_width(width * of_equal / (high - low), LEVEL);
+    let needed = agreeing_for_width(nearest * of_equal, LEVEL);
     format!("{needed} {}, not {}, if all agree as ours do", found.units, ours.n)
 }
 
@@ -123,6 +128,9 @@ mod tests {
         assert_eq!(said([0.9, 1.0], [low, 1.0, 1.0]), "36 draws, not 20, if all agree as ours do");
         assert_eq!(said([0.0, 0.1], [0.0, 0.0, 1.0 - low]), "36 draws, not 20, if all agree as ours do");
         assert!(said([1.0, 1.0], [low, 1.0, 1.0]).starts_with("no number of draws"));
+        // Between the ends a limit is told by the part of the interval on its side.
+        let ends = |share: f64| [share - share * (1.0 - low), share, share + (1.0 - share) * (1.0 - low)];
+        assert_eq!(said([0.675, 1.0], ends(0.75)), "36 draws, not 20, if all agree as ours do");
     }
 
     #[test]

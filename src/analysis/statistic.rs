@@ -8,12 +8,13 @@ use crate::study::record::Row;
 use base::seed;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::{Estimate, Resampling};
-use stats::interval::Interval;
+pub use stats::bootstrap::Estimate;
+use stats::bootstrap::Resampling;
+pub use stats::interval::Interval;
 use stats::pooled;
 use stats::proportion::{clopper_pearson, mean_of_agreed};
 use stats::summary;
-pub use stats::summary::{mean, median, quantile_type7 as quantile};
+pub(super) use stats::summary::{mean, median, quantile_type7 as quantile};
 use std::collections::BTreeMap;
 
 /// Level of every interval.
@@ -29,7 +30,7 @@ pub fn needs(draws: usize) -> Option<usize> {
 }
 
 /// A bootstrap as every verdict makes it, with the stream of draws that belongs to `names`.
-pub fn plan(names: &[&str]) -> Resampling {
+pub(super) fn plan(names: &[&str]) -> Resampling {
     Resampling { resamples: 2000, level: LEVEL, seed: seed::derive(0, names) }
 }
 
@@ -196,29 +197,28 @@ pub struct Share {
     pub value: f64,
     /// Its interval; none for a single draw of several chances.
     pub interval: Option<Interval>,
-    /// Whether the interval is exact, not a bootstrap's.
+    /// Whether the interval is exact, however few the draws.
     pub is_exact: bool,
+    /// Whether all draws agree on it.
+    pub is_agreed: bool,
     /// How many draws it rests on.
     pub draws: usize,
 }
 
 impl Share {
     /// That of `counts`, the hits and chances of each draw; none without chances. The interval is exact where every draw
-    /// has one chance, or where all draws are hits throughout or misses throughout, else by bootstrap over draws.
-    ///
-    /// Draws that agree on a share between 0 and 1 have an interval without width: what they agree on was not known
-    /// before they were drawn, and no exact interval is claimed for it. Differences of shares are not looked at here.
+    /// has one chance, or where all draws are hits throughout or misses throughout; where they agree on another share it
+    /// allows for draws that differ; else it is by bootstrap over draws. Differences of shares are not looked at here.
     pub fn of(counts: &[[f64; 2]], plan: Resampling) -> Option<Self> {
         let counts: Vec<[f64; 2]> = counts.iter().copied().filter(|count| count[1] > 0.0).collect();
         let [hits, chances] = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
-        let exact = if counts.iter().all(|count| count[1] == 1.0) {
-            clopper_pearson(hits as usize, counts.len(), LEVEL)
-        } else {
-            mean_of_agreed(&counts, LEVEL).filter(|_| counts.len() > 1)
-        };
-        let interval = exact.or_else(|| pooled::ratio_of_sums(&counts, plan).map(|found| found.interval));
-        let (draws, is_exact) = (counts.len(), exact.is_some());
-        (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, draws })
+        let (draws, is_single) = (counts.len(), counts.iter().all(|count| count[1] == 1.0));
+        let agreed = mean_of_agreed(&counts, LEVEL).filter(|_| is_single || draws > 1);
+        let interval = if is_single { clopper_pearson(hits as usize, draws, LEVEL) } else { agreed };
+        let interval = interval.or_else(|| pooled::ratio_of_sums(&counts, plan).map(|found| found.interval));
+        let is_agreed = agreed.is_some();
+        let is_exact = is_single || is_agreed && (hits == 0.0 || hits == chances);
+        (chances > 0.0).then(|| Self { value: hits / chances, interval, is_exact, is_agreed, draws })
     }
 
     /// It as our number beside a printed one: the share of `what`.
@@ -253,14 +253,18 @@ mod tests {
     }
 
     #[test]
-    fn draws_that_all_agree_at_an_end_leave_an_exact_interval() {
+    fn draws_that_all_agree_leave_an_interval_with_width() {
         let plan = plan(&["a test"]);
         let of = |hits: f64| Share::of(&[[hits, 10.0]; 20], plan).unwrap();
         let interval = |hits: f64| of(hits).interval.map(|found| [found.low, found.high]).unwrap();
         assert!((interval(10.0)[0] - 0.831_566_5).abs() < 1e-6 && interval(10.0)[1] == 1.0, "{:?}", of(10.0));
         assert!((interval(0.0)[1] - 0.168_433_5).abs() < 1e-6 && interval(0.0)[0] == 0.0, "{:?}", of(0.0));
         assert!(of(10.0).is_exact && of(0.0).is_exact);
-        assert_eq!((of(7.0).is_exact, interval(7.0)), (false, [0.7, 0.7]), "between the ends");
+        // Between the ends draws that differ may lie on either side: 0.7 and 0.3 of as much as at the ends.
+        let (between, differ) = (interval(7.0), 1.0 - interval(10.0)[0]);
+        assert!((between[0] - 0.7 + 0.7 * differ).abs() < 1e-12, "{between:?}");
+        assert!((between[1] - 0.7 - 0.3 * differ).abs() < 1e-12, "{between:?}");
+        assert!(of(7.0).is_agreed && !of(7.0).is_exact, "of fewer than ten draws it is not firm");
     }
 
     #[test]

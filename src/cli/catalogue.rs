@@ -102,28 +102,24 @@ pub fn tasks() -> Vec<Item> {
 
 /// Criteria of claims.
 pub fn criteria() -> Vec<Item> {
+    criteria_or_rules(criterion::REGISTRY, CRITERION)
+}
+
+/// Rules of arithmetic on printed numbers.
+pub fn rules() -> Vec<Item> {
+    criteria_or_rules(rule::REGISTRY, RULE)
+}
+
+fn criteria_or_rules(registry: &[&criterion::Entry], frame: Frame) -> Vec<Item> {
     let item = |e: &&criterion::Entry| Item {
         name: e.name,
         about: e.about,
         settings: Some(e.settings),
         example: e.example,
-        frame: CRITERION,
+        frame,
         columns: &[],
     };
-    criterion::REGISTRY.iter().map(item).collect()
-}
-
-/// Rules of arithmetic on printed numbers.
-pub fn rules() -> Vec<Item> {
-    let item = |e: &&rule::Entry| Item {
-        name: e.name,
-        about: e.about,
-        settings: Some(e.settings),
-        example: e.example,
-        frame: RULE,
-        columns: &[],
-    };
-    rule::REGISTRY.iter().map(item).collect()
+    registry.iter().map(item).collect()
 }
 
 /// Kinds of figure.

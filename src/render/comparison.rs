@@ -56,46 +56,41 @@ pub fn markdown(of: &Comparison) -> String {
 
 /// The changes as comma-separated values under a head; what is not known is empty.
 pub fn csv(of: &Comparison) -> String {
-    let measured = |of: Option<Measured>| {
-        let ends = of.and_then(|of| of.interval).map_or([None, None], |[low, high]| [Some(low), Some(high)]);
-        [of.map(|of| of.value), ends[0], ends[1]]
-    };
     let line = |change: &Change| {
-        let texts = [&change.study, &change.contender, &change.metric, &change.unit, &change.better]
-            .map(|t| quoted(t));
-        let counts =
-            [change.pairs, change.one_sided[0], change.one_sided[1], change.draws].map(|n| n.to_string());
-        let means = change.means.map_or([None, None], |[first, second]| [Some(first), Some(second)]);
+        let texts = [&change.study, &change.contender, &change.metric, &change.unit, &change.better];
+        let [first, second] = change.one_sided;
+        let counts = [change.pairs, first, second, change.draws].map(|n| n.to_string());
+        let means = change.means.map_or([None, None], |means| means.map(Some)).map(plain);
         let numbers = [
             change.mean_change,
             change.mean_change_percent,
             change.median_change,
             change.improvement_percent,
         ];
-        let numbers = means.into_iter().chain(numbers.into_iter().flat_map(measured)).map(plain);
         let signs = [change.wins, change.ties, change.losses].map(|n| n.to_string());
-        let word = [change.word.name().to_owned()];
-        texts.into_iter().chain(counts).chain(numbers).chain(signs).chain(word).collect::<Vec<_>>().join(",")
-            + "\n"
+        let numbers = means.into_iter().chain(numbers.into_iter().flat_map(measured));
+        let rest = counts.into_iter().chain(numbers).chain(signs).chain([change.word.name().to_owned()]);
+        texts.map(|text| quoted(text)).into_iter().chain(rest).collect::<Vec<_>>().join(",") + "\n"
     };
     CHANGES.to_owned() + &of.changes.iter().map(line).collect::<String>()
 }
 
 /// What trials come to as comma-separated values under a head.
 pub fn cells_csv(cells: &[Cell]) -> String {
-    let measured = |of: Option<Measured>| {
-        let ends = of.and_then(|of| of.interval).map_or([None, None], |[low, high]| [Some(low), Some(high)]);
-        [of.map(|of| of.value), ends[0], ends[1]].map(plain)
-    };
     let line = |cell: &Cell| {
         let texts =
             [&cell.study, &cell.reading, &cell.group, &cell.contender, &cell.sweep, &cell.metric, &cell.unit];
         let counts = [cell.trials, cell.solved, cell.draws, cell.measured].map(|n| n.to_string());
-        let numbers = [cell.mean, cell.median].into_iter().flat_map(measured);
-        let texts = texts.map(|text| quoted(text));
-        texts.into_iter().chain(counts).chain(numbers).collect::<Vec<_>>().join(",") + "\n"
+        let rest = counts.into_iter().chain([cell.mean, cell.median].into_iter().flat_map(measured));
+        texts.map(|text| quoted(text)).into_iter().chain(rest).collect::<Vec<_>>().join(",") + "\n"
     };
     CELLS.to_owned() + &cells.iter().map(line).collect::<String>()
+}
+
+/// A number and the ends of its interval, each as [`plain`] has it.
+fn measured(of: Option<Measured>) -> [String; 3] {
+    let ends = of.and_then(|of| of.interval);
+    [of.map(|of| of.value), ends.map(|ends| ends[0]), ends.map(|ends| ends[1])].map(plain)
 }
 
 /// What a gate says, in a line.

@@ -14,9 +14,9 @@ use super::style::{
     WHITE, Width, YELLOW, series_color, series_marker, series_stroke,
 };
 use super::vector::Provenance;
+use crate::analysis::shown::Distribution;
 use base::seed;
 use rand::RngExt as _;
-use stats::summary::cumulative;
 
 fn hold(name: &str, sheet: &Sheet) {
     let provenance = Provenance {
@@ -160,7 +160,8 @@ fn distributions_with_marked_values() {
     );
     for (index, part) in values.chunks(200).enumerate() {
         second.add(
-            Line::through(cumulative(part), series_stroke(index)).labelled(format!("density {}", index + 1)),
+            Line::through(Distribution::of(part).steps, series_stroke(index))
+                .labelled(format!("density {}", index + 1)),
         );
     }
     let marks = (0..6).map(|index| (5.0 + 1.5 * f64::from(index), format!("printed {index}"))).collect();

@@ -55,12 +55,15 @@ pub fn clopper_pearson(hits: usize, trials: usize, level: f64) -> Option<Interva
     })
 }
 
-/// The exact interval for a mean of values in [0, 1], from `draws` of hits and chances that are all hits, or none of any draw;
-/// none for other draws, and without any.
+/// An interval for a share, from `draws` of hits and chances that all agree on it, whatever they are drawn from; none for other
+/// draws, and without any.
 ///
-/// If n independent values in [0, 1] are all 1, their mean is at least L with Lⁿ = (1 − level) / 2, whatever they are drawn
-/// from: P(all are 1) ≤ meanⁿ. Draws of unequal chances weigh unequally, and a miss may lie on the largest: the interval is
-/// wider by the largest number of chances over the mean one, which is exact only where no draw could have more chances.
+/// So many as agree leave, at the level, at most a part m of all draws that differ, with (1 − m)ⁿ = (1 − level) / 2; those may be
+/// hits throughout or misses throughout, so that a share v lies from v − m·v to v + m·(1 − v). At v = 1 or 0 this is exact: if the
+/// values are in [0, 1], P(all are 1) ≤ meanⁿ. Between them, v was not known before it was drawn; that all agree on a value that
+/// fewer than 1 − m of the draws have is no likelier than (1 − m)ⁿ⁻¹, below 5 % from six draws on at 0.95. Draws of unequal chances
+/// weigh unequally, and one that differs may be the largest: the interval is wider by the largest number of chances over the mean
+/// one, which is exact only where no draw could have more chances.
 ///
 /// # Panics
 /// If `level` is not inside (0, 1).
@@ -69,19 +72,17 @@ pub fn clopper_pearson(hits: usize, trials: usize, level: f64) -> Option<Interva
 /// Clopper & Pearson, Biometrika 26 (1934) 404–413, at n of n; P(X = 1) ≤ E X for X in [0, 1] is Markov's inequality.
 pub fn mean_of_agreed(draws: &[[f64; 2]], level: f64) -> Option<Interval> {
     assert!(level > 0.0 && level < 1.0, "an interval at level {level}");
-    let are_all = |share: f64| draws.iter().all(|[hits, chances]| *chances > 0.0 && *hits == share * chances);
+    let [first_hits, first_chances] = *draws.first()?;
+    let is_same = |[hits, chances]: &[f64; 2]| *chances > 0.0 && hits * first_chances == first_hits * chances;
     let chances =
         |of: fn(f64, f64) -> f64| draws.iter().fold(0.0, |so_far, [_, chances]| of(so_far, *chances));
     let n = draws.len() as f64;
-    let missed =
+    let differ =
         (1.0 - libm::pow((1.0 - level) / 2.0, 1.0 / n)) * chances(f64::max) * n / chances(|a, b| a + b);
-    if draws.is_empty() {
-        None
-    } else if are_all(1.0) {
-        Some(Interval::new((1.0 - missed).max(0.0), 1.0))
-    } else {
-        are_all(0.0).then(|| Interval::new(0.0, missed.min(1.0)))
-    }
+    draws.iter().all(is_same).then(|| {
+        let share = first_hits / first_chances;
+        Interval::new((share - share * differ).max(0.0), (share + (1.0 - share) * differ).min(1.0))
+    })
 }
 
 /// The least number of units that must all agree for the interval of [`mean_of_agreed`] to be no wider than `width`.
@@ -91,25 +92,6 @@ pub fn mean_of_agreed(draws: &[[f64; 2]], level: f64) -> Option<Interval> {
 pub fn agreeing_for_width(width: f64, level: f64) -> usize {
     assert!(width > 0.0 && width < 1.0 && level > 0.0 && level < 1.0, "a width of {width} at level {level}");
     (libm::log((1.0 - level) / 2.0) / libm::log1p(-width)).ceil() as usize
-}
-
-/// The least number of trials for which Wilson's interval about `share` is at most `margin` to either side.
-///
-/// # Panics
-/// If `share` is outside [0, 1], `margin` is not positive, or `level` is not inside (0, 1).
-pub fn trials_for_margin(share: f64, margin: f64, level: f64) -> usize {
-    assert!((0.0..=1.0).contains(&share) && margin > 0.0, "a share of {share} within {margin}");
-    let fits = |trials: usize| wilson_of_share(share, trials as f64, level).half_width() <= margin;
-    let mut enough = 1;
-    while !fits(enough) {
-        enough *= 2;
-    }
-    let (mut low, mut high) = (enough / 2, enough);
-    while low + 1 < high {
-        let middle = low.midpoint(high);
-        if fits(middle) { high = middle } else { low = middle }
-    }
-    high
 }
 
 /// The number of units for which an interval fits `margin` to either side, if `units` gave it `half_width`.

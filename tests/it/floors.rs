@@ -146,6 +146,27 @@ fn modules_name_only_lower_floors() {
 }
 
 #[test]
+fn what_shows_results_computes_no_statistic() {
+    let files = files();
+    let names_it = |file: &File| {
+        let mut words = file.code.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        words.any(|word| word == "stats")
+    };
+    for (floor, may) in [("analysis", true), ("render", false), ("page", false), ("cli", false)] {
+        let own = files.iter().filter(|file| file.modules().first().is_some_and(|own| own == floor));
+        let own: Vec<&File> = own.collect();
+        let naming = own.iter().filter(|file| names_it(file)).map(|file| file.path.display().to_string());
+        let naming: Vec<String> = naming.collect();
+        assert!(own.len() > 5, "the reader is blind: {} files of `{floor}`", own.len());
+        assert_eq!(
+            !naming.is_empty(),
+            may,
+            "`{floor}`: a statistic is analysis's, and these name them: {naming:?}"
+        );
+    }
+}
+
+#[test]
 fn the_verifier_depends_on_base_alone() {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/verify/Cargo.toml");
     let manifest: toml::Table = std::fs::read_to_string(manifest).unwrap().parse().unwrap();

@@ -97,7 +97,7 @@ fn selected(of: &Selection<'_>, run: &Run<'_>) -> String {
     text
 }
 
-/// A registered criterion.
+/// A registered criterion or rule.
 pub struct Entry {
     /// The name that claims use; also its file's name.
     pub name: &'static str,

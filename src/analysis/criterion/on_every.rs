@@ -1,4 +1,4 @@
-//! Whether something holds on every case, or in every draw: one counterexample ends it.
+//! Whether something holds on every case: one counterexample ends it.
 
 use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
@@ -9,14 +9,12 @@ use crate::analysis::selection::{self, Case, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, plan};
 use crate::analysis::verdict::Estimate;
-use crate::study::key::SweepKey;
 use crate::study::record::Row;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::paired::EQUAL;
-use std::collections::BTreeMap;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -54,8 +52,6 @@ enum That {
     Above,
     /// It is solved wherever the other contender solves it.
     Solved,
-    /// The share of a draw's queries that are solved is above the other contender's, at every point of the sweep.
-    HigherShare,
 }
 
 struct OnEvery<'a> {
@@ -65,7 +61,7 @@ struct OnEvery<'a> {
     plan: Resampling,
 }
 
-/// How one case, or one draw at a point of the sweep, speaks.
+/// How one case speaks.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Says {
     /// For it.
@@ -89,7 +85,7 @@ impl<'a> OnEvery<'a> {
         if !matches!(that, That::AtMost | That::Above) {
             of.against(context)?;
         }
-        if !matches!(that, That::Solved | That::HigherShare) {
+        if that != That::Solved {
             of.metric(context)?;
         }
         let plan = plan(&context.seed_names());
@@ -113,7 +109,6 @@ impl<'a> OnEvery<'a> {
                 value.map(|value| holds(value <= self.bound + EQUAL))
             }
             That::Solved => case.base.filter(|base| base.is_solved()).map(|_| holds(case.row.is_solved())),
-            That::HigherShare => None,
         }
     }
 
@@ -126,39 +121,15 @@ impl<'a> OnEvery<'a> {
             That::AtMost => format!("{metric} is at most {}", self.bound),
             That::Above => format!("{metric} is above {}", self.bound),
             That::Solved => "it is solved where the other solves it".to_owned(),
-            That::HigherShare => "the share of queries solved is higher".to_owned(),
         }
-    }
-
-    /// How every draw speaks at every point of the sweep, with a trial of each.
-    fn shares<'e>(draws: &'e [Draw<'e>]) -> Vec<Vec<(Says, &'e Row)>> {
-        let solved = |row: &Row| u32::from(row.is_solved());
-        let of_draw = |draw: &'e Draw<'e>| {
-            let mut points: BTreeMap<&SweepKey, ([u32; 2], &Row)> = BTreeMap::new();
-            for case in &draw.cases {
-                let (count, _) = points.entry(&case.row.key.sweep).or_insert(([0; 2], case.row));
-                count[0] += solved(case.row);
-                count[1] += case.base.map_or(0, solved);
-            }
-            let says = |[own, base]: [u32; 2]| match own.cmp(&base) {
-                std::cmp::Ordering::Greater => Says::For,
-                std::cmp::Ordering::Equal => Says::Equal,
-                std::cmp::Ordering::Less => Says::Against,
-            };
-            points.into_values().map(|(count, row)| (says(count), row)).collect()
-        };
-        draws.iter().map(of_draw).collect()
     }
 
     /// How many cases did not come to an end; that a case is not solved is itself an answer where that is what is asked.
     fn unended(&self, draws: &[Draw<'_>]) -> usize {
-        if matches!(self.that, That::Solved | That::HigherShare) { 0 } else { selection::unended(draws) }
+        if self.that == That::Solved { 0 } else { selection::unended(draws) }
     }
 
     fn said_by<'e>(&self, run: &Run<'_>, draws: &'e [Draw<'e>]) -> Vec<Vec<(Says, &'e Row)>> {
-        if self.that == That::HigherShare {
-            return Self::shares(draws);
-        }
         let of_draw = |draw: &'e Draw<'e>| {
             draw.cases.iter().filter_map(|case| Some((self.says(run, case)?, case.row))).collect()
         };

@@ -9,7 +9,7 @@ use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, needs, plan};
 use crate::study::column;
-use crate::study::record::{Row, Status};
+use crate::study::record::Row;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -46,8 +46,6 @@ struct Settings {
     per: Option<String>,
     /// The number that the metric is above (`above`).
     bound: Option<f64>,
-    /// The status that trials must have to be asked at all.
-    among: Option<Status>,
     /// The least and the greatest share under which the claim holds; without, it is shown and decides nothing.
     accepted: Option<[f64; 2]>,
 }
@@ -133,9 +131,6 @@ impl<'a> Counted<'a> {
     /// Hits and chances of one case; none if it is not asked.
     fn counts(&self, case: &Case<'_>) -> Option<[f64; 2]> {
         let row: &Row = case.row;
-        if self.settings.among.is_some_and(|status| row.status != status) {
-            return None;
-        }
         let hit = |is: bool| Some([f64::from(u8::from(is)), 1.0]);
         let gap = || case.pair().map(|(base, own)| own - base);
         match self.settings.hits {
@@ -171,10 +166,10 @@ impl<'a> Counted<'a> {
     }
 
     /// How many cases without an end could turn what was found: all are counted as hits, then all as misses. They are no
-    /// answer where marks or events are counted, or trials of one status alone are asked.
+    /// answer where marks or events are counted.
     fn censored(&self, draws: &[Draw<'_>], outcome: Option<Outcome>) -> usize {
         let is_asked = !matches!(self.settings.hits, Hits::Marked | Hits::Events);
-        if !is_asked || self.settings.among.is_some() || selection::unended(draws) == 0 {
+        if !is_asked || selection::unended(draws) == 0 {
             return 0;
         }
         let interval = |is_hit: bool| {
@@ -278,7 +273,6 @@ impl Criterion for Counted<'_> {
         let total = counts.iter().fold([0.0, 0.0], |sum, [h, c]| [sum[0] + h, sum[1] + c]);
         let undecided = self.settings.accepted.map(|_| Outcome::Open);
         let outcome = share.interval.map_or(undecided, |interval| self.outcome(interval));
-        let is_agreed = share.is_exact && (share.value == 0.0 || share.value == 1.0);
         Found {
             outcome,
             ours: Some(share.estimate(&self.said()).of_cases(solved(&draws))),
@@ -288,7 +282,7 @@ impl Criterion for Counted<'_> {
             units: "draws",
             censored: self.censored(&draws, outcome),
             needs: needs(share.draws).filter(|_| !share.is_exact),
-            narrows: if is_agreed { Narrows::AsTheNumber } else { Narrows::AsTheRoot },
+            narrows: if share.is_agreed { Narrows::AsTheNumber } else { Narrows::AsTheRoot },
             ..Found::default()
         }
     }

@@ -21,26 +21,24 @@ mod turn_needs_length;
 
 use super::class::Outcome;
 use super::context::Context;
+use super::criterion::{Criterion, Entry};
 use super::evidence::Evidence;
 use super::found::Found;
 use audit::proof::Proof;
-use base::settings::{Accepted, SettingsError};
+use base::settings::SettingsError;
 
-/// A rule with its settings.
-pub trait Rule {
-    /// What it finds; the evidence only remembers what other claims have asked.
-    fn find(&self, evidence: &Evidence<'_>) -> Found;
-}
+/// A rule: a criterion that selects no trial. The evidence only remembers what other claims have asked.
+struct Rule<F>(F);
 
-impl<F: Fn(&Evidence<'_>) -> Found> Rule for F {
+impl<F: Fn(&Evidence<'_>) -> Found> Criterion for Rule<F> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
-        self(evidence)
+        (self.0)(evidence)
     }
 }
 
 /// The rule that finds this.
-fn rule<'a>(find: impl Fn(&Evidence<'_>) -> Found + 'a) -> Box<dyn Rule + 'a> {
-    Box::new(find)
+fn rule<'a>(find: impl Fn(&Evidence<'_>) -> Found + 'a) -> Box<dyn Criterion + 'a> {
+    Box::new(Rule(find))
 }
 
 /// What a proof finds that can only refuse: that something is possible does not make it so.
@@ -66,20 +64,6 @@ fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(
         return Err(context.settings.error_at("longest", message));
     }
     Ok(())
-}
-
-/// A registered rule.
-pub struct Entry {
-    /// The name that claims use; also its file's name.
-    pub name: &'static str,
-    /// One line for `replan list`.
-    pub about: &'static str,
-    /// The shape of its settings, which documents them.
-    pub settings: Accepted,
-    /// Settings that it can be built from, as TOML: for `replan list`, and for a test that builds it from them.
-    pub example: &'static str,
-    /// How to build it.
-    pub build: for<'a> fn(&Context<'a>) -> Result<Box<dyn Rule + 'a>, SettingsError>,
 }
 
 /// Every rule, in the order of their names.

@@ -45,9 +45,6 @@ const PLOT_PT: f64 = 150.0;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ArmPlane {
-    /// Whether points are coloured by what they are.
-    #[serde(default)]
-    zones: bool,
     /// The part of the plane that is shown, x from and to, then y; all of it if absent.
     window_cm: Option<[f64; 4]>,
     /// Whether paths are drawn; without, the arm stands at the stations alone.
@@ -71,7 +68,7 @@ struct PanelSetting {
     problem: String,
     /// What stands above it; the problem group if absent.
     title: Option<String>,
-    /// Whether its points are coloured by what they are, if not those of all panels.
+    /// Whether its points are coloured by what they are.
     #[serde(default)]
     zones: bool,
     /// Whose paths, of the first seed.
@@ -129,14 +126,13 @@ impl ArmPlane {
         let mut panel = Panel::new(title, axis("x (cm)", 0)?, axis("y (cm)", 1)?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
-        let has_zones = self.zones || setting.zones;
-        if has_zones {
+        if setting.zones {
             let zones = ask::exhibit(scene, map, "zones")?;
             panel.add(zone_cells(zones, [low[0] - step / 2.0, low[1] - step / 2.0], step, size[0] as usize));
         }
         for index in 1.. {
             let Some(outline) = scene.run.exhibit(map, &format!("obstacle_{index}")) else { break };
-            panel.add(obstacle(outline, !has_zones));
+            panel.add(obstacle(outline, !setting.zones));
         }
         for (index, row) in rows.iter().enumerate() {
             self.add_path(scene, row, index, &mut panel);

@@ -3,8 +3,8 @@
 use super::Scene;
 use crate::analysis::evidence::Run;
 use crate::analysis::metric::{self, Metric};
-use crate::analysis::selection::{Selection, cases};
-use crate::analysis::statistic::{OfDraw, median};
+use crate::analysis::selection::Selection;
+use crate::analysis::shown::Savings;
 use crate::render::RenderError;
 use crate::render::chart::Panel;
 use crate::render::chart::marks::Points;
@@ -15,7 +15,6 @@ use crate::study::record::Row;
 use crate::study::{Study, labels_of};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 use engine::planner::Exhibit;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Refuses problem groups and contenders that `study` does not have.
@@ -74,22 +73,14 @@ pub(super) fn produced(
     Err(settings.error_about("", &["metric", "x", "y"], name, message))
 }
 
-/// The shares of queries, in per cent, that `contender` solves on each draw of `problems` at one point of the sweeps.
-pub(super) fn solved_percents(
-    scene: &Scene<'_>,
-    run: &Run<'_>,
-    problems: &str,
-    contender: &str,
-    at: &SweepKey,
-) -> Vec<f64> {
-    let all = trials(run, problems, contender);
-    let draws = Selection { sweep: Some(at.clone()), ..all }.draws(scene.evidence);
-    draws.iter().filter_map(|draw| OfDraw::SolvedPercent.of(draw)).collect()
-}
-
 /// All trials of one contender on one problem group.
 pub(super) fn trials<'s>(run: &Run<'s>, problems: &str, contender: &str) -> Selection<'s> {
     Selection::of(run.study, &[problems.to_owned()], &[contender.to_owned()])
+}
+
+/// The same at one point of the sweeps.
+pub(super) fn trials_at<'s>(run: &Run<'s>, problems: &str, contender: &str, at: &SweepKey) -> Selection<'s> {
+    Selection { sweep: Some(at.clone()), ..trials(run, problems, contender) }
 }
 
 /// A value of a trial as titles show it.
@@ -228,11 +219,7 @@ pub(super) fn shared_draw(
     let kept: Vec<u32> =
         draws.filter(|draw| contenders.iter().all(|contender| has_it(*draw, contender))).collect();
     let savings = savings(scene, problems, of_query, contenders);
-    let middle = median(&savings.values().copied().collect::<Vec<_>>());
-    let off = |draw: &u32| match (middle, savings.get(draw)) {
-        (Some(middle), Some(saving)) => (saving - middle).abs(),
-        _ => f64::INFINITY,
-    };
+    let off = |draw: &u32| savings.off_median(*draw);
     let found = kept.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
     found.ok_or_else(|| RenderError::NotStored {
         what: format!(
@@ -243,15 +230,9 @@ pub(super) fn shared_draw(
 }
 
 /// By draw, what the last contender saves of the first one's way on a query, percent.
-pub(super) fn savings(
-    scene: &Scene<'_>,
-    problems: &str,
-    of_query: &str,
-    contenders: &[String],
-) -> BTreeMap<u32, f64> {
-    let [first, .., last] = contenders else { return BTreeMap::new() };
+pub(super) fn savings(scene: &Scene<'_>, problems: &str, of_query: &str, contenders: &[String]) -> Savings {
+    let [first, .., last] = contenders else { return Savings::default() };
     let all = trials(scene.run, problems, last);
     let (metric, query) = (metric::find("path_length_mm"), Some(of_query.to_owned()));
-    let draws = Selection { against: Some(first.clone()), metric, query, ..all }.draws(scene.evidence);
-    cases(&draws).filter_map(|case| Some((case.row.draw(), case.saving_percent()?))).collect()
+    Savings::of(&Selection { against: Some(first.clone()), metric, query, ..all }, scene.evidence)
 }

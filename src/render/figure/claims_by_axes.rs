@@ -7,7 +7,7 @@ use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::Cells;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{BLUE, GREY, GRID, Rgb, Stroke, VERMILLION, WHITE, Width, YELLOW};
-use base::settings::{Accepted, none_called};
+use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -18,28 +18,13 @@ pub static ENTRY: Entry = Entry {
     statistic: "Of options that vote, one at a time beside the defaults; of several in one cell the greatest effect; what nothing moves is \
                 left out; {readings}.",
     settings: Accepted::of::<ClaimsByAxes>(),
-    example: r"
-claims = []
-",
-    build: |settings, _study, paper| {
-        let read: ClaimsByAxes = settings.read()?;
-        for (index, id) in read.claims.iter().enumerate() {
-            if paper.claim(id).is_none() {
-                let known = paper.claims.iter().map(|claim| claim.id.as_str());
-                return Err(settings.error_at(&format!("claims.{index}"), none_called("claim", id, known)));
-            }
-        }
-        Ok(Box::new(read))
-    },
+    example: "",
+    build: |settings, _study, _paper| Ok(Box::new(settings.read::<ClaimsByAxes>()?)),
 };
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct ClaimsByAxes {
-    /// The claims, from above; all sentences and rows that readings can touch if empty.
-    #[serde(default)]
-    claims: Vec<String>,
-}
+struct ClaimsByAxes {}
 
 /// Height of a row, in points.
 const ROW_PT: f64 = 9.5;
@@ -58,26 +43,19 @@ fn color(across: &Across, axis: &str) -> Option<Rgb> {
 }
 
 impl ClaimsByAxes {
-    /// The claims that readings can touch, from above.
-    fn rows<'s>(&self, scene: &'s Scene<'_>) -> Vec<(&'s Judged, &'s Across)> {
-        let is_asked = |judged: &&Judged| {
-            if self.claims.is_empty() {
-                judged.part_of.is_none()
-            } else {
-                self.claims.contains(&judged.claim)
-            }
-        };
+    /// The sentences and rows that readings can touch, from above.
+    fn rows<'s>(scene: &'s Scene<'_>) -> Vec<(&'s Judged, &'s Across)> {
         let moved = |judged: &'s Judged| {
             let across = judged.across.as_ref().filter(|across| !across.effects.is_empty())?;
             Some((judged, across))
         };
-        scene.verdicts.claims.iter().filter(is_asked).filter_map(moved).collect()
+        scene.verdicts.claims.iter().filter(|judged| judged.part_of.is_none()).filter_map(moved).collect()
     }
 }
 
 impl Kind for ClaimsByAxes {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let rows = self.rows(scene);
+        let rows = Self::rows(scene);
         let readings = scene.evidence.paper.readings();
         let is_moving = |id: &&str| rows.iter().any(|(_, across)| across.effects.contains_key(*id));
         let axes: Vec<&str> = readings.iter().map(|reading| reading.id.as_str()).filter(is_moving).collect();

@@ -2,7 +2,8 @@
 
 use super::{CurveLine, Curves, Entry, Kind, Scene, Shown, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::statistic::plan;
+use crate::analysis::shown::{Found, best_over_time};
+use crate::analysis::statistic::Estimate;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -11,8 +12,6 @@ use crate::study::record::Row;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::Estimate;
-use stats::pooled::median;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -61,38 +60,22 @@ const MOMENTS: u32 = 50;
 /// Nanoseconds in a second.
 const NS_PER_S: f64 = 1e9;
 
-/// The least cost of what was found at `passed_s` or before; infinite if nothing was.
-fn best_by(found: &[[f64; 2]], passed_s: f64) -> f64 {
-    let by_then = found.iter().filter(|[at, _]| *at <= passed_s).map(|[_, cost]| *cost);
-    by_then.fold(f64::INFINITY, f64::min)
-}
-
-/// The median at each moment over the queries of all draws; none where it is infinite.
-fn medians(draws: &[Vec<Vec<[f64; 2]>>], moments: &[f64], names: &[&str]) -> Vec<Option<Estimate>> {
-    let at = |passed_s: &f64| {
-        let by = |found: &Vec<[f64; 2]>| best_by(found, *passed_s);
-        let costs: Vec<Vec<f64>> = draws.iter().map(|draw| draw.iter().map(by).collect()).collect();
-        median(&costs, plan(names)).filter(|estimate| estimate.value.is_finite())
-    };
-    moments.iter().map(at).collect()
-}
-
 impl CostOverTime {
     fn moments(&self) -> Vec<f64> {
         (1..=MOMENTS).map(|k| self.read.until_s * f64::from(k) / f64::from(MOMENTS)).collect()
     }
 
     /// When a trial found what: its incumbents, and the path that it returned.
-    fn found(&self, scene: &Scene<'_>, row: &Row) -> Vec<[f64; 2]> {
+    fn found(&self, scene: &Scene<'_>, row: &Row) -> Found {
         let kept = scene.run.exhibit(&row.key, "incumbents").filter(|kept| kept.width == 2);
-        let mut found: Vec<[f64; 2]> = kept.map(ask::points).unwrap_or_default();
+        let mut found: Found = kept.map(ask::points).unwrap_or_default();
         let returned = row.value("solve_wall_ns").zip(scene.run.value(row, self.metric));
         found.extend(returned.filter(|_| row.is_solved()).map(|(ns, cost)| [ns / NS_PER_S, cost]));
         found
     }
 
     /// What each query of each draw found.
-    fn draws(&self, scene: &Scene<'_>, contender: &str) -> Vec<Vec<Vec<[f64; 2]>>> {
+    fn draws(&self, scene: &Scene<'_>, contender: &str) -> Vec<Vec<Found>> {
         let rows = scene.run.rows(&self.read.problems, contender);
         let of_draw = |rows: &[&Row]| rows.iter().map(|row| self.found(scene, row)).collect();
         rows.chunk_by(|a, b| a.draw() == b.draw()).map(of_draw).collect()
@@ -102,7 +85,7 @@ impl CostOverTime {
         let moments = self.moments();
         let of = |contender| {
             let names = [scene.run.study.name.as_str(), "cost over time", contender];
-            medians(&self.draws(scene, contender), &moments, &names)
+            best_over_time(&self.draws(scene, contender), &moments, &names)
         };
         self.read.contenders.iter().map(|contender| (contender, of(contender))).collect()
     }
@@ -171,29 +154,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_query_without_a_path_by_then_costs_infinitely_much() {
-        let found = [[0.2, 9.0], [0.5, 4.0], [0.7, 5.0]];
-        let by = [0.1, 0.2, 0.6, 0.9].map(|passed_s| best_by(&found, passed_s));
-        assert_eq!(by, [f64::INFINITY, 9.0, 4.0, 4.0]);
-    }
-
-    #[test]
-    fn a_curve_begins_where_half_of_the_queries_have_a_path_and_never_rises() {
-        let of = |at: f64| vec![vec![[at, 10.0], [at + 0.3, 8.0]]];
-        let draws: Vec<_> = [0.1, 0.2, 0.3, 9.0, 9.0].map(of).into();
-        let moments = [0.15, 0.25, 0.35, 0.45, 0.65];
-        let found = medians(&draws, &moments, &["a test"]);
-        let values: Vec<Option<f64>> = found.iter().map(|median| median.map(|m| m.value)).collect();
-        assert_eq!(values, [None, None, Some(10.0), Some(10.0), Some(8.0)]);
-        assert!(found[2].unwrap().interval.high.is_infinite(), "two of five never find a path");
-    }
-
-    #[test]
     fn who_finds_no_path_for_half_of_the_queries_is_named_below_the_figure() {
         let (fast, slow) = ("BIT*".to_owned(), "RRT*".to_owned());
         let draws: Vec<_> = [0.1, 0.2, 0.3].map(|at| vec![vec![[at, 10.0]]]).into();
-        let all =
-            [(&fast, medians(&draws, &[0.5], &["a test"])), (&slow, medians(&draws, &[0.05], &["a test"]))];
+        let by = |moment: f64| best_over_time(&draws, &[moment], &["a test"]);
+        let all = [(&fast, by(0.5)), (&slow, by(0.05))];
         let said = note(0.5, &all);
         assert!(said.ends_with("No path for half of the queries within 0.5 s: RRT*."), "{said}");
         assert!(!note(0.5, &all[..1]).contains("No path"), "everyone has a curve");

@@ -5,6 +5,7 @@
 use super::{Entry, Kind, Scene};
 use crate::analysis::context::Context;
 use crate::analysis::criterion;
+use crate::analysis::shown::Distribution;
 use crate::render::RenderError;
 use crate::render::canvas::{Align, Stand, Type};
 use crate::render::chart::marks::{Line, Note};
@@ -15,7 +16,6 @@ use crate::study::paper::{Claim, Paper};
 use base::settings::{Accepted, Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::summary::{cumulative, quantile_type7 as quantile};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -88,13 +88,14 @@ impl Asked {
         let context = Context { claim, settings: &self.settings, paper, point };
         let sets = criterion::draws(&context, scene.evidence)?;
         let printed = context.print().ok().map(|print| print.printed.value());
+        let found: Vec<_> = sets.iter().map(|set| Distribution::of(&set.values)).collect();
         // The outermost hundredth on either side would squeeze all the rest.
-        let ends = sets.iter().flat_map(|set| [0.01, 0.99].map(|share| quantile(&set.values, share)));
-        let x = Axis::over(&spec.axis, ends.flatten().chain(printed));
+        let bulk = found.iter().flat_map(|found| found.bulk.iter().copied());
+        let x = Axis::over(&spec.axis, bulk.chain(printed));
         let corner = [x.ends()[0], 1.0];
         let mut panel = Panel::new(&spec.title, x, Axis::linear("share of maps", 0.0, 1.0)?);
-        for (index, set) in sets.iter().enumerate() {
-            panel.add(Line::through(cumulative(&set.values), series_stroke(index)).labelled(&set.label));
+        for (index, (set, found)) in sets.iter().zip(found).enumerate() {
+            panel.add(Line::through(found.steps, series_stroke(index)).labelled(&set.label));
             panel.add(how_many(corner, index, set.values.len()));
         }
         if let Some(printed) = printed {

@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::evidence::Run;
-use crate::analysis::statistic::plan;
+use crate::analysis::shown::{Curves, mean_solved};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -13,8 +13,6 @@ use crate::study::{Study, name};
 use base::settings::{Accepted, Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bands::{curves_of, distance_of_mean};
-use stats::bootstrap;
 use std::collections::BTreeSet;
 
 /// The registry's entry.
@@ -134,9 +132,9 @@ impl Identification {
             let value = point.key.value(&self.read.sweep).and_then(SweepValue::as_f64);
             let value = value.filter(|_| point.key.value(&other.0) == Some(&other.1));
             let Some(value) = value else { continue };
-            let draws = ask::solved_percents(scene, run, &group.label, &self.read.contender, &point.key);
-            let plan = plan(&[&run.study.name, &name::sweep(&point.key)]);
-            if let Some(found) = bootstrap::mean(&draws, plan) {
+            let of = ask::trials_at(run, &group.label, &self.read.contender, &point.key);
+            let names = [run.study.name.as_str(), &name::sweep(&point.key)];
+            if let Some(found) = mean_solved(&of, scene.evidence, &names) {
                 points.push([value, found.value, found.interval.low, found.interval.high]);
             }
         }
@@ -160,14 +158,13 @@ impl Identification {
                 let is_own = |point: &&SweepPoint| {
                     point.key.value(&self.read.sweep) == Some(&value) && point.key.value(along) == Some(cell)
                 };
-                sweep_points.iter().find(is_own).map_or_else(Vec::new, |point| {
-                    ask::solved_percents(scene, run, &group.label, &self.read.contender, &point.key)
-                })
+                let point = sweep_points.iter().find(is_own)?;
+                Some(ask::trials_at(run, &group.label, &self.read.contender, &point.key))
             };
-            let cells: Vec<Vec<f64>> = self.row.iter().map(cell).collect();
+            let Some(cells) = self.row.iter().map(cell).collect::<Option<Vec<_>>>() else { continue };
             let at = format!("{}={value}", self.read.sweep);
-            let plan = plan(&["row", &run.study.name, &at]);
-            let found = distance_of_mean(&curves_of(&cells), &printed, plan);
+            let names = ["row", &run.study.name, &at];
+            let found = Curves::solved(&cells, scene.evidence).distance(&printed, &names);
             if let (Some(at), Some(found)) = (value.as_f64(), found) {
                 points.push([at, found.value, found.interval.low, found.interval.high]);
             }

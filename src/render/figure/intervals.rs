@@ -2,8 +2,9 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Draw, Selection, posed};
-use crate::analysis::statistic::{OfAll, OfDraw, differences_percent, plan};
+use crate::analysis::selection::{Selection, posed};
+use crate::analysis::shown::{mean_difference, mean_solved, of_all};
+use crate::analysis::statistic::{Estimate, OfAll};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
@@ -17,7 +18,6 @@ use crate::study::paper::Paper;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::{self, Estimate};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -125,24 +125,20 @@ impl Intervals {
     fn estimate(&self, scene: &Scene<'_>, index: usize, row: usize, contender: &str) -> Option<Estimate> {
         let (spec, what) = (&self.read.panels[index], &self.panels[index]);
         let contenders = [contender.to_owned()];
-        let draws = |selection: Selection<'_>| -> Vec<Draw<'_>> { selection.draws(scene.evidence) };
+        let study = scene.run.study;
         if what.metric.is_some() {
-            let of = Selection::of(scene.run.study, &spec.problems, &contenders);
+            let of = Selection::of(study, &spec.problems, &contenders);
             let of = Selection { metric: what.metric, against: spec.against.clone(), ..of };
-            let plan = plan(&[&scene.run.study.name, &spec.title, contender]);
-            return OfAll::ReductionPercent.of(&draws(of), plan);
+            let names = [study.name.as_str(), &spec.title, contender];
+            return of_all(OfAll::ReductionPercent, &of, scene.evidence, &names);
         }
         let group = &self.read.problems[if self.is_by_group() { row } else { 0 }];
-        let of = |group: &str| Selection {
-            sweep: Some(self.sweep.clone()),
-            ..ask::trials(scene.run, group, contender)
-        };
-        let own = draws(of(group));
-        let values = match &spec.against {
-            Some(base) => differences_percent([&draws(of(base)), &own]),
-            None => own.iter().filter_map(|draw| OfDraw::SolvedPercent.of(draw)).collect(),
-        };
-        bootstrap::mean(&values, plan(&[&scene.run.study.name, group, contender]))
+        let of = |group: &str| ask::trials_at(scene.run, group, contender, &self.sweep);
+        let names = [study.name.as_str(), group, contender];
+        match &spec.against {
+            Some(base) => mean_difference([&of(base), &of(group)], scene.evidence, &names),
+            None => mean_solved(&of(group), scene.evidence, &names),
+        }
     }
 
     /// What stands in each row: the place across the rows, the contender, what was found.

@@ -48,13 +48,6 @@ struct Read {
     sweep: Option<String>,
     /// The query, where a draw has several; the first draw on which every contender's motion is kept is shown.
     query: Option<String>,
-    /// Of joints along the way: draws, at each share of the way, how far each curve is from that of the panel's first
-    /// contender, which is not drawn: curves that all but coincide can then be told apart.
-    #[serde(default)]
-    differences: bool,
-    /// How many panels stand side by side; all of them if absent.
-    #[schemars(range(min = 1, max = 12))]
-    columns: Option<usize>,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -133,9 +126,8 @@ impl Kind for MotionCurves {
                 found.push((row, ask::exhibit(scene, &row.key, self.read.quantity.shown().0)?));
             }
         }
-        let (columns, timed) =
-            (self.read.columns.unwrap_or(found.len()), self.read.quantity == Quantity::TimedJoints);
-        let mut sheet = Sheet::new(Width::Double, columns, if timed { 170.0 } else { 150.0 });
+        let timed = self.read.quantity == Quantity::TimedJoints;
+        let mut sheet = Sheet::new(Width::Double, found.len(), if timed { 170.0 } else { 150.0 });
         if !timed {
             sheet = sheet.noted("Stored configurations follow each other at equal times.");
         }
@@ -196,7 +188,7 @@ impl MotionCurves {
 
     /// Both joints of a planar arm along the way of its tip, side by side.
     fn along(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, self.read.columns.unwrap_or(2), 105.0);
+        let mut sheet = Sheet::new(Width::Double, 2, 105.0);
         let mut all = Vec::new();
         for panel in &self.read.panels {
             all.push([self.curves(scene, panel, 0)?, self.curves(scene, panel, 1)?]);
@@ -206,17 +198,13 @@ impl MotionCurves {
             let points = all.iter().flat_map(move |both| &both[joint]).flat_map(|(_, points)| points);
             points.map(|point| point[1]).collect::<Vec<f64>>()
         });
-        let (way, sign) = if self.read.differences {
-            ("share of the way (%)", "Δ")
-        } else {
-            ("way along the path (cm)", "")
-        };
         for (setting, both) in self.read.panels.iter().zip(all) {
             for (joint, curves) in both.into_iter().enumerate() {
                 let ways = curves.iter().flat_map(|(_, points)| points).map(|point| point[0]);
                 let name = self.read.quantity.name(joint);
-                let y = Axis::over(format!("{sign}{name} (°)"), ranges[joint].iter().copied());
-                let mut panel = Panel::new(format!("{}, {name}", setting.problem), Axis::over(way, ways), y);
+                let x = Axis::over("way along the path (cm)", ways);
+                let y = Axis::over(format!("{name} (°)"), ranges[joint].iter().copied());
+                let mut panel = Panel::new(format!("{}, {name}", setting.problem), x, y);
                 for (label, points) in curves {
                     let stroke = series_stroke(ask::place(scene, label));
                     panel.add(Line::through(points, stroke).labelled(label.clone()));
@@ -239,29 +227,8 @@ impl MotionCurves {
             // A failed trial has no path and no curve.
             curves.extend(curve(scene, row, joint).map(|points| (label, points)));
         }
-        if self.read.differences && !curves.is_empty() {
-            let (_, base) = curves.remove(0);
-            for (_, points) in &mut curves {
-                *points = away(points, &base);
-            }
-        }
         Ok(curves)
     }
-}
-
-/// How far `points` are from `base` at each share of the way, in percent.
-fn away(points: &[[f64; 2]], base: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let length = |of: &[[f64; 2]]| of.last().map_or(1.0, |last| last[0]).max(f64::MIN_POSITIVE);
-    let (own, other) = (length(points), length(base));
-    let point = |[way, angle]: &[f64; 2]| [100.0 * way / own, angle - at(base, way / own * other)];
-    points.iter().map(point).collect()
-}
-
-/// The angle of a curve at `way`, even between its stations.
-fn at(curve: &[[f64; 2]], way: f64) -> f64 {
-    let after = curve.partition_point(|point| point[0] < way).clamp(1, curve.len().max(2) - 1);
-    let ([x, y], [to_x, to_y]) = (curve[after - 1], curve[after.min(curve.len() - 1)]);
-    if to_x > x { y + (to_y - y) * (way - x) / (to_x - x) } else { y }
 }
 
 /// The way along the path and the joint's angle at every station.
@@ -277,19 +244,4 @@ fn curve(scene: &Scene<'_>, row: &Row, joint: usize) -> Option<Vec<[f64; 2]>> {
         [way, station[joint]]
     };
     Some(stations.iter().map(point).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_curve_is_nowhere_away_from_itself_however_it_is_sampled() {
-        let base = [[0.0, 1.0], [2.0, 5.0], [10.0, -3.0]];
-        // The same curve, twice as long and with a station more.
-        let same = [[0.0, 1.0], [4.0, 5.0], [12.0, 1.0], [20.0, -3.0]];
-        assert!(away(&same, &base).iter().all(|[_, gap]| gap.abs() < 1e-12));
-        let higher = same.map(|[way, angle]| [way, angle + 2.0]);
-        assert_eq!(away(&higher, &base).last(), Some(&[100.0, 2.0]));
-    }
 }

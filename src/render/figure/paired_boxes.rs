@@ -3,7 +3,8 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Case, Draw, Selection, cases};
+use crate::analysis::selection::Selection;
+use crate::analysis::shown::{Spread, savings_by_query, spreads_by_query};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::BoxStrip;
@@ -14,7 +15,6 @@ use crate::study::key::SweepKey;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::summary::{box_of, mean, median, quantile_type7 as quantile};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -35,6 +35,9 @@ savings = ["length.least", "length.greatest"]
         let metric = ask::metric(settings, &read.metric)?;
         let printed = ask::all_printed(settings, paper, "savings", read.savings.iter().flatten())?;
         let sweep = ask::sweep(settings, study, &read.sweep)?;
+        if read.savings.is_some() && !read.queries.is_empty() {
+            return Err(settings.error_at("queries", "savings are over all queries; one of both is accepted"));
+        }
         for query in &read.queries {
             ask::query(settings, study, &read.problems, query, (&["queries"], query))?;
         }
@@ -76,7 +79,10 @@ struct PairedBoxes {
 const MOST_STRIPS: usize = 3;
 
 /// By query: of each contender the values on the draws that all of them solve.
-type ByQuery = Vec<(String, Vec<Vec<f64>>)>;
+type ByQuery = Vec<(String, Vec<Spread>)>;
+
+/// By query and over all: what the last contender saves.
+type Savings = Vec<(String, Spread)>;
 
 impl PairedBoxes {
     /// What is asked of the draws: every contender's metric on them, held against the first one's.
@@ -91,40 +97,22 @@ impl PairedBoxes {
         }
     }
 
-    /// By query, in their order, what `of` takes of the draws that count.
-    fn by_query(&self, scene: &Scene<'_>, of: impl Fn(&[Draw<'_>]) -> Vec<Vec<f64>>) -> ByQuery {
-        let mut order: Vec<String> = Vec::new();
-        let (problems, all) = (&self.read.problems, self.asked(scene));
-        for row in self.read.contenders.iter().flat_map(|label| all.rows(scene.run, problems, label)) {
-            let is_asked =
-                self.read.queries.is_empty() || self.read.queries.iter().any(|name| name == row.query());
-            if is_asked && !order.iter().any(|name| name == row.query()) {
-                order.push(row.query().to_owned());
-            }
-        }
-        let of_query = |name: String| {
-            let draws = Selection { query: Some(name.clone()), ..self.asked(scene) }.draws(scene.evidence);
-            (name, of(&draws))
-        };
-        order.into_iter().map(of_query).collect()
-    }
-
+    /// What is shown of each query that is asked for.
     fn values(&self, scene: &Scene<'_>) -> ByQuery {
-        self.by_query(scene, |draws| {
-            let of = |contender: &String| draws.iter().flat_map(|draw| draw.by(contender).values()).collect();
-            self.read.contenders.iter().map(of).collect()
-        })
+        let mut values = spreads_by_query(&self.asked(scene), scene.evidence);
+        values.retain(|(name, _)| self.read.queries.is_empty() || self.read.queries.contains(name));
+        values
     }
 
     /// One box a query and contender.
     fn boxes(&self, scene: &Scene<'_>, values: &ByQuery) -> Result<Panel, RenderError> {
         let names = values
             .iter()
-            .map(|(name, columns)| format!("{name} (n = {})", columns.first().map_or(0, Vec::len)));
-        let top =
-            values.iter().flat_map(|(_, columns)| columns.iter().flatten()).copied().fold(0.0, f64::max);
+            .map(|(name, columns)| format!("{name} (n = {})", columns.first().map_or(0, |c| c.values.len())));
+        let columns = || values.iter().flat_map(|(_, columns)| columns);
+        let top = columns().flat_map(|column| &column.values).copied().fold(0.0, f64::max);
         // Single values beyond the whiskers are only drawn where there are strips of them.
-        let whiskers = values.iter().flat_map(|(_, columns)| columns).filter_map(|c| quantile(c, 0.95));
+        let whiskers = columns().filter_map(|column| Some(column.quantiles?[4]));
         let top = if self.has_strips() { top } else { whiskers.fold(0.0, f64::max) };
         let y = Axis::linear(self.metric.title(), 0.0, if top > 0.0 { top * 1.04 } else { 1.0 })?;
         // One panel needs no title.
@@ -132,13 +120,14 @@ impl PairedBoxes {
         let mut panel = Panel::new(title, Axis::names(&self.read.axis, names), y);
         let step = 0.8 / self.read.contenders.len() as f64;
         for (place, (_, columns)) in values.iter().enumerate() {
-            for (index, column) in columns.iter().enumerate().filter(|(_, column)| !column.is_empty()) {
+            for (index, column) in columns.iter().enumerate() {
+                let Some(quantiles) = column.quantiles else { continue };
                 let contender = &self.read.contenders[index];
                 panel.add(BoxStrip {
                     at: place as f64 - 0.4 + step * (index as f64 + 0.5),
                     width: step * 0.62,
-                    quantiles: box_of(column),
-                    values: if self.has_strips() { column.clone() } else { Vec::new() },
+                    quantiles,
+                    values: if self.has_strips() { column.values.clone() } else { Vec::new() },
                     color: series_color(ask::series(scene, contender, index)),
                     label: if place == 0 { contender.clone() } else { String::new() },
                 });
@@ -151,25 +140,8 @@ impl PairedBoxes {
         self.read.contenders.len() <= MOST_STRIPS
     }
 
-    /// What the last contender saves against the first, by query, and over all queries.
-    fn savings(&self, scene: &Scene<'_>) -> ByQuery {
-        let mut savings = self.by_query(scene, |draws| {
-            let last: Vec<Draw<'_>> = self
-                .read
-                .contenders
-                .last()
-                .iter()
-                .flat_map(|last| draws.iter().map(|draw| draw.by(last)))
-                .collect();
-            vec![cases(&last).filter_map(Case::saving_percent).collect()]
-        });
-        let all = savings.iter().flat_map(|(_, columns)| columns[0].clone()).collect();
-        savings.push(("all".to_owned(), vec![all]));
-        savings
-    }
-
-    fn savings_panel(&self, scene: &Scene<'_>, savings: &ByQuery) -> Result<Panel, RenderError> {
-        let low = savings.iter().flat_map(|(_, c)| &c[0]).copied().fold(0.0, f64::min);
+    fn savings_panel(&self, scene: &Scene<'_>, savings: &Savings) -> Result<Panel, RenderError> {
+        let low = savings.iter().flat_map(|(_, saving)| &saving.values).copied().fold(0.0, f64::min);
         let names = savings.iter().map(|(name, _)| name);
         let y = Axis::linear("saving (%)", low - 5.0, 103.0)?;
         let contenders = (self.read.contenders.first(), self.read.contenders.last());
@@ -186,12 +158,13 @@ impl PairedBoxes {
         }
         let last = self.read.contenders.len() - 1;
         let color = series_color(ask::series(scene, &self.read.contenders[last], last));
-        for (place, (_, columns)) in savings.iter().enumerate().filter(|(_, (_, c))| !c[0].is_empty()) {
+        for (place, (_, saving)) in savings.iter().enumerate() {
+            let Some(quantiles) = saving.quantiles else { continue };
             panel.add(BoxStrip {
                 at: place as f64,
                 width: 0.5,
-                quantiles: box_of(&columns[0]),
-                values: columns[0].clone(),
+                quantiles,
+                values: saving.values.clone(),
                 color,
                 label: String::new(),
             });
@@ -206,7 +179,7 @@ impl Kind for PairedBoxes {
         let mut sheet = Sheet::new(Width::Double, 1, 190.0);
         sheet.add(self.boxes(scene, &values)?);
         if self.read.savings.is_some() {
-            sheet.add(self.savings_panel(scene, &self.savings(scene))?);
+            sheet.add(self.savings_panel(scene, &savings_by_query(&self.asked(scene), scene.evidence))?);
         }
         Ok(sheet)
     }
@@ -222,24 +195,24 @@ impl Kind for PairedBoxes {
         let (first, last) = (&self.read.contenders[0], &self.read.contenders[self.read.contenders.len() - 1]);
         let heads = ["query", "n", first, last, "mean saving (%)", "5 % to 95 %", "least to greatest"];
         table.head(heads.map(Cell::from).to_vec());
-        for (place, (name, columns)) in self.savings(scene).iter().enumerate() {
-            let saved = &columns[0];
+        for (place, (name, saved)) in savings_by_query(&self.asked(scene), scene.evidence).iter().enumerate()
+        {
             let number = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
             let middle = |column: usize| {
                 let of_query = values.get(place).and_then(|(_, columns)| columns.get(column));
-                number(of_query.and_then(|values| median(values)))
+                number(of_query.and_then(Spread::median))
             };
-            let range = |low: f64, high: f64| {
-                format!("{} to {}", number(quantile(saved, low)), number(quantile(saved, high)))
+            let range = |ends: Option<[f64; 2]>| {
+                format!("{} to {}", number(ends.map(|e| e[0])), number(ends.map(|e| e[1])))
             };
             let row = [
                 name.clone(),
-                saved.len().to_string(),
+                saved.values.len().to_string(),
                 middle(0),
                 middle(self.read.contenders.len() - 1),
-                number(mean(saved)),
-                range(0.05, 0.95),
-                range(0.0, 1.0),
+                number(saved.mean),
+                range(saved.quantiles.map(|q| [q[0], q[4]])),
+                range(saved.ends()),
             ];
             table.row(row.map(Cell::from).to_vec());
         }

@@ -2,7 +2,8 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Case, Selection, by_draw};
+use crate::analysis::selection::Selection;
+use crate::analysis::shown::{means_along, savings_along};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -11,7 +12,6 @@ use crate::study::column;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::summary::means_along;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -89,8 +89,7 @@ impl SavingOver {
     fn points(&self, scene: &Scene<'_>, group: &str) -> Vec<[f64; 2]> {
         let all = ask::trials(scene.run, group, &self.settings.contender);
         let against = Some(self.settings.against.clone());
-        let draws = Selection { against, metric: Some(self.metric), ..all }.draws(scene.evidence);
-        let point = |case: &Case<'_>| Some([case.row.value(&self.settings.over)?, case.saving_percent()?]);
-        by_draw(&draws, point).concat()
+        let of = Selection { against, metric: Some(self.metric), ..all };
+        savings_along(&of, scene.evidence, &self.settings.over)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{CurveLine, Curves, Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::statistic::plan;
+use crate::analysis::shown;
 use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
@@ -15,10 +15,6 @@ use crate::study::paper::Paper;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bands::{curves_of, sup_t};
-use stats::interval::Interval;
-use stats::proportion::predictive;
-use stats::summary::mean;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -94,13 +90,6 @@ struct RowOf {
 /// At most this many draws are drawn one by one, the first ones.
 const DRAWN: usize = 60;
 
-/// Where one more draw would lie with 95 % probability at each point of the sweep, as the claims of the printed cells say it;
-/// none if there are too few draws to say.
-fn one_more_draw(curves: &[Vec<f64>]) -> Option<Vec<Interval>> {
-    let at = |cell: usize| predictive(&curves.iter().map(|curve| curve[cell]).collect::<Vec<_>>(), 0.95);
-    (0..curves.first()?.len()).map(at).collect()
-}
-
 impl SweepCurves {
     fn new(settings: &Settings, study: &Study, paper: &Paper) -> Result<Self, SettingsError> {
         let read: Read = settings.read()?;
@@ -134,11 +123,9 @@ impl SweepCurves {
     }
 
     /// Each draw's row of shares.
-    fn curves(&self, scene: &Scene<'_>, contender: &str) -> Vec<Vec<f64>> {
-        let share = |(_, at): &(f64, SweepKey)| {
-            ask::solved_percents(scene, scene.run, &self.read.problems, contender, at)
-        };
-        curves_of(&self.points.iter().map(share).collect::<Vec<_>>())
+    fn curves(&self, scene: &Scene<'_>, contender: &str) -> shown::Curves {
+        let at = |(_, at): &(f64, SweepKey)| ask::trials_at(scene.run, &self.read.problems, contender, at);
+        shown::Curves::solved(&self.points.iter().map(at).collect::<Vec<_>>(), scene.evidence)
     }
 
     /// A curve through these numbers, one a point of the sweep.
@@ -162,16 +149,16 @@ impl SweepCurves {
     ) -> Result<(), RenderError> {
         let index = ask::series(scene, &row.contender, place);
         let curves = self.curves(scene, &row.contender);
-        let Some(found) = sup_t(&curves, plan(&["success_bands", &row.contender])) else {
+        let Some(found) = curves.band(&["success_bands", &row.contender]) else {
             let what = format!("two draws of `{}` on `{}`", row.contender, self.read.problems);
             return Err(RenderError::NotStored { what });
         };
-        let edges = self.over(&found.band).map(|(x, b)| [x, b.low.max(0.0), b.high.min(100.0)]).collect();
-        let label = format!("{}: mean of {} draws, 95 % band", row.contender, curves.len());
+        let edges = self.over(&found.band).map(|(x, [low, high])| [x, *low, *high]).collect();
+        let label = format!("{}: mean of {} draws, 95 % band", row.contender, curves.draws.len());
         panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.25), label: String::new() });
         let points = self.over(&found.mean).map(|(x, y)| [x, *y]).collect();
         panel.add(Line::through(points, series_stroke(index)).labelled(label));
-        if let Some(range) = one_more_draw(&curves).filter(|_| !row.printed.is_empty()) {
+        if let Some(range) = curves.one_more().filter(|_| !row.printed.is_empty()) {
             let edges = self.over(range).map(|(x, range)| [x, range.low, range.high]).collect();
             let label = format!("{}: one more draw, 95 %", row.contender);
             panel.add(Band { edges, fill: Fill::sheer(series_color(index), 0.1), label });
@@ -194,7 +181,7 @@ impl SweepCurves {
         let curves = self.curves(scene, &row.contender);
         let mut panel = self.panel(&row.contender)?;
         let thin = Stroke::solid(color.mixed(WHITE, 0.6), 0.35);
-        for (draw, curve) in curves.iter().take(DRAWN).enumerate() {
+        for (draw, curve) in curves.draws.iter().take(DRAWN).enumerate() {
             // Equal rows are moved apart by up to a point and a half, so that they can be told.
             let shift = ((draw as f64 * 0.618_033_988_749_895).fract() - 0.5) * 3.0;
             let line = Line::through(
@@ -203,9 +190,7 @@ impl SweepCurves {
             );
             panel.add(line.labelled(if draw == 0 { "one roadmap (first 60)" } else { "" }));
         }
-        let cells = 0..self.points.len();
-        let average = |cell: usize| mean(&curves.iter().map(|curve| curve[cell]).collect::<Vec<_>>());
-        let means = self.over(cells.map(average)).filter_map(|(x, y)| Some([x, y?])).collect();
+        let means = self.over(curves.means()).map(|(x, y)| [x, y]).collect();
         panel.add(Line::through(means, Stroke::solid(GREY, 1.8)).labelled("mean of all draws"));
         let printed = Points::of(row.printed.clone(), series_marker(0), 2.8, VERMILLION);
         panel.add(printed.labelled("printed"));
@@ -254,13 +239,10 @@ impl Kind for SweepCurves {
         }
         let line = |(of, row): (usize, &RowOf)| {
             let curves = self.curves(scene, &row.contender);
-            let found = sup_t(&curves, plan(&["success_bands", &row.contender]))?;
-            let band = [
-                found.band.iter().map(|band| band.low.max(0.0)).collect(),
-                found.band.iter().map(|band| band.high.min(100.0)).collect(),
-            ];
-            let label = format!("{}: mean of {} draws", row.contender, curves.len());
-            let values = found.mean.iter().copied().map(Some).collect();
+            let found = curves.band(&["success_bands", &row.contender])?;
+            let band = [0, 1].map(|end| found.band.iter().map(|ends| ends[end]).collect());
+            let label = format!("{}: mean of {} draws", row.contender, curves.draws.len());
+            let values = found.mean.into_iter().map(Some).collect();
             Some(CurveLine { label, of, values, band: Some(band), is_printed: false })
         };
         let printed = |(of, row): (usize, &RowOf)| {
@@ -303,21 +285,5 @@ impl Kind for SweepCurves {
             self.add_printed(scene, &mut panel, place);
         }
         Sheet::new(Width::Double, 1, 210.0).with([Ok(panel)])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn one_more_draw_lies_between_draws_and_nowhere_if_there_are_too_few() {
-        let curves = |count: u32| (0..count).map(|draw| vec![f64::from(draw), 7.0]).collect::<Vec<_>>();
-        assert_eq!(
-            one_more_draw(&curves(200)),
-            Some(vec![Interval::new(4.0, 195.0), Interval::new(7.0, 7.0)])
-        );
-        assert_eq!(one_more_draw(&curves(38)), None);
-        assert_eq!(one_more_draw(&[]), None);
     }
 }

@@ -3,8 +3,9 @@
 
 use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::{Draw, Selection};
-use crate::analysis::statistic::{OfAll, median, plan};
+use crate::analysis::selection::Selection;
+use crate::analysis::shown::{change_percent, means_of_whole_draws, median_point};
+use crate::analysis::statistic::Estimate;
 use crate::render::RenderError;
 use crate::render::chart::labels::Labels;
 use crate::render::chart::marks::{Line, Points};
@@ -14,8 +15,6 @@ use crate::study::record::Row;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bootstrap::Estimate;
-use stats::interval::Interval;
 use std::collections::BTreeSet;
 
 /// The registry's entry.
@@ -76,21 +75,17 @@ struct Ready {
 impl Ready {
     /// Means over the draws that every contender solved.
     fn means(&self, scene: &Scene<'_>, spec: &PanelSpec) -> Panel {
-        let draws = self.metrics.map(|metric| {
+        let [(x, draws), (y, _)] = self.metrics.map(|metric| {
             let all = Selection::of(scene.run.study, &spec.problems, &self.read.contenders);
-            Selection { metric: Some(metric), whole_draws: true, ..all }.draws(scene.evidence)
+            let whole = Selection { metric: Some(metric), whole_draws: true, ..all };
+            means_of_whole_draws(&whole, scene.evidence)
         });
-        let mean = |contender: &String, axis: usize| -> Option<Estimate> {
-            let own: Vec<Draw<'_>> = draws[axis].iter().map(|draw| draw.by(contender)).collect();
-            OfAll::Mean.of(&own, plan(&[&scene.run.study.name, contender, self.metrics[axis].name]))
-        };
-        let both = |contender: &String| mean(contender, 0).zip(mean(contender, 1));
-        let points: Vec<_> = self.read.contenders.iter().map(both).collect();
+        let points: Vec<_> = x.into_iter().zip(y).map(|(x, y)| x.zip(y)).collect();
         let ends = |axis: usize| {
             let of = move |(a, b): &(Estimate, Estimate)| [a.interval, b.interval][axis];
             points.iter().flatten().map(of).flat_map(|interval| [interval.low, interval.high])
         };
-        let title = format!("{}, {} maps", spec.title, draws[0].len());
+        let title = format!("{}, {draws} maps", spec.title);
         let [x, y] = [0, 1].map(|axis| Axis::over(self.metrics[axis].title(), ends(axis)));
         let mut panel = Panel::new(title, x, y);
         for (contender, point) in self.read.contenders.iter().zip(&points) {
@@ -113,12 +108,8 @@ impl Ready {
     ) -> Option<Estimate> {
         let metric = self.metrics[axis];
         let all = Selection::of(scene.run.study, &spec.problems, std::slice::from_ref(label));
-        let draws =
-            Selection { metric: Some(metric), against: Some(base.clone()), ..all }.draws(scene.evidence);
-        let plan = plan(&[&scene.run.study.name, label, base, metric.name]);
-        let saved = OfAll::ReductionPercent.of(&draws, plan)?;
-        let interval = Interval::new(0.0 - saved.interval.high, 0.0 - saved.interval.low);
-        Some(Estimate { value: 0.0 - saved.value, interval, ..saved })
+        let of = Selection { metric: Some(metric), against: Some(base.clone()), ..all };
+        change_percent(&of, scene.evidence, &[&scene.run.study.name, label, base, metric.name])
     }
 
     /// What each contender changes against `base`, which is the point without change.
@@ -178,8 +169,7 @@ impl Ready {
         }
         let (is_named, mut names) = (series.len() > SERIES.len(), Vec::new());
         for (label, all) in &series {
-            let middle = [0, 1].map(|axis| median(&all.iter().map(|point| point[axis]).collect::<Vec<_>>()));
-            let at = middle[0].zip(middle[1]).map(|(x, y)| [x, y]);
+            let at = median_point(all);
             let point = marked(at.into_iter().collect(), 3.6, ask::place(scene, label), 0.0);
             names.extend(at.filter(|_| is_named).map(|at| (at, (*label).clone())));
             panel.add(if is_named { point } else { point.labelled(*label) });

@@ -1,7 +1,6 @@
 //! A work cell from two sides: its robot at several poses, or the ways of its tool.
 
 use super::{Entry, Kind, Scene, Shown, ask};
-use crate::analysis::statistic::median;
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Key, Panel, Sheet, axis};
@@ -301,14 +300,13 @@ impl WorkCell {
 
     /// What the picked draw's saving is among those of all draws, in words.
     fn rank(&self, scene: &Scene<'_>, draw: u32) -> Option<String> {
-        let by_draw = ask::savings(scene, &self.problems, &self.query, &self.contenders);
-        let own = *by_draw.get(&draw)?;
-        let all: Vec<f64> = by_draw.into_values().collect();
-        let below = all.iter().filter(|saving| **saving < own).count();
+        let savings = ask::savings(scene, &self.problems, &self.query, &self.contenders);
+        let own = *savings.by_draw.get(&draw)?;
+        let below = savings.by_draw.values().filter(|saving| **saving < own).count();
         Some(format!(
             "saving {own:.1} %: {below} of {} roadmaps save less, the median saves {:.1} %",
-            all.len(),
-            median(&all)?
+            savings.by_draw.len(),
+            savings.median?
         ))
     }
 }
