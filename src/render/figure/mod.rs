@@ -8,7 +8,6 @@ mod claims_by_axes;
 mod cost_over_time;
 mod draws;
 mod endpoint_pairs;
-mod fitted_settings;
 mod grid_search;
 mod identification;
 mod intervals;
@@ -130,7 +129,7 @@ impl<'a> Shown<'a> {
     fn is_kept(&self, study: &Study) -> bool {
         study.kept().filter(|trials| trials.problems == self.problems).any(|trials| {
             let is_by = |label: &str| trials.contender.as_deref().is_none_or(|kept| kept == label);
-            trials.has_draw(self.draw) && self.contender.is_none_or(is_by)
+            trials.replicates > self.draw && self.contender.is_none_or(is_by)
         })
     }
 }
@@ -180,7 +179,6 @@ pub static REGISTRY: &[&Entry] = &[
     &cost_over_time::ENTRY,
     &draws::ENTRY,
     &endpoint_pairs::ENTRY,
-    &fitted_settings::ENTRY,
     &grid_search::ENTRY,
     &identification::ENTRY,
     &intervals::ENTRY,
