@@ -61,7 +61,7 @@ pub(super) struct Step {
 
 impl Step {
     /// The place and the cell that it leads to.
-    #[inline(always)]
+    #[inline]
     pub(super) fn target(&self, place: u32, cell: u32) -> (u32, u32) {
         (place.wrapping_add_signed(self.place), cell.wrapping_add_signed(self.cell))
     }
