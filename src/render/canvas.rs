@@ -124,7 +124,7 @@ pub struct Canvas {
     width: Width,
     height_pt: f64,
     body: String,
-    /// How the path at the end of the body is painted, if another may join it, and where it ends.
+    /// How what stands at the end of the body begins, if more may join it, and where it ends.
     open: Option<(String, usize)>,
     clips: Vec<Rect>,
     glyphs: BTreeSet<(Weight, u16)>,
@@ -160,21 +160,25 @@ impl Canvas {
     pub fn polyline(&mut self, points: &[[f64; 2]], stroke: &Stroke) {
         if points.len() > 1 {
             let paint = format!(" fill=\"none\"{}", ink(stroke));
-            self.path(paint, &path_data(points, 2), stroke.opacity >= 1.0);
+            self.path(&paint, &path_data(points, 2), stroke.opacity >= 1.0);
         }
     }
 
     /// Writes a path. It joins the path before it if that is painted alike and both say that it may.
-    fn path(&mut self, paint: String, data: &str, joins: bool) {
-        const END: &str = "\"/>\n";
-        if joins && self.open.as_ref().is_some_and(|(open, end)| *open == paint && *end == self.body.len()) {
-            self.body.truncate(self.body.len() - END.len());
+    fn path(&mut self, paint: &str, data: &str, joins: bool) {
+        self.join(format!("<path{paint} d=\""), data, "\"/>\n", joins);
+    }
+
+    /// Writes `data` between `head` and `tail`, or within those of what was written last if that began alike and both may join.
+    fn join(&mut self, head: String, data: &str, tail: &str, joins: bool) {
+        if joins && self.open.as_ref().is_some_and(|(open, end)| *open == head && *end == self.body.len()) {
+            self.body.truncate(self.body.len() - tail.len());
         } else {
-            self.push(format_args!("<path{paint} d=\""));
+            self.body.push_str(&head);
         }
         self.body.push_str(data);
-        self.body.push_str(END);
-        self.open = joins.then_some((paint, self.body.len()));
+        self.body.push_str(tail);
+        self.open = joins.then_some((head, self.body.len()));
     }
 
     /// Fills the convex face of a solid and closes the seam to its neighbours with a hair of its own colour. All faces that
@@ -182,7 +186,7 @@ impl Canvas {
     pub fn face(&mut self, corners: &[[f64; 2]], color: Rgb) {
         let color = color.hex();
         let paint = format!(" fill=\"{color}\" stroke=\"{color}\"");
-        self.path(paint, &(path_data(corners, 1) + "z"), true);
+        self.path(&paint, &(path_data(corners, 1) + "z"), true);
     }
 
     /// Fills the closed outline through `points` and, if given, strokes it.
@@ -217,11 +221,12 @@ impl Canvas {
         self.push(format_args!("<rect{paint}{rim} x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/>\n"));
     }
 
-    /// Fills a disc and, if given, strokes its edge.
+    /// Fills a disc and, if given, strokes its edge. Discs that are painted alike, one after another, say so once.
     pub fn circle(&mut self, centre: [f64; 2], radius_pt: f64, fill: Option<Fill>, stroke: Option<&Stroke>) {
         let (x, y, r) = (short(centre[0]), short(centre[1]), short(radius_pt));
         let (paint, rim) = (surface(fill), stroke.map(ink).unwrap_or_default());
-        self.push(format_args!("<circle{paint}{rim} cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>\n"));
+        let disc = format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>\n");
+        self.join(format!("<g{paint}{rim}>\n"), &disc, "</g>\n", true);
     }
 
     /// Draws a data point about `radius_pt` in radius, with a thin white rim that parts neighbours.

@@ -83,6 +83,29 @@ fn ink_falls_where_it_was_put_and_clips_and_dashes_hold() {
 }
 
 #[test]
+fn discs_say_how_they_are_painted_once_until_another_paint_or_shape_comes() {
+    let mut canvas = Canvas::new(Width::Single, 100.0);
+    let disc =
+        |canvas: &mut Canvas, x: f64, color| canvas.circle([x, 50.0], 8.0, Some(Fill::solid(color)), None);
+    for (x, color) in [(20.0, BLUE), (50.0, BLUE), (80.0, ORANGE)] {
+        disc(&mut canvas, x, color);
+    }
+    canvas.polyline(&[[100.0, 20.0], [230.0, 20.0]], &Stroke::solid(BLUE, 1.0));
+    disc(&mut canvas, 110.0, ORANGE);
+    let figure = canvas.finish(&provenance()).unwrap();
+    let groups = |color: Rgb| figure.svg.matches(&format!("<g fill=\"{}\"", color.hex())).count();
+    assert_eq!(
+        [groups(BLUE), groups(ORANGE), figure.svg.matches("<circle").count()],
+        [1, 2, 4],
+        "{}",
+        figure.svg
+    );
+    for (x, color) in [(20.0, BLUE), (50.0, BLUE), (80.0, ORANGE), (110.0, ORANGE)] {
+        assert_eq!(at(&figure.png, [x, 50.0]), color.0, "at {x} pt");
+    }
+}
+
+#[test]
 fn overlapping_and_escaping_labels_are_named() {
     let mut canvas = Canvas::new(Width::Single, 50.0);
     let set = Type::of(TextSize::TICK);
