@@ -319,17 +319,20 @@ def test_a_criterion_made_wrong_is_noticed(judged: Judged, criterion: str, what:
 def test_a_claim_of_parts_and_a_claim_made_wrong_are_noticed(judged: Judged) -> None:
     kinds = set()
     for paper, claims, verdicts in judged:
-        for index, claim in enumerate(claims):
-            wrong = copy.deepcopy(verdicts)
-            wrong_class(wrong["claim"][index])
-            assert any(
-                line.startswith(f"{paper.id}: `{claim.id}`:") for line in compare(paper, claims, wrong).differ
-            )
+        wrong, wrong_parts = copy.deepcopy(verdicts), copy.deepcopy(verdicts)
+        for claim, stored, parts in zip(claims, wrong["claim"], wrong_parts["claim"], strict=True):
+            wrong_class(stored)
+            if claim.parts:
+                wrong_class(parts["finding"][-1])
+        said = compare(paper, claims, wrong).differ
+        said_of_parts = compare(paper, claims, wrong_parts).differ
+        for claim in claims:
+            assert any(line.startswith(f"{paper.id}: `{claim.id}`:") for line in said), claim.id
             if claim.parts:
                 kinds.add(claim.parts[0])
-                wrong = copy.deepcopy(verdicts)
-                wrong_class(wrong["claim"][index]["finding"][-1])
-                assert any(f"({claim.parts[0]})" in line for line in compare(paper, claims, wrong).differ)
+                assert any(
+                    f"`{claim.id}`" in line and f"({claim.parts[0]})" in line for line in said_of_parts
+                ), claim.id
     assert kinds == set(classes.PARTS)
 
 

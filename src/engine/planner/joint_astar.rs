@@ -20,8 +20,8 @@ use crate::space::{PolyhedraWorld, WorldKind};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use states::{Around, Cell, States};
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -91,52 +91,13 @@ fn one_step() -> f64 {
     1.0
 }
 
-type Cell = [i16; AXES];
-
-/// A state as one number: it is looked up for every neighbour, and numbers are compared at once.
-fn key(cell: &Cell) -> u128 {
-    cell.iter().fold(0, |key, steps| key << 16 | u128::from(steps.cast_unsigned()))
-}
-
-struct States {
-    cells: Vec<Cell>,
-    /// By [`key`].
-    numbers: BTreeMap<u128, u32>,
-    /// The least cost with which each was reached, as the search adds it up.
-    reached: Vec<f64>,
-}
-
-impl States {
-    /// The start alone, as number 0.
-    fn of_start() -> Self {
-        let start: Cell = [0; AXES];
-        Self { cells: vec![start], numbers: BTreeMap::from([(key(&start), 0)]), reached: vec![0.0] }
-    }
-
-    /// Whether going to `to` at the cost `reached` would be of use.
-    fn lowers(&self, to: &Cell, reached: f64) -> bool {
-        self.numbers.get(&key(to)).is_none_or(|known| reached < self.reached[*known as usize])
-    }
-
-    /// The number of `to`, reached at a cost that is lower than any before.
-    fn reach(&mut self, to: Cell, reached: f64) -> u32 {
-        let fresh = self.cells.len() as u32;
-        let number = *self.numbers.entry(key(&to)).or_insert(fresh);
-        if number == fresh {
-            self.cells.push(to);
-            self.reached.push(reached);
-        }
-        self.reached[number as usize] = reached;
-        number
-    }
-}
-
 struct Space<'a> {
     world: &'a PolyhedraWorld,
     arm: &'a CarriedArm,
     start: Joints,
     delta: f64,
-    steps: Vec<Cell>,
+    /// Each with how far it leads.
+    steps: Vec<(Cell, f64)>,
     states: &'a RefCell<States>,
     apart: Apart,
 }
@@ -168,37 +129,40 @@ impl Graph for Space<'_> {
     type Cost = f64;
 
     fn node_count(&self) -> usize {
-        self.states.borrow().cells.len()
+        self.states.borrow().len()
     }
 
     /// The moves that lower the cost of where they lead; no other is worth asking whether it is free.
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
         let (cell, reached) = {
             let states = self.states.borrow();
-            (states.cells[node as usize], states.reached[node as usize])
+            (states.cell(node), states.reached(node))
         };
+        let mut around = Around::of(&cell);
         let here = angles(&self.start, &cell, self.delta);
-        for step in &self.steps {
-            let to: Cell = std::array::from_fn(|i| cell[i] + step[i]);
-            let moved = step.iter().filter(|c| **c != 0).count() as f64;
-            let length = self.delta * moved.sqrt();
-            if !self.states.borrow().lowers(&to, reached + length) {
+        for (step, length) in &self.steps {
+            let (to, length): (Cell, f64) = (std::array::from_fn(|i| cell[i] + step[i]), *length);
+            if !self.states.borrow().lowers(&to, reached + length, &mut around) {
                 continue;
             }
             if !self.is_clear(&here, &angles(&self.start, &to, self.delta)) {
                 continue;
             }
-            let number = self.states.borrow_mut().reach(to, reached + length);
+            let number = self.states.borrow_mut().reach(to, reached + length, &mut around);
             visit(number, length);
         }
     }
 }
 
+/// How many joints a step moves.
+fn moved(step: &Cell) -> usize {
+    step.iter().filter(|c| **c != 0).count()
+}
+
 /// One joint up or down, or every combination of none, up and down.
 fn steps(neighbours: u32) -> Vec<Cell> {
     let all = (0..729).map(|code| -> Cell { std::array::from_fn(|i| code / 3_i16.pow(i as u32) % 3 - 1) });
-    let moved = |cell: &Cell| cell.iter().filter(|c| **c != 0).count();
-    all.filter(|cell| moved(cell) > 0 && (neighbours == 728 || moved(cell) == 1)).collect()
+    all.filter(|step| moved(step) > 0 && (neighbours == 728 || moved(step) == 1)).collect()
 }
 
 /// The configurations of the two ends on the best branch on which both are free.
@@ -242,8 +206,10 @@ impl Planner for JointAstar {
             let apart = arm.apart(world.bodies());
             Space { world, arm, start, delta, steps, states: &states, apart }
         };
-        let (mut graph, probe) = (space(steps(self.neighbours)), space(Vec::new()));
-        let at = |node: u32| angles(&start, &states.borrow().cells[node as usize], delta);
+        let steps =
+            steps(self.neighbours).into_iter().map(|step| (step, delta * (moved(&step) as f64).sqrt()));
+        let (mut graph, probe) = (space(steps.collect()), space(Vec::new()));
+        let at = |node: u32| angles(&start, &states.borrow().cell(node), delta);
         let h = |node: u32| greatest_difference(&at(node), &goal);
         let is_goal = |node: u32| h(node) <= delta * self.goal_steps && probe.is_clear(&at(node), &goal);
         let terms = Terms {
@@ -296,6 +262,8 @@ fn joint_plan(
         reason: None,
     }
 }
+
+mod states;
 
 #[cfg(test)]
 mod tests;
