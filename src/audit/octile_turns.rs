@@ -18,24 +18,25 @@ const MOVES: [Cell; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0
 pub fn octile_turn_sums(moves: Octile, displacement: Cell, convention: Convention) -> Vec<u32> {
     let count = moves.straight + moves.diagonal;
     assert!(count <= 31, "{count} moves; at most 31 are supported");
-    // Where walks stand: diagonal moves made, cell, last move; and the set of their turn sums as bits.
-    let mut walks: BTreeMap<(u32, Cell, Option<usize>), u128> = BTreeMap::from([((0, [0, 0], None), 1)]);
+    // Where walks stand: diagonal moves made and cell; and by their last move the set of their turn sums as bits.
+    let mut walks: BTreeMap<(u32, Cell), [u128; MOVES.len()]> = BTreeMap::from([((0, [0, 0]), [1; 8])]);
     for made in 0..count {
         let mut longer = BTreeMap::new();
-        for (&(diagonal, at, last), &sums) in &walks {
+        for (&(diagonal, at), sums) in &walks {
             for (turn, vector) in MOVES.iter().enumerate() {
                 let diagonal = diagonal + turn as u32 % 2;
                 let Some(left) = remaining(moves, made + 1, diagonal) else { continue };
                 let to = [at[0] + vector[0], at[1] + vector[1]];
                 if joins(left, [displacement[0] - to[0], displacement[1] - to[1]]) {
-                    let bend = last.map_or(0, |last| bend(last, turn, convention));
-                    *longer.entry((diagonal, to, Some(turn))).or_insert(0) |= sums << bend;
+                    let bent = |last| if made == 0 { 0 } else { bend(last, turn, convention) };
+                    let sums = (0..MOVES.len()).fold(0, |all, last| all | sums[last] << bent(last));
+                    longer.entry((diagonal, to)).or_insert([0; 8])[turn] |= sums;
                 }
             }
         }
         walks = longer;
     }
-    let sums = walks.values().fold(0, |all, sums| all | sums);
+    let sums = walks.values().flatten().fold(0, |all, sums| all | sums);
     let arrived = if joins(moves, displacement) { sums } else { 0 };
     (0..128).filter(|bit| arrived >> bit & 1 == 1).collect()
 }
