@@ -103,12 +103,7 @@ def lower(asked: Asked) -> Found:
         return too_few()
 
     def outcome(low: float, high: float) -> str:
-        near, far = (rounded(rounded(end, by), 0.0) for end in ((low, high) if is_higher else (-high, -low)))
-        if near > 0:
-            return HOLDS if near >= by else OPEN if far >= by else SIGN
-        if far < 0 or near == far == 0 or far < by:
-            return FAILS
-        return OPEN
+        return of_change(low, high, by, is_higher)
 
     interval = change(found[1])
     estimate = Estimate(100 * (found[0] - 1), found[2], interval, cases.solved_of_all())
@@ -117,9 +112,20 @@ def lower(asked: Asked) -> Found:
     return Found(main.outcome, main.possible, estimate, censored=censored)
 
 
-def rounded(end: float, limit: float) -> float:
-    """An end of a change in per cent, or a limit from which rounding alone parts it."""
-    return limit if abs(end - limit) <= 100 * EQUAL else end
+def of_change(low: float, high: float, by: float, is_higher: bool) -> str:
+    """What an interval of changes in per cent says of a claim that it goes one way, by so much at least."""
+    ends = (low, high) if is_higher else (-high, -low)
+    near, far = (snapped(snapped(end, by, 100), 0.0, 100) for end in ends)
+    if near > 0:
+        return HOLDS if near >= by else OPEN if far >= by else SIGN
+    if far < 0 or near == far == 0 or far < by:
+        return FAILS
+    return OPEN
+
+
+def snapped(number: float, limit: float, size: float) -> float:
+    """A number, or a limit from which rounding alone parts it, of sums of this size."""
+    return limit if abs(number - limit) <= size * EQUAL else number
 
 
 def along_sweep(asked: Asked, cases: Cases, is_higher: bool) -> Found:
@@ -189,6 +195,7 @@ def within(asked: Asked) -> Found:
     none = {"reduction_percent": 0.0, "ratio": 1.0, "ratio_of_groups": 1.0}.get(statistic)
 
     def outcome(low: float, high: float) -> str:
+        low, high = (on_bounds(end, least, most) for end in (low, high))
         if least <= low and high <= most:
             return HOLDS
         if low <= most and least <= high:
@@ -206,6 +213,13 @@ def within(asked: Asked) -> Found:
         return main
     censored = turned(cases, asked, outcome, reduction if statistic == "reduction_percent" else itself, main)
     return Found(main.outcome, main.possible, estimate, censored=censored)
+
+
+def on_bounds(number: float, *bounds: float) -> float:
+    """A number, or a bound from which rounding alone parts it."""
+    for bound in bounds:
+        number = snapped(number, bound, max(abs(bound), 1.0))
+    return number
 
 
 def of_all(cases: Cases, statistic: str, seed: str) -> tuple[float, Interval, int] | None:

@@ -35,6 +35,7 @@ from statistics_judge.printed import Printed
 from statistics_judge.printed_cells import as_far, level_rank
 from statistics_judge.records import Metric, Paper
 from statistics_judge.shares import share
+from statistics_judge.sizes import of_change, on_bounds
 
 ROOT = Path(__file__).parents[2]
 REQUEST = ROOT / "target/replan/crosscheck/statistics.json"
@@ -186,6 +187,22 @@ def test_zeros_and_failures_are_equal_to_themselves() -> None:
     assert [over(0, 0), over(np.inf, np.inf), over(1, np.inf), over(1, 0)] == [1, 1, 0, np.inf]
     # Sums of the same steps in another order.
     assert over(0.3 + 0.2 + 0.1, 0.1 + 0.2 + 0.3) == 1
+
+
+def test_rounding_alone_is_no_change_meets_a_margin_and_lies_on_a_bound() -> None:
+    one, other = 0.1 + 0.2 + 0.3, 0.3 + 0.2 + 0.1
+    for ratio in (one / other, other / one):
+        change = 100 * (ratio - 1)
+        assert change != 0
+        assert of_change(change, change, 0.0, False) == of_change(change, change, 0.0, True) == classes.FAILS
+    # A fifth less is a fifth less, though 0.8 - 1 is not -0.2.
+    fifth = 100 * (8 / 10 - 1)
+    assert fifth > -20
+    assert of_change(fifth, fifth, 20.0, False) == classes.HOLDS
+    assert of_change(-19.9, -19.9, 20.0, False) == classes.SIGN
+    assert on_bounds(one, 0.0, other) == other
+    assert on_bounds(other, one, 1.0) == one
+    assert on_bounds(one + 1e-6, 0.0, other) == one + 1e-6
 
 
 def test_what_lowers_a_class_raises_none() -> None:

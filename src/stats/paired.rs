@@ -3,6 +3,11 @@
 /// Values that differ by no more are equal: sums of the same steps in another order differ in their last digits.
 pub const EQUAL: f64 = 1e-9;
 
+/// A number, or `limit` where rounding alone may part the two: sums of numbers as large as `size` differ so.
+pub fn snapped(number: f64, limit: f64, size: f64) -> f64 {
+    if (number - limit).abs() <= size * EQUAL { limit } else { number }
+}
+
 /// How many pairs went which way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Signs {

@@ -18,7 +18,7 @@ use serde::Deserialize;
 use stats::bands::{Band, sup_t};
 use stats::bootstrap::Resampling;
 use stats::interval::Interval;
-use stats::paired::{self, EQUAL};
+use stats::paired::{self, snapped};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -193,7 +193,7 @@ fn outcome(way: Way, by_percent: f64, change: Interval) -> Outcome {
     let Interval { low, high } = change;
     let [near, far] = if way == Way::Higher { [low, high] } else { [-high, -low] };
     // Sums of the same steps in another order differ in their last digits: that is no change, nor short of a margin.
-    let [near, far] = [near, far].map(|end| rounded(rounded(end, by_percent), 0.0));
+    let [near, far] = [near, far].map(|end| snapped(snapped(end, by_percent, 100.0), 0.0, 100.0));
     if near > 0.0 && near >= by_percent {
         Outcome::Holds
     } else if far < 0.0 || (near == 0.0 && far == 0.0) {
@@ -205,11 +205,6 @@ fn outcome(way: Way, by_percent: f64, change: Interval) -> Outcome {
     } else {
         Outcome::Fails
     }
-}
-
-/// An end of an interval of changes in per cent, or `limit` where it cannot be told from it.
-fn rounded(end: f64, limit: f64) -> f64 {
-    if (end - limit).abs() <= 100.0 * EQUAL { limit } else { end }
 }
 
 impl Criterion for Lower<'_> {

@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{Estimate as Estimated, Resampling};
 use stats::interval::Interval;
-use stats::paired;
+use stats::paired::{self, snapped};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -100,7 +100,7 @@ impl<'a> Within<'a> {
 
     /// What an interval says of the claim.
     fn outcome(&self, found: Interval) -> Outcome {
-        let accepted = self.accepted;
+        let (accepted, found) = (self.accepted, on_bounds(self.accepted, found));
         if accepted.contains(found.low) && accepted.contains(found.high) {
             return Outcome::Holds;
         }
@@ -138,6 +138,13 @@ impl<'a> Within<'a> {
         });
         if turned { selection::censored(draws) } else { 0 }
     }
+}
+
+/// An interval whose ends are those of `accepted` where rounding alone parts them.
+fn on_bounds(accepted: Interval, found: Interval) -> Interval {
+    let on = |end: f64, bound: f64| snapped(end, bound, bound.abs().max(1.0));
+    let [low, high] = [found.low, found.high].map(|end| on(on(end, accepted.low), accepted.high));
+    Interval::new(low, high)
 }
 
 impl Criterion for Within<'_> {
@@ -189,5 +196,22 @@ impl Within<'_> {
             _ => case.value,
         };
         selection::nearest(&self.of, evidence, draws, own, value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_of_the_same_steps_in_another_order_lie_on_a_bound() {
+        let (one, other) = (0.1 + 0.2 + 0.3, 0.3 + 0.2 + 0.1);
+        assert!(one > other, "the sample shows no rounding");
+        for accepted in [Interval::new(0.0, other), Interval::new(one, 1.0)] {
+            let found = on_bounds(accepted, Interval::new(other, one));
+            assert!(accepted.contains(found.low) && accepted.contains(found.high), "{accepted:?}: {found:?}");
+        }
+        let apart = Interval::new(other - 1e-6, one + 1e-6);
+        assert_eq!(on_bounds(Interval::new(other, one), apart), apart);
     }
 }

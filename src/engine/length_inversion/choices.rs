@@ -2,6 +2,7 @@
 
 use crate::search::{GridSet, ManyGrids};
 use base::grid::Moves;
+use rayon::prelude::*;
 
 /// Which grids of two cases may be the ones of one pair of printed lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +51,18 @@ impl Choices {
         self.searches[0].cell_count()
     }
 
+    /// The cells that are within `radius` of `centre` on every grid on which a move leads from them.
+    fn ball(&mut self, centre: u32, radius: u32) -> Vec<bool> {
+        let mut inside = vec![true; self.cell_count() as usize];
+        for search in &mut self.searches {
+            let mut missing: Vec<GridSet> =
+                (0..search.cell_count()).map(|cell| search.leaving(cell)).collect();
+            search.flood(centre, radius, |cell, _, grids| missing[cell as usize] &= !grids);
+            inside.iter_mut().zip(missing).for_each(|(inside, missing)| *inside &= missing == 0);
+        }
+        inside
+    }
+
     /// How many searches a flood takes.
     pub(super) fn search_count(&self) -> usize {
         self.searches.len()
@@ -63,5 +76,47 @@ impl Choices {
                 visit(cell, cost, if self.rule == Match::Freely { 1 } else { grids });
             });
         }
+    }
+}
+
+/// From which cells searches start so that they find every pair that is far enough apart.
+///
+/// Of two cells of a ball whose diameter is below all lengths that are asked for, none is a pair. Every other pair has a cell
+/// outside it, and no search has to start inside.
+pub(super) struct Starts {
+    /// Whether each cell is in the ball, in every case.
+    inside: Vec<bool>,
+}
+
+impl Starts {
+    /// How many cells are tried as the centre of the ball.
+    const CENTRES: u32 = 50;
+
+    /// For pairs whose length is at least `least` in each of `cases`.
+    pub(super) fn new(cases: &[Choices], least: &[u32]) -> Self {
+        let cells = cases[0].cell_count();
+        let ball = |cases: &mut Vec<Choices>, centre: u32| {
+            let mut inside = vec![true; cells as usize];
+            for (case, least) in cases.iter_mut().zip(least) {
+                let ball = case.ball(centre, least.saturating_sub(1) / 2);
+                inside.iter_mut().zip(ball).for_each(|(inside, in_ball)| *inside &= in_ball);
+            }
+            inside
+        };
+        let centres: Vec<u32> = (0..cells).step_by(cells.div_ceil(Self::CENTRES) as usize).collect();
+        let balls = centres.into_par_iter().map_init(|| cases.to_vec(), ball);
+        let size = |inside: &Vec<bool>| inside.iter().filter(|inside| **inside).count();
+        Self { inside: balls.max_by_key(size).unwrap_or_default() }
+    }
+
+    /// The cells outside the ball.
+    pub(super) fn cells(&self) -> impl IndexedParallelIterator<Item = u32> {
+        let outside = (0..).zip(&self.inside).filter(|(_, inside)| !**inside);
+        outside.map(|(cell, _)| cell).collect::<Vec<u32>>().into_par_iter()
+    }
+
+    /// Whether it is the search from `start` that counts its pair with `goal`.
+    pub(super) fn counts(&self, start: u32, goal: u32) -> bool {
+        goal > start || self.inside[goal as usize]
     }
 }

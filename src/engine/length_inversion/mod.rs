@@ -1,7 +1,7 @@
 //! Which pairs of cells have given path lengths in several cases at once: the inverse of planning.
 //!
 //! A paper may print the lengths of its paths and not where they start and end. Every pair is enumerated here, by exact
-//! single-source searches (h = 0) from every cell; lengths are sums of straight and diagonal moves and are compared
+//! single-source searches (h = 0) from all cells but those that lie too near to each other; lengths are sums of straight and diagonal moves and are compared
 //! exactly, in the units of [`ScaledOctile`](crate::search::ScaledOctile). [`Targets`] asks how many other lengths would
 //! have been met as well. [`NeverLowered`] does both for an A* whose paths need not be shortest.
 //!
@@ -15,7 +15,7 @@ mod tests;
 
 use crate::search::{GridSet, OctileAstar};
 use base::grid::Moves;
-use choices::Choices;
+use choices::{Choices, Starts};
 use rayon::prelude::*;
 
 pub use choices::Match;
@@ -35,13 +35,15 @@ pub type Pair = [u32; 2];
 pub fn pairs(cases: &[Vec<Moves>], lengths: &[u32], rule: Match) -> Vec<Vec<Pair>> {
     let batches = choices::batches(cases, rule);
     let found = batches.into_iter().flat_map(|(alternatives, cases)| {
-        let starts = 0..cases[0].cell_count();
-        let of_start = |cases: &mut Vec<Choices>, start| {
-            let goals = goals(cases, lengths, start);
-            goals.into_iter().map(|(goal, met)| ([start, goal], met)).collect::<Vec<_>>()
+        let starts = Starts::new(&cases, lengths);
+        let of_start = |cases: &mut Vec<Choices>, start: u32| {
+            let goals = goals(cases, lengths, |goal| starts.counts(start, goal), start);
+            let pair = |(goal, met): (u32, GridSet)| ([start.min(goal), start.max(goal)], met);
+            goals.into_iter().map(pair).collect::<Vec<_>>()
         };
-        let found: Vec<(Pair, GridSet)> =
-            starts.into_par_iter().map_init(|| cases.clone(), of_start).flatten_iter().collect();
+        let mut found: Vec<(Pair, GridSet)> =
+            starts.cells().map_init(|| cases.clone(), of_start).flatten_iter().collect();
+        found.sort_unstable();
         (0..alternatives).map(move |place| {
             found.iter().filter(|(_, met)| met >> place & 1 == 1).map(|(pair, _)| *pair).collect()
         })
@@ -49,16 +51,21 @@ pub fn pairs(cases: &[Vec<Moves>], lengths: &[u32], rule: Match) -> Vec<Vec<Pair
     found.collect()
 }
 
-/// The goals above `start` that are at the length of every case, with the alternatives for which they are; a case is
-/// searched only while goals remain, those that take few searches first.
-fn goals(cases: &mut [Choices], lengths: &[u32], start: u32) -> Vec<(u32, GridSet)> {
+/// The goals that count and are at the length of every case, with the alternatives for which they are; a case is searched only
+/// while goals remain, those that take few searches first.
+fn goals(
+    cases: &mut [Choices],
+    lengths: &[u32],
+    counts: impl Fn(u32) -> bool,
+    start: u32,
+) -> Vec<(u32, GridSet)> {
     let mut order: Vec<usize> = (0..cases.len()).collect();
     order.sort_by_key(|case| cases[*case].search_count());
     let mut goals: Option<Vec<(u32, GridSet)>> = None;
     for case in order {
         let mut here = Vec::new();
         cases[case].flood(start, lengths[case], |cell, cost, met| {
-            if cost == lengths[case] && cell > start {
+            if cost == lengths[case] && counts(cell) {
                 here.push((cell, met));
             }
         });

@@ -1,6 +1,6 @@
 //! How many other lengths some pair would have met as well: the null rate of an identification.
 
-use super::choices::{self, Choices, Match};
+use super::choices::{self, Choices, Match, Starts};
 use super::union;
 use crate::search::{GridSet, Octile, ScaledOctile};
 use base::grid::Moves;
@@ -81,16 +81,17 @@ impl Targets {
         let none = || vec![0; self.lengths[0].len() * self.lengths[1].len()];
         let unmet = || (none(), self.lengths.each_ref().map(|lengths| vec![0; lengths.len()]));
         let begun = || (cases.to_vec(), vec![Vec::new(); cells as usize], unmet());
+        let starts = Starts::new(cases, &self.lowest);
         let mark = |(mut cases, mut first, (mut hits, mut attained)): Marking, start| {
-            first[start as usize + 1..].iter_mut().for_each(Vec::clear);
+            first.iter_mut().for_each(Vec::clear);
             cases[0].flood(start, self.highest(0), |cell, cost, met| {
-                if let Some(place) = self.place(0, cost).filter(|_| cell > start) {
+                if let Some(place) = self.place(0, cost).filter(|_| starts.counts(start, cell)) {
                     note(&mut first[cell as usize], place, met);
                     attained[0][place as usize] |= met;
                 }
             });
             cases[1].flood(start, self.highest(1), |cell, cost, met| {
-                if let Some(place) = self.place(1, cost).filter(|_| cell > start) {
+                if let Some(place) = self.place(1, cost).filter(|_| starts.counts(start, cell)) {
                     attained[1][place as usize] |= met;
                     for (before, met_before) in &first[cell as usize] {
                         hits[self.number(*before, place)] |= met & met_before;
@@ -99,7 +100,7 @@ impl Targets {
             });
             (cases, first, (hits, attained))
         };
-        let met = (0..cells).into_par_iter().fold(begun, mark).map(|(_, _, met)| met);
+        let met = starts.cells().fold(begun, mark).map(|(_, _, met)| met);
         met.reduce(unmet, |(hits, [one, two]), (more, [other_one, other_two])| {
             (union(hits, more), [union(one, other_one), union(two, other_two)])
         })

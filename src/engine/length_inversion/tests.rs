@@ -75,6 +75,35 @@ fn every_target_that_is_hit_has_a_pair_and_the_printed_one_is_among_them() {
 }
 
 #[test]
+fn searches_from_outside_a_ball_find_the_pairs_that_searches_from_all_cells_do() {
+    let grids = many();
+    let wanted = [[10, 14], [9, 13], [12, 10]];
+    let mut found_some = 0;
+    for lengths in wanted.map(|[straight, diagonal]| scaled([Octile { straight, diagonal }; 2])) {
+        let found = pairs(&grids, &lengths, Match::ByPlace);
+        for place in [0, 40, 65] {
+            let grids = alone(&grids, [place; 2]).concat();
+            let distances = [0, 1].map(|case: usize| Small::shortest(&grids[case]));
+            let cells = 0..grids[0].cell_count();
+            let all = cells.clone().flat_map(|one| (one + 1..cells.end).map(move |other| [one, other]));
+            let is_pair = |[one, other]: &Pair| {
+                (0..2).all(|case| distances[case][*one as usize][*other as usize] == Some(lengths[case]))
+            };
+            assert_eq!(found[place], all.filter(is_pair).collect::<Vec<_>>(), "grid {place}, {lengths:?}");
+            found_some += found[place].len();
+        }
+    }
+    assert!(found_some > 20, "only {found_some} pairs");
+    for (grids, lengths) in [(grids, scaled(Small::LENGTHS)), (self::grids(), scaled(LENGTHS))] {
+        let cases = choices::batches(&grids, Match::ByPlace).remove(0).1;
+        let can_be_left = |cell: &u32| grids.iter().flatten().any(|moves| moves.mask(*cell) != 0);
+        let cells = (0..cases[0].cell_count()).filter(can_be_left).count();
+        let starts = Starts::new(&cases, &lengths).cells().filter(can_be_left).count();
+        assert!(starts < cells * 3 / 4, "{starts} searches for {cells} cells");
+    }
+}
+
+#[test]
 fn targets_have_hops_of_equal_parity() {
     let targets = Targets::new(LENGTHS, 2.0);
     let all = targets.lengths[0].iter().flat_map(|a| targets.lengths[1].iter().map(move |b| (a, b)));

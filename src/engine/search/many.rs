@@ -93,6 +93,11 @@ impl ManyGrids {
         self.legal.len() as u32 - 2 * self.before
     }
 
+    /// On which grids there is a move from `cell`.
+    pub fn leaving(&self, cell: u32) -> GridSet {
+        self.legal[(cell + self.before) as usize].iter().fold(0, |all, on| all | on)
+    }
+
     /// Tells `visit` every cell that `start` reaches at a cost up to `most` on any grid, with that cost and the grids on
     /// which it is the least; a cell and a grid come together once. Costs rise from visit to visit and are in the units of
     /// [`ScaledOctile`](super::ScaledOctile).
