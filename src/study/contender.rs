@@ -69,6 +69,19 @@ impl Contender {
         let planner = planner.expect("a checked contender starts with a planner");
         Ok(Pipeline { planner, stages })
     }
+
+    /// What else is wrong with the settings of its stages, where some of them are not accepted: one fault hides no other.
+    pub fn check_rest(&self, point: &ReadingChoice, sweep: &SweepPoint, faults: &mut Faults) {
+        for stage in &self.stages {
+            let built = |settings: &Settings| match stage.entry.build {
+                Build::Planner(build) => build(settings).err(),
+                Build::Stage(build) => build(settings).err(),
+            };
+            let (schema, example) = (stage.entry.settings.schema(), stage.entry.example);
+            let found = stage.effective(point, sweep).faults_beside(&schema, example, built);
+            found.into_iter().for_each(|fault| faults.add(fault));
+        }
+    }
 }
 
 impl StageUse {

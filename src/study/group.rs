@@ -5,7 +5,6 @@ use super::family::{Entry, Family};
 use super::inputs::Inputs;
 use super::reading::ReadingChoice;
 use base::settings::{Faults, Settings};
-use std::path::Path;
 use std::sync::Arc;
 use toml::Table;
 
@@ -39,15 +38,16 @@ impl Group {
         (self.family.build)(&self.settings_under(point), inputs)
     }
 
-    /// What is wrong in the files that its settings name, told if the settings themselves are wrong: one fault hides no other.
-    pub fn check_files(&self, point: &ReadingChoice, inputs: &Inputs, study: &Path, faults: &mut Faults) {
-        let salvaged = self.settings_under(point).salvaged(&self.family.settings.schema());
-        let Some(Err(StudyError::Settings(error))) =
-            salvaged.map(|settings| (self.family.build)(&settings, inputs))
-        else {
-            return;
+    /// What else is wrong with its settings and the files that they name, where some of them are not accepted: one fault hides no
+    /// other.
+    pub fn check_rest(&self, point: &ReadingChoice, inputs: &Inputs, faults: &mut Faults) {
+        let built = |settings: &Settings| match (self.family.build)(settings, inputs) {
+            Err(StudyError::Settings(error)) => Some(error),
+            _ => None,
         };
-        error.each().into_iter().filter(|fault| !fault.is_in(study)).for_each(|fault| faults.add(fault));
+        let (schema, example) = (self.family.settings.schema(), self.family.example);
+        let found = self.settings_under(point).faults_beside(&schema, example, built);
+        found.into_iter().for_each(|fault| faults.add(fault));
     }
 
     /// The family's settings under the reading `point`.

@@ -98,6 +98,20 @@ fn several_values_of_one_table_that_make_no_sense_are_told_together() {
 }
 
 #[test]
+fn a_value_of_the_wrong_kind_hides_nothing_that_makes_no_sense_in_its_table() {
+    let outside = ("compare.toml", "start = [2, 2]", "start = [2, 200]");
+    let negative = ("compare.toml", "side_cells = [2, 8]", "side_cells = [2, -8]");
+    let wanted = ["compare.toml:21:9: start is [2, 200]", "compare.toml:24:18: `side_cells[1]` is -8"];
+    assert_told("grid", &[outside, negative], &wanted);
+    // Whether a cell is outside a map whose size cannot be read is not known.
+    let size = ("compare.toml", "size_cells = [40, 40]", "size_cells = [40, \"40\"]");
+    assert_told("grid", &[outside, size], &["compare.toml:20:19: `size_cells[1]` is \"40\""]);
+    let contender = ("compare.toml", "settings = { weight = 2,", "settings = { weight = -2, colour = 1,");
+    let wanted = ["compare.toml:36:23: weight is -2", "compare.toml:36:27: unknown key `colour`"];
+    assert_told("grid", &[contender], &wanted);
+}
+
+#[test]
 fn what_an_option_lays_over_settings_is_told_at_its_own_key() {
     let of_problem = ("cell.toml", "problem = { tool_mm = 160 }", "problem = { tool_mm = -160 }");
     assert_told("cell", &[of_problem], &["cell.toml:57:23: `tool_mm` is -160"]);

@@ -4,7 +4,7 @@ use super::document::parse;
 use super::reader;
 use super::schema::Node;
 use super::validate::faults;
-use super::{Document, Faults, Settings};
+use super::{Document, Faults, Settings, SettingsError};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -35,14 +35,60 @@ impl Document {
 }
 
 impl Settings {
-    /// These settings with what `schema` does not accept taken away and what it requires filled in, so that what they name can be
-    /// looked at; no file holds them. None if that makes nothing that is accepted.
-    pub fn salvaged(&self, schema: &Value) -> Option<Self> {
+    /// What `build` finds wrong with what `schema` accepts of these settings, where it does not accept all.
+    ///
+    /// What it does not accept is taken from `example`, as that has it and with its numbers doubled: what is said both times does not
+    /// hang on it.
+    pub fn faults_beside(
+        &self,
+        schema: &Value,
+        example: &str,
+        build: impl Fn(&Self) -> Option<SettingsError>,
+    ) -> Vec<SettingsError> {
+        let [said, again] = [1, 2].map(|times| {
+            let error = self.mended(schema, example, times).and_then(|mended| build(&mended));
+            error.map_or_else(Vec::new, SettingsError::each)
+        });
+        let is_told =
+            |error: &SettingsError| !matches!(error, SettingsError::Composed { .. }) && again.contains(error);
+        said.into_iter().filter(is_told).collect()
+    }
+
+    /// These settings with what `schema` does not accept as `example` has it, times `times`; none if `schema` accepts them, or not
+    /// even then.
+    fn mended(&self, schema: &Value, example: &str, times: i32) -> Option<Self> {
         let text = toml::to_string(self.table()).ok()?;
         let mut value = parse(&text).ok()?;
+        if faults(schema, &value).is_empty() {
+            return None;
+        }
+        let example: Table = toml::from_str(example).ok()?;
         salvage(schema, &mut value, &mut Vec::new());
-        let table = reader::read::<Table>(&value).ok()?;
-        faults(schema, &value).is_empty().then(|| Self::composed("what is left of wrong settings", table))
+        let mut table = reader::read::<Table>(&value).ok()?;
+        table.retain(|key, value| self.table().get(key) == Some(value));
+        let kept: BTreeSet<String> = table.keys().cloned().collect();
+        let is_asked = |key: &String| !kept.contains(key);
+        let filled = example.into_iter().filter(|(key, _)| is_asked(key));
+        table.extend(filled.map(|(key, value)| (key, multiplied(value, times))));
+        let mended =
+            parse(&toml::to_string(&table).ok()?).is_ok_and(|value| faults(schema, &value).is_empty());
+        mended.then(|| Self::remains(self, kept, table))
+    }
+}
+
+/// A value whose numbers are `times` as large.
+fn multiplied(value: toml::Value, times: i32) -> toml::Value {
+    match value {
+        toml::Value::Integer(number) => toml::Value::Integer(number.saturating_mul(times.into())),
+        toml::Value::Float(number) => toml::Value::Float(number * f64::from(times)),
+        toml::Value::Array(all) => {
+            toml::Value::Array(all.into_iter().map(|one| multiplied(one, times)).collect())
+        }
+        toml::Value::Table(table) => {
+            let times = |(key, value)| (key, multiplied(value, times));
+            toml::Value::Table(table.into_iter().map(times).collect())
+        }
+        other => other,
     }
 }
 

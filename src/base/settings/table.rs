@@ -31,6 +31,8 @@ enum Origin {
     Overlaid { under: Box<Settings>, over: Layer },
     /// It was put together from parts of other settings, which lie under these keys there.
     Parts { whole: Box<Settings>, keys: Vec<String>, whose: String },
+    /// It is what was accepted of other settings, under `kept`, and something else for the rest.
+    Remains { whole: Box<Settings>, kept: BTreeSet<String> },
     /// The program put it together.
     Composed(String),
 }
@@ -159,6 +161,11 @@ impl Settings {
         let keys = keys.iter().map(|key| (*key).to_owned()).collect();
         let origin = Origin::Parts { whole: Box::new(whole.clone()), keys, whose: whose.into() };
         Self { table, origin, filled: Vec::new() }
+    }
+
+    /// What was accepted of `whole`, under `kept`, and something else for the rest: what is wrong with the rest is told at no place.
+    pub(super) fn remains(whole: &Self, kept: BTreeSet<String>, table: Table) -> Self {
+        Self { table, origin: Origin::Remains { whole: Box::new(whole.clone()), kept }, filled: Vec::new() }
     }
 
     /// These settings with the keys of `over` laid on top, on behalf of `by`.
@@ -291,6 +298,10 @@ impl Settings {
                 let path = if key.is_empty() { path.to_owned() } else { format!("{key}.{path}") };
                 let is_key = matches!(sought, Sought::Key(_));
                 whole.placed(message, if is_key { Sought::Key(&path) } else { Sought::Value(&path) })
+            }
+            Origin::Remains { whole, kept } if kept.contains(sought.first()) => whole.placed(message, sought),
+            Origin::Remains { .. } => {
+                SettingsError::Composed { origin: "what is left of wrong settings".to_owned(), message }
             }
             Origin::Composed(origin) => SettingsError::Composed { origin: origin.clone(), message },
         }

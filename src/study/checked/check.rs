@@ -150,13 +150,16 @@ impl Study {
         for group in &self.groups {
             match keep(faults, known.of(group, point, inputs))? {
                 Some(family) => families.push((group, family)),
-                None => group.check_files(point, inputs, self.document.path(), faults),
+                None => group.check_rest(point, inputs, faults),
             }
         }
         let kinds: BTreeSet<_> = families.iter().map(|(_, family)| family.world()).collect();
         for contender in &self.contenders {
             for sweep in self.sweep_points() {
-                let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) else { continue };
+                let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) else {
+                    contender.check_rest(point, &sweep, faults);
+                    continue;
+                };
                 faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), &families));
                 if contender.repeats > 1 && !pipeline.planner.draws() {
                     let message = format!(
