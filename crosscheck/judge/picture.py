@@ -12,6 +12,8 @@ import numpy.typing as npt
 WIDTH, HEIGHT = 1200, 900
 # What a letter of a label takes in the picture, and how far labels stand above each other, in pixels.
 LETTER, LINE = 10.0, 24.0
+# What an arm stands on is no obstacle to it.
+STONE = (0.55, 0.55, 0.53, 1.0)
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,9 @@ def draw(model_path: Path, to: Path, key: str, view: View) -> None:
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
     mujoco.mj_forward(model, data)
+    for geom in map(model.geom, range(model.ngeom)):
+        if geom.name == "still:pedestal":
+            geom.rgba = STONE
     camera = mujoco.MjvCamera()
     mujoco.mjv_defaultFreeCamera(model, camera)
     camera.azimuth, camera.elevation = view.azimuth_deg, view.elevation_deg

@@ -88,6 +88,11 @@ impl Paint {
         Self { color, opacity: 1.0, outlined: true }
     }
 
+    /// An opaque surface without outlines, for what is too small for them.
+    pub const fn plain(color: Rgb) -> Self {
+        Self { color, opacity: 1.0, outlined: false }
+    }
+
     /// An outlined surface that lets what lies behind show through.
     pub const fn sheer(color: Rgb, opacity: f64) -> Self {
         Self { color, opacity, outlined: true }

@@ -5,11 +5,12 @@ use crate::analysis::verdict::{Across, Effect, Fit, Judged, SettingFit};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::Cells;
-use crate::render::chart::{Axis, Panel, Sheet};
+use crate::render::chart::{Axis, Key, Panel, Sheet};
 use crate::render::style::{BLUE, GREY, GRID, Rgb, Stroke, VERMILLION, WHITE, Width, YELLOW};
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -100,6 +101,13 @@ fn color(across: &Across, axis: &str) -> Option<Rgb> {
     LOOKS.iter().find(|(own, ..)| *own == effect).map(|(_, _, color)| color.mixed(WHITE, 0.25))
 }
 
+/// The legend's entries: of the effects that some cell has.
+fn effect_keys(shown: &BTreeSet<Effect>) -> Vec<Key> {
+    let is_shown = |(effect, ..): &&(Effect, &str, Rgb)| shown.contains(effect);
+    let key = |(_, label, color): &(Effect, &str, Rgb)| cell_key(*label, color.mixed(WHITE, 0.25));
+    LOOKS.iter().filter(is_shown).map(key).collect()
+}
+
 impl ClaimsByAxes {
     /// The sentences and rows that readings can touch, from above.
     fn rows<'s>(scene: &'s Scene<'_>) -> Vec<(&'s Judged, &'s Across)> {
@@ -131,13 +139,15 @@ impl Kind for ClaimsByAxes {
         let of_row = |(_, across): &(&Judged, &Across)| {
             axes.iter().map(|axis| color(across, axis)).collect::<Vec<_>>()
         };
+        let effects = rows.iter().flat_map(|(_, across)| across.effects.values());
+        let shown: BTreeSet<Effect> = effects.map(|moved| moved.effect).collect();
         panel.add(Cells {
             corner: [-0.5, -0.5],
             cell: [1.0, 1.0],
             columns: axes.len(),
             colors: rows.iter().rev().flat_map(of_row).collect(),
             lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
-            keys: LOOKS.map(|(_, label, color)| cell_key(label, color.mixed(WHITE, 0.25))).to_vec(),
+            keys: effect_keys(&shown),
         });
         let height = rows.len() as f64 * ROW_PT + 2.0 * ROW_PT;
         Sheet::new(Width::Double, 1, height).with([Ok(panel)])
@@ -148,6 +158,15 @@ impl Kind for ClaimsByAxes {
 mod tests {
     use super::*;
     use std::collections::BTreeMap;
+
+    #[test]
+    fn the_legend_names_the_effects_that_are_drawn_and_no_other() {
+        let labels = |shown: &[Effect]| -> Vec<String> {
+            effect_keys(&shown.iter().copied().collect()).into_iter().map(|key| key.label).collect()
+        };
+        assert_eq!(labels(&[Effect::Turns, Effect::Number]), ["moves the number", "turns it"]);
+        assert_eq!(labels(&LOOKS.map(|(effect, ..)| effect)).len(), LOOKS.len());
+    }
 
     #[test]
     fn no_name_of_a_setting_is_cut() {

@@ -233,7 +233,7 @@ const END_CM: f64 = 2.2;
 fn add_ends(solids: &mut Solids, path: &[Vec3], radius: f64) {
     for (at, color, label) in [(path.first(), GREEN, "start"), (path.last(), PURPLE, "goal")] {
         if let Some(at) = at {
-            solids.capsule(*at, *at, radius, Paint::solid(color));
+            solids.capsule(*at, *at, radius, Paint::plain(color));
             solids.tag(*at, label);
         }
     }
@@ -269,7 +269,7 @@ fn points(exhibit: &Exhibit) -> Vec<Vec3> {
     exhibit.values.chunks(exhibit.width).map(|point| [point[0], point[1], point[2]]).collect()
 }
 
-/// Adds the obstacles of the prepared object `of`, the floor if there is one, and with `frame` the edges of the domain; the
+/// Adds the obstacles of the prepared object `of`, what the arm stands on, and with `frame` the edges of the domain; the
 /// legend's entries.
 fn add_obstacles(
     solids: &mut Solids,
@@ -277,16 +277,20 @@ fn add_obstacles(
     of: &Arc<DrawKey>,
     frame: bool,
 ) -> Result<Vec<Key>, RenderError> {
-    let (blue, grey) = (SKY.mixed(WHITE, 0.25), BLACK.mixed(WHITE, 0.88));
+    let (blue, stone, grey) = (SKY.mixed(WHITE, 0.25), BLACK.mixed(WHITE, 0.55), BLACK.mixed(WHITE, 0.88));
     let mut keys = vec![cell_key("obstacle", blue)];
+    let pedestal = scene.run.exhibit(of, "pedestal").map(|found| found.values[0] as usize);
+    keys.extend(pedestal.map(|_| cell_key("pedestal", stone)));
     let vertices = points(ask::exhibit(scene, of, "bodies_vertices")?);
     let listed = ask::exhibit(scene, of, "bodies_faces")?;
     let mut faces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for pair in listed.values.chunks(listed.width) {
         faces.entry(pair[0] as usize).or_default().push(pair[1] as usize);
     }
-    for (vertices, faces) in bodies(&vertices, faces.into_values().collect()) {
-        solids.polyhedron(vertices, faces, Paint::sheer(blue, 0.82));
+    for (body, (vertices, faces)) in bodies(&vertices, faces.into_values().collect()).into_iter().enumerate()
+    {
+        let color = if pedestal == Some(body) { stone } else { blue };
+        solids.polyhedron(vertices, faces, Paint::sheer(color, 0.82));
     }
     if let Some(floor) = scene.run.exhibit(of, "floor") {
         solids.sheet(points(floor), Paint::sheer(grey, 0.9));

@@ -12,6 +12,7 @@ use crate::render::style::{
 use crate::study::Study;
 use crate::study::key::SweepKey;
 use crate::study::paper::Paper;
+use crate::study::record::Status;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -197,6 +198,12 @@ impl SweepCurves {
         Ok(panel)
     }
 
+    /// Whether a trial that is shown spent its budget.
+    fn has_spent(&self, scene: &Scene<'_>) -> bool {
+        let trials = |row: &RowOf| scene.run.rows(&self.read.problems, &row.contender);
+        self.rows.iter().flat_map(trials).any(|trial| trial.status == Status::BudgetSpent)
+    }
+
     /// One metric of every trial, whether it was solved or spent its budget.
     fn metric(&self, scene: &Scene<'_>, metric: &Metric) -> Result<Panel, RenderError> {
         let curve = |row: &RowOf| -> Vec<[f64; 2]> {
@@ -269,7 +276,8 @@ impl Kind for SweepCurves {
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         if !self.metrics.is_empty() {
-            let note = "A trial that spent its budget shows what it spent.";
+            let note =
+                if self.has_spent(scene) { "A trial that spent its budget shows what it spent." } else { "" };
             let sheet = Sheet::new(Width::Double, self.metrics.len(), 165.0).noted(note);
             return sheet.with(self.metrics.iter().map(|metric| self.metric(scene, metric)));
         }

@@ -23,6 +23,7 @@ pub fn prepare(world: PolyhedraWorld) -> Prepared {
     let mut exhibits = vec![Exhibit { name: "domain".to_owned(), width: 3, values: domain }];
     exhibits.extend(solids("bodies", world.bodies()));
     exhibits.extend(floor(&world));
+    exhibits.extend(pedestal(&world));
     Prepared { world: World::Polyhedra(Box::new(world)), values, exhibits }
 }
 
@@ -41,6 +42,12 @@ fn floor(world: &PolyhedraWorld) -> Option<Exhibit> {
     let corners = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
     let values = corners.iter().flat_map(|[x, y]| [*x, *y, height]).collect();
     Some(Exhibit { name: "floor".to_owned(), width: 3, values })
+}
+
+/// The number of the body that the arm's base stands on.
+fn pedestal(world: &PolyhedraWorld) -> Option<Exhibit> {
+    let block = world.arm()?.has_pedestal().then(|| world.bodies().len() - 1)?;
+    Some(Exhibit { name: "pedestal".to_owned(), width: 1, values: vec![block as f64] })
 }
 
 /// How far the floor is drawn beyond what stands on it.

@@ -88,6 +88,12 @@ fn the_search_over_cubes_has_the_path_cost_and_counters_of_the_general_one() {
             }
         }
     }
-    assert!(solved > 200 && none > 100 && spent > 50, "one-sided sample: {solved}, {none}, {spent}");
+    // The share that is blocked was chosen after a first run, so that each outcome is met; the rule is that none is rarer than one
+    // in thirty. The equality above was written before it.
+    let least = (solved + none + spent) / 30;
+    assert!(
+        [solved, none, spent].iter().all(|count| *count >= least),
+        "one-sided sample: {solved} solved, {none} without a path, {spent} spent"
+    );
     assert!([Ties::LargerG, Ties::Smaller].iter().all(|ties| CubicAstar::new(*ties).is_none()));
 }

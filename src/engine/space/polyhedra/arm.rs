@@ -68,6 +68,11 @@ impl CarriedArm {
         })
     }
 
+    /// Whether the base stands on a block, the last of its world's bodies.
+    pub fn has_pedestal(&self) -> bool {
+        self.has_pedestal
+    }
+
     /// No point of the arm is farther from the axis of a joint before it than this.
     pub fn length_cm(&self) -> f64 {
         self.length_cm
