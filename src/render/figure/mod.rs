@@ -8,6 +8,7 @@ mod claims_by_axes;
 mod cost_over_time;
 mod draws;
 mod endpoint_pairs;
+mod fitted_settings;
 mod grid_search;
 mod identification;
 mod intervals;
@@ -129,7 +130,7 @@ impl<'a> Shown<'a> {
     fn is_kept(&self, study: &Study) -> bool {
         study.kept().filter(|trials| trials.problems == self.problems).any(|trials| {
             let is_by = |label: &str| trials.contender.as_deref().is_none_or(|kept| kept == label);
-            trials.replicates > self.draw && self.contender.is_none_or(is_by)
+            trials.has_draw(self.draw) && self.contender.is_none_or(is_by)
         })
     }
 }
@@ -179,6 +180,7 @@ pub static REGISTRY: &[&Entry] = &[
     &cost_over_time::ENTRY,
     &draws::ENTRY,
     &endpoint_pairs::ENTRY,
+    &fitted_settings::ENTRY,
     &grid_search::ENTRY,
     &identification::ENTRY,
     &intervals::ENTRY,

@@ -114,6 +114,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
             "samples = 40\nneighbour_mm = 30.0\ncost = 'hops'\ngoal_shot = 'before_expansion'\npath = 'parents'",
         ],
     ),
+    ("roadmap_cost", &[""]),
     ("shorten_best", &["least = 'length'", "least = 'nodes'"]),
     ("straighten", &["last = 'as_printed'", "last = 'goal'"]),
     ("straighten_from_previous", &["resume = 'last_joined'", "resume = 'first_refused'", "resume = 'off'"]),
