@@ -1,7 +1,7 @@
 //! What each reading of a paper does to each of its claims when it alone departs from its default.
 
 use super::{Entry, Kind, Scene};
-use crate::analysis::verdict::{Across, Effect, Judged};
+use crate::analysis::verdict::{Across, Effect, Fit, Judged, SettingFit};
 use crate::render::RenderError;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::Cells;
@@ -18,16 +18,25 @@ pub static ENTRY: Entry = Entry {
     statistic: "Of options that vote, one at a time beside the defaults; of several in one cell the greatest effect; what nothing moves is \
                 left out; {readings}.",
     settings: Accepted::of::<ClaimsByAxes>(),
-    example: "",
+    example: r#"
+fitted = "threshold"
+"#,
     build: |settings, _study, _paper| Ok(Box::new(settings.read::<ClaimsByAxes>()?)),
 };
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct ClaimsByAxes {}
+struct ClaimsByAxes {
+    /// Instead of claims: which settings of the readings agree with what the studies were fitted to, and under which options of
+    /// the fitted reading, which stands along the axis in these words.
+    fitted: Option<String>,
+}
 
 /// Height of a row, in points.
 const ROW_PT: f64 = 9.5;
+
+/// So many characters of a setting's name stand beside its row.
+const NAME: usize = 40;
 
 /// What an effect is called and drawn as, the least first.
 const LOOKS: [(Effect, &str, Rgb); 4] = [
@@ -36,6 +45,58 @@ const LOOKS: [(Effect, &str, Rgb); 4] = [
     (Effect::Opens, "opens or decides it", BLUE),
     (Effect::Turns, "turns it", VERMILLION),
 ];
+
+/// What a fit is called and drawn as.
+const FITS: [(Fit, &str, Rgb); 3] = [
+    (Fit::Best, "agrees, and counts", BLUE),
+    (Fit::Less, "agrees less than another", GRID),
+    (Fit::Refused, "refused", VERMILLION),
+];
+
+/// What a figure of settings shows of how many.
+const SETTINGS: &str = "Every option that votes by itself beside the defaults, and a sample of their product, drawn by a seed; {readings}.";
+
+/// Which settings agree with what the studies were fitted to: one a row, the options of the fitted reading side by side, with
+/// `words` along the axis.
+fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
+    let rows: &[SettingFit] = scene.verdicts.explored.as_ref().map_or(&[], |explored| &explored.fits);
+    let readings = scene.evidence.paper.readings();
+    let Some(fitted) = readings.iter().find(|reading| reading.fitted).filter(|_| !rows.is_empty()) else {
+        return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No reading was explored."));
+    };
+    let options: Vec<&str> = fitted.options.keys().map(String::as_str).collect();
+    let (names, note) = named(rows);
+    let names = Axis::names("", names.into_iter().rev());
+    let mut panel = Panel::new("", Axis::names(words, options.iter().copied()), names);
+    let color = |row: &SettingFit, option: &str| {
+        let fit = row.fits.get(option)?;
+        FITS.iter().find(|(own, ..)| own == fit).map(|(_, _, color)| color.mixed(WHITE, 0.25))
+    };
+    let of_row = |row: &SettingFit| options.iter().map(|option| color(row, option)).collect::<Vec<_>>();
+    panel.add(Cells {
+        corner: [-0.5, -0.5],
+        cell: [1.0, 1.0],
+        columns: options.len(),
+        colors: rows.iter().rev().flat_map(of_row).collect(),
+        lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
+        keys: FITS.map(|(_, label, color)| cell_key(label, color.mixed(WHITE, 0.25))).to_vec(),
+    });
+    Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).noted(note).with([Ok(panel)])
+}
+
+/// The rows' names, from above, and in a note those that are too long to stand beside a row: there they are numbers.
+fn named(rows: &[SettingFit]) -> (Vec<String>, String) {
+    let mut long = Vec::new();
+    let name = |row: &SettingFit| {
+        if row.setting.chars().count() <= NAME {
+            return row.setting.clone();
+        }
+        long.push(format!("{}: {}", long.len() + 1, row.setting));
+        format!("setting {}", long.len())
+    };
+    let names = rows.iter().map(name).collect();
+    (names, if long.is_empty() { String::new() } else { format!("Settings {}.", long.join("; ")) })
+}
 
 fn color(across: &Across, axis: &str) -> Option<Rgb> {
     let effect = across.effects.get(axis)?.effect;
@@ -54,7 +115,14 @@ impl ClaimsByAxes {
 }
 
 impl Kind for ClaimsByAxes {
+    fn statistic(&self) -> Option<&'static str> {
+        self.fitted.as_ref().map(|_| SETTINGS)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        if let Some(words) = &self.fitted {
+            return settings(scene, words);
+        }
         let rows = Self::rows(scene);
         let readings = scene.evidence.paper.readings();
         let is_moving = |id: &&str| rows.iter().any(|(_, across)| across.effects.contains_key(*id));
@@ -80,5 +148,22 @@ impl Kind for ClaimsByAxes {
         });
         let height = rows.len() as f64 * ROW_PT + 2.0 * ROW_PT;
         Sheet::new(Width::Double, 1, height).with([Ok(panel)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn no_name_of_a_setting_is_cut() {
+        let long = |last: &str| format!("edge_end = whole_turns, ground_obstacle = 200_mm, {last}");
+        let rows = ["the defaults".to_owned(), long("jump = 5_deg"), "tool = 110_mm".to_owned(), long("rho")]
+            .map(|setting| SettingFit { setting, fits: BTreeMap::new() });
+        let (names, note) = named(&rows);
+        assert_eq!(names, ["the defaults", "setting 1", "tool = 110_mm", "setting 2"]);
+        assert_eq!(note, format!("Settings 1: {}; 2: {}.", long("jump = 5_deg"), long("rho")));
+        assert_eq!(named(&rows[..1]).1, "");
     }
 }

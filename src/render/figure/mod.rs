@@ -8,7 +8,6 @@ mod claims_by_axes;
 mod cost_over_time;
 mod draws;
 mod endpoint_pairs;
-mod fitted_settings;
 mod grid_search;
 mod identification;
 mod intervals;
@@ -58,6 +57,11 @@ pub trait Kind {
     /// The trials whose exhibits it draws: a spec must keep them.
     fn shown(&self) -> Vec<Shown<'_>> {
         Vec::new()
+    }
+
+    /// What stands in captions instead of its entry's `statistic`, if its settings ask for something else.
+    fn statistic(&self) -> Option<&'static str> {
+        None
     }
 
     /// Its curves as numbers, if they run along a sweep and are worth looking up; `caption` says what they show.
@@ -162,14 +166,15 @@ pub struct Entry {
 }
 
 /// What stands below a figure: its caption, and what its kind shows of how many draws and trials, or readings.
-pub fn caption(spec: &FigureSpec, run: &Run<'_>, verdicts: &Verdicts) -> String {
+pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdicts) -> String {
     let Some(entry) = find(spec.kind.get_ref()) else { return spec.caption.clone() };
+    let own = build(spec, run.study, paper).ok().and_then(|kind| kind.statistic());
     let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { draws, solved, all } = trials(run, settings);
     let n = format!("n = {draws} draws, {solved} of {all} trials solved");
     let readings = verdicts.explored.as_ref().map_or(0, |explored| explored.readings);
-    let statistic =
-        entry.statistic.replace("{n}", &n).replace("{readings}", &format!("n = {readings} readings"));
+    let statistic = own.unwrap_or(entry.statistic);
+    let statistic = statistic.replace("{n}", &n).replace("{readings}", &format!("n = {readings} readings"));
     format!("{} {statistic}", spec.caption)
 }
 
@@ -180,7 +185,6 @@ pub static REGISTRY: &[&Entry] = &[
     &cost_over_time::ENTRY,
     &draws::ENTRY,
     &endpoint_pairs::ENTRY,
-    &fitted_settings::ENTRY,
     &grid_search::ENTRY,
     &identification::ENTRY,
     &intervals::ENTRY,
