@@ -12,6 +12,7 @@ fn mean(more: &str) -> (Estimate, Vec<String>) {
     let own = "check.lower.of = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\", against = \
                \"Two-sided\" }";
     let toy = Toy::unexplored(&[("blocked_share = 0.2", "blocked_share = 0.45"), (own, &asked)]);
+    toy.0.done(&["judge", "./toy"]);
     let judged = toy.claim("fewer");
     (judged.ours().unwrap().clone(), judged.findings[0].because.clone())
 }

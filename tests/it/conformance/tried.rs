@@ -145,6 +145,9 @@ pub const CIRCLE: &[Exception] = &[("keynode_astar", "search", "literal")];
 /// The tip drifts where joints follow the Jacobian or are smoothed, so that its path may be longer than the one it follows.
 pub const DRIFT: &[Exception] = &[("joint_bspline", "control", "trail"), ("posture", "pose", "jacobian")];
 
+/// Stages that count and touch nothing, whether a plan is solved or not.
+pub const COUNTING: &[&str] = &["roadmap_cost"];
+
 /// Stages that are told to leave a path as it is.
 pub const OFF: &[Exception] = &[
     ("joint_bspline", "control", "off"),
