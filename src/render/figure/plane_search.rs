@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
-use crate::render::chart::marks::{Line, Note, Points, Shape};
+use crate::render::chart::marks::{Behind, Line, Note, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{
     BLACK, BLUE, Dash, Fill, GREEN, GREY, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
@@ -135,7 +135,7 @@ impl PlaneSearch {
             .with_equal_scales();
         let samples = ask::points(ask::exhibit(scene, draw, "samples")?);
         let samples = Points::of(samples, Marker::Circle, 1.2, GREY.mixed(WHITE, 0.35));
-        panel.add(samples.labelled("sample"));
+        panel.add(Behind(samples.labelled("sample")));
         Ok(panel)
     }
 
