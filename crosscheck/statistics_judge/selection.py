@@ -23,6 +23,7 @@ class Cases:
     base: Places | None
     unit: Places
     group: Places
+    all_ends: bool = False
     units: int = field(init=False)
     values: Reals = field(init=False)
     bases: Reals = field(init=False)
@@ -41,11 +42,12 @@ class Cases:
         return self.study.values(metric, self.session)[self.own]
 
     def solved_values(self, rows: Places) -> Reals:
-        """The metric where the trial was solved; NaN elsewhere."""
+        """The metric where the trial was solved or, if all ends count, ended at all; NaN elsewhere."""
         if self.metric is None:
             return np.full(len(rows), np.nan)
         measured = self.study.values(self.metric, self.session)[rows]
-        return np.where(self.study.solved[rows], measured, np.nan)
+        ended = np.isin(self.study.status[rows], ["no_path", "rejected"]) if self.all_ends else False
+        return np.where(self.study.solved[rows] | ended, measured, np.nan)
 
     @property
     def own_solved(self) -> Flags:
@@ -97,6 +99,7 @@ class Cases:
             base,
             self.unit[mask],
             self.group[mask],
+            self.all_ends,
         )
 
 
@@ -144,7 +147,7 @@ def select(paper: Paper, of: dict[str, Any], session: int) -> Cases:
     places = np.concatenate([np.full(len(rows), index) for index, rows, _ in parts])
     draws, seeds = int(study.draw.max(initial=0)) + 1, int(study.repeat.max(initial=0)) + 1
     unit = (places * draws + study.draw[own]) * seeds + study.repeat[own]
-    cases = Cases(study, metric, session, against, own, base, unit, places)
+    cases = Cases(study, metric, session, against, own, base, unit, places, of.get("all_ends", False))
     if not of.get("whole_draws", False):
         return cases
     unsolved = ~(cases.own_solved & cases.base_solved)

@@ -112,6 +112,8 @@ pub static METRICS: &[Metric] = &[
     metric("printed_optimal_cells", "Printed optimal cost", "cells", Better::Neither),
     metric("questions_motion", "Motions asked about", "", Better::Lower),
     metric("questions_valid", "Configurations asked about", "", Better::Lower),
+    metric("roadmap_checked_states", "Configurations checked for the roadmap", "", Better::Lower),
+    metric("roadmap_edges", "Edges of the roadmap", "", Better::Neither),
     metric("sharp_edges", "Sharp edges", "", Better::Lower),
     metric("shots", "Shots at the goal", "", Better::Neither),
     Metric {

@@ -30,6 +30,8 @@ pub struct Selection<'a> {
     pub sweep: Option<SweepKey>,
     /// Whether only draws count of which everything is solved.
     pub whole_draws: bool,
+    /// Whether what ends without a path, or with a refused one, has a number too.
+    pub all_ends: bool,
 }
 
 /// One trial, and the trial that it is held against.
@@ -39,7 +41,7 @@ pub struct Case<'e> {
     pub row: &'e Row,
     /// The trial of the other contender on the same problem.
     pub base: Option<&'e Row>,
-    /// The metric, if the trial was solved and it was measured.
+    /// The metric, if the trial counts and it was measured.
     pub value: Option<f64>,
     /// The metric of the other trial, likewise.
     pub base_value: Option<f64>,
@@ -96,8 +98,9 @@ impl<'a> Selection<'a> {
     /// All trials of `contenders` on `groups` of `study`.
     pub fn of(study: &'a Study, groups: &[String], contenders: &[String]) -> Self {
         let (groups, contenders) = (groups.to_vec(), contenders.to_vec());
-        let (against, metric, query, sweep, whole_draws) = (None, None, None, None, false);
-        Self { study, groups, contenders, against, metric, query, sweep, whole_draws }
+        let (against, metric, query, sweep) = (None, None, None, None);
+        let (whole_draws, all_ends) = (false, false);
+        Self { study, groups, contenders, against, metric, query, sweep, whole_draws, all_ends }
     }
 
     /// The selection `of`, of which every name is looked up.
@@ -119,8 +122,9 @@ impl<'a> Selection<'a> {
         }
         let sweep = of.sweep.as_ref().and_then(|text| faults.keep(sweep_point(context, study, text)));
         faults.done()?;
-        let (against, query, whole_draws) = (of.against.clone(), of.query.clone(), of.whole_draws);
-        Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_draws })
+        let (against, query) = (of.against.clone(), of.query.clone());
+        let (whole_draws, all_ends) = (of.whole_draws, of.all_ends);
+        Ok(Self { study, groups, contenders, against, metric, query, sweep, whole_draws, all_ends })
     }
 
     /// The one contender.
@@ -175,7 +179,7 @@ impl<'a> Selection<'a> {
         let Some(run) = evidence.run(&self.study.name) else { return Vec::new() };
         let mut draws: Vec<Draw<'e>> = Vec::new();
         let reader = self.metric.map(|metric| run.reader(metric));
-        let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| row.is_solved())?);
+        let value = |row: Option<&Row>| reader.as_ref()?(row.filter(|row| self.counts(row))?);
         for group in &self.groups {
             let bases = self.against.as_ref().map(|against| Cases::of(self.rows(run, group, against)));
             let mut places: BTreeMap<(u32, u32), usize> = BTreeMap::new();
@@ -217,6 +221,11 @@ impl<'a> Selection<'a> {
         })
     }
 
+    /// Whether a trial has a number.
+    fn counts(&self, row: &Row) -> bool {
+        row.is_solved() || self.all_ends && matches!(row.status, Status::NoPath | Status::Rejected)
+    }
+
     /// Whether the metric was looked for on a trial's draw: the clock is read on the first draws of each group alone, so that
     /// what failed on the others is no failure among the timed.
     fn is_read(&self, row: &Row) -> bool {
@@ -230,7 +239,8 @@ impl<'a> Selection<'a> {
         let against = self.against.as_ref().map_or_else(String::new, |other| format!(" against {other}"));
         let query = self.query.as_ref().map_or_else(String::new, |query| format!(", query {query}"));
         let at = self.sweep.as_ref().map_or_else(String::new, |key| format!(", {}", name::sweep(key)));
-        format!("{who}{against} on {} of {}{query}{at}", self.groups_said(), self.study.name)
+        let ends = if self.all_ends { ", whether a path is found or not" } else { "" };
+        format!("{who}{against} on {} of {}{query}{at}{ends}", self.groups_said(), self.study.name)
     }
 
     fn groups_said(&self) -> String {

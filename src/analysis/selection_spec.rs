@@ -25,6 +25,9 @@ pub struct SelectionSpec {
     /// Only draws count of which everyone who is compared solves every query.
     #[serde(default)]
     pub whole_draws: bool,
+    /// A trial that ends without a path, or with one that is refused, has a number too: what it took. Otherwise only solved ones do.
+    #[serde(default)]
+    pub all_ends: bool,
 }
 
 /// One label, or several.

@@ -96,7 +96,7 @@ pub struct EffectOf {
 }
 
 /// What the readings make of a claim.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Across {
     /// Its class across readings.
@@ -124,6 +124,9 @@ pub struct Across {
     /// Every voting reading does, so that all are judged.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub none_compatible: bool,
+    /// The least and the greatest of our numbers over them, where the paper's chapter asks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
     /// What probes that are never counted do, where they change what is said of it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<String>,

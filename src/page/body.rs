@@ -292,7 +292,7 @@ impl Body<'_> {
         for run in self.evidence.runs() {
             for figure in &run.study.figures {
                 let id = escaped(figure.id.get_ref());
-                let about = escaped(&caption(figure, run, self.verdicts));
+                let about = escaped(&caption(figure, run, self.evidence.paper, self.verdicts));
                 text += &format!(
                     "<figure><img data-figure=\"{id}\" alt=\"{about}\"><figcaption>{id}: {about}</figcaption></figure>\n"
                 );

@@ -1,7 +1,7 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
 use crate::analysis::verdict::Verdicts;
-use crate::study::paper::filled;
+use crate::study::paper::{OVER_READINGS, filled};
 
 /// Paragraphs and lists are broken into lines of so many characters.
 pub const COLUMNS: usize = 120;
@@ -17,12 +17,23 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "n" => ours.map(|ours| ours.n.to_string()),
             "tenths" => ours.map(|ours| format!("{:.1}", ours.value)),
             "percent" => ours.map(|ours| format!("{:.0} %", 100.0 * ours.value)),
+            OVER_READINGS => judged.and_then(|judged| judged.across.as_ref()?.range).map(percents),
             "low" => ours.and_then(|ours| ours.interval).map(|[low, _]| number(low)),
             "high" => ours.and_then(|ours| ours.interval).map(|[_, high]| number(high)),
             _ => ours.map(|ours| number(ours.value)),
         };
         found.unwrap_or_else(|| "–".to_owned())
     })
+}
+
+/// Two shares as percentages, those below one per cent with a decimal.
+fn percents(ends: [f64; 2]) -> String {
+    let percent = |share: f64| {
+        let percent = 100.0 * share;
+        if percent > 0.0 && percent < 1.0 { format!("{percent:.1}") } else { format!("{percent:.0}") }
+    };
+    let [least, greatest] = ends.map(percent);
+    format!("{least} to {greatest} %")
 }
 
 /// A number with four decimals at most; what these would show as zero stands as a power of ten.
@@ -127,6 +138,12 @@ mod tests {
         ] {
             assert_eq!(markdown(text), safe);
         }
+    }
+
+    #[test]
+    fn shares_over_readings_keep_a_digit_that_says_something() {
+        assert_eq!(percents([0.0, 0.436]), "0 to 44 %");
+        assert_eq!(percents([0.0051, 0.0149]), "0.5 to 1 %");
     }
 
     #[test]

@@ -131,6 +131,12 @@ pub static COLUMNS: &[Column] = &[
     count("unjoined_legs", "nodes of the returned path that no edge joins with the one before"),
     real("neighbour_mm", "how far apart neighbours may be on the roadmap: ρ"),
     count("used_samples", "samples of the part of the roadmap that was searched"),
+    count("roadmap_pairs", "pairs of near samples that the whole roadmap was built from"),
+    count("roadmap_edges", "pairs of samples that the whole roadmap joins"),
+    count(
+        "roadmap_checked_states",
+        "configurations checked for contact for all edges of the roadmap, before any query",
+    ),
     real("straight_mm", "distance of the tool's or the particle's places at start and goal"),
     count("sight_checks", "lines of sight between two cells that were looked at"),
     count("shots", "local paths to the goal that were tried before an expansion"),

@@ -12,7 +12,7 @@ mod tables;
 pub use self::claim::{Asked, Claim, Parts, printed_by};
 use self::claim::{ClaimSpec, claim};
 pub use ledger::{LedgerRow, NumbersRow};
-pub use report::{CLAIMS, FIGURES, ReportSpec, filled};
+pub use report::{CLAIMS, FIGURES, OVER_READINGS, ReportSpec, filled};
 
 use self::results::ResultsSpec;
 pub use self::tables::{OursSpec, TableRow, TableSpec};

@@ -257,10 +257,20 @@ pub struct TrialsSpec {
     pub contender: Option<String>,
     /// Replicates below this number.
     pub replicates: u32,
+    /// Further replicates, by their numbers from 0.
+    #[serde(default)]
+    pub also: Vec<u32>,
     /// Seeds of a contender below this number; all of them if absent.
     pub repeats: Option<u32>,
     /// Names of the exhibits that are kept of a trial; all that there are if absent.
     pub exhibits: Option<Vec<String>>,
+}
+
+impl TrialsSpec {
+    /// Whether the replicate of this number is among them.
+    pub fn has_draw(&self, draw: u32) -> bool {
+        draw < self.replicates || self.also.contains(&draw)
+    }
 }
 
 /// What `--quick` cuts down to.

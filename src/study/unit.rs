@@ -115,7 +115,7 @@ impl Unit<'_> {
                 _ => true,
             };
             let is_early = contender.is_none() || trials.repeats.is_none_or(|repeats| repeat < repeats);
-            named && is_early && self.key.draw < trials.replicates
+            named && is_early && trials.has_draw(self.key.draw)
         };
         wanted.copied().filter(keeps)
     }

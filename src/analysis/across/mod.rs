@@ -68,7 +68,9 @@ pub fn apply(paper: &Paper, verdicts: &mut Verdicts, stored: &Stored) {
         let Some(first) = first else { continue };
         let counted = axes.counted(paper, first, &judged.claim, &classes);
         note.none_compatible |= counted.none_compatible;
-        if let Some(across) = across(&axes, first, second, judged, &counted) {
+        if let Some(mut across) = across(&axes, first, second, judged, &counted) {
+            let is_asked = paper.asks_over_readings(&judged.claim);
+            across.range = is_asked.then(|| range(first, judged, &counted)).flatten();
             judged.verdict = across.class;
             judged.across = Some(across);
         }
@@ -115,9 +117,22 @@ fn across(
         not_looked_at: counted.not_looked_at,
         incompatible: counted.incompatible,
         none_compatible: counted.none_compatible,
+        range: None,
         effects: effects::effects(axes, first, &judged.claim, judged.verdict),
         probes: effects::probes(axes, first, &judged.claim, judged.verdict),
     })
+}
+
+/// The least and the greatest of our numbers beside a claim over the readings that count; the default run's stands for its own.
+fn range(first: &Exploration, judged: &Judged, counted: &Counted) -> Option<[f64; 2]> {
+    let own = judged.ours().map(|ours| ours.value);
+    let number = |group: &Group| match group.reading {
+        0 => own,
+        place => first.result(&judged.claim, place)?.value,
+    };
+    let numbers: Vec<f64> = counted.groups.iter().filter_map(number).collect();
+    let end = |of: fn(f64, f64) -> f64| numbers.iter().copied().reduce(of);
+    Some([end(f64::min)?, end(f64::max)?])
 }
 
 /// What each result counts as for the claim called `id`: a class that speaks against most of them is open unless the second

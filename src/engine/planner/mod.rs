@@ -32,6 +32,7 @@ mod posture;
 mod posture_turns;
 mod roadmap;
 mod roadmap_astar;
+mod roadmap_cost;
 mod shorten_best;
 mod straighten;
 mod straighten_from_previous;
@@ -61,6 +62,7 @@ pub static REGISTRY: &[&Entry] = &[
     &posture::ENTRY,
     &posture_turns::ENTRY,
     &roadmap_astar::ENTRY,
+    &roadmap_cost::ENTRY,
     &shorten_best::ENTRY,
     &straighten::ENTRY,
     &straighten_from_previous::ENTRY,

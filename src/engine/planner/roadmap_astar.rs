@@ -63,6 +63,8 @@ struct RoadmapAstar {
     /// The same as a share of the radius that the roadmap was built up to.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = 1.0))]
     neighbour_share: Option<f64>,
+    /// Whether all that the roadmap was built up to are neighbours, whatever ρ is.
+    any_distance: Option<bool>,
     /// At most this many nearest samples are neighbours of a node.
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
@@ -110,11 +112,18 @@ enum PathSetting {
 
 impl RoadmapAstar {
     fn extent(&self) -> Extent {
-        Extent { samples: self.samples, radius_mm: self.neighbour_mm }
+        Extent { samples: self.samples, radius_mm: self.neighbour_mm.filter(|_| !self.is_unlimited()) }
+    }
+
+    fn is_unlimited(&self) -> bool {
+        self.any_distance == Some(true)
     }
 
     /// How far apart neighbours may be on a roadmap that was built up to `radius_mm`.
     fn neighbour_mm(&self, radius_mm: f64) -> f64 {
+        if self.is_unlimited() {
+            return radius_mm;
+        }
         self.neighbour_mm.unwrap_or_else(|| self.neighbour_share.map_or(radius_mm, |share| share * radius_mm))
     }
 

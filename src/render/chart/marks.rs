@@ -121,10 +121,8 @@ impl Points {
     }
 }
 
-impl Mark for Points {
-    fn draw(&self, _: &mut Canvas, _: &View) {}
-
-    fn draw_over(&self, canvas: &mut Canvas, view: &View) {
+impl Points {
+    fn paint(&self, canvas: &mut Canvas, view: &View) {
         let slack = 0.01;
         let frame = view.frame;
         let frame = Rect {
@@ -139,9 +137,31 @@ impl Mark for Points {
             }
         }
     }
+}
+
+impl Mark for Points {
+    fn draw(&self, _: &mut Canvas, _: &View) {}
+
+    fn draw_over(&self, canvas: &mut Canvas, view: &View) {
+        self.paint(canvas, view);
+    }
 
     fn keys(&self) -> Vec<Key> {
         Key::labelled(&self.label, Swatch::Point(self.marker, self.color))
+    }
+}
+
+/// Points of the background: what is added later covers them, and the frame cuts them.
+#[derive(Clone, Debug)]
+pub struct Behind(pub Points);
+
+impl Mark for Behind {
+    fn draw(&self, canvas: &mut Canvas, view: &View) {
+        self.0.paint(canvas, view);
+    }
+
+    fn keys(&self) -> Vec<Key> {
+        self.0.keys()
     }
 }
 

@@ -19,9 +19,9 @@ pub static ENTRY: Entry = Entry {
     statistic: "Of options that vote, one at a time beside the defaults; of several in one cell the greatest effect; what nothing moves is \
                 left out; {readings}.",
     settings: Accepted::of::<ClaimsByAxes>(),
-    example: r"
-fitted = false
-",
+    example: r#"
+fitted = "threshold"
+"#,
     build: |settings, _study, _paper| Ok(Box::new(settings.read::<ClaimsByAxes>()?)),
 };
 
@@ -29,9 +29,8 @@ fitted = false
 #[serde(deny_unknown_fields)]
 struct ClaimsByAxes {
     /// Instead of claims: which settings of the readings agree with what the studies were fitted to, and under which options of
-    /// the fitted reading.
-    #[serde(default)]
-    fitted: bool,
+    /// the fitted reading, which stands along the axis in these words.
+    fitted: Option<String>,
 }
 
 /// Height of a row, in points.
@@ -55,8 +54,12 @@ const FITS: [(Fit, &str, Rgb); 3] = [
     (Fit::Refused, "refused", VERMILLION),
 ];
 
-/// Which settings agree with what the studies were fitted to: one a row, the options of the fitted reading side by side.
-fn settings(scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+/// What a figure of settings shows of how many.
+const SETTINGS: &str = "Every option that votes by itself beside the defaults, and a sample of their product, drawn by a seed; {readings}.";
+
+/// Which settings agree with what the studies were fitted to: one a row, the options of the fitted reading side by side, with
+/// `words` along the axis.
+fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
     let rows: &[SettingFit] = scene.verdicts.explored.as_ref().map_or(&[], |explored| &explored.fits);
     let readings = scene.evidence.paper.readings();
     let Some(fitted) = readings.iter().find(|reading| reading.fitted).filter(|_| !rows.is_empty()) else {
@@ -65,7 +68,7 @@ fn settings(scene: &Scene<'_>) -> Result<Sheet, RenderError> {
     let options: Vec<&str> = fitted.options.keys().map(String::as_str).collect();
     let (names, note) = named(rows);
     let names = Axis::names("", names.into_iter().rev());
-    let mut panel = Panel::new("", Axis::names(&fitted.id, options.iter().copied()), names);
+    let mut panel = Panel::new("", Axis::names(words, options.iter().copied()), names);
     let color = |row: &SettingFit, option: &str| {
         let fit = row.fits.get(option)?;
         FITS.iter().find(|(own, ..)| own == fit).map(|(_, _, color)| color.mixed(WHITE, 0.25))
@@ -120,9 +123,13 @@ impl ClaimsByAxes {
 }
 
 impl Kind for ClaimsByAxes {
+    fn statistic(&self) -> Option<&'static str> {
+        self.fitted.as_ref().map(|_| SETTINGS)
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        if self.fitted {
-            return settings(scene);
+        if let Some(words) = &self.fitted {
+            return settings(scene, words);
         }
         let rows = Self::rows(scene);
         let readings = scene.evidence.paper.readings();

@@ -59,6 +59,11 @@ pub trait Kind {
         Vec::new()
     }
 
+    /// What stands in captions instead of its entry's `statistic`, if its settings ask for something else.
+    fn statistic(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Its curves as numbers, if they run along a sweep and are worth looking up; `caption` says what they show.
     fn curves(&self, _scene: &Scene<'_>, _caption: &str) -> Option<Curves> {
         None
@@ -129,7 +134,7 @@ impl<'a> Shown<'a> {
     fn is_kept(&self, study: &Study) -> bool {
         study.kept().filter(|trials| trials.problems == self.problems).any(|trials| {
             let is_by = |label: &str| trials.contender.as_deref().is_none_or(|kept| kept == label);
-            trials.replicates > self.draw && self.contender.is_none_or(is_by)
+            trials.has_draw(self.draw) && self.contender.is_none_or(is_by)
         })
     }
 }
@@ -161,14 +166,15 @@ pub struct Entry {
 }
 
 /// What stands below a figure: its caption, and what its kind shows of how many draws and trials, or readings.
-pub fn caption(spec: &FigureSpec, run: &Run<'_>, verdicts: &Verdicts) -> String {
+pub fn caption(spec: &FigureSpec, run: &Run<'_>, paper: &Paper, verdicts: &Verdicts) -> String {
     let Some(entry) = find(spec.kind.get_ref()) else { return spec.caption.clone() };
+    let own = build(spec, run.study, paper).ok().and_then(|kind| kind.statistic());
     let settings = spec.settings.as_ref().map(base::settings::Spanned::get_ref);
     let Trials { draws, solved, all } = trials(run, settings);
     let n = format!("n = {draws} draws, {solved} of {all} trials solved");
     let readings = verdicts.explored.as_ref().map_or(0, |explored| explored.readings);
-    let statistic =
-        entry.statistic.replace("{n}", &n).replace("{readings}", &format!("n = {readings} readings"));
+    let statistic = own.unwrap_or(entry.statistic);
+    let statistic = statistic.replace("{n}", &n).replace("{readings}", &format!("n = {readings} readings"));
     format!("{} {statistic}", spec.caption)
 }
 

@@ -35,6 +35,12 @@ savings = ["length.least", "length.greatest"]
         let metric = ask::metric(settings, &read.metric)?;
         let printed = ask::all_printed(settings, paper, "savings", read.savings.iter().flatten())?;
         let sweep = ask::sweep(settings, study, &read.sweep)?;
+        if read.savings.is_some() && !read.queries.is_empty() {
+            return Err(settings.error_at("queries", "savings are over all queries; one of both is accepted"));
+        }
+        for query in &read.queries {
+            ask::query(settings, study, &read.problems, query, (&["queries"], query))?;
+        }
         Ok(Box::new(PairedBoxes { read, metric, sweep, printed }))
     },
 };
@@ -48,6 +54,9 @@ struct Read {
     metric: String,
     /// The contenders, by their labels.
     contenders: Vec<String>,
+    /// The queries, by their names; all if empty.
+    #[serde(default)]
+    queries: Vec<String>,
     /// What stands along the axis.
     axis: String,
     /// The point of the sweeps, in a study that has any.
@@ -86,6 +95,13 @@ impl PairedBoxes {
             whole_draws: true,
             ..Selection::of(scene.run.study, groups, &self.read.contenders)
         }
+    }
+
+    /// What is shown of each query that is asked for.
+    fn values(&self, scene: &Scene<'_>) -> ByQuery {
+        let mut values = spreads_by_query(&self.asked(scene), scene.evidence);
+        values.retain(|(name, _)| self.read.queries.is_empty() || self.read.queries.contains(name));
+        values
     }
 
     /// One box a query and contender.
@@ -159,7 +175,7 @@ impl PairedBoxes {
 
 impl Kind for PairedBoxes {
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let values = spreads_by_query(&self.asked(scene), scene.evidence);
+        let values = self.values(scene);
         let mut sheet = Sheet::new(Width::Double, 1, 190.0);
         sheet.add(self.boxes(scene, &values)?);
         if self.read.savings.is_some() {
@@ -172,7 +188,7 @@ impl Kind for PairedBoxes {
         if self.read.savings.is_none() {
             return Ok(None);
         }
-        let values = spreads_by_query(&self.asked(scene), scene.evidence);
+        let values = self.values(scene);
         let mut kinds = vec![Column::Left];
         kinds.extend([Column::Right; 6]);
         let mut table = Table::new(label, caption, &kinds);

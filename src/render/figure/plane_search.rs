@@ -2,7 +2,7 @@
 
 use super::{Entry, Kind, Scene, Shown, ask};
 use crate::render::RenderError;
-use crate::render::chart::marks::{Line, Note, Points, Shape};
+use crate::render::chart::marks::{Behind, Line, Note, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{
     BLACK, BLUE, Dash, Fill, GREEN, GREY, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
@@ -79,6 +79,11 @@ impl Kind for PlaneSearch {
             let mut panel = self.map(scene, &of.title)?;
             let row = ask::trial(scene, &self.problems, self.draw, None, &of.contender)?;
             let path = ask::points(ask::exhibit(scene, &row.key, "path")?);
+            // Obstacles are drawn over samples and ways: no mark of what is free covers a wall.
+            if !of.bare {
+                ways(&mut panel, scene, row, &path, of)?;
+            }
+            self.obstacles(&mut panel, scene)?;
             if !of.bare {
                 match of.straightened {
                     Some(kept) => straightened(&mut panel, scene, row, &path, kept)?,
@@ -92,7 +97,35 @@ impl Kind for PlaneSearch {
     }
 }
 
+/// The ways that a panel shows: the path, or how far the search has come.
+fn ways(
+    panel: &mut Panel,
+    scene: &Scene<'_>,
+    row: &Row,
+    path: &[[f64; 2]],
+    of: &PanelOf,
+) -> Result<(), RenderError> {
+    if let Some(kept) = of.straightened {
+        let raw = ask::points(ask::exhibit(scene, &row.key, "raw_path")?);
+        let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
+        panel.add(Line::through(raw, stroke).labelled("path as searched"));
+        if kept > 0 {
+            let shown = path[..kept.min(path.len())].to_vec();
+            panel.add(Line::through(shown, Stroke::solid(BLACK, 1.5)).labelled("straightened"));
+        }
+        return Ok(());
+    }
+    let closed = ask::points(ask::exhibit(scene, &row.key, "closed")?);
+    let (points, width, label) = match of.searches {
+        None => (path.to_vec(), 1.5, "path"),
+        Some(shown) => (closed[..(shown + 1).min(closed.len())].to_vec(), 1.2, "way so far"),
+    };
+    panel.add(Line::through(points, Stroke::solid(BLACK, width)).labelled(label));
+    Ok(())
+}
+
 impl PlaneSearch {
+    /// The plane with the samples of its roadmap.
     fn map(&self, scene: &Scene<'_>, title: &str) -> Result<Panel, RenderError> {
         let draw = ask::draw(scene, &self.problems, self.draw)?;
         let size = ask::exhibit(scene, draw, "size_mm")?;
@@ -100,6 +133,14 @@ impl PlaneSearch {
         let mut panel = Panel::new(title, x, Axis::linear("y (mm)", 0.0, size.values[1])?)
             .trimmed(Trim::Frame)
             .with_equal_scales();
+        let samples = ask::points(ask::exhibit(scene, draw, "samples")?);
+        let samples = Points::of(samples, Marker::Circle, 1.2, GREY.mixed(WHITE, 0.35));
+        panel.add(Behind(samples.labelled("sample")));
+        Ok(panel)
+    }
+
+    fn obstacles(&self, panel: &mut Panel, scene: &Scene<'_>) -> Result<(), RenderError> {
+        let draw = ask::draw(scene, &self.problems, self.draw)?;
         let corners = ask::exhibit(scene, draw, "obstacles")?;
         let numbered: Vec<[f64; 3]> = corners.values.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
         for obstacle in numbered.chunk_by(|a, b| a[0] == b[0]) {
@@ -107,10 +148,7 @@ impl PlaneSearch {
             let corners = obstacle.iter().map(|c| [c[1], c[2]]).collect();
             panel.add(Shape { corners, fill, stroke: None, label: "obstacle".to_owned() });
         }
-        let samples = ask::points(ask::exhibit(scene, draw, "samples")?);
-        let samples = Points::of(samples, Marker::Circle, 1.2, GREY.mixed(WHITE, 0.35));
-        panel.add(samples.labelled("sample"));
-        Ok(panel)
+        Ok(())
     }
 
     fn searches(
@@ -134,12 +172,6 @@ impl PlaneSearch {
             panel.add(circle(*at, self.radius_mm));
         }
         let until = if all { closed.len() } else { (shown + 1).min(closed.len()) };
-        if all {
-            panel.add(Line::through(path.to_vec(), Stroke::solid(BLACK, 1.5)).labelled("path"));
-        } else {
-            let chain = closed[..until].to_vec();
-            panel.add(Line::through(chain, Stroke::solid(BLACK, 1.2)).labelled("way so far"));
-        }
         let picked = closed[1..until].to_vec();
         for (number, at) in picked.iter().enumerate() {
             panel.add(Note::beside(*at, (number + 1).to_string()));
@@ -158,7 +190,7 @@ fn circle(middle: [f64; 2], radius: f64) -> Line {
     Line::through((0..=72).map(point).collect(), stroke).labelled("neighbourhood of the current node")
 }
 
-/// The path before straightening, and the first `kept` nodes of the straightened one.
+/// The nodes of the path before straightening, and the first `kept` of the straightened one.
 fn straightened(
     panel: &mut Panel,
     scene: &Scene<'_>,
@@ -167,8 +199,6 @@ fn straightened(
     kept: usize,
 ) -> Result<(), RenderError> {
     let raw = ask::points(ask::exhibit(scene, &row.key, "raw_path")?);
-    let stroke = Stroke::solid(GREY, 1.0).dashed(if kept > 0 { Dash::Dashed } else { Dash::Solid });
-    panel.add(Line::through(raw.clone(), stroke).labelled("path as searched"));
     let shown = path[..kept.min(path.len())].to_vec();
     let reached = shown.last().and_then(|last| raw.iter().position(|at| at == last)).unwrap_or(0);
     let inner = raw.iter().enumerate().skip(1).take(raw.len() - 2);
@@ -178,7 +208,6 @@ fn straightened(
     if kept > 0 {
         let abandoned = GREY.mixed(BLACK, 0.5);
         panel.add(Points::of(places(gone), Marker::Circle, 2.4, abandoned).labelled("abandoned"));
-        panel.add(Line::through(shown.clone(), Stroke::solid(BLACK, 1.5)).labelled("straightened"));
         panel.add(Points::of(shown, Marker::Diamond, 2.8, VERMILLION).labelled("retained"));
     }
     Ok(())

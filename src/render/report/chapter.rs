@@ -135,7 +135,10 @@ impl Page<'_> {
         let id = figure.id.get_ref();
         let of = |run: &&Run<'_>| run.study.figures.iter().any(|own| own.id == figure.id);
         let own = self.evidence.runs().find(of);
-        let caption = own.map_or_else(|| figure.caption.clone(), |run| caption(figure, run, self.verdicts));
+        let caption = own.map_or_else(
+            || figure.caption.clone(),
+            |run| caption(figure, run, self.evidence.paper, self.verdicts),
+        );
         let caption = if caption.starts_with("Fig. ") { caption } else { format!("{id}: {caption}") };
         let image = match self.undrawn.iter().find(|undrawn| undrawn.id == *id) {
             Some(undrawn) => format!("**{id} could not be drawn: {}.**\n\n", markdown(&undrawn.why)),

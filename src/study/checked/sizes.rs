@@ -74,6 +74,11 @@ impl Study {
             let contender = trials.contender.as_ref().and_then(of);
             let asked = [
                 ("replicates", Some(trials.replicates), group.map(|group| group.replicates)),
+                (
+                    "also",
+                    trials.also.iter().max().map(|last| last.saturating_add(1)),
+                    group.map(|group| group.replicates),
+                ),
                 ("repeats", trials.repeats, contender.map(|contender| contender.repeats)),
             ];
             for (key, asked, there_are) in asked {

@@ -22,7 +22,7 @@ pub(super) fn problem_hashes(
         for (place, group) in study.groups.iter().enumerate() {
             let settings = group.settings_under(point);
             // The object's own exhibits are kept for every draw of which anything is.
-            let kept = study.kept().filter(|trials| trials.problems == group.label);
+            let kept: Vec<_> = study.kept().filter(|trials| trials.problems == group.label).collect();
             let text = format!(
                 "{} {} {} {} {:?} {} {} {} {} {:?} {:?} {:?} {:?}",
                 study.paper,
@@ -36,9 +36,11 @@ pub(super) fn problem_hashes(
                 group.family.revision,
                 study.budget,
                 (settings.table(), study.task_settings.table()),
-                kept.map(|trials| trials.replicates).max(),
+                kept.iter().map(|trials| trials.replicates).max(),
                 built.inputs_of(reading, place)?,
             );
+            let also: Vec<u32> = kept.iter().flat_map(|trials| trials.also.iter().copied()).collect();
+            let text = if also.is_empty() { text } else { format!("{text} {also:?}") };
             note(&mut hashes, &group.label, &text, reading);
         }
     }
@@ -67,6 +69,9 @@ pub(super) fn contender_hashes(
             let is_own = |of: &Option<String>| of.as_ref().is_none_or(|label| *label == contender.label);
             for trials in study.kept().filter(|trials| is_own(&trials.contender)) {
                 text += &format!("\n{} {} {:?}", trials.problems, trials.replicates, trials.repeats);
+                if !trials.also.is_empty() {
+                    text += &format!(" and {:?}", trials.also);
+                }
                 if let Some(exhibits) = &trials.exhibits {
                     text += &format!(" {exhibits:?}");
                 }

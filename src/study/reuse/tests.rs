@@ -215,6 +215,25 @@ fn a_papers_folder_spelled_otherwise_reruns_nothing_and_another_map_reruns_its_g
 }
 
 #[test]
+fn draws_are_kept_by_their_numbers_too_and_no_others() {
+    let house = House::new();
+    let kept = |out: &str| -> BTreeSet<u32> {
+        let kept = house.records(out).batch.kept.into_iter();
+        kept.filter_map(|kept| match kept.of {
+            Owner::Trial(key) if *key.on.group == *"maps" => Some(key.on.draw),
+            _ => None,
+        })
+        .collect()
+    };
+    house.run(STUDY, "runs");
+    assert_eq!(kept("runs"), BTreeSet::from([0, 1]));
+    let also = STUDY.replace("replicates = 2", "replicates = 2\nalso = [4]");
+    let again = house.run(&also, "runs");
+    assert_eq!(again.reused, 0, "a spec that keeps another draw takes over none that it lacks");
+    assert_eq!(kept("runs"), BTreeSet::from([0, 1, 4]));
+}
+
+#[test]
 fn of_a_trial_only_the_exhibits_that_are_named_are_kept() {
     let house = House::new();
     let named = STUDY.replace("replicates = 2", "replicates = 2\nexhibits = ['path']");

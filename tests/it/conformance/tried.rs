@@ -114,6 +114,7 @@ pub const SETTINGS: &[(&str, &[&str])] = &[
             "samples = 40\nneighbour_mm = 30.0\ncost = 'hops'\ngoal_shot = 'before_expansion'\npath = 'parents'",
         ],
     ),
+    ("roadmap_cost", &[""]),
     ("shorten_best", &["least = 'length'", "least = 'nodes'"]),
     ("straighten", &["last = 'as_printed'", "last = 'goal'"]),
     ("straighten_from_previous", &["resume = 'last_joined'", "resume = 'first_refused'", "resume = 'off'"]),
@@ -143,6 +144,9 @@ pub const CIRCLE: &[Exception] = &[("keynode_astar", "search", "literal")];
 
 /// The tip drifts where joints follow the Jacobian or are smoothed, so that its path may be longer than the one it follows.
 pub const DRIFT: &[Exception] = &[("joint_bspline", "control", "trail"), ("posture", "pose", "jacobian")];
+
+/// Stages that count and touch nothing, whether a plan is solved or not.
+pub const COUNTING: &[&str] = &["roadmap_cost"];
 
 /// Stages that are told to leave a path as it is.
 pub const OFF: &[Exception] = &[

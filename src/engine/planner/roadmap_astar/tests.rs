@@ -239,3 +239,42 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         assert!(message.contains(said), "{said}\nis said: {message}");
     }
 }
+
+#[test]
+fn at_any_distance_the_whole_radius_counts_whatever_the_threshold() {
+    let mut differ = 0;
+    for number in 0..30 {
+        let world = world(number);
+        let asked = |threshold: &str| {
+            let text = format!("samples = {SAMPLES}\n{threshold}\ncost = \"hops\"\n{NEVER}");
+            planned(&world, &text)
+        };
+        let far = asked("neighbour_share = 0.3\nany_distance = true");
+        assert_eq!(far.path, asked("neighbour_share = 1").path, "roadmap {number}");
+        assert_eq!(
+            asked("neighbour_share = 0.3\nany_distance = false").path,
+            asked("neighbour_share = 0.3").path
+        );
+        differ += u32::from(far.path != asked("neighbour_share = 0.3").path);
+    }
+    assert!(differ > 5, "{differ} of 30 differ");
+}
+
+#[test]
+fn what_a_roadmap_took_is_counted_and_the_plan_is_left_alone() {
+    let world = world(0);
+    let Build::Stage(build) = crate::planner::find("roadmap_cost").unwrap().build else { panic!("a stage") };
+    let stage = build(&Settings::composed("test", toml::Table::new())).unwrap();
+    let [start, goal] = ENDS;
+    let request =
+        Request { world: &world, start: &start, goal: &goal, expansions: 10_000, seed: 0, trace: false };
+    let before = plan(&world, NEVER);
+    let path = before.path.clone();
+    let after = stage.refine(&request, before);
+    assert_eq!(after.path, path);
+    let World::Roadmap(map) = &world else { panic!("a roadmap") };
+    assert!(map.tally().edges > 20 && map.tally().pairs > map.tally().edges);
+    let counted =
+        ["roadmap_pairs", "roadmap_edges", "roadmap_checked_states"].map(|name| count(&after, name));
+    assert_eq!(counted, [map.tally().pairs, map.tally().edges, map.tally().checked]);
+}

@@ -1,0 +1,39 @@
+//! What the roadmap took on which a plan was made: counts, and nothing done to the plan.
+
+use super::roadmap::roadmap;
+use super::{Build, Entry, Plan, Request, Stage, Value};
+use crate::space::WorldKind;
+use base::settings::Accepted;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The registry's entry.
+pub static ENTRY: Entry = Entry {
+    name: "roadmap_cost",
+    about: "leaves a plan as it is and counts what its whole roadmap took before any query: pairs, edges, contact checks",
+    revision: 1,
+    needs: WorldKind::Roadmap,
+    columns: &["roadmap_pairs", "roadmap_edges", "roadmap_checked_states"],
+    settings: Accepted::of::<RoadmapCost>(),
+    example: "",
+    build: Build::Stage(|settings| {
+        let read: RoadmapCost = settings.read()?;
+        Ok(Box::new(read))
+    }),
+};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct RoadmapCost {}
+
+impl Stage for RoadmapCost {
+    fn refine(&self, request: &Request<'_>, mut plan: Plan) -> Plan {
+        let tally = roadmap(request.world).tally();
+        plan.counts.extend([
+            ("roadmap_pairs", Value::Count(tally.pairs)),
+            ("roadmap_edges", Value::Count(tally.edges)),
+            ("roadmap_checked_states", Value::Count(tally.checked)),
+        ]);
+        plan
+    }
+}
