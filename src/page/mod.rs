@@ -148,12 +148,19 @@ fn opening(id: &str, title: &str) -> String {
 
 /// What is packed, what did not fit, and the viewer.
 fn closing(packs: &[Packed], left: usize, rest: &str) -> String {
+    let rest = escaped(rest);
+    let beside = if left > 0 {
+        format!(
+            "{left} more replays did not fit: they are in <a href=\"{rest}\">{rest}</a>, which lies beside this page. Unpack it and \
+             open one here"
+        )
+    } else {
+        "Open a replay from a file".to_owned()
+    };
     let mut text = String::new();
-    if left > 0 {
-        let rest = escaped(rest);
+    if packs.iter().any(Packed::is_replay) {
         text += &format!(
-            "<p class=\"rest\">{left} more replays did not fit: they are in <a href=\"{rest}\">{rest}</a>, which lies beside this \
-             page. Unpack it and open one here: <input type=\"file\" id=\"more\" accept=\".json\" aria-label=\"a replay's file\"></p>\n"
+            "<p class=\"rest\">{beside}: <input type=\"file\" id=\"more\" accept=\".json\" aria-label=\"a replay's file\"></p>\n"
         );
     }
     text.extend(packs.iter().map(Packed::html));

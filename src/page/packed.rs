@@ -27,6 +27,11 @@ impl Packed {
         Ok(Self { kind, name: name.to_owned(), base64: STANDARD.encode(gzip.finish()?) })
     }
 
+    /// Whether it is a replay.
+    pub fn is_replay(&self) -> bool {
+        self.kind == "replay"
+    }
+
     /// It as an element of the page.
     pub fn html(&self) -> String {
         format!(

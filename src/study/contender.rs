@@ -79,7 +79,9 @@ impl Contender {
             };
             let (schema, example) = (stage.entry.settings.schema(), stage.entry.example);
             let found = stage.effective(point, sweep).faults_beside(&schema, example, built);
-            found.into_iter().for_each(|fault| faults.add(fault));
+            for fault in found {
+                faults.add(fault);
+            }
         }
     }
 }

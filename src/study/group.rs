@@ -47,7 +47,9 @@ impl Group {
         };
         let (schema, example) = (self.family.settings.schema(), self.family.example);
         let found = self.settings_under(point).faults_beside(&schema, example, built);
-        found.into_iter().for_each(|fault| faults.add(fault));
+        for fault in found {
+            faults.add(fault);
+        }
     }
 
     /// The family's settings under the reading `point`.

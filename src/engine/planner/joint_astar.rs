@@ -159,10 +159,11 @@ fn moved(step: &Cell) -> usize {
     step.iter().filter(|c| **c != 0).count()
 }
 
-/// One joint up or down, or every combination of none, up and down.
-fn steps(neighbours: u32) -> Vec<Cell> {
+/// One joint up or down, or every combination of none, up and down; each with how far it leads.
+fn steps(neighbours: u32, delta: f64) -> Vec<(Cell, f64)> {
     let all = (0..729).map(|code| -> Cell { std::array::from_fn(|i| code / 3_i16.pow(i as u32) % 3 - 1) });
-    all.filter(|step| moved(step) > 0 && (neighbours == 728 || moved(step) == 1)).collect()
+    let chosen = all.filter(|step| moved(step) > 0 && (neighbours == 728 || moved(step) == 1));
+    chosen.map(|step| (step, delta * (moved(&step) as f64).sqrt())).collect()
 }
 
 /// The configurations of the two ends on the best branch on which both are free.
@@ -206,9 +207,7 @@ impl Planner for JointAstar {
             let apart = arm.apart(world.bodies());
             Space { world, arm, start, delta, steps, states: &states, apart }
         };
-        let steps =
-            steps(self.neighbours).into_iter().map(|step| (step, delta * (moved(&step) as f64).sqrt()));
-        let (mut graph, probe) = (space(steps.collect()), space(Vec::new()));
+        let (mut graph, probe) = (space(steps(self.neighbours, delta)), space(Vec::new()));
         let at = |node: u32| angles(&start, &states.borrow().cell(node), delta);
         let h = |node: u32| greatest_difference(&at(node), &goal);
         let is_goal = |node: u32| h(node) <= delta * self.goal_steps && probe.is_clear(&at(node), &goal);

@@ -31,9 +31,10 @@ fn plan(world: &World, text: &str, expansions: u64) -> Plan {
 
 #[test]
 fn twelve_and_728_steps_move_one_joint_and_any() {
-    assert_eq!((steps(12).len(), steps(728).len()), (12, 728));
-    assert!(steps(12).iter().all(|step| step.iter().filter(|c| **c != 0).count() == 1));
-    assert!(steps(728).contains(&[1, -1, 1, -1, 1, -1]));
+    let [one, any] = [12, 728].map(|neighbours| steps(neighbours, 0.5));
+    assert_eq!((one.len(), any.len()), (12, 728));
+    assert!(one.iter().all(|(step, length)| moved(step) == 1 && *length == 0.5));
+    assert!(any.contains(&([1, -1, 1, -1, 1, -1], 0.5 * 6_f64.sqrt())));
 }
 
 #[test]
