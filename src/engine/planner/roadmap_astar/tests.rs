@@ -169,15 +169,17 @@ fn legs_of_the_closed_sequence_that_are_no_edges_are_counted() {
     assert!(whole >= 3 && broken >= 5, "one-sided sample: {whole} whole, {broken} broken");
 }
 
+/// What is found with all samples and the neighbours that `threshold` gives.
+fn under(world: &World, threshold: &str) -> Plan {
+    planned(world, &format!("samples = {SAMPLES}\n{threshold}\ncost = \"hops\"\n{NEVER}"))
+}
+
 #[test]
 fn a_share_of_the_radius_is_the_threshold_of_as_many_millimetres() {
     let mut differ = 0;
     for number in 0..30 {
         let world = world(number);
-        let asked = |threshold: &str| {
-            let text = format!("samples = {SAMPLES}\n{threshold}\ncost = \"hops\"\n{NEVER}");
-            planned(&world, &text)
-        };
+        let asked = |threshold| under(&world, threshold);
         let half = asked("neighbour_share = 0.5");
         assert_eq!(half.path, asked(&format!("neighbour_mm = {}", 0.5 * RADIUS_MM)).path, "roadmap {number}");
         differ += u32::from(half.path != asked("neighbour_share = 1").path);
@@ -245,10 +247,7 @@ fn at_any_distance_the_whole_radius_counts_whatever_the_threshold() {
     let mut differ = 0;
     for number in 0..30 {
         let world = world(number);
-        let asked = |threshold: &str| {
-            let text = format!("samples = {SAMPLES}\n{threshold}\ncost = \"hops\"\n{NEVER}");
-            planned(&world, &text)
-        };
+        let asked = |threshold| under(&world, threshold);
         let far = asked("neighbour_share = 0.3\nany_distance = true");
         assert_eq!(far.path, asked("neighbour_share = 1").path, "roadmap {number}");
         assert_eq!(
