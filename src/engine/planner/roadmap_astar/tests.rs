@@ -179,7 +179,7 @@ fn a_share_of_the_radius_is_the_threshold_of_as_many_millimetres() {
     let mut differ = 0;
     for number in 0..30 {
         let world = world(number);
-        let asked = |threshold| under(&world, threshold);
+        let asked = |threshold: &str| under(&world, threshold);
         let half = asked("neighbour_share = 0.5");
         assert_eq!(half.path, asked(&format!("neighbour_mm = {}", 0.5 * RADIUS_MM)).path, "roadmap {number}");
         differ += u32::from(half.path != asked("neighbour_share = 1").path);
@@ -247,7 +247,7 @@ fn at_any_distance_the_whole_radius_counts_whatever_the_threshold() {
     let mut differ = 0;
     for number in 0..30 {
         let world = world(number);
-        let asked = |threshold| under(&world, threshold);
+        let asked = |threshold: &str| under(&world, threshold);
         let far = asked("neighbour_share = 0.3\nany_distance = true");
         assert_eq!(far.path, asked("neighbour_share = 1").path, "roadmap {number}");
         assert_eq!(
