@@ -10,6 +10,7 @@ use super::evidence::Evidence;
 use super::verdict::Together;
 use crate::study::record::Row;
 use base::settings::SettingsError;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Whether each claim is met exactly.
@@ -44,21 +45,14 @@ fn asked<'a>(evidence: &'a Evidence<'_>) -> Result<Vec<Attained<'a>>, SettingsEr
 /// What each study shows under one reading.
 fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e str, Problems<'e>> {
     let mut all: BTreeMap<&str, BTreeMap<_, (Contenders<'e>, &'e Row)>> = BTreeMap::new();
-    for attained in asked {
-        // A claim about the printed row of another contender is not met on a map without that row.
-        let eligible: Option<BTreeSet<_>> = (!attained.is_unconditional())
-            .then(|| attained.eligible(view).iter().map(|seen| (seen.problem(), seen.contender)).collect());
-        let is_eligible = |seen: &Seen<'_>| {
-            eligible.as_ref().is_none_or(|eligible| eligible.contains(&(seen.problem(), seen.contender)))
-        };
-        for seen in attained.seen(view) {
-            let is_met = attained.is_met(seen.value) && is_eligible(&seen);
+    let each: Vec<_> = asked.par_iter().map(|attained| (attained.claim(), met_by(attained, view))).collect();
+    for (claim, looked_at) in each {
+        for (seen, is_met) in looked_at {
             let (study, group, draw, query) = seen.problem();
             let problems = all.entry(study).or_default();
             let by_contender =
                 problems.entry((group, draw, query)).or_insert_with(|| (BTreeMap::new(), seen.row));
-            let outcomes = by_contender.0.entry(seen.contender).or_default();
-            outcomes.insert(attained.claim(), is_met);
+            by_contender.0.entry(seen.contender).or_default().insert(claim, is_met);
         }
     }
     // A problem's name is made once, however many claims are asked of it.
@@ -67,6 +61,21 @@ fn met<'e>(view: &'e Evidence<'_>, asked: &'e [Attained<'_>]) -> BTreeMap<&'e st
         (study, problems.into_values().map(|(of, row)| (run.problem(row), of)).collect())
     };
     all.into_iter().map(named).collect()
+}
+
+/// Every trial in which a claim's number is looked for, and whether it is met there.
+fn met_by<'e>(attained: &'e Attained<'_>, view: &'e Evidence<'_>) -> Vec<(Seen<'e>, bool)> {
+    // A claim about the printed row of another contender is not met on a map without that row.
+    let eligible: Option<BTreeSet<_>> = (!attained.is_unconditional())
+        .then(|| attained.eligible(view).iter().map(|seen| (seen.problem(), seen.contender)).collect());
+    let is_eligible = |seen: &Seen<'_>| {
+        eligible.as_ref().is_none_or(|eligible| eligible.contains(&(seen.problem(), seen.contender)))
+    };
+    let with_outcome = |seen: Seen<'e>| {
+        let is_met = attained.is_met(seen.value) && is_eligible(&seen);
+        (seen, is_met)
+    };
+    attained.seen(view).into_iter().map(with_outcome).collect()
 }
 
 /// The sets of every contender that is an alternative for another; a contender that has none belongs to every set.

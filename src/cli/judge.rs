@@ -91,11 +91,12 @@ pub fn judge(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<Ver
 
 /// The verdicts by `evidence`; across readings if it is a full run under the defaults and readings were explored.
 fn judged(evidence: &Evidence<'_>, places: &Places) -> Result<Verdicts, Failure> {
-    let mut verdicts = claims::judge(evidence)?;
-    let is_default = evidence.point == default_point(evidence.paper);
-    if is_default && !verdicts.quick {
-        across::apply(evidence.paper, &mut verdicts, &Stored::read(&places.runs)?);
+    if evidence.point != default_point(evidence.paper) || evidence.runs().any(|run| run.manifest.quick) {
+        return Ok(claims::judge(evidence)?);
     }
+    let (verdicts, stored) = rayon::join(|| claims::judge(evidence), || Stored::read(&places.runs));
+    let mut verdicts = verdicts?;
+    across::apply(evidence.paper, &mut verdicts, &stored?);
     Ok(verdicts)
 }
 
