@@ -124,7 +124,7 @@ impl Moments {
 /// The least is above the greatest if there are no such numbers. None if 128 bits do not suffice.
 pub fn extremes(n: u64, sum: i128, [least, most]: [Option<i128>; 2]) -> Option<(i128, Option<i128>)> {
     let n = i128::from(n);
-    let (base, rest) = (sum.div_euclid(n), sum.rem_euclid(n));
+    let (base, rest) = divided(sum, n);
     if least.is_some_and(|least| base < least) || most.is_some_and(|most| base + i128::from(rest > 0) > most)
     {
         return Some((1, Some(0)));
@@ -145,13 +145,21 @@ pub fn extremes(n: u64, sum: i128, [least, most]: [Option<i128>; 2]) -> Option<(
     }
     // As many at the ends as the sum allows, and one between them.
     let above = sum.checked_sub(n.checked_mul(least)?)?;
-    let (high, between) = (above.div_euclid(most - least), above.rem_euclid(most - least));
+    let (high, between) = divided(above, most - least);
     let mut spread = square(most)?.checked_mul(high)?;
     if high < n {
         let middle = square(least + between)?;
         spread = spread.checked_add(middle)?.checked_add(square(least)?.checked_mul(n - high - 1)?)?;
     }
     Some((even, Some(spread)))
+}
+
+/// Quotient and rest of a division, the rest not negative. 64 bits mostly suffice, and a processor divides these by itself.
+fn divided(a: i128, by: i128) -> (i128, i128) {
+    match (i64::try_from(a), i64::try_from(by)) {
+        (Ok(a), Ok(by)) if by > 0 => (i128::from(a.div_euclid(by)), i128::from(a.rem_euclid(by))),
+        _ => (a.div_euclid(by), a.rem_euclid(by)),
+    }
 }
 
 /// Values with how often each occurs: `0 ×7, 1 ×3`.

@@ -132,13 +132,17 @@ impl Subject for PlanarArm {
         vec![frame(self.arm.elbow(q), q[0]), tip, tip]
     }
 
-    fn gaps_m(&self, q_rad: &[f64]) -> Vec<f64> {
+    fn pairs(&self) -> &[Pair] {
+        &self.pairs
+    }
+
+    fn gaps_of_m(&self, q_rad: &[f64], pairs: &[Pair]) -> Vec<f64> {
         let links = self.links(q_rad);
         let gap = |pair: &Pair| match *pair {
             Pair::Still(part, still) => gap_cm(&links[part], &self.obstacles[still], self.touch) * M,
             Pair::Parts(..) => unreachable!("a planar arm's links are not kept apart"),
         };
-        self.pairs.iter().map(gap).collect()
+        pairs.iter().map(gap).collect()
     }
 
     fn planners_check(&self, _q_rad: &[f64]) -> Option<(bool, Freedom)> {

@@ -153,17 +153,20 @@ impl<'a> Sampler<'a> {
     /// them in contact; those for which none is found are left out.
     fn near_contact(&self, count: u32) -> Vec<Question> {
         let mut stream = self.stream(Kind::NearContact);
-        let model = self.subject.model();
-        let pairs = model.pairs();
+        let (model, pairs) = (self.subject.model(), self.subject.pairs());
         let mut groups: Vec<Option<usize>> = (0..model.stills.len()).map(Some).collect();
         groups.extend((!model.self_pairs.is_empty()).then_some(None));
         let draws: Vec<Vec<f64>> = (0..count.max(1) * 4).map(|_| drawn(model, &mut stream)).collect();
         let gaps: Vec<Vec<f64>> = draws.iter().map(|q| self.subject.gaps_m(q)).collect();
-        let least_in = |group| gaps.iter().map(|row| least_of(row, &pairs, group)).collect::<Vec<f64>>();
+        let least_in = |group| gaps.iter().map(|row| least_of(row, pairs, group)).collect::<Vec<f64>>();
         let leasts: Vec<Vec<f64>> = groups.iter().map(|group| least_in(*group)).collect();
+        let own_pairs = |group: &Option<usize>| {
+            pairs.iter().copied().filter(|pair| pair.still() == *group).collect::<Vec<Pair>>()
+        };
+        let own_pairs: Vec<Vec<Pair>> = groups.iter().map(own_pairs).collect();
         let mut found = Vec::new();
         for index in 0..count as usize {
-            let (group, known) = (groups[index % groups.len()], &leasts[index % groups.len()]);
+            let (own, known) = (&own_pairs[index % groups.len()], &leasts[index % groups.len()]);
             let size_m = NEAREST_M * libm::pow(NEAR_M / NEAREST_M, stream.random::<f64>());
             let target_m = if stream.random::<bool>() { size_m } else { -size_m };
             let side = |is_inside: bool| {
@@ -176,7 +179,7 @@ impl<'a> Sampler<'a> {
             }
             let ends =
                 [&outside, &inside].map(|all| draws[all[stream.random_range(0..all.len())]].as_slice());
-            let gap_m = |q: &[f64]| least_of(&self.subject.gaps_m(q), &pairs, group);
+            let gap_m = |q: &[f64]| self.subject.gaps_of_m(q, own).into_iter().fold(f64::INFINITY, f64::min);
             let q = crossing(ends, |q| gap_m(q) - target_m);
             if (gap_m(&q) - target_m).abs() < NEAREST_M / 4.0 {
                 found.push(Question { gaps: true, frames: true, ..question(Kind::NearContact, q) });

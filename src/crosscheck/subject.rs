@@ -5,7 +5,7 @@ use engine::geometry::{
     Convex, Frame, Solid, Vec3, distance_point_solid, distance_segment_segment, distance_segment_solid,
 };
 use engine::kinematics::robot::Body;
-use engine::kinematics::{AXES, Chain, Joints, Robot};
+use engine::kinematics::{Chain, Joints, Robot};
 use engine::space::cell::{Cell, Standing};
 use engine::space::polyhedra::CarriedArm;
 use nalgebra::Matrix3;
@@ -18,8 +18,16 @@ pub trait Subject: Send + Sync {
     /// The frame of every link, and the tool's, in the world.
     fn frames(&self, q_rad: &[f64]) -> Vec<Frame>;
 
-    /// The gap of each of the model's pairs, metres: above 0 the distance, at most 0 in contact.
-    fn gaps_m(&self, q_rad: &[f64]) -> Vec<f64>;
+    /// The model's pairs.
+    fn pairs(&self) -> &[Pair];
+
+    /// The gap of each of `pairs`, metres: above 0 the distance, at most 0 in contact.
+    fn gaps_of_m(&self, q_rad: &[f64], pairs: &[Pair]) -> Vec<f64>;
+
+    /// The gap of each of the model's pairs.
+    fn gaps_m(&self, q_rad: &[f64]) -> Vec<f64> {
+        self.gaps_of_m(q_rad, self.pairs())
+    }
 
     /// What the check that planners use says of contact at `q_rad`, and what contact it looks for: `true` if the robot
     /// can be there. `None` if no planner moves this robot here.
@@ -115,9 +123,7 @@ impl SerialArm {
     }
 
     fn placed(&self, q_rad: &[f64]) -> Vec<engine::geometry::Capsule> {
-        let mut placed = Vec::new();
-        self.body.place(&self.chain().frames(&six(q_rad)), &mut placed);
-        placed
+        self.body.at(self.chain(), &six(q_rad))
     }
 }
 
@@ -137,7 +143,11 @@ impl Subject for SerialArm {
         frames
     }
 
-    fn gaps_m(&self, q_rad: &[f64]) -> Vec<f64> {
+    fn pairs(&self) -> &[Pair] {
+        &self.pairs
+    }
+
+    fn gaps_of_m(&self, q_rad: &[f64], pairs: &[Pair]) -> Vec<f64> {
         let placed = self.placed(q_rad);
         let gap = |pair: &Pair| match *pair {
             Pair::Still(part, still) => {
@@ -150,7 +160,7 @@ impl Subject for SerialArm {
                     - placed[b].radius
             }
         };
-        self.pairs.iter().map(gap).collect()
+        pairs.iter().map(gap).collect()
     }
 
     fn planners_check(&self, q_rad: &[f64]) -> Option<(bool, Freedom)> {
@@ -188,8 +198,7 @@ impl Subject for SerialArm {
     }
 
     fn determinant(&self, q_rad: &[f64]) -> f64 {
-        let frames = self.chain().frames(&six(q_rad));
-        Chain::jacobian(&frames, AXES, &frames[AXES].origin).determinant()
+        self.chain().jacobian_determinant(&six(q_rad))
     }
 
     fn between(&self, from_rad: &[f64], to_rad: &[f64], share: f64) -> Option<Vec<f64>> {

@@ -13,7 +13,7 @@ mod urdf;
 pub use file::ROBOT_FILE;
 pub use urdf::capsule_around;
 
-use super::{Arm, KinematicsError, serial::AXES};
+use super::{Arm, Chain, Joints, KinematicsError, serial::AXES};
 use crate::geometry::{Capsule, Frame, Segment, Vec3};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -167,6 +167,15 @@ impl Body {
     pub fn place(&self, frames: &[Frame; AXES + 1], placed: &mut Vec<Capsule>) {
         placed.clear();
         placed.extend(self.parts.iter().map(|part| part.placed(frames)));
+    }
+
+    /// The capsules where `chain` puts them at `q`, in the order of [`parts`](Self::parts).
+    ///
+    /// For who asks from another package: [`place`](Self::place) is compiled there, and what asks seldom is not optimised.
+    pub fn at(&self, chain: &Chain, q: &Joints) -> Vec<Capsule> {
+        let mut placed = Vec::with_capacity(self.parts.len());
+        self.place(&chain.frames(q), &mut placed);
+        placed
     }
 
     /// The parts that a scene can touch, as a body of their own; which of them may hit each other is left out.
