@@ -231,7 +231,9 @@ impl<'p> Explorer<'p> {
         if self.paper.studies.iter().all(|study| most_draws(study) <= first_draws(study)) {
             return Ok((BTreeMap::new(), first.trials));
         }
-        let (mut trials, near) = (first.trials, near_a_flip(self.paper, verdicts, first));
+        let (mut trials, mut near) = (first.trials, near_a_flip(self.paper, verdicts, first));
+        // What parts from the defaults with more draws is seen only beside them.
+        near.extend((!near.is_empty()).then_some(0));
         let each = self.trials_each(most_draws, |_| true)?;
         let (places, again) = within(budget.trials, &mut trials, &each, points, near);
         if again.is_empty() {

@@ -102,22 +102,14 @@ impl Exploration {
         more: &BTreeMap<usize, BTreeMap<String, Glance>>,
     ) -> Self {
         let of_claim = |id: &String| {
-            let (mut results, mut studies, mut existential) =
-                (Vec::<ExploredResult>::new(), BTreeSet::new(), false);
+            let (mut seen, mut studies, mut existential) = (Vec::new(), BTreeSet::new(), false);
             for (place, glances) in glances.iter().enumerate() {
                 let Some(first) = glances.get(id) else { continue };
-                let with_more = more.get(&place).and_then(|glances| glances.get(id));
                 existential |= first.existential;
                 studies.extend(first.studies.iter().cloned());
-                let found = results.iter_mut().find(|known| known.results == first.results);
-                if let Some(known) = found {
-                    known.take(place, with_more);
-                    continue;
-                }
-                let mut result = ExploredResult::of(first);
-                result.take(place, with_more);
-                results.push(result);
+                seen.push((place, first, more.get(&place).and_then(|glances| glances.get(id))));
             }
+            let results = results(&seen);
             let asked = paper.claim(id).map_or_else(String::new, |claim| claim_hash(paper, claim));
             (id.clone(), ExploredClaim { asked, studies, existential, results })
         };
@@ -258,11 +250,38 @@ impl ExploredResult {
         self.n = glance.ours.map_or(0, |(_, _, n)| n);
     }
 
-    /// Takes the reading at `place`, and what more draws say under it.
-    fn take(&mut self, place: usize, more: Option<&Glance>) {
-        self.readings.push(place);
-        if let Some(more) = more.filter(|more| more.sight >= self.sight) {
-            self.set(more);
+}
+
+/// What was found, equal results once, of a claim at a glance under the reading at each place, and with more draws where these ran.
+/// Readings that few draws do not tell apart and more draws do are two results; where more draws did not run, a reading stays with
+/// the first that was equal.
+pub(super) fn results(seen: &[(usize, &Glance, Option<&Glance>)]) -> Vec<ExploredResult> {
+    let mut found: Vec<(&str, Option<&Glance>, ExploredResult)> = Vec::new();
+    for (place, first, more) in seen {
+        let more = more.filter(|more| more.sight >= first.sight);
+        let is_it = |(few, known, _): &&mut (&str, Option<&Glance>, ExploredResult)| {
+            let is_as_known = known.zip(more).is_none_or(|(known, more)| known.results == more.results);
+            *few == first.results && is_as_known
+        };
+        match found.iter_mut().find(is_it) {
+            Some((_, known, result)) => {
+                result.readings.push(*place);
+                if let Some(more) = more {
+                    *known = Some(more);
+                    result.set(more);
+                }
+            }
+            None => {
+                let parted = found.iter().any(|(few, ..)| *few == first.results);
+                let mut result = ExploredResult::of(first);
+                more.iter().for_each(|more| result.set(more));
+                if let Some(more) = more.filter(|_| parted) {
+                    result.results.clone_from(&more.results);
+                }
+                result.readings.push(*place);
+                found.push((&first.results, more, result));
+            }
         }
     }
+    found.into_iter().map(|(.., result)| result).collect()
 }

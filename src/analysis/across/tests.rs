@@ -3,9 +3,9 @@ use super::super::class::Verdict::{
 };
 use super::combine::{combined, confirmed, flips};
 use super::count::{Axes, Group};
-use super::glance::Sight;
+use super::glance::{Glance, Sight};
 use super::hangs::said;
-use super::stored::{Exploration, ExploredClaim, ExploredResult, Now};
+use super::stored::{Exploration, ExploredClaim, ExploredResult, Now, results};
 use crate::study::Reading;
 use crate::study::spec::OptionSpec;
 use std::collections::{BTreeMap, BTreeSet};
@@ -218,4 +218,37 @@ fn an_axis_of_many_options_does_not_win_by_parting_few_results_each() {
     let axes = axes(&[("order", "a"), ("side", "a")]);
     let said = said(&axes, &first, "fewer", &groups(&classes), &classes, Undecided, false);
     assert_eq!(said, "hangs on side and others: reproduced under 4 of 6 (a 3 of 3, b 1 of 3)");
+}
+
+/// Of so many draws, whose trials these are.
+fn glance(class: Verdict, n: usize, results: &str) -> Glance {
+    Glance {
+        class,
+        sight: Sight::Looked,
+        existential: false,
+        ours: Some((0.0, None, n)),
+        results: results.to_owned(),
+        studies: BTreeSet::new(),
+    }
+}
+
+#[test]
+fn readings_that_only_more_draws_tell_apart_are_two_results() {
+    let (few, other) = (glance(NotReproduced, 30, "few"), glance(NotReproduced, 30, "other"));
+    let (shorter, equal) = (glance(Reproduced, 500, "shorter"), glance(NotReproduced, 500, "equal"));
+    let seen = [
+        (0, &few, Some(&shorter)),
+        (1, &few, Some(&equal)),
+        (2, &few, None),
+        (3, &other, None),
+        (4, &few, Some(&equal)),
+        (5, &few, Some(&shorter)),
+    ];
+    let found: Vec<_> = results(&seen).into_iter().map(|one| (one.readings, one.class, one.n)).collect();
+    // What more draws did not look at stays with the first that few draws do not tell from it.
+    let expected =
+        [(vec![0, 2, 5], Reproduced, 500), (vec![1, 4], NotReproduced, 500), (vec![3], NotReproduced, 30)];
+    assert_eq!(found, expected);
+    let names: BTreeSet<String> = results(&seen).into_iter().map(|one| one.results).collect();
+    assert_eq!(names.len(), 3, "two results have one name: {names:?}");
 }
