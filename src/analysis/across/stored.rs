@@ -249,7 +249,6 @@ impl ExploredResult {
             interval.map(|ends| ends.map(shown)).filter(|ends| ends.iter().all(|end| end.is_finite()));
         self.n = glance.ours.map_or(0, |(_, _, n)| n);
     }
-
 }
 
 /// What was found, equal results once, of a claim at a glance under the reading at each place, and with more draws where these ran.
@@ -259,28 +258,23 @@ pub(super) fn results(seen: &[(usize, &Glance, Option<&Glance>)]) -> Vec<Explore
     let mut found: Vec<(&str, Option<&Glance>, ExploredResult)> = Vec::new();
     for (place, first, more) in seen {
         let more = more.filter(|more| more.sight >= first.sight);
-        let is_it = |(few, known, _): &&mut (&str, Option<&Glance>, ExploredResult)| {
+        let is_it = |(few, known, _): &(&str, Option<&Glance>, ExploredResult)| {
             let is_as_known = known.zip(more).is_none_or(|(known, more)| known.results == more.results);
             *few == first.results && is_as_known
         };
-        match found.iter_mut().find(is_it) {
-            Some((_, known, result)) => {
-                result.readings.push(*place);
-                if let Some(more) = more {
-                    *known = Some(more);
-                    result.set(more);
-                }
-            }
-            None => {
-                let parted = found.iter().any(|(few, ..)| *few == first.results);
-                let mut result = ExploredResult::of(first);
-                more.iter().for_each(|more| result.set(more));
-                if let Some(more) = more.filter(|_| parted) {
-                    result.results.clone_from(&more.results);
-                }
-                result.readings.push(*place);
-                found.push((&first.results, more, result));
-            }
+        let at = found.iter().position(is_it);
+        let is_parted = at.is_none() && found.iter().any(|(few, ..)| *few == first.results);
+        let at = at.unwrap_or_else(|| {
+            found.push((&first.results, None, ExploredResult::of(first)));
+            found.len() - 1
+        });
+        let (_, known, result) = &mut found[at];
+        result.readings.push(*place);
+        let Some(more) = more else { continue };
+        *known = Some(more);
+        result.set(more);
+        if is_parted {
+            result.results.clone_from(&more.results);
         }
     }
     found.into_iter().map(|(.., result)| result).collect()
