@@ -8,7 +8,7 @@ use engine::space::roadmap::{Counted, Local, Near, Roadmap};
 use rand::RngExt as _;
 use std::path::Path as FilePath;
 
-fn lines() -> Lines {
+fn lines(end: EdgeEnd) -> Lines {
     let file = |name: &str| FilePath::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name);
     let robot = Robot::load(&file("robots/motoman_up6.toml")).unwrap();
     let scene = Scene::load(&file("scenes/fu2018_cell.toml")).unwrap();
@@ -19,13 +19,13 @@ fn lines() -> Lines {
         jump_rad: 20_f64.to_radians(),
         turn_rad: std::f64::consts::PI,
         speed: None,
-        end: EdgeEnd::Own,
+        end,
     };
     Lines::new(Cell::new(robot, scene, true), rules)
 }
 
-fn case() -> (Lines, Box<verify::cell::Case>) {
-    let lines = lines();
+fn case(end: EdgeEnd) -> (Lines, Box<verify::cell::Case>) {
+    let lines = lines(end);
     let map =
         Roadmap::build(Local::Arm(Box::new(lines.clone())), Vec::new(), Near::Places(1.0), Counted::Accepted);
     let Case::Arm(case) = Case::new(&map) else { panic!("the roadmap is an arm's") };
@@ -126,7 +126,7 @@ const OUT_OF_REACH: [Joints; 2] = [
 
 #[test]
 fn a_leg_out_of_reach_between_two_steps_is_joined_by_no_planner_and_refused() {
-    let ((lines, case), mut scratch) = (case(), Scratch::default());
+    let ((lines, case), mut scratch) = (case(EdgeEnd::Own), Scratch::default());
     let [from, to] = OUT_OF_REACH;
     assert_eq!(lines.join(&lines.pose(&from), &lines.pose(&to), &mut scratch), Err(Rejection::Unreachable));
     let refusal = case.motion(&[from, to], [&from, &to]).unwrap_err();
@@ -135,7 +135,7 @@ fn a_leg_out_of_reach_between_two_steps_is_joined_by_no_planner_and_refused() {
 
 #[test]
 fn legs_beside_singularities_are_followed_both_ways() {
-    let ((lines, case), mut scratch) = (case(), Scratch::default());
+    let ((lines, case), mut scratch) = (case(EdgeEnd::Own), Scratch::default());
     for [from, to] in &BESIDE_SINGULARITIES {
         assert!(is_followed(&lines, &case, [from, to], &mut scratch), "not joined: {from:?} to {to:?}");
     }
@@ -143,7 +143,7 @@ fn legs_beside_singularities_are_followed_both_ways() {
 
 #[test]
 fn what_the_planner_joins_the_verifier_follows_both_ways() {
-    let ((lines, case), mut scratch) = (case(), Scratch::default());
+    let ((lines, case), mut scratch) = (case(EdgeEnd::Own), Scratch::default());
     let mut stream = stream(derive(1, &["legs"]));
     let mut poses: Vec<Joints> = Vec::new();
     while poses.len() < 250 {
@@ -160,4 +160,18 @@ fn what_the_planner_joins_the_verifier_follows_both_ways() {
     let joined =
         pairs.filter(|(a, b)| is_followed(&lines, &case, [&poses[*a], &poses[*b]], &mut scratch)).count();
     assert!(joined > 300, "{joined} of 31 125 pairs were joined");
+}
+
+#[test]
+fn whole_turns_add_up_along_a_path_until_the_sixth_joint_ends() {
+    let ((lines, case), mut scratch) = (case(EdgeEnd::WholeTurns), Scratch::default());
+    let home = |last: f64| [0.0, -90.0, 0.0, 0.0, 90.0, last].map(f64::to_radians);
+    let path = [home(150.0), home(-90.0), home(30.0)];
+    for leg in path.windows(2) {
+        assert!(lines.join(&lines.pose(&leg[0]), &lines.pose(&leg[1]), &mut scratch).is_ok(), "{leg:?}");
+        assert!(case.motion(leg, [&leg[0], &leg[1]]).is_ok(), "{leg:?}");
+    }
+    // The first leg arrives at 270 degrees, from where the second would end at 390.
+    let refusal = case.motion(&path, [&path[0], &path[2]]).unwrap_err();
+    assert!(refusal.starts_with("leg 2: joint 6 is outside its limits at "), "{refusal}");
 }
