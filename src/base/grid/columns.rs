@@ -28,7 +28,7 @@ impl Bits {
         self.bytes[place as usize / 8] |= 1 << (place % 8);
     }
 
-    /// The places from `first` on; bit `i` is place `first + i`. It holds [`WINDOW`] places, or up to seven more.
+    /// The places from `first` on; bit `i` is place `first + i`. It holds at least 57 places.
     #[inline]
     pub fn window(&self, first: u32) -> u64 {
         let word = self.bytes[first as usize / 8..].first_chunk().expect("there is a word at every place");
