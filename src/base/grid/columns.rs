@@ -8,34 +8,36 @@ pub const MAX_REACH_CELLS: u32 = 20;
 /// A set of places, one bit each.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bits {
-    words: Vec<u64>,
+    bytes: Vec<u8>,
 }
+
+/// How many places a window holds at least: a word, less what lies in its first byte before the first place.
+const WINDOW: u32 = u64::BITS - 7;
+const _: () = assert!(2 * MAX_REACH_CELLS < WINDOW);
 
 impl Bits {
     /// No place of `count`.
     pub fn none(count: usize) -> Self {
-        // One more word, so that a window that begins at the last place has a second one.
-        Self { words: vec![0; count / 64 + 2] }
+        // A word more, so that a window can begin at the last place.
+        Self { bytes: vec![0; count / 8 + size_of::<u64>()] }
     }
 
     /// Adds `place`.
     #[inline]
     pub fn insert(&mut self, place: u32) {
-        self.words[place as usize / 64] |= 1 << (place % 64);
+        self.bytes[place as usize / 8] |= 1 << (place % 8);
     }
 
-    /// The 64 places from `first` on; bit `i` is place `first + i`.
+    /// The places from `first` on; bit `i` is place `first + i`. It holds at least 57 places.
     #[inline]
     pub fn window(&self, first: u32) -> u64 {
-        let (word, shift) = (first as usize / 64, first % 64);
-        let pair = &self.words[word..word + 2];
-        // A shift by 64 is refused, hence by one and by the rest.
-        pair[0] >> shift | pair[1] << 1 << (63 - shift)
+        let word = self.bytes[first as usize / 8..].first_chunk().expect("there is a word at every place");
+        u64::from_le_bytes(*word) >> (first % 8)
     }
 
     /// Removes every place.
     pub fn clear(&mut self) {
-        self.words.fill(0);
+        self.bytes.fill(0);
     }
 }
 
@@ -85,6 +87,14 @@ impl Columns {
         (column + MAX_REACH_CELLS) * self.stride + row + MAX_REACH_CELLS
     }
 
+    /// The column and the row of the cell at `place`.
+    #[inline]
+    pub fn xy(&self, place: u32) -> [u32; 2] {
+        let [width, height] = self.size;
+        let [column, row] = [place / self.stride, place % self.stride].map(|at| at - MAX_REACH_CELLS);
+        [width - 1 - column, height - 1 - row]
+    }
+
     /// What a step by `[dx, dy]` adds to a place.
     pub fn offset(&self, [dx, dy]: [i32; 2]) -> i32 {
         -(dx * self.stride as i32 + dy)
@@ -112,6 +122,7 @@ mod tests {
             let columns = Columns::new(&grid);
             for cell in 0..grid.cell_count() {
                 let [x, y] = grid.xy(cell);
+                assert_eq!(columns.xy(columns.place(cell)).map(|at| at as i32), [x, y], "seed {seed}");
                 for dx in -reach..=reach {
                     let first = columns.place(cell).wrapping_add_signed(columns.offset([dx, reach]));
                     let window = columns.free().window(first);

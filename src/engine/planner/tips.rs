@@ -209,15 +209,20 @@ impl<'a> Posed<'a> {
         manner: Manner,
     ) -> (Report<f64>, ListScans) {
         let lattice = self.world.rules().lattice;
-        let (goal, heuristic) = (lattice.point(self.goal), manner.heuristic);
-        let h = move |cell: u32| heuristic.over(lattice.point(cell) - goal);
         let (columns, spacing) = (self.world.columns(), lattice.step_cm());
+        let (goal, [width, height]) = (lattice.point(self.goal), lattice.size());
+        // Part of the heuristic stands here by column and by row: every node that is opened asks for it.
+        let along_x: Vec<f64> = (0..width).map(|x| lattice.point(x).x - goal.x).collect();
+        let along_y: Vec<f64> = (0..height).map(|y| lattice.point(y * width).y - goal.y).collect();
+        let way = |[x, y]: [u32; 2]| Vec2::new(along_x[x as usize], along_y[y as usize]);
+        let at = |xy: [u32; 2]| manner.heuristic.over(way(xy));
+        let h = |cell: u32| at([cell % width, cell / width]);
         match search {
             TipSearch::Columns(search) => search.run(LatticeQuery {
                 columns,
                 spacing,
                 successors,
-                h,
+                h: at,
                 ends: [self.start, self.goal],
                 lower_open: manner.open_node == OpenSetting::Lowered,
                 max_expansions: manner.expansions,

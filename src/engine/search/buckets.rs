@@ -3,7 +3,7 @@
 use super::frontier::{Best, Frontier, Offer};
 
 /// How many buckets there are.
-pub(super) const BUCKETS: usize = 4096;
+const BUCKETS: usize = 4096;
 const NONE: u32 = u32::MAX;
 
 /// 4096 circular buckets under a two-level bitmap (Dial 1969).

@@ -14,7 +14,7 @@
 )]
 
 use super::frontier::Ties;
-use super::node_lists::{Node, NodeLists, Way, improved};
+use super::node_lists::{NodeLists, Way, improved};
 use super::{Counters, Outcome, Report};
 use crate::geometry::lanes::{LANES, Row, Simd, dispatch, level};
 use base::grid::Grid3;
@@ -123,18 +123,18 @@ impl CubicAstar {
         G: Fn(u32) -> bool,
     {
         let mut counters = Counters { opened: 1, peak_open: 1, ..Counters::default() };
-        let mut best = Some(self.lists.open_start(query.start, query.start, (query.h)(query.start)));
+        let mut best = Some(self.lists.open_start(query.start, (query.h)(query.start)));
         let outcome = loop {
-            let Some(rank) = best else { break Outcome::NoPath };
-            if (query.is_goal)(self.lists.nodes[rank as usize].cell) {
-                break Outcome::Solved(self.lists.route(rank));
+            let Some(node) = best else { break Outcome::NoPath };
+            if (query.is_goal)(node) {
+                break Outcome::Solved(self.lists.route(node));
             }
             if counters.expansions >= query.max_expansions {
                 break Outcome::BudgetSpent;
             }
             counters.closed += 1;
             counters.expansions += 1;
-            self.expand(simd, rank, query, &mut counters);
+            self.expand(simd, node, query, &mut counters);
             counters.peak_open = counters.peak_open.max(counters.opened - counters.closed);
             best = self.lists.best();
         };
@@ -146,7 +146,7 @@ impl CubicAstar {
     fn expand<S, N, M, H, G>(
         &mut self,
         simd: S,
-        rank: u32,
+        node: u32,
         query: &CubicQuery<'_, N, M, H, G>,
         counters: &mut Counters,
     ) where
@@ -156,28 +156,36 @@ impl CubicAstar {
         H: Fn(u32) -> f64,
     {
         let Self { steps, lists } = self;
-        let Node { g, cell, .. } = lists.close(rank);
-        let (mut free, mut better) = (0, 0);
+        let g = lists.close(node);
+        let (mut free, mut better, mut opened) = (0, 0, 0);
         for (row, lengths) in steps.rows.iter().enumerate() {
-            let first = cell.wrapping_add_signed(steps.each[row * IN_A_ROW].0);
+            let first = node.wrapping_add_signed(steps.each[row * IN_A_ROW].0);
             for lane in 0..IN_A_ROW {
                 free |= u32::from(query.grid.is_free(first + lane as u32)) << (row * IN_A_ROW + lane);
             }
             let below = improved(simd, g, std::slice::from_ref(lengths), &lists.bounds[first as usize..]);
-            better |= (below as u32 & ((1 << IN_A_ROW) - 1)) << (row * IN_A_ROW);
+            let row_of = |bits: u64| (bits as u32 & ((1 << IN_A_ROW) - 1)) << (row * IN_A_ROW);
+            better |= row_of(below);
+            opened |= row_of(lists.opened.window(first));
         }
         let mut kept = free & !(1 << OWN);
-        if (query.is_near)(cell) {
-            kept = steps.kept(kept, |offset| (query.may_step)(cell, cell.wrapping_add_signed(offset)));
+        if (query.is_near)(node) {
+            kept = steps.kept(kept, |offset| (query.may_step)(node, node.wrapping_add_signed(offset)));
         }
         counters.generated += u64::from(kept.count_ones());
         better &= kept;
         while better != 0 {
-            let (offset, length) = steps.each[better.trailing_zeros() as usize];
+            let bit = better.trailing_zeros();
+            let (offset, length) = steps.each[bit as usize];
             better &= better - 1;
-            let to = cell.wrapping_add_signed(offset);
-            let way = Way { g: g + length, parent: rank, place: to, cell: to };
-            counters.opened += u64::from(lists.take(&way, true, &query.h));
+            let to = node.wrapping_add_signed(offset);
+            let way = Way { g: g + length, parent: node, place: to };
+            if opened >> bit & 1 == 1 {
+                lists.lower(&way);
+            } else {
+                lists.add(&way, true, (query.h)(to));
+                counters.opened += 1;
+            }
         }
     }
 }

@@ -6,17 +6,17 @@
 //! [`ListScans`] watching. It returns the same paths, the same costs to the last bit and the same counters; a test holds
 //! the two equal. What makes it fast: free and closed cells are bits, so that a column of neighbours is looked up and
 //! counted at once; the costs of the ways to a column are compared in one sweep, and only ways that improve a cell are dealt
-//! with one by one; open nodes lie in buckets of f, and only those of the bucket in hand are put in order.
+//! with one by one; open nodes lie in buckets of f, each of them once, and only those of the bucket in hand are put in order.
 #![expect(
     clippy::inline_always,
     reason = "the search is compiled for the instructions of the function it ends up in"
 )]
 
 use super::frontier::Ties;
-use super::neighbourhood::{MOST_ROWS, Shape, Successors, reach, strides};
-use super::node_lists::{Node, NodeLists, Way, improved};
+use super::neighbourhood::{Block, MOST_ROWS, Shape, Step, Successors, reach, strides};
+use super::node_lists::{NodeLists, Way, improved};
 use super::observe::{ListScans, Lists};
-use super::{Counters, Outcome, Report};
+use super::{Counters, Outcome, Report, Route};
 use crate::geometry::lanes::{LANES, Simd, dispatch, level};
 use base::grid::{Columns, MAX_REACH_CELLS, Offsets};
 
@@ -29,7 +29,7 @@ pub struct LatticeQuery<'a, S, H> {
     pub spacing: f64,
     /// Which of the free cells around a cell are its successors.
     pub successors: &'a mut S,
-    /// The heuristic; f may not rise by more than three times the longest step from a cell to a successor.
+    /// The heuristic, of a column and a row; f may not rise by more than three times the longest step from a cell to a successor.
     pub h: H,
     /// Start and goal.
     pub ends: [u32; 2],
@@ -67,7 +67,7 @@ impl LatticeAstar {
     pub fn run<S, H>(&mut self, mut query: LatticeQuery<'_, S, H>) -> (Report<f64>, ListScans)
     where
         S: Successors,
-        H: Fn(u32) -> f64,
+        H: Fn([u32; 2]) -> f64,
     {
         self.fit(query.columns, query.spacing);
         dispatch!(level(), simd => self.solve(simd, &mut query))
@@ -78,7 +78,7 @@ impl LatticeAstar {
     where
         I: Simd,
         S: Successors,
-        H: Fn(u32) -> f64,
+        H: Fn([u32; 2]) -> f64,
     {
         let [start, goal] = query.ends;
         let mut seen = Seen {
@@ -86,18 +86,19 @@ impl LatticeAstar {
             lists: Lists { open: 1, closed: 0 },
             scans: ListScans::default(),
         };
-        let (place, h) = (query.columns.place(start), (query.h)(start));
-        let mut best = Some(self.lists.open_start(start, place, h));
+        let [place, goal] = [start, goal].map(|cell| query.columns.place(cell));
+        let h = (query.h)(query.columns.xy(place));
+        let mut best = Some(self.lists.open_start(place, h));
         let outcome = loop {
-            let Some(rank) = best else { break Outcome::NoPath };
-            if self.lists.nodes[rank as usize].cell == goal {
-                break Outcome::Solved(self.lists.route(rank));
+            let Some(place) = best else { break Outcome::NoPath };
+            if place == goal {
+                break Outcome::Solved(self.route(query.columns, place));
             }
             if seen.counters.expansions >= query.max_expansions {
                 break Outcome::BudgetSpent;
             }
             seen.close();
-            self.expand(simd, rank, query, &mut seen);
+            self.expand(simd, place, query, &mut seen);
             seen.counters.peak_open = seen.counters.peak_open.max(seen.lists.open);
             best = self.lists.best();
         };
@@ -114,40 +115,43 @@ impl LatticeAstar {
         lists.fit(columns.place_count(), LANES * MOST_ROWS, is_other.then(|| shape.longest()));
     }
 
+    /// The way to the cell at `place`.
+    fn route(&self, columns: &Columns, place: u32) -> Route<f64> {
+        let mut route = self.lists.route(place);
+        for node in &mut route.nodes {
+            let [x, y] = columns.xy(*node);
+            *node = y * columns.width() + x;
+        }
+        route
+    }
+
     /// Closes a node and deals with its successors.
     #[inline(always)]
-    fn expand<I, S, H>(&mut self, simd: I, rank: u32, query: &mut LatticeQuery<'_, S, H>, seen: &mut Seen)
+    fn expand<I, S, H>(&mut self, simd: I, place: u32, query: &mut LatticeQuery<'_, S, H>, seen: &mut Seen)
     where
         I: Simd,
         S: Successors,
-        H: Fn(u32) -> f64,
+        H: Fn([u32; 2]) -> f64,
     {
         let Self { shape, lists, .. } = self;
-        let Node { g, cell, place, .. } = lists.close(rank);
-        query.successors.expands(cell);
+        let g = lists.close(place);
+        let [x, y] = query.columns.xy(place);
+        let at = At { g, place, cell: y * query.columns.width() + x };
+        query.successors.expands(at.cell);
         let (before, mut looked_up) = (seen.lists, LookedUp::default());
         for block in &shape.blocks {
-            let (mut kept, mut open, mut better) = (0, 0, 0);
-            for column in &block.columns {
-                let (first, shift) = (place.wrapping_add_signed(column.first), column.shift);
-                let free = query.columns.free().window(first) & column.mask;
-                let here = query.successors.kept(cell, column.dx, shape.reach, free);
-                kept |= here << shift;
-                open |= (here & !lists.closed.window(first)) << shift;
-                let (lengths, bounds) = (&column.lengths[..shape.rows], &lists.bounds[first as usize..]);
-                better |= (improved(simd, g, lengths, bounds) & column.mask) << shift;
-            }
-            better &= open;
-            while better != 0 {
-                let bit = better.trailing_zeros();
-                better &= better - 1;
+            let Around { kept, open, opened, better } = at.around(simd, lists, shape, block, query);
+            // New nodes first: their heuristic takes longest, and is worked out while the others are dealt with.
+            for bit in bits(open & !opened) {
                 let step = block.steps[bit as usize];
-                let (place, cell) = step.target(place, cell);
-                let way = Way { g: g + step.length, parent: rank, place, cell };
-                if lists.take(&way, query.lower_open, &query.h) {
-                    seen.lists.open += 1;
-                    looked_up.before_new += looked_up.open + u64::from((open << (63 - bit)).count_ones());
-                }
+                let [dx, dy] = step.xy;
+                let h = (query.h)([x.wrapping_add_signed(dx), y.wrapping_add_signed(dy)]);
+                lists.add(&at.way(step), query.lower_open, h);
+                seen.lists.open += 1;
+                looked_up.before_new += looked_up.open + u64::from((open << (63 - bit)).count_ones());
+            }
+            for bit in bits(open & opened & better) {
+                lists.lower(&at.way(block.steps[bit as usize]));
             }
             looked_up.all += u64::from(kept.count_ones());
             looked_up.open += u64::from(open.count_ones());
@@ -155,6 +159,69 @@ impl LatticeAstar {
         seen.counters.opened += seen.lists.open - before.open;
         seen.counters.generated += looked_up.all;
         seen.scans.membership_comparisons += looked_up.comparisons(before, seen.lists.open - before.open);
+    }
+}
+
+/// The places of the bits that are set, the lowest first.
+#[inline(always)]
+fn bits(mut of: u64) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        let bit = (of != 0).then(|| of.trailing_zeros());
+        of &= of.wrapping_sub(1);
+        bit
+    })
+}
+
+/// The node that is expanded.
+struct At {
+    g: f64,
+    place: u32,
+    cell: u32,
+}
+
+/// Nodes around one, a bit each.
+#[derive(Default)]
+struct Around {
+    /// Its successors.
+    kept: u64,
+    /// Those that are not closed.
+    open: u64,
+    /// Nodes that were ever opened.
+    opened: u64,
+    /// Nodes to which the way through it is better than what is known.
+    better: u64,
+}
+
+impl At {
+    /// The way on by `step`.
+    #[inline(always)]
+    fn way(&self, step: Step) -> Way {
+        let place = self.place.wrapping_add_signed(step.place);
+        Way { g: self.g + step.length, parent: self.place, place }
+    }
+
+    /// What lies in the columns of `block`.
+    #[inline(always)]
+    fn around<I: Simd, S: Successors, H>(
+        &self,
+        simd: I,
+        lists: &NodeLists,
+        shape: &Shape,
+        block: &Block,
+        query: &mut LatticeQuery<'_, S, H>,
+    ) -> Around {
+        let mut around = Around::default();
+        for column in &block.columns {
+            let (first, shift) = (self.place.wrapping_add_signed(column.first), column.shift);
+            let free = query.columns.free().window(first) & column.mask;
+            let kept = query.successors.kept(self.cell, column.dx, shape.reach, free);
+            let (lengths, bounds) = (&column.lengths[..shape.rows], &lists.bounds[first as usize..]);
+            around.kept |= kept << shift;
+            around.open |= (kept & !lists.closed.window(first)) << shift;
+            around.opened |= (lists.opened.window(first) & column.mask) << shift;
+            around.better |= (improved(simd, self.g, lengths, bounds) & column.mask) << shift;
+        }
+        around
     }
 }
 

@@ -48,9 +48,9 @@ mod node_lists;
 mod observe;
 mod octile;
 mod one_way;
+mod open_list;
 mod radix;
 mod side;
-mod sorted_buckets;
 mod straight;
 #[cfg(test)]
 mod tests;

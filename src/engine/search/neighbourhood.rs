@@ -55,16 +55,8 @@ pub(super) struct Step {
     pub(super) length: f64,
     /// What it adds to a place.
     pub(super) place: i32,
-    /// What it adds to a cell.
-    pub(super) cell: i32,
-}
-
-impl Step {
-    /// The place and the cell that it leads to.
-    #[inline]
-    pub(super) fn target(&self, place: u32, cell: u32) -> (u32, u32) {
-        (place.wrapping_add_signed(self.place), cell.wrapping_add_signed(self.cell))
-    }
+    /// What it adds to the column and the row.
+    pub(super) xy: [i32; 2],
 }
 
 /// The steps of a neighbourhood along one column.
@@ -100,7 +92,7 @@ impl Shape {
 
 impl Block {
     fn new(dxs: &[i32], offsets: &Offsets, columns: &Columns, spacing: f64) -> Self {
-        let (reach, [_, width]) = (reach(offsets), strides(columns));
+        let reach = reach(offsets);
         let mut block = Self { columns: Vec::new(), steps: Vec::new() };
         for &dx in dxs {
             let shift = block.steps.len() as u32;
@@ -112,8 +104,8 @@ impl Block {
                     column.mask |= 1 << bit;
                     column.lengths[bit / LANES][bit % LANES] = spacing * f64::from(dx * dx + dy * dy).sqrt();
                 }
-                let (place, cell) = (columns.offset([dx, dy]), dy * width + dx);
-                block.steps.push(Step { length: column.lengths[bit / LANES][bit % LANES], place, cell });
+                let (length, xy) = (column.lengths[bit / LANES][bit % LANES], [dx, dy]);
+                block.steps.push(Step { length, place: columns.offset(xy), xy });
             }
             block.columns.push(column);
         }
@@ -163,7 +155,7 @@ impl<S: Successors> Graph for ColumnGraph<'_, S> {
 
     fn successors(&mut self, node: u32, mut visit: impl FnMut(u32, f64)) {
         self.successors.expands(node);
-        let place = self.columns.place(node);
+        let (place, width) = (self.columns.place(node), self.columns.width() as i32);
         for block in &self.shape.blocks {
             for column in &block.columns {
                 let free = column.free(self.columns, place);
@@ -171,7 +163,8 @@ impl<S: Successors> Graph for ColumnGraph<'_, S> {
                 while kept != 0 {
                     let step = block.steps[(column.shift + kept.trailing_zeros()) as usize];
                     kept &= kept - 1;
-                    visit(node.wrapping_add_signed(step.cell), step.length);
+                    let [dx, dy] = step.xy;
+                    visit(node.wrapping_add_signed(dy * width + dx), step.length);
                 }
             }
         }

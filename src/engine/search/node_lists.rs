@@ -1,80 +1,56 @@
 //! OPEN and CLOSED of the searches that are specialised for lattices.
 //!
-//! Closed nodes stay closed. Open nodes lie in buckets of f, and only those of the bucket in hand are put in order.
+//! Closed nodes stay closed. Every node has a place, and everything about it lies there, so that a search goes from a place
+//! to its neighbours' without asking where they are kept.
 #![expect(
     clippy::inline_always,
     reason = "the lists are compiled for the instructions of the search that they serve"
 )]
 
 use super::Route;
-use super::buckets::BUCKETS;
 use super::cost::quantised;
 use super::frontier::Ties;
-use super::sorted_buckets::{Order, SortedBuckets};
+use super::open_list::{OpenList, Waiting};
 use crate::geometry::lanes::{LANES, Lane, Row, Simd, SimdBase as _, SimdMask as _};
 use base::grid::Bits;
 
+/// The place before the start.
 const NONE: u32 = u32::MAX;
 
 /// OPEN and CLOSED.
 #[derive(Clone, Debug)]
 pub(super) struct NodeLists {
-    /// What makes a node's place among equal f of its rank, and its rank of the place: 0, or every bit.
+    /// What makes a node's key among equal f of how many were opened before: 0, or every bit.
     flip: u32,
-    /// By place: what a way to the cell must stay below to be taken. Infinite for cells that were not opened, and minus
+    /// By place: what a way to the node must stay below to be taken. Infinite for nodes that were not opened, and minus
     /// infinite for those that take no other way.
     pub(super) bounds: Vec<f64>,
-    /// By place: how many nodes were opened before.
-    ranks: Vec<u32>,
+    /// Whether a node was ever opened.
+    pub(super) opened: Bits,
     pub(super) closed: Bits,
-    /// By rank.
-    pub(super) nodes: Vec<Node>,
-    open: SortedBuckets<Waiting, ByPlace>,
+    /// By place; those that were not opened say nothing.
+    nodes: Vec<Node>,
+    /// The places of the nodes in the order in which they were opened.
+    order: Vec<u32>,
+    open: OpenList,
 }
 
 /// A node that was opened.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    pub(super) g: f64,
+    g: f64,
     h: f64,
-    pub(super) cell: u32,
-    pub(super) place: u32,
-    /// The rank of the node before it on its way.
+    /// The place of the node before it on its way.
     parent: u32,
-    is_closed: bool,
+    pub(super) open: Waiting,
 }
 
-/// An open node in the queue.
-#[derive(Clone, Copy, Debug)]
-struct Waiting {
-    f: u64,
-    /// What orders it among equal f: its rank, or the complement of it.
-    place: u32,
-}
-
-/// The order of [`Waiting`].
-#[derive(Clone, Copy, Debug)]
-struct ByPlace;
-
-impl Order<Waiting> for ByPlace {
-    #[inline]
-    fn f(&self, item: &Waiting) -> u64 {
-        item.f
-    }
-
-    #[inline]
-    fn is_after(&self, one: &Waiting, other: &Waiting) -> bool {
-        (one.f, one.place) > (other.f, other.place)
-    }
-}
-
-/// A way to a cell.
+/// A way to a node.
 pub(super) struct Way {
     pub(super) g: f64,
-    /// The rank of the node before the cell.
+    /// The place of the node before it.
     pub(super) parent: u32,
     pub(super) place: u32,
-    pub(super) cell: u32,
 }
 
 impl NodeLists {
@@ -88,10 +64,11 @@ impl NodeLists {
         Some(Self {
             flip,
             bounds: Vec::new(),
-            ranks: Vec::new(),
+            opened: Bits::default(),
             closed: Bits::default(),
             nodes: Vec::new(),
-            open: SortedBuckets::new(ByPlace, 0),
+            order: Vec::new(),
+            open: OpenList::new(0.0),
         })
     }
 
@@ -99,98 +76,165 @@ impl NodeLists {
     /// longest step from now on, if it is another one.
     pub(super) fn fit(&mut self, places: usize, beyond: usize, longest: Option<f64>) {
         if let Some(longest) = longest {
-            self.open = SortedBuckets::new(ByPlace, bucket_bits(longest));
+            self.open = OpenList::new(longest);
         }
-        for node in self.nodes.drain(..) {
-            self.bounds[node.place as usize] = f64::INFINITY;
+        for place in self.order.drain(..) {
+            self.bounds[place as usize] = f64::INFINITY;
         }
-        if self.ranks.len() < places {
+        if self.nodes.len() < places {
             // A sweep at the last place takes lanes beyond it.
             self.bounds.resize(places + beyond, f64::INFINITY);
-            self.ranks.resize(places, NONE);
-            self.closed = Bits::none(places);
+            self.nodes.resize(places, Node { g: 0.0, h: 0.0, parent: NONE, open: Waiting::new(0, 0) });
+            (self.opened, self.closed) = (Bits::none(places), Bits::none(places));
         }
+        self.opened.clear();
         self.closed.clear();
     }
 
     /// Opens the start and takes it.
-    pub(super) fn open_start(&mut self, cell: u32, place: u32, h: f64) -> u32 {
-        self.nodes.push(Node { g: 0.0, h, cell, place, parent: NONE, is_closed: false });
-        self.open.begin(Waiting { f: quantised(h), place: self.flip });
-        0
+    pub(super) fn open_start(&mut self, place: u32, h: f64) -> u32 {
+        let f = quantised(h);
+        self.nodes[place as usize] = Node { g: 0.0, h, parent: NONE, open: Waiting::new(f, self.flip) };
+        self.order.push(place);
+        self.opened.insert(place);
+        self.open.begin(f);
+        place
     }
 
     /// Takes the best open node.
     #[inline(always)]
     pub(super) fn best(&mut self) -> Option<u32> {
-        loop {
-            let rank = self.open.pop()?.place ^ self.flip;
-            if !self.nodes[rank as usize].is_closed {
-                return Some(rank);
-            }
-        }
+        self.open.pop(&self.nodes)
     }
 
-    /// Closes a node.
+    /// Closes a node; gives its g.
     #[inline(always)]
-    pub(super) fn close(&mut self, rank: u32) -> Node {
-        let node = &mut self.nodes[rank as usize];
-        node.is_closed = true;
-        self.bounds[node.place as usize] = f64::NEG_INFINITY;
-        self.closed.insert(node.place);
-        *node
+    pub(super) fn close(&mut self, place: u32) -> f64 {
+        self.bounds[place as usize] = f64::NEG_INFINITY;
+        self.closed.insert(place);
+        self.nodes[place as usize].g
     }
 
-    /// Takes a way that is better than what is known; tells whether it opens the cell. Open nodes take no other way unless
-    /// `lower_open`.
+    /// Opens a node; it will take no other way unless `lower_open`.
     #[inline(always)]
-    pub(super) fn take(&mut self, way: &Way, lower_open: bool, h: impl Fn(u32) -> f64) -> bool {
-        let Way { g, parent, place, cell } = *way;
-        let bound = &mut self.bounds[place as usize];
-        let is_new = *bound == f64::INFINITY;
-        *bound = if lower_open { g } else { f64::NEG_INFINITY };
-        let (rank, h) = if is_new {
-            let (rank, h) = (self.nodes.len() as u32, h(cell));
-            self.ranks[place as usize] = rank;
-            self.nodes.push(Node { g, h, cell, place, parent, is_closed: false });
-            (rank, h)
-        } else {
-            let rank = self.ranks[place as usize];
-            let node = &mut self.nodes[rank as usize];
-            (node.g, node.parent) = (g, parent);
-            (rank, node.h)
-        };
-        self.open.push(Waiting { f: quantised(g + h), place: rank ^ self.flip });
-        is_new
+    pub(super) fn add(&mut self, way: &Way, lower_open: bool, h: f64) {
+        let Way { g, parent, place } = *way;
+        let open = Waiting::new(quantised(g + h), self.order.len() as u32 ^ self.flip);
+        self.bounds[place as usize] = if lower_open { g } else { f64::NEG_INFINITY };
+        self.opened.insert(place);
+        self.order.push(place);
+        self.nodes[place as usize] = Node { g, h, parent, open };
+        self.open.push(&mut self.nodes, place, open);
     }
 
-    /// The way to the node of this rank.
-    pub(super) fn route(&self, rank: u32) -> Route<f64> {
-        let (mut nodes, mut at) = (Vec::new(), rank);
+    /// Takes a better way to an open node.
+    #[inline(always)]
+    pub(super) fn lower(&mut self, way: &Way) {
+        let Way { g, parent, place } = *way;
+        self.bounds[place as usize] = g;
+        let node = &mut self.nodes[place as usize];
+        (node.g, node.parent) = (g, parent);
+        let f = quantised(g + node.h);
+        self.open.reorder(&mut self.nodes, place, f);
+    }
+
+    /// The way to the node at `place`, as places.
+    pub(super) fn route(&self, place: u32) -> Route<f64> {
+        let (mut nodes, mut at) = (Vec::new(), place);
         while let Some(node) = self.nodes.get(at as usize) {
-            nodes.push(node.cell);
+            nodes.push(at);
             at = node.parent;
         }
         nodes.reverse();
-        Route { nodes, cost: self.nodes[rank as usize].g }
+        Route { nodes, cost: self.nodes[place as usize].g }
     }
-}
-
-/// Log₂ of the keys that a bucket must span to hold every f that can be open, if f rises by at most three times the longest
-/// step.
-fn bucket_bits(longest: f64) -> u32 {
-    let rise = quantised(3.0 * longest) / (BUCKETS as u64 - 2);
-    u64::BITS - rise.leading_zeros()
 }
 
 /// Which of the ways from a node at cost `g` along steps of these lengths stay below their bounds, a bit each.
 #[inline(always)]
 pub(super) fn improved<I: Simd>(simd: I, g: f64, lengths: &[Row], bounds: &[f64]) -> u64 {
-    let (from, mut bits) = (Lane::splat(simd, g), 0);
-    for (row, (lengths, bounds)) in lengths.iter().zip(bounds.as_chunks().0).enumerate() {
+    let from = Lane::splat(simd, g);
+    let below = |(lengths, bounds): (&Row, &Row)| {
         let reached = from + Lane::load_array_ref(simd, lengths);
-        let is_below = reached.simd_lt(Lane::load_array_ref(simd, bounds));
-        bits |= is_below.to_bitmask() << (LANES * row);
+        reached.simd_lt(Lane::load_array_ref(simd, bounds)).to_bitmask()
+    };
+    // The narrow neighbourhoods are most of the work, and what a loop costs is a part of theirs.
+    match (lengths, bounds.as_chunks().0) {
+        ([l], [b, ..]) => below((l, b)),
+        ([l, m], [b, c, ..]) => below((l, b)) | below((m, c)) << LANES,
+        ([l, m, n], [b, c, d, ..]) => below((l, b)) | below((m, c)) << LANES | below((n, d)) << (2 * LANES),
+        (lengths, bounds) => {
+            let rows = lengths.iter().zip(bounds).map(below);
+            rows.rev().fold(0, |bits, row| bits << LANES | row)
+        }
     }
-    bits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use base::seed;
+    use rand::RngExt as _;
+    use std::collections::BTreeSet;
+
+    const PLACES: u32 = 1_000;
+
+    /// Opens, lowers and takes nodes at random beside a sorted set; counts lowered nodes and ties.
+    fn against_a_set(lists: &mut NodeLists, seed: u64) -> [u32; 2] {
+        let mut stream = seed::stream(seed);
+        // A g above `low`; steps of one size make ties, those of the other share a bucket.
+        let mut above = |low: f64| {
+            let step = [1e-2, 1e-5][stream.random_range(0..2)];
+            (
+                low + step * f64::from(stream.random_range(0..100_u32)),
+                stream.random_range(0..3),
+                stream.random(),
+            )
+        };
+        lists.fit(PLACES as usize, LANES, Some(0.5));
+        let mut low = 100.0_f64;
+        let start = lists.open_start(0, low);
+        lists.close(start);
+        let (mut truth, mut opened, mut seen) = (BTreeSet::new(), 1, [0; 2]);
+        while opened < PLACES || !truth.is_empty() {
+            let (g, choice, chance): (f64, u32, u64) = above(low);
+            if choice == 0 && opened < PLACES {
+                lists.add(&Way { g, parent: 0, place: opened }, true, 0.0);
+                truth.insert((quantised(g), opened ^ lists.flip, opened));
+                opened += 1;
+            } else if choice == 1 && !truth.is_empty() {
+                let &(f, key, place) = truth.iter().nth(chance as usize % truth.len()).unwrap();
+                let g = g.min(lists.bounds[place as usize]);
+                lists.lower(&Way { g, parent: 0, place });
+                truth.remove(&(f, key, place));
+                truth.insert((quantised(g), key, place));
+                seen[0] += u32::from(quantised(g) < f);
+            } else if let Some((f, _, place)) = truth.pop_first() {
+                assert_eq!(lists.best(), Some(place), "seed {seed}");
+                seen[1] += u32::from(f == quantised(low));
+                low = low.max(lists.close(place));
+            }
+        }
+        assert_eq!(lists.best(), None, "seed {seed}");
+        seen
+    }
+
+    #[test]
+    fn nodes_leave_as_from_a_sorted_set_however_often_they_are_lowered() {
+        for ties in [Ties::Fifo, Ties::Lifo] {
+            let mut lists = NodeLists::new(ties).unwrap();
+            let seen = (0..40).map(|seed| against_a_set(&mut lists, seed));
+            let [lowered, equal] = seen.fold([0; 2], |sum, seen| [sum[0] + seen[0], sum[1] + seen[1]]);
+            assert!(lowered > 2_000 && equal > 500, "{lowered} lowered, {equal} ties");
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "f rises by more than was promised")]
+    fn a_rise_beyond_the_promise_is_refused() {
+        let mut lists = NodeLists::new(Ties::Fifo).unwrap();
+        lists.fit(4, LANES, Some(1.0));
+        lists.open_start(0, 0.0);
+        lists.add(&Way { g: 9.0, parent: 0, place: 1 }, true, 0.0);
+    }
 }

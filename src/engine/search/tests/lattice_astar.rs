@@ -85,12 +85,12 @@ impl Query<'_> {
         columns: &Columns,
         successors: &mut impl Successors,
     ) -> (Report<f64>, ListScans) {
-        let Self { spacing, ends, lower_open, max_expansions, .. } = *self;
+        let (&Self { spacing, ends, lower_open, max_expansions, .. }, h) = (self, self.h());
         search.run(LatticeQuery {
             columns,
             spacing,
             successors,
-            h: self.h(),
+            h: |[x, y]: [u32; 2]| h(y * columns.width() + x),
             ends,
             lower_open,
             max_expansions,
