@@ -87,6 +87,29 @@ impl Steps {
         }
         kept
     }
+
+    /// What is about a closed node of this cost, a bit each: free, better reached over the node, opened before.
+    #[inline(always)]
+    fn around<S: Simd>(
+        &self,
+        simd: S,
+        lists: &NodeLists,
+        (node, g): (u32, f64),
+        is_free: impl Fn(u32) -> bool,
+    ) -> [u32; 3] {
+        let [mut free, mut better, mut opened] = [0; 3];
+        for (row, lengths) in self.rows.iter().enumerate() {
+            let first = node.wrapping_add_signed(self.each[row * IN_A_ROW].0);
+            for lane in 0..IN_A_ROW {
+                free |= u32::from(is_free(first + lane as u32)) << (row * IN_A_ROW + lane);
+            }
+            let below = improved(simd, g, std::slice::from_ref(lengths), &lists.bounds[first as usize..]);
+            let row_of = |bits: u64| (bits as u32 & ((1 << IN_A_ROW) - 1)) << (row * IN_A_ROW);
+            better |= row_of(below);
+            opened |= row_of(lists.opened.window(first));
+        }
+        [free, better, opened]
+    }
 }
 
 impl CubicAstar {
@@ -157,17 +180,8 @@ impl CubicAstar {
     {
         let Self { steps, lists } = self;
         let g = lists.close(node);
-        let (mut free, mut better, mut opened) = (0, 0, 0);
-        for (row, lengths) in steps.rows.iter().enumerate() {
-            let first = node.wrapping_add_signed(steps.each[row * IN_A_ROW].0);
-            for lane in 0..IN_A_ROW {
-                free |= u32::from(query.grid.is_free(first + lane as u32)) << (row * IN_A_ROW + lane);
-            }
-            let below = improved(simd, g, std::slice::from_ref(lengths), &lists.bounds[first as usize..]);
-            let row_of = |bits: u64| (bits as u32 & ((1 << IN_A_ROW) - 1)) << (row * IN_A_ROW);
-            better |= row_of(below);
-            opened |= row_of(lists.opened.window(first));
-        }
+        let [free, mut better, opened] =
+            steps.around(simd, lists, (node, g), |cell| query.grid.is_free(cell));
         let mut kept = free & !(1 << OWN);
         if (query.is_near)(node) {
             kept = steps.kept(kept, |offset| (query.may_step)(node, node.wrapping_add_signed(offset)));

@@ -10,7 +10,7 @@
 use super::Route;
 use super::cost::quantised;
 use super::frontier::Ties;
-use super::open_list::{OpenList, Waiting};
+use super::open_list::{Node, OpenList, Waiting};
 use crate::geometry::lanes::{LANES, Lane, Row, Simd, SimdBase as _, SimdMask as _};
 use base::grid::Bits;
 
@@ -33,16 +33,6 @@ pub(super) struct NodeLists {
     /// The places of the nodes in the order in which they were opened.
     order: Vec<u32>,
     open: OpenList,
-}
-
-/// A node that was opened.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
-    g: f64,
-    h: f64,
-    /// The place of the node before it on its way.
-    parent: u32,
-    pub(super) open: Waiting,
 }
 
 /// A way to a node.

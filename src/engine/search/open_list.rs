@@ -8,7 +8,6 @@
 )]
 
 use super::cost::quantised;
-use super::node_lists::Node;
 
 const BUCKETS: usize = 4096;
 /// No node.
@@ -30,6 +29,16 @@ impl Waiting {
     pub(super) fn new(f: u64, key: u32) -> Self {
         Self { f, key, next: NONE, previous: NONE }
     }
+}
+
+/// A node that was opened.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub(super) g: f64,
+    pub(super) h: f64,
+    /// The place of the node before it on its way.
+    pub(super) parent: u32,
+    pub(super) open: Waiting,
 }
 
 /// The open nodes, by place.
