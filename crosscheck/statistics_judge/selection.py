@@ -8,6 +8,10 @@ import numpy as np
 from statistics_judge.records import Flags, Metric, Paper, Places, Reals, Study
 
 
+# How trials end that did not come to an end.
+CUT = ["budget_spent", "time_spent", "crashed"]
+
+
 @dataclass
 class Cases:
     """Trials with, if there is another contender, its trials on the same problems.
@@ -82,6 +86,12 @@ class Cases:
             none &= self.study.status[self.base] == "no_path"
             lacks |= np.isnan(self.bases)
         return lacks & ~none & ~(self.own_solved & self.base_solved)
+
+    @property
+    def unended(self) -> Flags:
+        """Whether some side did not come to an end: what it would have given is not known."""
+        cut = np.isin(self.study.status[self.own], CUT)
+        return cut if self.base is None else cut | np.isin(self.study.status[self.base], CUT)
 
     def solved_of_all(self) -> tuple[int, int]:
         """Cases that everyone who is compared solves, and all."""

@@ -65,16 +65,20 @@ def equals(asked: Asked) -> Found:
 
 
 def on_every(asked: Asked) -> Found:
-    """It holds on every case: one counterexample ends it, and an equality leaves the sign alone."""
+    """It holds on every case: one counterexample ends it, and an equality leaves the sign alone.
+
+    A case that did not come to an end might be the counterexample; that it is not solved is itself an answer.
+    """
     cases, that = asked.cases(), asked.settings["that"]
     says, spoken = said(cases, that, asked.settings.get("bound", 0.0))
     estimate = with_cases(counted(cases, spoken, says > 0, asked.seed), cases.solved_of_all())
     kept, equal, broken = (int((says[spoken] == way).sum()) for way in (1, 0, -1))
     if kept + equal + broken == 0:
         return certain(OPEN, estimate)
-    if broken == 0 and equal == 0:
-        return certain(HOLDS, estimate)
-    return certain(SIGN if broken == 0 and kept > 0 else FAILS, estimate)
+    if broken > 0 or kept == 0:
+        return certain(FAILS, estimate)
+    cut = that != "solved" and bool(cases.unended.any())
+    return replace(certain(SIGN if equal else HOLDS, estimate), censored=frozenset([cut]))
 
 
 def said(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:
