@@ -7,7 +7,6 @@ import numpy as np
 
 from statistics_judge.records import Flags, Metric, Paper, Places, Reals, Study
 
-
 # How trials end that did not come to an end.
 CUT = ["budget_spent", "time_spent", "crashed"]
 
