@@ -6,7 +6,9 @@ use engine::planner;
 use replan::analysis::{criterion, metric, rule};
 use replan::render::figure;
 use replan::study::{column, family, planner as outside, prepared, task};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
 
 /// A registry as tests see it: its folder, the names it lists, and the names that its `find` gives back.
 struct Registry {
@@ -94,4 +96,37 @@ fn what_stands_below_a_figure_says_of_how_many() {
             says("{n}") || says("{readings}") || entry.statistic.starts_with("One ") || says("Every pair");
         assert!(is_said, "{}: {}", entry.name, entry.statistic);
     }
+}
+
+/// The names under `[claim.check]` and `[claim.rule]` of every committed paper, with how many claims have each.
+fn asked() -> BTreeMap<String, usize> {
+    let papers = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let mut asked = BTreeMap::new();
+    for path in papers.map(|folder| folder.join("paper.toml")).filter(|path| path.exists()) {
+        let paper: toml::Table = fs::read_to_string(&path).unwrap().parse().unwrap();
+        let claims = paper.get("claim").and_then(toml::Value::as_array).into_iter().flatten();
+        for named in claims.flat_map(|claim| ["check", "rule"].map(|kind| claim.get(kind))) {
+            for name in named.and_then(toml::Value::as_table).into_iter().flat_map(toml::Table::keys) {
+                *asked.entry(name.clone()).or_default() += 1;
+            }
+        }
+    }
+    asked
+}
+
+#[test]
+fn criteria_and_kinds_of_figure_stay_few() {
+    assert!(criterion::REGISTRY.len() <= 12, "{} criteria", criterion::REGISTRY.len());
+    assert!(figure::REGISTRY.len() <= 16, "{} kinds of figure", figure::REGISTRY.len());
+}
+
+#[test]
+fn no_criterion_or_rule_serves_one_claim_alone() {
+    let asked = asked();
+    assert!(asked.values().sum::<usize>() > 200, "the papers' claims are not found: {asked:?}");
+    let names = criterion::REGISTRY.iter().chain(rule::REGISTRY).map(|entry| entry.name);
+    let few: Vec<&str> = names.filter(|name| asked.get(*name).is_none_or(|claims| *claims < 2)).collect();
+    assert!(few.is_empty(), "asked by fewer than two claims of the committed papers: {few:?}");
 }

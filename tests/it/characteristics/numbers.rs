@@ -254,7 +254,7 @@ fn lower() -> Vec<Scenario> {
 }
 
 /// A costs what B costs, and half of it on one map in twenty: 2.5 % less on the whole, though the maps drawn may all agree.
-fn agreed() -> [Scenario; 2] {
+fn agreed() -> Vec<Scenario> {
     let world = |holds: bool| {
         move |stream: &mut Stream| {
             let of = |stream: &mut Stream, base: f64| {
@@ -276,7 +276,7 @@ fn agreed() -> [Scenario; 2] {
         world: Box::new(world(holds)),
         bounds: at_most(0.025),
     };
-    [
+    vec![
         of("lower", "true by a little", "A lower than B by at least 2 %", "by_percent = 2.0", true),
         of(
             "within",
