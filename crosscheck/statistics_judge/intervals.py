@@ -72,8 +72,36 @@ def agreed(hits: Reals, chances: Reals) -> Interval | None:
     if (hits * chances[0] != hits[0] * chances).any():
         return None
     share = float(hits[0] / chances[0])
-    wide = float(stats.beta.isf((1 - LEVEL) / 2, 1, len(chances)) * chances.max() / chances.mean())
+    wide = may_differ(len(chances)) * float(chances.max() / chances.mean())
     return End.exact(max(share - share * wide, 0.0)), End.exact(min(share + (1 - share) * wide, 1.0))
+
+
+def may_differ(units: int) -> float:
+    """The most of all units that may differ, at the tail's level, where so many agree."""
+    return float(stats.beta.isf((1 - LEVEL) / 2, 1, units))
+
+
+def agreed_ratio(own: Reals, base: Reals) -> Interval | None:
+    """The interval of a ratio of sums that every unit has; none for other units.
+
+    In units that differ the number above may be off by the larger of the unit's two.
+    """
+    if len(own) < 2 or base.sum() <= 0 or (base < 0).any():
+        return None
+    ratio = float(own.sum() / base.sum())
+    if (np.abs(own - ratio * base) > 1e-9 * np.abs(ratio * base)).any():
+        return None
+    half = may_differ(len(own)) * float(base.max() / base.mean()) * max(abs(ratio), 1.0)
+    low = ratio - half if ratio < 0 else max(ratio - half, 0.0)
+    return End.exact(low), End.exact(ratio + half)
+
+
+def agreed_between(values: Reals, least: float, most: float) -> Interval | None:
+    """The interval of the mean of numbers within bounds on which all units agree; none for others."""
+    if (values != values[0]).any():
+        return None
+    value, wide = float(values[0]), may_differ(len(values))
+    return End.exact(value - wide * (value - least)), End.exact(value + wide * (most - value))
 
 
 def predictive(draws: Reals) -> Interval | None:
@@ -208,8 +236,8 @@ def slope(unit: Places, units: int, x: Reals, y: Reals) -> Callable[[Weights], R
     return statistic
 
 
-def band(curves: Reals, seed: str) -> list[Interval]:
-    """The simultaneous (sup-t) band of the mean of curves, one a row."""
+def band(curves: Reals, seed: str, ends: tuple[float, float]) -> list[Interval]:
+    """The simultaneous (sup-t) band of the mean of curves within `ends`, one a row."""
     units = len(curves)
     drawn = np.concatenate([weights @ curves / units for weights in resamples(units, seed)])
     mean, errors = curves.mean(axis=0), drawn.std(axis=0, ddof=1)
@@ -219,7 +247,10 @@ def band(curves: Reals, seed: str) -> list[Interval]:
     # The relative error of a standard deviation of either bootstrap, as far out as ALARM says.
     apart = stats.norm.ppf(1 - ALARM / 2) * np.sqrt(1 / (2 * STORED) + 1 / (2 * OWN))
     found = []
-    for middle, error in zip(mean, errors, strict=True):
+    for middle, error, values in zip(mean, errors, curves.T, strict=True):
+        if allowing := agreed_between(values, *ends):
+            found.append(allowing)
+            continue
         half = End(
             multiplier.at * error,
             multiplier.least * error * (1 - apart),

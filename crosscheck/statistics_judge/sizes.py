@@ -9,6 +9,7 @@ from statistics_judge.found import Asked, Estimate, Found, outcomes, too_few
 from statistics_judge.intervals import (
     End,
     Interval,
+    agreed_ratio,
     band,
     bootstrap,
     deviation,
@@ -34,7 +35,7 @@ def ratio(cases: Cases, bases: Reals, values: Reals, seed: str) -> tuple[float, 
     kept = ~np.isnan(bases) & ~np.isnan(values)
     names, unit = np.unique(cases.unit[kept], return_inverse=True)
     own, base = sums_by_unit(unit, len(names), values[kept], bases[kept])
-    interval = bootstrap(ratio_of_sums(own, base), len(names), seed)
+    interval = agreed_ratio(own, base) or bootstrap(ratio_of_sums(own, base), len(names), seed)
     return interval and (float(own.sum() / base.sum()), interval, len(names))
 
 
@@ -144,7 +145,7 @@ def along_sweep(asked: Asked, cases: Cases, is_higher: bool) -> Found:
         return too_few()
     sign = 1 if is_higher else -1
     mean = drawn.mean(axis=0)
-    intervals = band(drawn, asked.seed)
+    intervals = band(drawn, asked.seed, (-100, 100))
 
     def outcome(of_low: str, of_high: str) -> str:
         ends = [(getattr(low, of_low), getattr(high, of_high)) for low, high in intervals]

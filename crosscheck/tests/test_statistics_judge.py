@@ -19,6 +19,8 @@ from statistics_judge.found import Found
 from statistics_judge.intervals import (
     End,
     agreed,
+    agreed_between,
+    agreed_ratio,
     band,
     bootstrap,
     clopper_pearson,
@@ -74,6 +76,25 @@ def test_draws_that_agree_between_the_ends_allow_for_those_that_differ() -> None
     differ = 1 - 0.025**0.05
     assert found is not None
     assert [end.at for end in found] == pytest.approx([0.75 - 0.75 * differ, 0.75 + 0.25 * differ], abs=1e-12)
+
+
+def test_ratios_and_differences_that_agree_allow_for_draws_that_differ() -> None:
+    differ = 1 - 0.025**0.05
+    for own, base, expected in [
+        (4.0, 8.0, [0.5 - differ, 0.5 + differ]),
+        (6.0, 2.0, [3 - 3 * differ, 3 + 3 * differ]),
+        (0.0, 2.0, [0.0, differ]),
+    ]:
+        found = agreed_ratio(np.full(20, own), np.full(20, base))
+        assert found is not None
+        assert [end.at for end in found] == pytest.approx(expected, abs=1e-12)
+    assert agreed_ratio(np.array([1.0, 1.0]), np.array([2.0, 3.0])) is None
+    assert agreed_ratio(np.array([1.0]), np.array([2.0])) is None
+    curves = np.column_stack([np.full(20, 40.0), np.arange(20.0)])
+    (low, high), moved = band(curves, "agreed", (-100, 100))
+    assert [low.at, high.at] == pytest.approx([40 - 140 * differ, 40 + 60 * differ], abs=1e-9)
+    assert agreed_between(curves[:, 1], -100, 100) is None
+    assert moved[0].at < 9.5 < moved[1].at
 
 
 def test_few_draws_say_nothing_firm_of_a_share_unless_its_interval_is_exact() -> None:
@@ -144,7 +165,7 @@ def test_statistics_of_resamples_are_those_of_the_cases_drawn() -> None:
 def test_a_simultaneous_band_is_wider_than_an_interval_and_has_no_width_where_nothing_moves() -> None:
     rng = np.random.default_rng(SEED)
     curves = np.column_stack([rng.normal(size=(80, 6)), np.full(80, 3.0)])
-    found = band(curves, "band")
+    found = band(curves, "band", (-1e9, 1e9))
     alone = bootstrap(ratio_of_sums(curves[:, 0], np.ones(80)), 80, "alone")
     assert alone is not None
     assert found[0][1].at - found[0][0].at > 1.2 * (alone[1].at - alone[0].at)

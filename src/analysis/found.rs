@@ -40,7 +40,7 @@ pub enum Narrows {
     /// As one over the square root of their number.
     #[default]
     AsTheRoot,
-    /// About as one over their number: a share of 0 or 1 on which all of them agree, whose interval is exact.
+    /// About as one over their number: a share, a ratio or a difference on which all of them agree.
     AsTheNumber,
 }
 

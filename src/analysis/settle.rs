@@ -77,7 +77,7 @@ fn agreeing_draws(found: &Found) -> String {
     let nearest = others.map(far).fold(f64::INFINITY, f64::min);
     if nearest >= 1.0 {
         return format!(
-            "no number of {}: however many agree, the share of all may be another than {}",
+            "no number of {}: however many agree, what all give may be another than {}",
             found.units, ours.value
         );
     }

@@ -4,10 +4,10 @@
 
 use super::evidence::Evidence;
 use super::selection::{Case, Selection, by_draw, cases};
-use super::statistic::{Estimate, Interval, LEVEL, OfAll, OfDraw, differences_percent, plan};
-use stats::bands::{curves_of, distance_of_mean, sup_t};
+use super::statistic::{Estimate, Interval, LEVEL, OfAll, OfDraw, differences_percent, plan, turned};
+use stats::bands::{curves_of, distance_of_mean, sup_t_between};
 pub use stats::summary::means_along;
-use stats::{bootstrap, pooled, proportion, summary};
+use stats::{pooled, proportion, summary};
 use std::collections::BTreeMap;
 
 /// The share of queries that are solved on each draw, in per cent.
@@ -17,7 +17,7 @@ pub fn solved_percents(of: &Selection<'_>, evidence: &Evidence<'_>) -> Vec<f64> 
 
 /// The mean over draws of the share solved, in per cent; none below two draws.
 pub fn mean_solved(of: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
-    bootstrap::mean(&solved_percents(of, evidence), plan(names))
+    pooled::mean_between(&solved_percents(of, evidence), [0.0, 100.0], plan(names))
 }
 
 /// The mean over draws of the points by which the share solved differs from that of `base`; none below two draws.
@@ -27,7 +27,7 @@ pub fn mean_difference(
     names: &[&str],
 ) -> Option<Estimate> {
     let [base, own] = [base, of].map(|one| one.draws(evidence));
-    bootstrap::mean(&differences_percent([&base, &own]), plan(names))
+    pooled::mean_between(&differences_percent([&base, &own]), [-100.0, 100.0], plan(names))
 }
 
 /// What all draws of a selection give.
@@ -37,9 +37,7 @@ pub fn of_all(all: OfAll, of: &Selection<'_>, evidence: &Evidence<'_>, names: &[
 
 /// By how many per cent the mean changes against the other contender's: the reduction with its sign turned.
 pub fn change_percent(of: &Selection<'_>, evidence: &Evidence<'_>, names: &[&str]) -> Option<Estimate> {
-    let saved = of_all(OfAll::ReductionPercent, of, evidence, names)?;
-    let interval = Interval::new(0.0 - saved.interval.high, 0.0 - saved.interval.low);
-    Some(Estimate { value: 0.0 - saved.value, interval, ..saved })
+    of_all(OfAll::ReductionPercent, of, evidence, names).map(turned)
 }
 
 /// The mean of each of the selection's contenders over the draws that all of them solve, and how many these are; the stream of
@@ -196,7 +194,7 @@ impl Curves {
 
     /// Their mean with a simultaneous band; none below two draws.
     pub fn band(&self, names: &[&str]) -> Option<Band> {
-        let found = sup_t(&self.draws, plan(names))?;
+        let found = sup_t_between(&self.draws, [0.0, 100.0], plan(names))?;
         let band = found.band.iter().map(|band| [band.low.max(0.0), band.high.min(100.0)]).collect();
         Some(Band { mean: found.mean, band })
     }

@@ -2,6 +2,7 @@
 //!
 //! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
 
+use super::found::Narrows;
 use super::selection::{Case, Draw, by_draw, cases};
 use super::verdict::Estimate as VerdictEstimate;
 use crate::study::record::Row;
@@ -23,6 +24,22 @@ pub const LEVEL: f64 = 0.95;
 /// Fewest draws of which a bootstrap interval decides anything: one end of the percentile interval of a mean of normal draws
 /// then lies on the wrong side of the truth with a probability of 4.8 %, in place of 2.5 %; of 5 draws it is 7.7 %.
 pub const FEWEST_DRAWS: usize = 10;
+
+/// How the interval of an estimate was made, as sentences and captions say it.
+pub fn how(found: &Estimate) -> &'static str {
+    if found.is_agreed { AGREED } else { "bootstrap" }
+}
+
+/// What the interval of draws that all agree is.
+const AGREED: &str = "all draws agree: what allows for others";
+
+/// What intervals are, of which some may be of draws that all agree.
+pub const INTERVALS: &str = "bootstrap, or where all draws agree what allows for others";
+
+/// How the interval narrows with more draws.
+pub fn narrows(is_agreed: bool) -> Narrows {
+    if is_agreed { Narrows::AsTheNumber } else { Narrows::AsTheRoot }
+}
 
 /// The draws that are needed, where there are fewer.
 pub fn needs(draws: usize) -> Option<usize> {
@@ -143,12 +160,12 @@ impl OfAll {
         }
     }
 
-    /// That of pairs by draw, the other contender's number first.
+    /// That of pairs by draw, the other contender's number first; draws that all have the same ratio leave an interval with width.
     pub fn of_pairs(self, pairs: &[Vec<(f64, f64)>], plan: Resampling) -> Option<Estimate> {
         let sums = |pairs: &Vec<(f64, f64)>| {
             pairs.iter().fold([0.0, 0.0], |[own, base], pair| [own + pair.1, base + pair.0])
         };
-        let ratio = pooled::ratio_of_sums(&pairs.iter().map(sums).collect::<Vec<_>>(), plan)?;
+        let ratio = pooled::ratio_of_pairs(&pairs.iter().map(sums).collect::<Vec<_>>(), plan)?;
         if self == Self::Ratio {
             return Some(ratio);
         }
@@ -156,6 +173,12 @@ impl OfAll {
         let interval = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
         Some(Estimate { value: percent(ratio.value), interval, ..ratio })
     }
+}
+
+/// A reduction as a change, its sign turned.
+pub fn turned(reduction: Estimate) -> Estimate {
+    let Interval { low, high } = reduction.interval;
+    Estimate { value: 0.0 - reduction.value, interval: Interval::new(0.0 - high, 0.0 - low), ..reduction }
 }
 
 /// The median on the first group over that on the second, the interval from the ends of both; of a single draw the number
@@ -171,7 +194,7 @@ fn of_groups(draws: &[Draw<'_>], plan: Resampling) -> Option<Estimate> {
     };
     let ((above, one), (below, other)) = (side(true)?, side(false).filter(|(median, _)| *median > 0.0)?);
     let interval = Interval::new(one.low / other.high, one.high / other.low);
-    Some(Estimate { value: above / below, interval, units: draws.len(), undefined: 0 })
+    Some(Estimate { value: above / below, interval, is_agreed: false, units: draws.len(), undefined: 0 })
 }
 
 /// By how many points the share solved of a draw's queries differs between two selections; queries that cannot be posed in

@@ -6,13 +6,11 @@
 
 mod counts;
 mod lengths;
-mod statements;
 mod turns;
 
 pub use self::turns::{Search, joint_length_turn, turn_needs_length};
-pub use counts::{clock_ticks, count_bound, octagon_nodes, percentage};
-pub use lengths::{largest_saving, lattice_length, point_distance, sight_bound, straight_line};
-pub use statements::{listed_points, printed_above, reach_ring, repulsion_along_force, repulsion_at_contact};
+pub use counts::{clock_ticks, count_bound, percentage};
+pub use lengths::{largest_saving, lattice_length, point_distance, straight_line};
 
 use super::Cell;
 use super::lattice::Octile;

@@ -2,7 +2,7 @@
 
 use super::{
     bootstrap::{self, Resampling},
-    summary,
+    proportion, summary,
 };
 use crate::interval::Interval;
 
@@ -44,6 +44,21 @@ pub fn sup_t(curves: &[Vec<f64>], plan: Resampling) -> Option<Band> {
     let multiplier = summary::quantile_type7(&greatest, plan.level).filter(|_| curves.len() > 1)?;
     let band = mean.iter().zip(&errors).map(|(m, e)| Interval::new(m - multiplier * e, m + multiplier * e));
     Some(Band { band: band.collect(), multiplier, mean })
+}
+
+/// [`sup_t`] of curves whose values cannot leave `ends`: where all units have the same value, the band allows for units that differ
+/// ([`proportion::agreed_between`]).
+///
+/// One bound on how many differ serves all such points at once, since a unit that differs at two of them is still one.
+pub fn sup_t_between(curves: &[Vec<f64>], ends: [f64; 2], plan: Resampling) -> Option<Band> {
+    let mut found = sup_t(curves, plan)?;
+    for (point, band) in found.band.iter_mut().enumerate() {
+        let values: Vec<f64> = curves.iter().map(|curve| curve[point]).collect();
+        if let Some(allowing) = proportion::agreed_between(&values, ends, plan.level) {
+            (found.mean[point], *band) = (values[0], allowing);
+        }
+    }
+    Some(found)
 }
 
 fn mean_curve(curves: &[Vec<f64>], picks: &[usize], points: usize) -> Vec<f64> {
@@ -118,6 +133,23 @@ mod tests {
         let expected = normal_quantile(f64::midpoint(1.0, libm::pow(0.9, 0.1)));
         assert!((apart - expected).abs() < 0.2, "{apart}, not {expected}");
         assert!((alike - normal_quantile(0.95)).abs() < 0.2, "{alike}");
+    }
+
+    #[test]
+    fn a_point_at_which_all_agree_allows_for_units_that_differ() {
+        let curves: Vec<Vec<f64>> = (0..20).map(|i| vec![100.0, 0.0, 5.0 * f64::from(i), 40.0]).collect();
+        let between = sup_t_between(&curves, [-100.0, 100.0], plan(3)).unwrap();
+        let (bare, differ) = (sup_t(&curves, plan(3)).unwrap(), 1.0 - libm::pow(0.05, 0.05));
+        assert_eq!((between.band[2], &between.mean), (bare.band[2], &bare.mean), "a point that moves");
+        for (point, low, high) in [
+            (0, 100.0 - 200.0 * differ, 100.0),
+            (1, -100.0 * differ, 100.0 * differ),
+            (3, 40.0 - 140.0 * differ, 40.0 + 60.0 * differ),
+        ] {
+            let band = between.band[point];
+            assert!((band.low - low).abs() < 1e-9 && (band.high - high).abs() < 1e-9, "{point}: {band:?}");
+        }
+        assert_eq!(sup_t_between(&curves[..1], [0.0, 100.0], plan(3)), None);
     }
 
     #[test]

@@ -22,8 +22,10 @@ pub struct Resampling {
 pub struct Estimate {
     /// The statistic of the sample itself.
     pub value: f64,
-    /// Percentile interval over the resamples that had a value.
+    /// Percentile interval over the resamples that had a value; of units that all agree, what allows for others.
     pub interval: Interval,
+    /// Whether all units agree, so that the interval is no bootstrap's.
+    pub is_agreed: bool,
     /// Units in the sample.
     pub units: usize,
     /// Resamples for which the statistic has no value; left out of the interval.
@@ -81,6 +83,7 @@ pub(super) fn of_indices(
     (!sorted.is_empty()).then(|| Estimate {
         value,
         interval: Interval::new(end(tail), end(1.0 - tail)),
+        is_agreed: false,
         units,
         undefined: plan.resamples - sorted.len(),
     })

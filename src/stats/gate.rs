@@ -106,6 +106,7 @@ mod tests {
         let found = |value: f64, half: f64| Estimate {
             value,
             interval: Interval::new(value - half, value + half),
+            is_agreed: false,
             units: 100,
             undefined: 0,
         };

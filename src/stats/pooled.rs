@@ -1,7 +1,7 @@
 //! Statistics of all that was measured on draws of several cases each, with intervals over whole draws.
 
 use super::bootstrap::{self, Estimate, Resampling};
-use super::summary;
+use super::{proportion, summary};
 
 /// The sum of the first numbers over the sum of the second, one pair a draw: a ratio of means, a share, a mean over cases.
 ///
@@ -13,6 +13,26 @@ pub fn ratio_of_sums(draws: &[[f64; 2]], plan: Resampling) -> Option<Estimate> {
         (below > 0.0).then(|| above / below)
     };
     bootstrap::of_indices(draws.len(), &ratio, plan)
+}
+
+/// [`ratio_of_sums`] of two contenders' numbers: where every draw has the same ratio, the interval allows for draws that differ
+/// ([`proportion::ratio_of_agreed`]).
+pub fn ratio_of_pairs(draws: &[[f64; 2]], plan: Resampling) -> Option<Estimate> {
+    let Some(interval) = proportion::ratio_of_agreed(draws, plan.level) else {
+        return ratio_of_sums(draws, plan);
+    };
+    let [above, below] = draws.iter().fold([0.0, 0.0], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
+    Some(Estimate { value: above / below, interval, is_agreed: true, units: draws.len(), undefined: 0 })
+}
+
+/// The mean of one number a draw that cannot leave `[least, most]`: where all agree, the interval allows for draws that differ by
+/// as much as the ends let them ([`proportion::agreed_between`]). None below two draws.
+pub fn mean_between(values: &[f64], ends: [f64; 2], plan: Resampling) -> Option<Estimate> {
+    let found = bootstrap::mean(values, plan)?;
+    Some(match proportion::agreed_between(values, ends, plan.level) {
+        Some(interval) => Estimate { value: values[0], interval, is_agreed: true, ..found },
+        None => found,
+    })
 }
 
 /// The median of all numbers of all draws; failures may be infinite. None below two draws.
@@ -66,6 +86,21 @@ mod tests {
         assert_eq!((found.value, found.interval.low, found.interval.high, found.units), (0.5, 0.5, 0.5, 3));
         assert_eq!(ratio_of_sums(&[[1.0, 0.0], [2.0, 0.0]], PLAN), None);
         assert_eq!(ratio_of_sums(&[[1.0, 2.0]], PLAN), None);
+    }
+
+    #[test]
+    fn pairs_of_one_ratio_and_numbers_that_agree_allow_for_others() {
+        let pairs: Vec<[f64; 2]> = (0..20).map(|_| [1.0, 2.0]).collect();
+        let (found, differ) = (ratio_of_pairs(&pairs, PLAN).unwrap(), 1.0 - libm::pow(0.025, 0.05));
+        assert!(found.is_agreed && found.units == 20 && found.value == 0.5, "{found:?}");
+        assert!((found.interval.half_width() - differ).abs() < 1e-12, "{found:?}");
+        let apart = [&pairs[1..], &[[1.5, 2.0]]].concat();
+        assert_eq!(ratio_of_pairs(&apart, PLAN), ratio_of_sums(&apart, PLAN));
+        let all = mean_between(&[100.0; 20], [0.0, 100.0], PLAN).unwrap();
+        assert!(all.is_agreed && all.interval.high == 100.0, "{all:?}");
+        assert!((all.interval.low - 100.0 * (1.0 - differ)).abs() < 1e-9, "{all:?}");
+        assert_eq!(mean_between(&[1.0, 2.0], [0.0, 9.0], PLAN), bootstrap::mean(&[1.0, 2.0], PLAN));
+        assert_eq!(mean_between(&[1.0], [0.0, 9.0], PLAN), None);
     }
 
     #[test]

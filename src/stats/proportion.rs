@@ -2,7 +2,7 @@
 //!
 //! Special functions come from `libm`, so that the same counts give the same bits everywhere.
 
-use super::summary;
+use super::{paired, summary};
 use crate::interval::Interval;
 
 /// The normal quantile: the `z` below which a standard normal value falls with probability `share`.
@@ -76,13 +76,51 @@ pub fn mean_of_agreed(draws: &[[f64; 2]], level: f64) -> Option<Interval> {
     let is_same = |[hits, chances]: &[f64; 2]| *chances > 0.0 && hits * first_chances == first_hits * chances;
     let chances =
         |of: fn(f64, f64) -> f64| draws.iter().fold(0.0, |so_far, [_, chances]| of(so_far, *chances));
-    let n = draws.len() as f64;
     let differ =
-        (1.0 - libm::pow((1.0 - level) / 2.0, 1.0 / n)) * chances(f64::max) * n / chances(|a, b| a + b);
+        may_differ(draws.len(), level) * chances(f64::max) * draws.len() as f64 / chances(|a, b| a + b);
     draws.iter().all(is_same).then(|| {
         let share = first_hits / first_chances;
         Interval::new((share - share * differ).max(0.0), (share + (1.0 - share) * differ).min(1.0))
     })
+}
+
+/// The most of all draws that may differ where `n` agree, at the level: m of [`mean_of_agreed`].
+pub fn may_differ(n: usize, level: f64) -> f64 {
+    1.0 - libm::pow((1.0 - level) / 2.0, 1.0 / n as f64)
+}
+
+/// The interval of the mean of numbers that cannot leave `[least, most]` and all agree: a part m of all may differ, at the level, by
+/// as much as the ends let it. None for other numbers.
+pub fn agreed_between(values: &[f64], [least, most]: [f64; 2], level: f64) -> Option<Interval> {
+    let value = *values.first()?;
+    let differ = may_differ(values.len(), level);
+    let is_agreed = values.iter().all(|other| *other == value);
+    is_agreed.then(|| Interval::new(value - differ * (value - least), value + differ * (most - value)))
+}
+
+/// The interval of the ratio of two sums, `[above, below]` of each draw, where every draw has the same ratio; none for other
+/// draws, for fewer than two, or without anything below.
+///
+/// As in [`mean_of_agreed`] a part m of all draws may differ. A ratio has no end above, so that something must be said of those:
+/// in them the number above is off by no more than the larger of the draw's two numbers. A ratio v then lies within
+/// v ± m·max(1, |v|), as much wider as the largest draw has below over the mean one, and not below 0 if no number is. Ratios that
+/// rounding alone parts agree.
+///
+/// # Panics
+/// If `level` is not inside (0, 1).
+pub fn ratio_of_agreed(draws: &[[f64; 2]], level: f64) -> Option<Interval> {
+    assert!(level > 0.0 && level < 1.0, "an interval at level {level}");
+    let [above, below] = draws.iter().fold([0.0, 0.0], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
+    let ratio = above / below;
+    let is_same = |[a, b]: &[f64; 2]| *b >= 0.0 && (a - ratio * b).abs() <= paired::EQUAL * (ratio * b).abs();
+    if draws.len() < 2 || !(below > 0.0) || !draws.iter().all(is_same) {
+        return None;
+    }
+    let most = draws.iter().map(|[_, b]| *b).fold(0.0, f64::max);
+    let wider = most * draws.len() as f64 / below;
+    let half = may_differ(draws.len(), level) * wider * ratio.abs().max(1.0);
+    let low = if ratio < 0.0 { ratio - half } else { (ratio - half).max(0.0) };
+    Some(Interval::new(low, ratio + half))
 }
 
 /// The least number of units that must all agree for the interval of [`mean_of_agreed`] to be no wider than `width`.

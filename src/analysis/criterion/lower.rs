@@ -7,7 +7,7 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
 use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, needs, plan};
+use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, how, narrows, needs, plan, turned};
 use crate::analysis::verdict::Estimate;
 use crate::study::contender::SweepPoint;
 use crate::study::name;
@@ -15,8 +15,8 @@ use crate::study::record::Row;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::bands::{Band, sup_t};
-use stats::bootstrap::Resampling;
+use stats::bands::{Band, sup_t_between};
+use stats::bootstrap::{Estimate as Estimated, Resampling};
 use stats::interval::Interval;
 use stats::paired::{self, snapped};
 
@@ -76,47 +76,48 @@ impl<'a> Lower<'a> {
         Ok(Self { of, way: settings.is, by_percent: settings.by_percent, plan })
     }
 
-    fn change(&self, pairs: &[Vec<(f64, f64)>]) -> Option<(f64, Interval, usize)> {
-        let found = OfAll::ReductionPercent.of_pairs(pairs, self.plan)?;
-        let Interval { low, high } = found.interval;
-        Some((0.0 - found.value, Interval::new(0.0 - high, 0.0 - low), found.units))
+    fn change(&self, pairs: &[Vec<(f64, f64)>]) -> Option<Estimated> {
+        OfAll::ReductionPercent.of_pairs(pairs, self.plan).map(turned)
     }
 
     /// Over draws.
     fn on_average(&self, evidence: &Evidence<'_>, metric: &str) -> Found {
         let draws = self.of.draws(evidence);
         let pairs = selection::pairs(&draws);
-        let Some((value, interval, units)) = self.change(&pairs) else {
+        let Some(change) = self.change(&pairs) else {
             return Found::too_few(pairs.len(), FEWEST_DRAWS);
         };
+        let Estimated { value, interval, units, .. } = change;
         let found = outcome(self.way, self.by_percent, interval);
         let signs = paired::signs(&pairs.concat());
         let because = format!(
-            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, bootstrap over {units} draws); lower on {}, \
+            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, {} over {units} draws); lower on {}, \
              equal on {}, higher on {} of {} cases that both solve",
             self.of.said(),
             interval.low,
             interval.high,
+            how(&change),
             signs.lower,
             signs.equal,
             signs.higher,
             signs.lower + signs.equal + signs.higher,
         );
-        let turned = |pairs: Vec<Vec<(f64, f64)>>| {
+        let is_other = |pairs: Vec<Vec<(f64, f64)>>| {
             self.change(&pairs)
-                .is_some_and(|(_, interval, _)| outcome(self.way, self.by_percent, interval) != found)
+                .is_some_and(|filled| outcome(self.way, self.by_percent, filled.interval) != found)
         };
-        let is_turned = selection::filled(&self.of, &draws).into_iter().any(turned);
-        let what = format!("change of {metric} in %, bootstrap 95 % over draws");
-        let change = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
+        let is_turned = selection::filled(&self.of, &draws).into_iter().any(is_other);
+        let what = format!("change of {metric} in %, {} 95 % over draws", how(&change));
+        let of_case = |case: &Case<'_>| case.saving_percent().map(|saving| -saving);
         Found {
             outcome: Some(found),
             ours: Some(Estimate::new(value, interval, what, units).of_cases(solved(&draws))),
-            trial: selection::nearest(&self.of, evidence, &draws, change, value),
+            trial: selection::nearest(&self.of, evidence, &draws, of_case, value),
             because: vec![because],
             limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
             units: "draws",
             needs: needs(units),
+            narrows: narrows(change.is_agreed),
             censored: if is_turned { selection::censored(&draws) } else { 0 },
             ..Found::default()
         }
@@ -137,7 +138,7 @@ impl<'a> Lower<'a> {
     fn along_sweep(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
         let curves = self.curves(&draws);
-        let Some(Band { mean, band, .. }) = sup_t(&curves, self.plan) else {
+        let Some(Band { mean, band, .. }) = sup_t_between(&curves, [-100.0, 100.0], self.plan) else {
             return Found::too_few(curves.len(), FEWEST_DRAWS);
         };
         let points = self.of.study.sweep_points();
@@ -245,21 +246,30 @@ mod tests {
 
     #[test]
     fn sums_of_the_same_steps_in_another_order_are_no_change_and_meet_a_margin() {
-        let change = |pair: (f64, f64)| {
-            let pairs = vec![vec![pair]; 12];
-            let found = OfAll::ReductionPercent.of_pairs(&pairs, plan(&["steps"])).unwrap();
-            Interval::new(-found.interval.high, -found.interval.low)
-        };
         let (one, other) = (0.1 + 0.2 + 0.3, 0.3 + 0.2 + 0.1);
-        for pair in [(one, other), (other, one)] {
-            let interval = change(pair);
-            assert!(interval.low != 0.0, "the sample shows no rounding: {interval:?}");
-            assert_eq!(outcome(Way::Lower, 0.0, interval), Outcome::Fails, "{pair:?}: {interval:?}");
-            assert_eq!(outcome(Way::Higher, 0.0, interval), Outcome::Fails, "{pair:?}: {interval:?}");
+        for (own, base) in [(one, other), (other, one)] {
+            let change = 100.0 * (own / base - 1.0);
+            assert!(change != 0.0, "the sample shows no rounding");
+            let interval = Interval::new(change, change);
+            assert_eq!(outcome(Way::Lower, 0.0, interval), Outcome::Fails, "{change}");
+            assert_eq!(outcome(Way::Higher, 0.0, interval), Outcome::Fails, "{change}");
         }
         // A fifth less is a fifth less, though 1 - 0.8 is not 0.2.
-        let fifth = change((10.0, 8.0));
-        assert!(-fifth.high < 20.0, "the sample shows no rounding: {fifth:?}");
-        assert_eq!(outcome(Way::Lower, 20.0, fifth), Outcome::Holds);
+        let fifth = 100.0 * (8.0 / 10.0 - 1.0);
+        assert!(-fifth < 20.0, "the sample shows no rounding: {fifth}");
+        assert_eq!(outcome(Way::Lower, 20.0, Interval::new(fifth, fifth)), Outcome::Holds);
+    }
+
+    #[test]
+    fn draws_that_all_agree_do_not_prove_that_nothing_changes() {
+        let of = |pair: (f64, f64), draws: usize| {
+            let found =
+                OfAll::ReductionPercent.of_pairs(&vec![vec![pair]; draws], plan(&["agreed"])).unwrap();
+            assert!(found.is_agreed && found.interval.half_width() > 0.0, "{found:?}");
+            outcome(Way::Lower, 10.0, turned(found).interval)
+        };
+        assert_eq!(of((5.0, 5.0), 20), Outcome::Open, "one draw in six may differ");
+        assert_eq!(of((5.0, 5.0), 200), Outcome::Fails, "a tenth less is out of reach");
+        assert_eq!(of((5.0, 1.0), 20), Outcome::Holds);
     }
 }

@@ -4,10 +4,10 @@ use super::{Criterion, Entry};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
-use crate::analysis::found::{Found, Narrows};
+use crate::analysis::found::Found;
 use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, needs, plan};
+use crate::analysis::statistic::{Share, narrows, needs, plan};
 use crate::study::column;
 use crate::study::record::Row;
 use base::settings::{Accepted, SettingsError};
@@ -282,7 +282,7 @@ impl Criterion for Counted<'_> {
             units: "draws",
             censored: self.censored(&draws, outcome),
             needs: needs(share.draws).filter(|_| !share.is_exact),
-            narrows: if share.is_agreed { Narrows::AsTheNumber } else { Narrows::AsTheRoot },
+            narrows: narrows(share.is_agreed),
             ..Found::default()
         }
     }

@@ -8,7 +8,7 @@ use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{self, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, needs, plan};
+use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, how, narrows, needs, plan};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
@@ -155,14 +155,15 @@ impl Criterion for Within<'_> {
         };
         let outcome = self.outcome(found.interval);
         let metric = self.metric.label.to_lowercase();
-        let what = format!("{} of {metric}, bootstrap 95 % over draws", self.statistic.name());
+        let what = format!("{} of {metric}, {} 95 % over draws", self.statistic.name(), how(&found));
         let Interval { low, high } = found.interval;
         let accepted = match self.printed {
             Some(printed) => format!("printed {printed}, margin {}", self.accepted.high - printed),
             None => format!("accepted {} to {}", self.accepted.low, self.accepted.high),
         };
+        let agreed = if found.is_agreed { " that all agree" } else { "" };
         let because = format!(
-            "{}: {} of {metric} {:.4} (95 % interval {low:.4} to {high:.4}, {} draws); {accepted}",
+            "{}: {} of {metric} {:.4} (95 % interval {low:.4} to {high:.4}, {} draws{agreed}); {accepted}",
             self.of.said(),
             self.statistic.name(),
             found.value,
@@ -178,6 +179,7 @@ impl Criterion for Within<'_> {
             units: "draws",
             censored: self.censored(&draws, outcome),
             needs: self.needs(draws.len(), found.units),
+            narrows: narrows(found.is_agreed),
             ..Found::default()
         }
     }

@@ -5,17 +5,12 @@
 
 mod clock_ticks;
 mod count_bound;
+mod formula;
 mod joint_length_turn;
 mod largest_saving;
 mod lattice_length;
-mod listed_points;
-mod octagon_nodes;
 mod percentage;
 mod point_distance;
-mod printed_above;
-mod reach_ring;
-mod repulsion;
-mod sight_bound;
 mod straight_line;
 mod turn_needs_length;
 
@@ -70,17 +65,12 @@ fn check_search(context: &Context<'_>, size: [i32; 2], longest: f64) -> Result<(
 pub static REGISTRY: &[&Entry] = &[
     &clock_ticks::ENTRY,
     &count_bound::ENTRY,
+    &formula::ENTRY,
     &joint_length_turn::ENTRY,
     &largest_saving::ENTRY,
     &lattice_length::ENTRY,
-    &listed_points::ENTRY,
-    &octagon_nodes::ENTRY,
     &percentage::ENTRY,
     &point_distance::ENTRY,
-    &printed_above::ENTRY,
-    &reach_ring::ENTRY,
-    &repulsion::ENTRY,
-    &sight_bound::ENTRY,
     &straight_line::ENTRY,
     &turn_needs_length::ENTRY,
 ];

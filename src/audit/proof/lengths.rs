@@ -3,9 +3,8 @@
 use super::{Ends, Proof, displacement, spelled};
 use crate::bounds::{self, Moves, largest_saving_percent};
 use crate::exact::{Exact, Print};
-use crate::lattice::{Octile, Step, lengths_printing, nearest_lengths, octile_distance};
+use crate::lattice::{Octile, Step, lengths_printing, nearest_lengths};
 use crate::printed::Digits;
-use crate::sight::shortest_seen;
 use crate::{Cell, at_most, neighbourhood, with_an_end_moved};
 use stats::interval::Interval;
 use turns::straight_line_between;
@@ -154,54 +153,4 @@ pub fn largest_saving(print: Print, baseline: Print, ends: Ends) -> Proof {
         "costs are lengths; the baseline's is that of an 8-connected path".to_owned(),
     ];
     Proof { is_possible, because, premises }
-}
-
-/// Whether a printed length or, with `is_saving`, a printed saving in per cent of the `optimum` is possible for a path of free
-/// lines of sight, on any map on which the 8-connected optimum has these moves; `because` says why it has.
-pub fn sight_bound(print: Print, is_saving: bool, ends: Ends, optimum: Octile, because: &str) -> Proof {
-    let Ends { size, start, goal } = ends;
-    let shortest = shortest_seen(size, [start, goal], optimum);
-    let (is_beyond, found) = beyond(print, is_saving, shortest.length, optimum);
-    let mut said = vec![
-        format!(
-            "with an 8-connected optimum of {}, a path of free segments is at least {:.4} long on any map (as {:?})",
-            spelled(optimum),
-            shortest.length,
-            shortest.cells
-        ),
-        found,
-    ];
-    said.extend(is_beyond.then(|| {
-        let joined = |ends: &[Cell; 2]| octile_distance(displacement(*ends)).compare(optimum).is_le();
-        let moved = with_an_end_moved([start, goal], size).into_iter().filter(joined);
-        let shortest = moved.map(|ends| shortest_seen(size, ends, optimum).length);
-        let least = shortest.fold(f64::INFINITY, f64::min);
-        let rests = if beyond(print, is_saving, least, optimum).0 { "does not rest" } else { "rests" };
-        format!(
-            "with the start or the goal moved to one of its eight neighbours the bound is down to {least:.4}, so the proof \
-             {rests} on the printed ends"
-        )
-    }));
-    let premises = vec![
-        because.to_owned(),
-        "bends are cell centres".to_owned(),
-        "every segment is free in all cells whose inside it crosses, or in all cells of Bresenham's line"
-            .to_owned(),
-    ];
-    Proof { is_possible: !is_beyond, because: said, premises }
-}
-
-/// Whether the printed number is beyond what a path of `shortest` cells at least allows, and how that is said.
-fn beyond(print: Print, is_saving: bool, shortest: f64, optimum: Octile) -> (bool, String) {
-    let (number, stands_for) = (print.printed, print.interval());
-    if !is_saving {
-        let is_beyond = stands_for.high < shortest;
-        return (is_beyond, format!("{number} is {}shorter", if is_beyond { "" } else { "not " }));
-    }
-    let most = 100.0 * (1.0 - shortest / optimum.length());
-    let up_to = at_most(most, 2);
-    if stands_for.low > most {
-        return (true, format!("it saves at most {up_to} %, less than {number} %"));
-    }
-    (false, format!("it saves up to {up_to} %, no less than {number} %"))
 }

@@ -4,7 +4,7 @@ use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Selection, posed};
 use crate::analysis::shown::{mean_difference, mean_solved, of_all};
-use crate::analysis::statistic::{Estimate, OfAll};
+use crate::analysis::statistic::{Estimate, INTERVALS, OfAll};
 use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::rows::Interval;
@@ -23,7 +23,7 @@ use serde::Deserialize;
 pub static ENTRY: Entry = Entry {
     name: "intervals",
     about: "shares solved, their differences from one group, or reductions, by problem group or contender, with intervals",
-    statistic: "Means over draws with 95 % bootstrap intervals; of reductions, trials that one of both did not solve are left out; {n}.",
+    statistic: "Means over draws with 95 % intervals: bootstrap, or where all draws agree what allows for others; of reductions, trials that one of both did not solve are left out; {n}.",
     settings: Accepted::of::<Read>(),
     example: r#"
 problems = ["cell"]
@@ -236,7 +236,7 @@ impl Kind for Intervals {
             table.row(row(contender, cells.collect()));
         }
         let what = OfAll::ReductionPercent.name();
-        table.note(format!("The {what} against {against}, with 95 % bootstrap intervals over draws."));
+        table.note(format!("The {what} against {against}, with 95 % intervals over draws: {INTERVALS}."));
         Ok(Some(table))
     }
 }

@@ -5,7 +5,7 @@ use super::{Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::Selection;
 use crate::analysis::shown::{change_percent, means_of_whole_draws, median_point};
-use crate::analysis::statistic::Estimate;
+use crate::analysis::statistic::{Estimate, INTERVALS};
 use crate::render::RenderError;
 use crate::render::chart::labels::Labels;
 use crate::render::chart::marks::{Line, Points};
@@ -187,7 +187,7 @@ impl Kind for Ready {
         }
         if let Some(base) = &self.read.against {
             let note = format!(
-                "Changes of the mean against {base} over the maps that both solved, with 95 % bootstrap intervals over pairs."
+                "Changes of the mean against {base} over the maps that both solved, with 95 % intervals over pairs: {INTERVALS}."
             );
             return sheet(190.0)
                 .noted(&note)

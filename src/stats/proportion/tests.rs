@@ -175,3 +175,43 @@ fn predictive_intervals_hold_the_next_draw_at_their_level() {
     assert_eq!(predictive(&ramp, 0.95), Some(Interval::new(1.0, 39.0)));
     assert_eq!(predictive(&ramp[1..], 0.95), None);
 }
+
+#[test]
+fn a_ratio_that_every_draw_has_allows_for_draws_that_differ() {
+    let of = |draws: &[[f64; 2]]| ratio_of_agreed(draws, 0.95);
+    let differ = 1.0 - libm::pow(0.025, 0.05);
+    close(of(&[[4.0, 8.0]; 20]), 0.5 - differ, 0.5 + differ, 1e-12);
+    close(of(&[[6.0, 2.0]; 20]), 3.0 - 3.0 * differ, 3.0 + 3.0 * differ, 1e-12);
+    close(of(&[[0.0, 2.0]; 20]), 0.0, differ, 1e-12);
+    // Half of the draws are three times as large: the largest is 1.5 of the mean.
+    let uneven: Vec<[f64; 2]> = (0..20).map(|i| if i % 2 == 0 { [1.0, 1.0] } else { [3.0, 3.0] }).collect();
+    close(of(&uneven), 1.0 - 1.5 * differ, 1.0 + 1.5 * differ, 1e-12);
+    // A draw without anything on either side differs from no ratio, and rounding parts none.
+    close(of(&[[0.0, 0.0], [1.0, 1.0]]), 0.0, 1.0 + 2.0 * (1.0 - libm::sqrt(0.025)), 1e-12);
+    assert!(of(&[[0.1 + 0.2, 0.3], [0.3, 0.1 + 0.2]]).is_some());
+    for others in
+        [&[[1.0, 2.0], [1.0, 3.0]][..], &[[0.0, 0.0]; 3], &[[1.0, 2.0]], &[], &[[1.0, 2.0], [1.0, 0.0]]]
+    {
+        assert_eq!(of(others), None, "{others:?}");
+    }
+}
+
+#[test]
+fn the_interval_of_an_agreed_ratio_misses_the_truth_no_more_often_than_it_says() {
+    let mut stream = base::seed::stream(base::seed::derive(47, &["agreed ratio"]));
+    let mut nearest: f64 = 0.0;
+    for share in [0.03, 0.1, 0.17, 0.2, 0.3] {
+        // So many draws have twice the ratio of the others.
+        let missed = (0..4000).filter(|_| {
+            let one = |stream: &mut base::seed::Stream| {
+                [1.0 + f64::from(u8::from(stream.random::<f64>() < share)), 1.0]
+            };
+            let draws: Vec<_> = (0..20).map(|_| one(&mut stream)).collect();
+            ratio_of_agreed(&draws, 0.95).is_some_and(|found| !found.contains(1.0 + share))
+        });
+        let missed = missed.count() as f64 / 4000.0;
+        assert!(missed <= 0.032, "seed 47, {share}: {missed}");
+        nearest = nearest.max(missed);
+    }
+    assert!(nearest > 0.015, "seed 47: at most {nearest}, so that the bound is not tried");
+}

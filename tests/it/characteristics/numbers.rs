@@ -18,7 +18,10 @@ const FEWEST: usize = 10;
 const TOO_FEW: usize = 5;
 
 pub fn scenarios() -> Vec<Scenario> {
-    [within(), within_of_one(), lower(), clocked(), trend(), least_of()].into_iter().flatten().collect()
+    [within(), within_of_one(), lower(), agreed(), clocked(), trend(), least_of()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Costs of A and B on `draws` maps: B's is lognormal, A's is `change` per cent more, give or take 10 % of B's.
@@ -248,6 +251,41 @@ fn lower() -> Vec<Scenario> {
         bounds: never_firm(),
     });
     all
+}
+
+/// A costs what B costs, and half of it on one map in twenty: 2.5 % less on the whole, though the maps drawn may all agree.
+fn agreed() -> [Scenario; 2] {
+    let world = |holds: bool| {
+        move |stream: &mut Stream| {
+            let of = |stream: &mut Stream, base: f64| {
+                if stream.random_range(0..20) == 0 { base / 2.0 } else { base }
+            };
+            let bases = paired(stream, MANY, 0.0).into_iter().map(|(base, _)| base);
+            let pairs: Vec<_> = bases.map(|base| (base, of(stream, base))).collect();
+            World::new(recorded(&pairs), holds)
+        }
+    };
+    let drawn =
+        format!("A costs as much as B, but half on one map in twenty; {MANY} maps, which may all agree");
+    let of = |criterion, truth, said: &str, settings: &str, holds| Scenario {
+        criterion,
+        truth,
+        about: format!("{said}; {drawn}"),
+        claim: claim(criterion, &format!("{PAIRED}{settings}\n")),
+        made: Made::Plainly,
+        world: Box::new(world(holds)),
+        bounds: at_most(0.025),
+    };
+    [
+        of("lower", "true by a little", "A lower than B by at least 2 %", "by_percent = 2.0", true),
+        of(
+            "within",
+            "false by a little",
+            "A's sum is B's, give or take 1 %",
+            "statistic = \"ratio\"\naccepted = [0.99, 1.01]",
+            false,
+        ),
+    ]
 }
 
 /// Two contenders that take equally long, under a load that differs from one session of the clock to the next.
