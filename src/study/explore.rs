@@ -95,7 +95,7 @@ fn draw(readings: &[&Reading], stream: &mut Stream) -> BTreeMap<String, String> 
     readings.iter().map(pick).collect()
 }
 
-/// `point` with every option of the fitted readings.
+/// `point` with every option of the fitted readings that stands with the others.
 fn with_fitted(readings: &[Reading], point: &ReadingChoice) -> Result<Vec<ReadingChoice>, String> {
     let mut all = vec![point.choices().clone()];
     for reading in readings.iter().filter(|reading| reading.fitted) {
@@ -112,7 +112,8 @@ fn with_fitted(readings: &[Reading], point: &ReadingChoice) -> Result<Vec<Readin
         };
         all = all.iter().flat_map(each).collect();
     }
-    all.iter().map(|choices| ReadingChoice::new(readings, choices)).collect()
+    let points: Result<Vec<_>, _> = all.iter().map(|choices| ReadingChoice::new(readings, choices)).collect();
+    Ok(points?.into_iter().filter(ReadingChoice::is_asked).collect())
 }
 
 /// A hash of all that trials of `study` depend on under any reading, as its spec and the program say; words and figures do not count.
@@ -207,6 +208,30 @@ mod tests {
         let found = points(&readings, Vec::new(), 9, 1).unwrap();
         assert_eq!(names(&found.alone), ["default", "f=1", "f=2", "a=1", "a=1,f=1", "a=1,f=2"]);
         assert!(found.drawn.is_empty());
+    }
+
+    #[test]
+    fn an_option_is_asked_with_those_alone_that_it_names() {
+        let only = |reading: &mut Reading, id: &str| {
+            let only_with = [(id.to_owned(), vec!["1".to_owned()])].into();
+            let paper = Some("section 1".to_owned());
+            let option = OptionSpec { paper, only_with, ..OptionSpec::default() };
+            reading.options.insert("2".to_owned(), Arc::new(option));
+        };
+        let mut fitted = reading("f", 3, 3, true);
+        only(&mut fitted, "a");
+        let readings = [reading("a", 3, 3, false), fitted.clone()];
+        let found = points(&readings, Vec::new(), 9, 1).unwrap();
+        assert_eq!(names(&found.alone), ["default", "f=1", "a=1", "a=1,f=1", "a=1,f=2", "a=2", "a=2,f=1"]);
+        let mut moving = reading("b", 3, 3, false);
+        only(&mut moving, "a");
+        let all = points(&[reading("a", 2, 2, false), moving], Vec::new(), 99, 1).unwrap();
+        assert_eq!(names(&all.alone), ["default", "a=1", "b=1"]);
+        let drawn: BTreeSet<String> =
+            all.drawn.concat().iter().map(|point| point.name().to_owned()).collect();
+        assert_eq!(drawn, ["a=1,b=1", "a=1,b=2"].map(str::to_owned).into());
+        // A study without the other reading asks for all options.
+        assert_eq!(points(&[fitted], Vec::new(), 9, 1).unwrap().alone.len(), 3);
     }
 
     #[test]

@@ -56,6 +56,9 @@ impl Reading {
             first(&mut own.practice, &theirs.practice);
             own.value = own.value.or(theirs.value);
             own.digits = own.digits.or(theirs.digits);
+            for (id, options) in &theirs.only_with {
+                own.only_with.entry(id.clone()).or_insert_with(|| options.clone());
+            }
             for (name, metric) in &theirs.metric {
                 own.metric.entry(name.clone()).or_insert_with(|| metric.clone());
             }
@@ -159,6 +162,14 @@ impl ReadingChoice {
         Self::new(readings, &moving).expect("the options were just found")
     }
 
+    /// Whether each option stands with those of other readings that it asks for; of readings that are not here it asks nothing.
+    pub fn is_asked(&self) -> bool {
+        let stands = |(id, options): (&String, &Vec<String>)| {
+            self.choices.get(id).is_none_or(|option| options.contains(option))
+        };
+        self.changes.iter().all(|change| change.option.only_with.iter().all(stands))
+    }
+
     /// What names this choice in the records of a study with these readings: the option of each that touches trials.
     pub fn key(&self, readings: &[Reading]) -> ReadingKey {
         let moving = readings.iter().filter(|reading| reading.touches_trials());
@@ -200,7 +211,7 @@ impl ReadingChoice {
     }
 }
 
-/// The default point, and every point that differs from it in one option.
+/// The default point, and every point that differs from it in one option and is explored.
 ///
 /// # Errors
 /// A reading whose default is not among its options.
@@ -208,7 +219,8 @@ pub fn single_options(readings: &[Reading]) -> Result<Vec<ReadingChoice>, String
     let mut points = vec![ReadingChoice::new(readings, &BTreeMap::new())?];
     for reading in readings {
         for option in reading.options.keys().filter(|option| **option != reading.default) {
-            points.push(ReadingChoice::new(readings, &[(reading.id.clone(), option.clone())].into())?);
+            let point = ReadingChoice::new(readings, &[(reading.id.clone(), option.clone())].into())?;
+            points.extend(point.is_asked().then_some(point));
         }
     }
     Ok(points)

@@ -178,6 +178,9 @@ pub struct OptionSpec {
     pub practice: Option<String>,
     /// The number that it stands for, where the reading has `bounds`.
     pub value: Option<f64>,
+    /// The options of other readings, by the reading's name, with one of which alone it is explored; with all, if none are named.
+    #[serde(default)]
+    pub only_with: BTreeMap<String, Vec<String>>,
     /// Settings laid over every problem's.
     #[serde(default)]
     #[schemars(with = "AnyTable")]

@@ -174,6 +174,12 @@ fn numbers_vote_within_their_bounds_and_bounds_that_are_not_whole_are_refused() 
             "option `three` has a `value`, which needs `bounds` to be held against",
         ),
         ("value = 0\n", "value = 0\npractice = \" \"\n", "option `none` cites nothing"),
+        ("value = 0\n", "value = 0\nonly_with = { haste = [] }\n", "only_with: there is no reading `haste`"),
+        (
+            "value = 0\n",
+            "value = 0\nonly_with = { hurry = [\"ten\"] }\n",
+            "only_with.hurry: there is no option `ten`",
+        ),
         (
             "least = 1.0, greatest = 4.0",
             "least = 0.0, greatest = 1.0",

@@ -55,7 +55,7 @@ const FITS: [(Fit, &str, Rgb); 3] = [
 ];
 
 /// What a figure of settings shows of how many.
-const SETTINGS: &str = "Every option that votes by itself beside the defaults, and a sample of their product, drawn by a seed; {readings}.";
+const SETTINGS: &str = "The defaults, every other option that votes with the rest at their defaults, and a sample of the product of options that vote, drawn by a seed; {readings}. A white cell was not asked.";
 
 /// Which settings agree with what the studies were fitted to: one a row, the options of the fitted reading side by side, with
 /// `words` along the axis.

@@ -204,11 +204,14 @@ fn straightened(
     let inner = raw.iter().enumerate().skip(1).take(raw.len() - 2);
     let (gone, open): (Vec<_>, Vec<_>) = inner.partition(|(index, _)| *index < reached);
     let places = |nodes: Vec<(usize, &[f64; 2])>| nodes.into_iter().map(|(_, at)| *at).collect::<Vec<_>>();
-    panel.add(Points::of(places(open), Marker::Circle, 2.4, SKY).labelled("searched"));
-    if kept > 0 {
-        let abandoned = GREY.mixed(BLACK, 0.5);
-        panel.add(Points::of(places(gone), Marker::Circle, 2.4, abandoned).labelled("abandoned"));
-        panel.add(Points::of(shown, Marker::Diamond, 2.8, VERMILLION).labelled("retained"));
-    }
+    // A legend names no mark that is nowhere.
+    let mut mark = |places: Vec<[f64; 2]>, marker, radius, colour, label: &str| {
+        if !places.is_empty() {
+            panel.add(Points::of(places, marker, radius, colour).labelled(label));
+        }
+    };
+    mark(places(open), Marker::Circle, 2.4, SKY, "searched");
+    mark(places(gone), Marker::Circle, 2.4, GREY.mixed(BLACK, 0.5), "abandoned");
+    mark(shown, Marker::Diamond, 2.8, VERMILLION, "retained");
     Ok(())
 }

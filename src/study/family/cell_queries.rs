@@ -94,6 +94,10 @@ struct CellQueries {
     /// How far the tools of two samples may be apart to be tried as neighbours; given like this, as `radius_deg` or as `nearest`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     radius_mm: Option<f64>,
+    /// By how much `radius_mm` is multiplied: what varies with a radius that another setting chose.
+    #[serde(default = "once")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    radius_times: f64,
     /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints.
     #[schemars(extend("exclusiveMinimum" = 0))]
     radius_deg: Option<f64>,
@@ -184,6 +188,11 @@ struct SpeedSetting {
     acceleration_mm_s2: f64,
 }
 
+/// A radius as it is given.
+fn once() -> f64 {
+    1.0
+}
+
 impl CellQueries {
     /// `scene` with the heights that the settings give its boxes, or without its obstacles.
     fn furnished(&self, settings: &Settings, scene: Scene) -> Result<Scene, SettingsError> {
@@ -242,7 +251,8 @@ struct Posed {
 impl Posed {
     fn new(settings: &Settings, inputs: &Inputs) -> Result<Self, SettingsError> {
         let read: CellQueries = settings.read()?;
-        let CellQueries { radius_mm, radius_deg, nearest, .. } = read;
+        let CellQueries { radius_mm, radius_times, radius_deg, nearest, .. } = read;
+        let radius_mm = radius_mm.map(|radius_mm| radius_mm * radius_times);
         let near = Neighbours { radius_mm, radius_deg, nearest }.rule(settings)?;
         let mut faults = Faults::default();
         let robot =

@@ -123,7 +123,8 @@ impl Paper {
                 wrong("bounds", message);
             }
             for (name, option) in &own.options {
-                for message in option_faults(name, option, reading) {
+                let only_with = only_with_faults(name, option, &all);
+                for message in option_faults(name, option, reading).into_iter().chain(only_with) {
                     wrong(&format!("option.{name}"), message);
                 }
             }
@@ -253,4 +254,22 @@ fn option_faults(name: &str, option: &OptionSpec, reading: &Reading) -> Vec<Stri
         faults.push(format!("option `{name}` cites nothing; the source and its words are accepted"));
     }
     faults
+}
+
+/// What is wrong with the options that an option asks to stand with: none of that name, or of that reading.
+fn only_with_faults(name: &str, option: &OptionSpec, all: &[Reading]) -> Vec<String> {
+    let fault = |(id, options): (&String, &Vec<String>)| -> Vec<String> {
+        let Some(reading) = all.iter().find(|reading| reading.id == *id) else {
+            let known = all.iter().map(|reading| reading.id.as_str());
+            return vec![format!("option `{name}`, only_with: {}", none_called("reading", id, known))];
+        };
+        let unknown = options.iter().filter(|option| !reading.options.contains_key(*option));
+        let known = || reading.options.keys().map(String::as_str);
+        unknown
+            .map(|option| {
+                format!("option `{name}`, only_with.{id}: {}", none_called("option", option, known()))
+            })
+            .collect()
+    };
+    option.only_with.iter().flat_map(fault).collect()
 }

@@ -123,3 +123,16 @@ fn a_tool_that_is_too_fast_for_a_joint_is_refused() {
     let refusal = case.motion(&[home, far], [&home, &far]).unwrap_err();
     assert!(refusal.contains("faster than it can be"), "{refusal}");
 }
+
+/// The planner asks neither a jump nor a speed where joints go straight: the path is theirs, not the tool's.
+#[test]
+fn joints_that_go_straight_are_asked_no_speed_of_the_tool() {
+    let mut case = case(LegEnd::Own);
+    let home = angles(HOME);
+    let far = moved(&case, &home, [0.0, 0.3, 0.0]);
+    case.rules.speed = Some([20.0, 400.0]);
+    assert!(case.motion(&[home, far], [&home, &far]).unwrap_err().contains("faster than it can be"));
+    case.rules.straight_joints = true;
+    case.known().clear();
+    assert!(case.motion(&[home, far], [&home, &far]).is_ok());
+}

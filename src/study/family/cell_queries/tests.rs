@@ -45,6 +45,7 @@ fn numbers_that_cannot_be_are_refused_by_name() {
     for (over, parts) in [
         ("samples = 0", ["`samples` is 0", "1 to 100000"]),
         ("radius_mm = 0", ["`radius_mm` is 0", "above 0"]),
+        ("radius_times = 0", ["`radius_times` is 0", "above 0"]),
         ("step_deg = nan", ["`step_deg` is nan", "finite"]),
         ("speed = { tool_mm_s = -1, acceleration_mm_s2 = 1 }", ["tool_mm_s` is -1", "above 0"]),
         ("tool_mm = 0", ["tool_mm", "capsule"]),
@@ -237,6 +238,13 @@ fn samples_are_those_that_drawing_and_looking_one_by_one_gives() {
             CountedSetting::Drawn => assert!(draws as usize == wanted && samples.len() < wanted),
         }
     }
+}
+
+#[test]
+fn a_radius_is_multiplied_and_nothing_else_is() {
+    let near = |over: &str| Posed::new(&settings(over), &inputs(None)).unwrap().near;
+    assert_eq!(near(""), Near::Places(500.0));
+    assert_eq!(near("radius_times = 1.25"), Near::Places(625.0));
 }
 
 /// Settings without a radius of places.
