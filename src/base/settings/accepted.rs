@@ -59,8 +59,12 @@ pub fn generator() -> SchemaGenerator {
 
 /// The schema of `T`, made once.
 pub fn schema_of<T: JsonSchema + 'static>() -> Arc<Value> {
+    made_once(TypeId::of::<T>(), |generator| generator.into_root_schema_for::<T>())
+}
+
+/// What is not compiled again for every type.
+fn made_once(of: TypeId, make: fn(SchemaGenerator) -> Schema) -> Arc<Value> {
     static MADE: Mutex<BTreeMap<TypeId, Arc<Value>>> = Mutex::new(BTreeMap::new());
     let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
-    let make = || Arc::new(generator().into_root_schema_for::<T>().to_value());
-    made.entry(TypeId::of::<T>()).or_insert_with(make).clone()
+    made.entry(of).or_insert_with(|| Arc::new(make(generator()).to_value())).clone()
 }

@@ -7,11 +7,11 @@
 use super::validate::{number, whole};
 use serde::de::value::StrDeserializer;
 use serde::de::{
-    self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess,
-    SeqAccess, VariantAccess, Visitor,
+    self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Expected, IntoDeserializer, MapAccess,
+    SeqAccess, Unexpected, VariantAccess, Visitor,
 };
 use serde::forward_to_deserialize_any;
-use serde_spanned::de::{SpannedDeserializer, is_spanned};
+use std::cell::Cell;
 use std::fmt;
 use std::ops::Range;
 use toml::Spanned;
@@ -51,9 +51,49 @@ pub(super) fn read<T: DeserializeOwned>(value: &Spanned<DeValue<'_>>) -> Result<
     T::deserialize(Reader(value))
 }
 
+/// The name under which a value asks where it stands.
+pub(super) const WITH_PLACE: &str = "$with_place";
+
+thread_local! {
+    static PLACE: Cell<Option<Range<usize>>> = const { Cell::new(None) };
+}
+
+/// Where the value stands that was asked for under [`WITH_PLACE`] last: serde has no other way for it that is not compiled
+/// again for every type.
+pub(super) fn take_place() -> Range<usize> {
+    PLACE.take().unwrap_or_default()
+}
+
 /// A value that is read.
 #[derive(Clone, Copy)]
 struct Reader<'a, 't>(&'a Spanned<DeValue<'t>>);
+
+impl Reader<'_, '_> {
+    /// That this is not what is expected.
+    fn is_not(self, expected: &dyn Expected) -> Refused {
+        let found = match self.0.get_ref() {
+            DeValue::String(text) => Unexpected::Str(text),
+            value @ DeValue::Integer(_) => match Whole::of(value) {
+                Whole::Signed(whole) => Unexpected::Signed(whole),
+                Whole::Unsigned(whole) => Unexpected::Unsigned(whole),
+                Whole::None => return self.refused(TOO_FAR),
+            },
+            value @ DeValue::Float(_) => Unexpected::Float(number(value).unwrap_or(f64::NAN)),
+            DeValue::Boolean(truth) => Unexpected::Bool(*truth),
+            DeValue::Datetime(_) => return self.refused(NO_DATES),
+            DeValue::Array(_) => Unexpected::Seq,
+            DeValue::Table(_) => Unexpected::Map,
+        };
+        de::Error::invalid_type(found, expected)
+    }
+
+    fn refused(self, message: &str) -> Refused {
+        Refused { message: message.to_owned(), span: Some(self.0.span()) }
+    }
+}
+
+const TOO_FAR: &str = "no machine holds a whole number so far from zero";
+const NO_DATES: &str = "a date or time is not accepted";
 
 impl<'de> Deserializer<'de> for Reader<'_, '_> {
     type Error = Refused;
@@ -64,13 +104,29 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
             value @ DeValue::Integer(_) => match Whole::of(value) {
                 Whole::Signed(whole) => visitor.visit_i64(whole),
                 Whole::Unsigned(whole) => visitor.visit_u64(whole),
-                Whole::None => Err(de::Error::custom("no machine holds a whole number so far from zero")),
+                Whole::None => Err(self.refused(TOO_FAR)),
             },
             value @ DeValue::Float(_) => visitor.visit_f64(number(value).unwrap_or(f64::NAN)),
             DeValue::Boolean(truth) => visitor.visit_bool(*truth),
-            DeValue::Datetime(_) => Err(de::Error::custom("a date or time is not accepted")),
+            DeValue::Datetime(_) => Err(self.refused(NO_DATES)),
+            DeValue::Array(_) => return self.deserialize_seq(visitor),
+            DeValue::Table(_) => return self.deserialize_map(visitor),
+        }
+        .map_err(|refused| refused.within(self.0.span()))
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refused> {
+        match self.0.get_ref() {
             DeValue::Array(elements) => visitor.visit_seq(Elements(elements.iter())),
+            _ => Err(self.is_not(&visitor)),
+        }
+        .map_err(|refused| refused.within(self.0.span()))
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refused> {
+        match self.0.get_ref() {
             DeValue::Table(table) => visitor.visit_map(Entries { entries: table.iter(), value: None }),
+            _ => Err(self.is_not(&visitor)),
         }
         .map_err(|refused| refused.within(self.0.span()))
     }
@@ -81,22 +137,26 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
 
     fn deserialize_newtype_struct<V: Visitor<'de>>(
         self,
-        _: &'static str,
+        name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Refused> {
+        if name == WITH_PLACE {
+            PLACE.set(Some(self.0.span()));
+        }
         visitor.visit_newtype_struct(self)
     }
 
     fn deserialize_struct<V: Visitor<'de>>(
         self,
-        name: &'static str,
+        _: &'static str,
         _: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Refused> {
-        if is_spanned(name) {
-            return visitor.visit_map(SpannedDeserializer::new(self, self.0.span()));
-        }
-        self.deserialize_any(visitor)
+        self.deserialize_map(visitor)
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Refused> {
+        self.deserialize_seq(visitor)
     }
 
     fn deserialize_enum<V: Visitor<'de>>(
@@ -124,8 +184,8 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
     }
 
     forward_to_deserialize_any! {
-        bool u8 u16 u32 u64 u128 i8 i16 i32 i64 i128 f32 f64 char str string seq bytes byte_buf map unit ignored_any
-        unit_struct tuple_struct tuple identifier
+        bool u8 u16 u32 u64 u128 i8 i16 i32 i64 i128 f32 f64 char str string bytes byte_buf unit ignored_any
+        unit_struct tuple_struct identifier
     }
 }
 
@@ -224,7 +284,7 @@ impl<'de> VariantAccess<'de> for Reader<'_, '_> {
     }
 
     fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Refused> {
-        self.deserialize_any(visitor)
+        self.deserialize_seq(visitor)
     }
 
     fn struct_variant<V: Visitor<'de>>(
@@ -232,6 +292,6 @@ impl<'de> VariantAccess<'de> for Reader<'_, '_> {
         _: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Refused> {
-        self.deserialize_any(visitor)
+        self.deserialize_map(visitor)
     }
 }

@@ -1,41 +1,83 @@
 //! Values that remember where they stood, and values of any kind.
 
+use super::reader::{WITH_PLACE, take_place};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::Visitor;
 use serde::{Deserialize, Deserializer};
 use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::fmt;
+use std::marker::PhantomData;
 use std::ops::Range;
 
-/// A value and the bytes of its document that it was read from; equal if the values are.
-///
-/// It is the TOML library's own, with a schema: that of the value.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Spanned<T>(toml::Spanned<T>);
+/// A value and the bytes of its document that it was read from; equal and ordered as the values are.
+#[derive(Debug, Clone)]
+pub struct Spanned<T> {
+    span: Range<usize>,
+    value: T,
+}
 
 impl<T> Spanned<T> {
     /// The bytes that it stood in.
     pub fn span(&self) -> Range<usize> {
-        self.0.span()
+        self.span.clone()
     }
 
     /// The value.
     pub fn get_ref(&self) -> &T {
-        self.0.get_ref()
+        &self.value
     }
 
     /// Another value that is told at the same place.
     pub fn with<U>(&self, value: U) -> Spanned<U> {
-        Spanned(toml::Spanned::new(self.span(), value))
+        Spanned { span: self.span(), value }
     }
 
     /// The value alone.
     pub fn into_inner(self) -> T {
-        self.0.into_inner()
+        self.value
+    }
+}
+
+impl<T: PartialEq> PartialEq for Spanned<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}
+
+impl<T: Eq> Eq for Spanned<T> {}
+
+impl<T: PartialOrd> PartialOrd for Spanned<T> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.value.partial_cmp(&other.value)
+    }
+}
+
+impl<T: Ord> Ord for Spanned<T> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.value.cmp(&other.value)
     }
 }
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Spanned<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        toml::Spanned::deserialize(deserializer).map(Self)
+        deserializer.deserialize_newtype_struct(WITH_PLACE, Placed(PhantomData))
+    }
+}
+
+/// Reads a value together with its place.
+struct Placed<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for Placed<T> {
+    type Value = Spanned<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value")
+    }
+
+    fn visit_newtype_struct<D: Deserializer<'de>>(self, value: D) -> Result<Spanned<T>, D::Error> {
+        let span = take_place();
+        Ok(Spanned { span, value: T::deserialize(value)? })
     }
 }
 

@@ -235,16 +235,26 @@ impl Settings {
     fn read_composed<T: DeserializeOwned + JsonSchema + 'static>(&self) -> Result<T, SettingsError> {
         // Through text, so that every type is deserialized from one kind of value only: half the code.
         let text = toml::to_string(&self.table).expect("a table that was read can be written");
-        let value = parse(&text).map_err(|e| self.error(in_words(e.message())))?;
+        let value = self.parsed_against(&schema_of::<T>(), &text)?;
+        reader::read(&value).map_err(|e| self.error(in_words(&e.message)))
+    }
+
+    /// The table again as parsed from its `text`, held against a schema.
+    fn parsed_against<'t>(
+        &self,
+        schema: &serde_json::Value,
+        text: &'t str,
+    ) -> Result<Written<'t>, SettingsError> {
+        let value = parse(text).map_err(|e| self.error(in_words(e.message())))?;
         let mut all = Faults::default();
-        for fault in faults(&schema_of::<T>(), &value) {
+        for fault in faults(schema, &value) {
             let (path, is_key) = path_to(&value, &fault.span);
             let path = path.trim_end_matches('.');
             let sought = if is_key { Sought::Key(path) } else { Sought::Value(path) };
             all.add(self.placed(fault.message, sought));
         }
         all.done()?;
-        reader::read(&value).map_err(|e| self.error(in_words(&e.message)))
+        Ok(value)
     }
 
     /// An error about these settings as a whole.

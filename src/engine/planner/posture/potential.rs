@@ -81,8 +81,8 @@ pub(super) fn inverse(jacobian: &Matrix6<f64>, damping: f64) -> Option<Matrix6<f
     let mut jacobian = *jacobian;
     jacobian.fixed_view_mut::<3, 6>(0, 0).scale_mut(1e-2);
     if damping == 0.0 {
-        return jacobian.try_inverse();
+        return jacobian.lu().try_inverse();
     }
     let square = jacobian.transpose() * jacobian + Matrix6::identity() * (damping * damping);
-    Some(square.try_inverse()? * jacobian.transpose())
+    Some(square.lu().try_inverse()? * jacobian.transpose())
 }
