@@ -113,7 +113,7 @@ pub fn ratio_of_agreed(draws: &[[f64; 2]], level: f64) -> Option<Interval> {
     let [above, below] = draws.iter().fold([0.0, 0.0], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
     let ratio = above / below;
     let is_same = |[a, b]: &[f64; 2]| *b >= 0.0 && (a - ratio * b).abs() <= paired::EQUAL * (ratio * b).abs();
-    if draws.len() < 2 || !(below > 0.0) || !draws.iter().all(is_same) {
+    if draws.len() < 2 || below.is_nan() || below <= 0.0 || !draws.iter().all(is_same) {
         return None;
     }
     let most = draws.iter().map(|[_, b]| *b).fold(0.0, f64::max);

@@ -59,7 +59,7 @@ pub fn generator() -> SchemaGenerator {
 
 /// The schema of `T`, made once.
 pub fn schema_of<T: JsonSchema + 'static>() -> Arc<Value> {
-    made_once(TypeId::of::<T>(), |generator| generator.into_root_schema_for::<T>())
+    made_once(TypeId::of::<T>(), SchemaGenerator::into_root_schema_for::<T>)
 }
 
 /// What is not compiled again for every type.

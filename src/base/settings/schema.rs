@@ -224,3 +224,12 @@ fn either(all: &[String]) -> String {
         [many @ .., last] => format!("{} or {last}", many.join(", ")),
     }
 }
+
+/// What the keys of a table are where they are left out, switches aside.
+pub(super) fn defaults(schema: &Value) -> Vec<(String, toml::Value)> {
+    let keys = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
+    let said = keys.filter_map(|(key, part)| Some((key.clone(), part.get("default")?)));
+    said.filter(|(_, value)| !matches!(value, Value::Null | Value::Bool(false)))
+        .filter_map(|(key, value)| Some((key, toml::Value::try_from(value).ok()?)))
+        .collect()
+}

@@ -2,6 +2,7 @@
 
 use super::document::{in_words, inner, parse, part_of, span_of};
 use super::reader;
+use super::schema::defaults;
 use super::validate::faults;
 use super::{Accepted, Document, Faults, SettingsError, Spanned, schema_of};
 use schemars::JsonSchema;
@@ -394,13 +395,4 @@ fn text(value: &Written<'_>, key: &str, keys: &[&str], word: &str) -> Option<Ran
         DeValue::Array(array) => array.iter().find_map(|inner| text(inner, key, keys, word)),
         _ => None,
     }
-}
-
-/// What the keys of a table are where they are left out, switches aside.
-fn defaults(schema: &serde_json::Value) -> Vec<(String, toml::Value)> {
-    let keys = schema.get("properties").and_then(serde_json::Value::as_object).into_iter().flatten();
-    let said = keys.filter_map(|(key, part)| Some((key.clone(), part.get("default")?)));
-    said.filter(|(_, value)| !matches!(value, serde_json::Value::Null | serde_json::Value::Bool(false)))
-        .filter_map(|(key, value)| Some((key, toml::Value::try_from(value).ok()?)))
-        .collect()
 }

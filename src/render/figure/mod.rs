@@ -9,7 +9,6 @@ mod cost_over_time;
 mod draws;
 mod endpoint_pairs;
 mod grid_search;
-mod identification;
 mod intervals;
 mod motion_curves;
 mod neighbourhoods;
@@ -17,7 +16,6 @@ mod paired_boxes;
 mod plane_search;
 mod polyhedra;
 mod rejections;
-mod saving_over;
 mod sweep_curves;
 mod tradeoff;
 mod work_cell;
@@ -186,7 +184,6 @@ pub static REGISTRY: &[&Entry] = &[
     &draws::ENTRY,
     &endpoint_pairs::ENTRY,
     &grid_search::ENTRY,
-    &identification::ENTRY,
     &intervals::ENTRY,
     &motion_curves::ENTRY,
     &neighbourhoods::ENTRY,
@@ -194,7 +191,6 @@ pub static REGISTRY: &[&Entry] = &[
     &plane_search::ENTRY,
     &polyhedra::ENTRY,
     &rejections::ENTRY,
-    &saving_over::ENTRY,
     &sweep_curves::ENTRY,
     &tradeoff::ENTRY,
     &work_cell::ENTRY,

@@ -1,4 +1,8 @@
-//! Shares of solved queries or metrics along a sweep, one curve a contender, printed rows on top.
+//! Shares of solved queries or metrics along a sweep, one curve a contender, printed rows on top; or one contender's in several
+//! studies, or its saving along a column of the problem.
+
+mod across;
+mod saving;
 
 use super::{CurveLine, Curves, Entry, Kind, Scene, ask};
 use crate::analysis::metric::Metric;
@@ -20,7 +24,8 @@ use serde::Deserialize;
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
     name: "sweep_curves",
-    about: "along a sweep: shares of solved queries with simultaneous bands or draw by draw, printed rows on top; or metrics",
+    about: "along a sweep: shares of solved queries with simultaneous bands or draw by draw, printed rows on top; or metrics, \
+            several studies, a saving along a column",
     statistic: "Shares are means over draws, unsolved queries counted as such; other metrics are of single trials; {n}.",
     settings: Accepted::of::<Read>(),
     example: r#"
@@ -32,20 +37,41 @@ rows = [
     { contender = "Improved A*", printed = "t2.improved." },
 ]
 "#,
-    build: |settings, study, paper| Ok(Box::new(SweepCurves::new(settings, study, paper)?)),
+    build: |settings, study, paper| {
+        let mut read: Read = settings.read()?;
+        Ok(match (read.across.take(), read.saving.take()) {
+            (None, None) => Box::new(SweepCurves::new(read, settings, study, paper)?),
+            (Some(across), None) => {
+                read.has(settings, &["sweep", "axis"])?;
+                Box::new(across.built((read.sweep, read.axis), settings, study, paper)?)
+            }
+            (None, Some(saving)) => Box::new(saving.built(settings, study)?),
+            (Some(_), Some(_)) => {
+                return Err(settings.error_at("saving", "across or saving is accepted, not both"));
+            }
+        })
+    },
 };
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
-    /// The problem group, by its label.
+    /// The problem group of the rows, by its label.
+    #[serde(default)]
     problems: String,
     /// The setting that the study sweeps.
+    #[serde(default)]
     sweep: String,
     /// What stands along the axis.
+    #[serde(default)]
     axis: String,
     /// The contenders that are shown.
+    #[serde(default)]
     rows: Vec<ReadRow>,
+    /// In place of rows: one contender's shares, one curve a study.
+    across: Option<across::Across>,
+    /// In place of a sweep and rows: one contender's saving over another along a column of the problem, draw by draw.
+    saving: Option<saving::Saving>,
     /// Draws every draw's own curve beside their mean, one panel a contender.
     #[serde(default)]
     single_draws: bool,
@@ -74,6 +100,22 @@ struct ReadRow {
     printed: Option<String>,
 }
 
+impl Read {
+    /// Refuses settings without one of these keys.
+    fn has(&self, settings: &Settings, keys: &[&str]) -> Result<(), SettingsError> {
+        let is_left_out = |key: &&&str| match **key {
+            "problems" => self.problems.is_empty(),
+            "sweep" => self.sweep.is_empty(),
+            "axis" => self.axis.is_empty(),
+            _ => self.rows.is_empty(),
+        };
+        match keys.iter().find(is_left_out) {
+            Some(key) => Err(settings.error(format!("`{key}` is missing"))),
+            None => Ok(()),
+        }
+    }
+}
+
 struct SweepCurves {
     read: Read,
     /// The sweep's values as numbers and as records have them.
@@ -92,8 +134,8 @@ struct RowOf {
 const DRAWN: usize = 60;
 
 impl SweepCurves {
-    fn new(settings: &Settings, study: &Study, paper: &Paper) -> Result<Self, SettingsError> {
-        let read: Read = settings.read()?;
+    fn new(read: Read, settings: &Settings, study: &Study, paper: &Paper) -> Result<Self, SettingsError> {
+        read.has(settings, &["problems", "sweep", "axis", "rows"])?;
         ask::known(settings, study, [&read.problems], read.rows.iter().map(|row| &row.contender))?;
         let metrics =
             read.metrics.iter().map(|name| ask::metric(settings, name)).collect::<Result<_, _>>()?;

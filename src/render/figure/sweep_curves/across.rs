@@ -1,6 +1,6 @@
 //! Which value of a sweep gives the printed shares, for several studies: what the printed numbers identify, and what not.
 
-use super::{Entry, Kind, Scene, ask};
+use super::super::{Kind, Scene, ask};
 use crate::analysis::evidence::Run;
 use crate::analysis::shown::{Curves, mean_solved};
 use crate::render::RenderError;
@@ -9,71 +9,19 @@ use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, Fill, GREY, Stroke, Width, series_color, series_marker, series_stroke};
 use crate::study::contender::SweepPoint;
 use crate::study::key::{SweepValue, Text};
+use crate::study::paper::Paper;
 use crate::study::{Study, name};
-use base::settings::{Accepted, Settings, SettingsError, none_called};
+use base::settings::{Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
-/// The registry's entry.
-pub static ENTRY: Entry = Entry {
-    name: "identification",
-    about: "shares of solved queries against a swept value, one curve a study, printed shares as lines",
-    statistic: "Means over draws with 95 % bootstrap intervals, unsolved queries counted as such; {n}.",
-    settings: Accepted::of::<Read>(),
-    example: r#"
-contender = "Original A*"
-sweep = "neighbour_mm"
-axis = "neighbour threshold ρ (mm)"
-others = ["samples=800", "samples=1500"]
-printed = ["t2.original.800", "t2.original.1500"]
-row = { sweep = "samples", printed = "t2.original." }
-studies = ["identify_full", "identify_front", "identify_branch", "identify_poses"]
-"#,
-    build: |settings, study, paper| {
-        let read: Read = settings.read()?;
-        ask::known(settings, study, [], [&read.contender])?;
-        if let Some(missing) = read.studies.iter().find(|name| paper.study(name).is_none()) {
-            let known = paper.studies.iter().map(|study| study.name.as_str());
-            let message = none_called("study", missing, known);
-            return Err(settings.error_about("", &["studies"], missing, message));
-        }
-        if read.printed.len() != read.others.len() {
-            let message = format!(
-                "printed has {} claims and others {} points; as many of either are accepted",
-                read.printed.len(),
-                read.others.len()
-            );
-            return Err(settings.error_at("printed", message));
-        }
-        let printed = ask::all_printed(settings, paper, "printed", &read.printed)?;
-        let others = others(settings, study, &read.others)?;
-        let mut row = Vec::new();
-        if let Some(wanted) = &read.row {
-            let sweep = study.sweeps.iter().find(|sweep| sweep.key == wanted.sweep);
-            let sweep = sweep.ok_or_else(|| {
-                let message = format!("study `{}` does not sweep `{}`", study.name, wanted.sweep);
-                settings.error_at("row.sweep", message)
-            })?;
-            for value in sweep.key_values().into_iter().flatten() {
-                let claim =
-                    ask::printed(settings, paper, "row.printed", &format!("{}{value}", wanted.printed))?;
-                row.push((value, claim));
-            }
-        }
-        Ok(Box::new(Identification { read, others, printed, row }))
-    },
-};
-
+/// One contender's shares in several studies.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Read {
+pub(super) struct Across {
     /// The contender, by its label.
     contender: String,
-    /// The sweep along the axis.
-    sweep: String,
-    /// What stands along the axis.
-    axis: String,
     /// A value of another sweep, as `setting=value`: one panel each.
     others: Vec<String>,
     /// The claim printed for each panel.
@@ -93,8 +41,63 @@ struct RowOf {
     printed: String,
 }
 
-struct Identification {
-    read: Read,
+impl Across {
+    /// The figure along `sweep`, with `axis` written below it.
+    pub(super) fn built(
+        self,
+        (sweep, axis): (String, String),
+        settings: &Settings,
+        study: &Study,
+        paper: &Paper,
+    ) -> Result<Identification, SettingsError> {
+        ask::known(settings, study, [], [&self.contender])?;
+        if let Some(missing) = self.studies.iter().find(|name| paper.study(name).is_none()) {
+            let known = paper.studies.iter().map(|study| study.name.as_str());
+            let message = none_called("study", missing, known);
+            return Err(settings.error_about("across", &["studies"], missing, message));
+        }
+        if self.printed.len() != self.others.len() {
+            let message = format!(
+                "printed has {} claims and others {} points; as many of either are accepted",
+                self.printed.len(),
+                self.others.len()
+            );
+            return Err(settings.error_at("across.printed", message));
+        }
+        let printed = ask::all_printed(settings, paper, "across.printed", &self.printed)?;
+        let others = others(settings, study, &self.others)?;
+        let row = self.row.as_ref().map(|row| row.cells(settings, study, paper)).transpose()?;
+        Ok(Identification { read: self, sweep, axis, others, printed, row: row.unwrap_or_default() })
+    }
+}
+
+impl RowOf {
+    /// The row's cells: the value of its sweep and the printed share.
+    fn cells(
+        &self,
+        settings: &Settings,
+        study: &Study,
+        paper: &Paper,
+    ) -> Result<Vec<(SweepValue, f64)>, SettingsError> {
+        let sweep = study.sweeps.iter().find(|sweep| sweep.key == self.sweep).ok_or_else(|| {
+            let message = format!("study `{}` does not sweep `{}`", study.name, self.sweep);
+            settings.error_at("across.row.sweep", message)
+        })?;
+        let cell = |value: SweepValue| {
+            let claim = format!("{}{value}", self.printed);
+            Ok((value, ask::printed(settings, paper, "across.row.printed", &claim)?))
+        };
+        sweep.key_values().into_iter().flatten().map(cell).collect()
+    }
+}
+
+/// What the printed shares identify.
+pub(super) struct Identification {
+    read: Across,
+    /// The sweep along the axis.
+    sweep: String,
+    /// What stands along the axis.
+    axis: String,
     /// What the other sweeps are at, one a panel.
     others: Vec<Other>,
     printed: Vec<f64>,
@@ -115,7 +118,7 @@ fn others(settings: &Settings, study: &Study, written: &[String]) -> Result<Vec<
             let known: Vec<String> = known.iter().map(|other| name::sweep_value(other)).collect();
             let message =
                 format!("study `{}` has no sweep `{text}`; it has {}", study.name, known.join(", "));
-            settings.error_at(&format!("others.{index}"), message)
+            settings.error_at(&format!("across.others.{index}"), message)
         })
     };
     written.iter().enumerate().map(find).collect()
@@ -129,7 +132,7 @@ impl Identification {
         let Some(group) = run.study.groups.first() else { return Vec::new() };
         let mut points = Vec::new();
         for point in run.study.sweep_points() {
-            let value = point.key.value(&self.read.sweep).and_then(SweepValue::as_f64);
+            let value = point.key.value(&self.sweep).and_then(SweepValue::as_f64);
             let value = value.filter(|_| point.key.value(&other.0) == Some(&other.1));
             let Some(value) = value else { continue };
             let of = ask::trials_at(run, &group.label, &self.read.contender, &point.key);
@@ -146,7 +149,7 @@ impl Identification {
     /// How far the mean curve along the row is from the printed one, at each value of the sweep along the axis.
     fn distances(&self, scene: &Scene<'_>, run: &Run<'_>) -> Vec<Point> {
         let Some(group) = run.study.groups.first() else { return Vec::new() };
-        let Some(sweep) = run.study.sweeps.iter().find(|sweep| sweep.key == self.read.sweep) else {
+        let Some(sweep) = run.study.sweeps.iter().find(|sweep| sweep.key == self.sweep) else {
             return Vec::new();
         };
         let printed: Vec<f64> = self.row.iter().map(|(_, printed)| *printed).collect();
@@ -156,13 +159,13 @@ impl Identification {
         for value in sweep.key_values().into_iter().flatten() {
             let cell = |(cell, _): &(SweepValue, f64)| {
                 let is_own = |point: &&SweepPoint| {
-                    point.key.value(&self.read.sweep) == Some(&value) && point.key.value(along) == Some(cell)
+                    point.key.value(&self.sweep) == Some(&value) && point.key.value(along) == Some(cell)
                 };
                 let point = sweep_points.iter().find(is_own)?;
                 Some(ask::trials_at(run, &group.label, &self.read.contender, &point.key))
             };
             let Some(cells) = self.row.iter().map(cell).collect::<Option<Vec<_>>>() else { continue };
-            let at = format!("{}={value}", self.read.sweep);
+            let at = format!("{}={value}", self.sweep);
             let names = ["row", &run.study.name, &at];
             let found = Curves::solved(&cells, scene.evidence).distance(&printed, &names);
             if let (Some(at), Some(found)) = (value.as_f64(), found) {
@@ -185,6 +188,10 @@ impl Identification {
 }
 
 impl Kind for Identification {
+    fn statistic(&self) -> Option<&'static str> {
+        Some("Means over draws with 95 % bootstrap intervals, unsolved queries counted as such; {n}.")
+    }
+
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         let panels = self.others.len() + usize::from(!self.row.is_empty());
         let mut sheet = Sheet::new(Width::Double, panels, 150.0);
@@ -192,7 +199,7 @@ impl Kind for Identification {
             self.read.studies.iter().filter_map(|name| scene.evidence.run(name)).collect();
         for (other, printed) in self.others.iter().zip(&self.printed) {
             let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.curve(scene, run, other)).collect();
-            let x = Axis::over(&self.read.axis, curves.iter().flatten().map(|point| point[0]));
+            let x = Axis::over(&self.axis, curves.iter().flatten().map(|point| point[0]));
             let [low, high] = x.ends();
             let mut panel = Panel::new(
                 format!("{} = {}", other.0, other.1),
@@ -206,7 +213,7 @@ impl Kind for Identification {
         }
         if !self.row.is_empty() {
             let curves: Vec<Vec<Point>> = runs.iter().map(|run| self.distances(scene, run)).collect();
-            let x = Axis::over(&self.read.axis, curves.iter().flatten().map(|point| point[0]));
+            let x = Axis::over(&self.axis, curves.iter().flatten().map(|point| point[0]));
             let top = curves.iter().flatten().map(|point| point[3]).fold(1.0, f64::max);
             let y = Axis::linear("distance from the printed row (points)", 0.0, top * 1.05)?;
             let mut panel = Panel::new(format!("all {} cells", self.row.len()), x, y);
