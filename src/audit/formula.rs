@@ -21,6 +21,13 @@ pub struct Formula {
 /// Every formula, in the order of their names.
 pub static REGISTRY: &[Formula] = &[
     Formula {
+        name: "fewest_listed",
+        about: "does the row of a table that lists the fewest points list as many as the text says of every row?",
+        takes: &["fewest", "said"],
+        is_existential: false,
+        prove: |with| fewest_listed(with[0], with[1]),
+    },
+    Formula {
         name: "forbidden_disc",
         about: "can reach, singularity or a stop of joint 2 of a planar two-link arm forbid an inner disc of this radius?",
         takes: &["l1", "l2", "radius"],
@@ -72,6 +79,13 @@ impl Formula {
         }
         Ok(self.takes.iter().map(|name| with[*name]).collect())
     }
+}
+
+/// Whether a table's shortest row lists as many points as stated.
+fn fewest_listed(fewest: f64, said: f64) -> Proof {
+    let because = format!("the shortest row lists {fewest} points, and the text says {said} of every row");
+    let premise = "the text speaks of every row, and a dash is no point".to_owned();
+    Proof { is_possible: fewest >= said, because: vec![because], premises: vec![premise] }
 }
 
 /// Whether the points that a planar two-link arm cannot take, or takes only stretched or folded, reach as far from its base
@@ -214,6 +228,11 @@ mod tests {
         assert!(
             !forbidden_disc(30.0, 20.0, 9.0).is_possible && !forbidden_disc(30.0, 20.0, 51.0).is_possible
         );
+    }
+
+    #[test]
+    fn a_row_with_a_point_too_few_contradicts_the_text() {
+        assert!(fewest_listed(4.0, 4.0).is_possible && !fewest_listed(3.0, 4.0).is_possible);
     }
 
     #[test]
