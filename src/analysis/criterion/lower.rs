@@ -80,6 +80,24 @@ impl<'a> Lower<'a> {
         OfAll::ReductionPercent.of_pairs(pairs, self.plan).map(turned)
     }
 
+    /// The change over draws in a sentence, with how many of all cases go which way.
+    fn told(&self, metric: &str, change: &Estimated, pairs: &[Vec<(f64, f64)>]) -> String {
+        let Estimated { value, interval, units, .. } = change;
+        let signs = paired::signs(&pairs.concat());
+        format!(
+            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, {} over {units} draws); lower on {}, \
+             equal on {}, higher on {} of {} cases that both solve",
+            self.of.said(),
+            interval.low,
+            interval.high,
+            how(change),
+            signs.lower,
+            signs.equal,
+            signs.higher,
+            signs.lower + signs.equal + signs.higher,
+        )
+    }
+
     /// Over draws.
     fn on_average(&self, evidence: &Evidence<'_>, metric: &str) -> Found {
         let draws = self.of.draws(evidence);
@@ -89,19 +107,6 @@ impl<'a> Lower<'a> {
         };
         let Estimated { value, interval, units, .. } = change;
         let found = outcome(self.way, self.by_percent, interval);
-        let signs = paired::signs(&pairs.concat());
-        let because = format!(
-            "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, {} over {units} draws); lower on {}, \
-             equal on {}, higher on {} of {} cases that both solve",
-            self.of.said(),
-            interval.low,
-            interval.high,
-            how(&change),
-            signs.lower,
-            signs.equal,
-            signs.higher,
-            signs.lower + signs.equal + signs.higher,
-        );
         let is_other = |pairs: Vec<Vec<(f64, f64)>>| {
             self.change(&pairs)
                 .is_some_and(|filled| outcome(self.way, self.by_percent, filled.interval) != found)
@@ -113,7 +118,7 @@ impl<'a> Lower<'a> {
             outcome: Some(found),
             ours: Some(Estimate::new(value, interval, what, units).of_cases(solved(&draws))),
             trial: selection::nearest(&self.of, evidence, &draws, of_case, value),
-            because: vec![because],
+            because: vec![self.told(metric, &change, &pairs)],
             limits: vec![0.0, if self.way == Way::Higher { self.by_percent } else { 0.0 - self.by_percent }],
             units: "draws",
             needs: needs(units),
