@@ -10,9 +10,9 @@ use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
 use engine::length_inversion::{Match, pairs};
 use engine::search::OctileAstar;
 use engine::space::{ArmRules, ArmWorld, HopRule, TipLattice};
-use replan::study::endpoint_variants::{Case, Variant};
-use replan::study::prepared::workspace_map::ShapeSetting;
 use std::{hint::black_box, time::Duration};
+use study::endpoint_variants::{Case, Variant};
+use study::prepared::workspace_map::ShapeSetting;
 
 const START: [f64; 2] = [49.0, 3.0];
 

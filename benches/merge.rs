@@ -4,21 +4,21 @@
 //! takes more than a minute of one core or 2 GB.
 
 use engine::planner::{Exhibit, Value};
-use replan::study::Inputs;
-use replan::study::clock;
-use replan::study::key::Owner;
-use replan::study::lock::Lock;
-use replan::study::manifest::Manifest;
-use replan::study::merge::Parts;
-use replan::study::paper::Paper;
-use replan::study::plan::{Plan, Wanted};
-use replan::study::record::{Batch, Kept, PreparedRow, Row, Status, Values};
-use replan::study::runner::BuiltStudy;
-use replan::study::shard::Portion;
-use replan::study::store::{Columns, Exhibits, Records, Staged, stage_records};
-use replan::study::unit::Unit;
 use std::fs;
 use std::path::Path;
+use study::Inputs;
+use study::clock;
+use study::key::Owner;
+use study::lock::Lock;
+use study::manifest::Manifest;
+use study::merge::Parts;
+use study::paper::Paper;
+use study::plan::{Plan, Wanted};
+use study::record::{Batch, Kept, PreparedRow, Row, Status, Values};
+use study::runner::BuiltStudy;
+use study::shard::Portion;
+use study::store::{Columns, Exhibits, Records, Staged, stage_records};
+use study::unit::Unit;
 
 const DRAWS: u32 = 500_000;
 const SHARDS: usize = 64;

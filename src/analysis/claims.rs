@@ -10,11 +10,11 @@ use super::rule;
 use super::settle::settles;
 use super::together::together;
 use super::verdict::{Estimate, Finding, Judged, Verdicts};
-use crate::study::paper::{Asked, Claim, Paper, Parts};
 use base::hash::sha256;
 use base::settings::{Faults, SettingsError, none_called};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use study::paper::{Asked, Claim, Paper, Parts};
 
 /// Builds every criterion and rule of every claim, so that `replan check` finds what is wrong before anything runs.
 ///

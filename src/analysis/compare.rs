@@ -20,12 +20,12 @@ use self::gate::unknown_metric;
 use self::pair::{Pair, paired};
 use self::run::{Seen, Times};
 use super::metric::{self, Better, Metric};
-use crate::study::key::{ReadingKey, Text};
-use crate::study::manifest::Manifest;
-use crate::study::name::Names;
-use crate::study::record::{Row, Status};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
+use study::key::{ReadingKey, Text};
+use study::manifest::Manifest;
+use study::name::Names;
+use study::record::{Row, Status};
 
 /// What is set beside each other.
 pub enum Sides<'a> {

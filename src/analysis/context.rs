@@ -2,12 +2,12 @@
 
 use super::metric::{self, Metric};
 use super::selection_spec::Labels;
-use crate::study::paper::{self, Claim, Paper};
-use crate::study::{ReadingChoice, Study, columns_of, labels_of};
 use audit::exact::Print;
 use audit::printed::Digits;
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 use std::collections::BTreeSet;
+use study::paper::{self, Claim, Paper};
+use study::{ReadingChoice, Study, columns_of, labels_of};
 
 /// What a criterion or rule is built from.
 #[derive(Clone, Copy)]
@@ -31,13 +31,12 @@ pub const CONTENDER_KEYS: [&str; 4] = ["contender", "against", "lower", "higher"
 /// How the keys start that name metrics.
 const METRIC_KEYS: [&str; 3] = ["metric", "over", "truth"];
 
-impl From<paper::Digits> for Digits {
-    fn from(digits: paper::Digits) -> Self {
-        match digits {
-            paper::Digits::Rounded => Self::Rounded,
-            paper::Digits::Truncated => Self::Truncated,
-            paper::Digits::Unknown => Self::Unknown,
-        }
+/// The audit's word for how a paper's digits end.
+fn audited(digits: paper::Digits) -> Digits {
+    match digits {
+        paper::Digits::Rounded => Digits::Rounded,
+        paper::Digits::Truncated => Digits::Truncated,
+        paper::Digits::Unknown => Digits::Unknown,
     }
 }
 
@@ -53,7 +52,7 @@ impl<'a> Context<'a> {
         let refused = |e: audit::AuditError| self.settings.error(e.to_string()).about(&about());
         let printed = text.parse().map_err(refused)?;
         let digits = self.claim.digits.or_else(|| self.point.digits()).unwrap_or(paper::Digits::Unknown);
-        Ok(Print { printed, digits: digits.into() })
+        Ok(Print { printed, digits: audited(digits) })
     }
 
     /// That of another claim.

@@ -2,13 +2,6 @@
 
 use super::metric::{self, Metric};
 use super::polylines::Polylines;
-use crate::study::key::{Owner, ReadingKey, Text, TrialKey};
-use crate::study::manifest::Manifest;
-use crate::study::name::Names;
-use crate::study::paper::Paper;
-use crate::study::record::{PreparedRow, Row, Status};
-use crate::study::store::{KeptExhibits, Records, read_numbers};
-use crate::study::{ReadingChoice, Study, StudyError};
 use base::hash::sha256;
 use engine::planner::Exhibit;
 use rayon::prelude::*;
@@ -17,6 +10,13 @@ use std::collections::BTreeMap;
 use std::mem;
 use std::path::Path;
 use std::sync::Arc;
+use study::key::{Owner, ReadingKey, Text, TrialKey};
+use study::manifest::Manifest;
+use study::name::Names;
+use study::paper::Paper;
+use study::record::{PreparedRow, Row, Status};
+use study::store::{KeptExhibits, Records, read_numbers};
+use study::{ReadingChoice, Study, StudyError};
 use turns::{Polyline, TurnQuery};
 
 /// A paper with the stored runs of its studies.

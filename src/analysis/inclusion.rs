@@ -1,9 +1,9 @@
 //! What follows from neighbourhoods alone: a search over more steps that returns a shortest path is never longer.
 
-use crate::study::{ReadingChoice, Study};
 use base::settings::SettingsError;
 use engine::planner::Planner;
 use std::collections::BTreeSet;
+use study::{ReadingChoice, Study};
 
 /// What the sets of steps of two contenders say about their path lengths on one problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! Metrics: what can be compared, its unit, which way is better, and how to get it from a record.
 
-use crate::study::record::{Row, Status};
-use crate::study::{clock, column};
 use engine::planner::Value;
 use std::collections::BTreeSet;
+use study::record::{Row, Status};
+use study::{clock, column};
 
 /// Which way is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,12 +3,12 @@
 //! What is kept is named by the question and by the text of the code that answers it, so that nothing stale is ever
 //! found; losing it costs time alone.
 
-use crate::study::store::write_whole;
 use base::hash::sha256;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use study::store::write_whole;
 use turns::{Polyline, TurnQuery, shortest_polyline};
 
 /// Answers by what names them.

@@ -4,12 +4,12 @@ use super::context::Context;
 use super::evidence::{Cases, Evidence, Run};
 use super::metric::{Better, Metric};
 use super::selection_spec::SelectionSpec;
-use crate::study::Study;
-use crate::study::key::SweepKey;
-use crate::study::name;
-use crate::study::record::{Row, Status};
 use base::settings::{Faults, SettingsError};
 use std::collections::BTreeMap;
+use study::Study;
+use study::key::SweepKey;
+use study::name;
+use study::record::{Row, Status};
 
 /// A selection whose every name was found.
 #[derive(Clone)]

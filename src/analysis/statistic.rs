@@ -5,7 +5,6 @@
 use super::found::Narrows;
 use super::selection::{Case, Draw, by_draw, cases};
 use super::verdict::Estimate as VerdictEstimate;
-use crate::study::record::Row;
 use base::seed;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -17,6 +16,7 @@ use stats::proportion::{clopper_pearson, mean_of_agreed};
 use stats::summary;
 pub(super) use stats::summary::{mean, median, quantile_type7 as quantile};
 use std::collections::BTreeMap;
+use study::record::Row;
 
 /// Level of every interval.
 pub const LEVEL: f64 = 0.95;

@@ -3,12 +3,12 @@
 use super::evidence::{Evidence, Run};
 use super::metric::{self, Metric};
 use super::statistic;
-use crate::study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
-use crate::study::paper::{OursSpec, TableRow};
-use crate::study::record::{PreparedRow, Row};
-use crate::study::{Study, recorded_mark};
 use engine::space::WorldKind;
 use std::collections::BTreeSet;
+use study::paper::results::{BlockSpec, CellSpec, ResultsSpec, Show};
+use study::paper::{OursSpec, TableRow};
+use study::record::{PreparedRow, Row};
+use study::{Study, recorded_mark};
 
 /// A table of results: its head and, block by block, its rows; a dash where there is nothing.
 pub struct Grid {

@@ -8,10 +8,10 @@ use super::context::Context;
 use super::criterion::{Attained, EXISTS, Seen};
 use super::evidence::Evidence;
 use super::verdict::Together;
-use crate::study::record::Row;
 use base::settings::SettingsError;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use study::record::Row;
 
 /// Whether each claim is met exactly.
 type Outcomes<'a> = BTreeMap<&'a str, bool>;

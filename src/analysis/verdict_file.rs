@@ -3,12 +3,12 @@
 
 use super::compare::stored_studies;
 use super::verdict::Verdicts;
-use crate::study::StudyError;
-use crate::study::store::write_whole;
 use base::hash::sha256;
 use base::settings::{Document, SettingsError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use study::StudyError;
+use study::store::write_whole;
 
 /// How the last line begins.
 const SEAL: &str = "# SHA-256 of the text above: ";

@@ -11,11 +11,6 @@ mod walk;
 use super::context::Context;
 use super::criterion::{Attained, EXISTS};
 use super::metric::Metric;
-use crate::study::contender::{Pipeline, SweepPoint};
-use crate::study::paper::Paper;
-use crate::study::record::Status;
-use crate::study::verification::{self, Guide};
-use crate::study::{Group, Inputs, Reading, ReadingChoice, Study, StudyError};
 use audit::exact::Print;
 use base::grid::{CornerRule, Grid2, independent_cells};
 use base::seed::{self, Stream};
@@ -26,6 +21,11 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
+use study::contender::{Pipeline, SweepPoint};
+use study::paper::Paper;
+use study::record::Status;
+use study::verification::{self, Guide};
+use study::{Group, Inputs, Reading, ReadingChoice, Study, StudyError};
 use walk::Walk;
 
 /// Which reading maps are searched under.
@@ -345,7 +345,7 @@ impl Ground {
     fn is_verified(&self, grid: &Grid2) -> bool {
         let world = self.world(grid);
         let [start, goal] = self.ends.clone();
-        let query = crate::study::family::Query { name: String::new(), start, goal };
+        let query = study::family::Query { name: String::new(), start, goal };
         let truth = verification::truth(&world, &query, &Guide::default());
         let request = self.request(&world);
         self.pipelines.iter().all(|(_, pipeline)| {

@@ -4,10 +4,10 @@ use super::audit_file::AuditFile;
 use super::example;
 use crate::analysis::{criterion, rule};
 use crate::render::figure;
-use crate::study::files::{self, FileKind};
-use crate::study::{family, paper, prepared, task};
 use base::settings::Accepted;
 use engine::planner::{self, Build};
+use study::files::{self, FileKind};
+use study::{family, paper, prepared, task};
 
 /// What names an entry in a file, and the table of its settings; `{}` stands for its name.
 #[derive(Clone, Copy)]
@@ -61,7 +61,7 @@ fn planners_or_stages(first: bool) -> Vec<Item> {
         frame: if first { PLANNER } else { STAGE },
         columns: e.columns,
     };
-    crate::study::planner::all().filter(fits).map(item).collect()
+    study::planner::all().filter(fits).map(item).collect()
 }
 
 /// Planners: the first in a contender's pipeline.

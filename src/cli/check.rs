@@ -5,11 +5,11 @@ use super::places::{Places, papers};
 use super::{Failure, Which, all};
 use crate::analysis::evidence::default_point;
 use crate::crosscheck::Spec;
-use crate::study::paper::Paper;
-use crate::study::rerun;
 use base::settings::Faults;
 use clap::Args;
 use std::collections::BTreeSet;
+use study::paper::Paper;
+use study::rerun;
 
 /// Checks papers and specs.
 #[derive(Args)]

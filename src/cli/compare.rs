@@ -5,10 +5,10 @@ use super::{Failure, command_line};
 use crate::analysis::compare::{Asked, Comparison, Gate, Outcome, Sides, StoredRun, compare};
 use crate::render::comparison;
 use crate::render::vector::Provenance;
-use crate::study::store::write_whole;
 use base::hash::sha256;
 use clap::Args;
 use std::path::PathBuf;
+use study::store::write_whole;
 
 /// Compares two stored runs.
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own on the command line")]

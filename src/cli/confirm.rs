@@ -10,13 +10,13 @@ use crate::analysis::across::stored::Exploration;
 use crate::analysis::across::to_confirm;
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::Verdicts;
-use crate::study::ReadingChoice;
-use crate::study::lock::Lock;
-use crate::study::manifest::MadeBy;
-use crate::study::paper::Paper;
-use crate::study::shard;
 use clap::Args;
 use std::collections::BTreeMap;
+use study::ReadingChoice;
+use study::lock::Lock;
+use study::manifest::MadeBy;
+use study::paper::Paper;
+use study::shard;
 
 /// Runs a paper's studies once more on the second seed that each spec writes down, and with it every reading that turns a
 /// claim, with more draws: a class that turns counts only if it turns twice.

@@ -2,10 +2,6 @@
 
 use super::Failure;
 use super::places::home;
-use crate::study::family::{self, Query as Posed};
-use crate::study::record::Status;
-use crate::study::verification::{Guide, truth, verify};
-use crate::study::{Inputs, clock, contender::Pipeline, planner};
 use base::settings::Settings;
 use clap::Args;
 use engine::planner::{Build, Counts, Ending, Plan, Request};
@@ -13,6 +9,10 @@ use engine::space::World;
 use external::message::{Hello, Limits, Seeding};
 use external::world::Kind;
 use external::{End, Process, Program, Query, Space, Talk, describe, greet, solve};
+use study::family::{self, Query as Posed};
+use study::record::Status;
+use study::verification::{Guide, truth, verify};
+use study::{Inputs, clock, contender::Pipeline, planner};
 
 /// Tries a planner from outside on small worlds of the kinds that it names.
 #[derive(Args)]

@@ -8,8 +8,6 @@ use super::progress::Bar;
 use super::{Failure, Which};
 use crate::crosscheck::{self, Case, CrosscheckError, Depicted, Outcome, Picture, Sources, Spec};
 use crate::render::output::CROSSCHECK;
-use crate::study::runner::Progress as _;
-use crate::study::store::write_whole;
 use base::settings::Document;
 use clap::Args;
 use python::{Judge, Snapshot};
@@ -17,6 +15,8 @@ use rayon::prelude::*;
 use serde::Deserialize;
 use std::fs;
 use std::path::{Path, PathBuf};
+use study::runner::Progress as _;
+use study::store::write_whole;
 
 /// Has independent programs judge ours: MuJoCo kinematics, contacts and paths; numpy and scipy the statistics.
 ///

@@ -8,15 +8,15 @@ use super::Failure;
 use super::places::Places;
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::{CROSSCHECK, Outputs};
-use crate::study::manifest::Manifest;
-use crate::study::paper::Paper;
-use crate::study::store::write_whole;
 use base::hash::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
+use study::manifest::Manifest;
+use study::paper::Paper;
+use study::store::write_whole;
 
 /// All that the files of a paper are made from, and the files.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]

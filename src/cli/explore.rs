@@ -8,11 +8,11 @@ use super::rounds::{Round, Rounds, unless_planned};
 use super::{Failure, How, Which, command_line, judge, verdicts};
 use crate::analysis::across::stored::Exploration;
 use crate::analysis::evidence::default_point;
-use crate::study::ReadingChoice;
-use crate::study::lock::Lock;
-use crate::study::manifest::MadeBy;
-use crate::study::shard;
 use clap::Args;
+use study::ReadingChoice;
+use study::lock::Lock;
+use study::manifest::MadeBy;
+use study::shard;
 
 /// Explores a paper's readings: runs what each study says under the defaults, every other option by itself and a sample of
 /// their product, within the paper's budget of trials, and judges every claim under each.

@@ -13,17 +13,17 @@ use crate::analysis::claims;
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::together::{greatest, together};
 use crate::analysis::verdict::{Together, Verdicts};
-use crate::study::explore::{ExplorePaper, Points, points};
-use crate::study::lock::Lock;
-use crate::study::manifest::Manifest;
-use crate::study::paper::Paper;
-use crate::study::runner::BuiltStudy;
-use crate::study::session::{self, Options};
-use crate::study::store::{Records, read_numbers};
-use crate::study::{ReadingChoice, Study};
 use base::seed;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
+use study::explore::{ExplorePaper, Points, points};
+use study::lock::Lock;
+use study::manifest::Manifest;
+use study::paper::Paper;
+use study::runner::BuiltStudy;
+use study::session::{self, Options};
+use study::store::{Records, read_numbers};
+use study::{ReadingChoice, Study};
 
 /// What every claim is found to be under one reading.
 pub type Glances = BTreeMap<String, Glance>;
@@ -307,19 +307,15 @@ impl<'p> Explorer<'p> {
     ) -> Result<(Vec<Glances>, Vec<Together>), Failure> {
         let (mut found, mut sets) = (Vec::new(), Vec::new());
         let bar = Bar::default();
-        crate::study::runner::Progress::begin(
-            &bar,
-            &format!("{}: judging readings", self.paper.id),
-            points.len(),
-        );
+        study::runner::Progress::begin(&bar, &format!("{}: judging readings", self.paper.id), points.len());
         for point in points {
             safe_point(stop_flag(), "the trials are kept")?;
             let view = evidence.under(point.clone());
             found.push(glances(&view)?);
             sets.extend(together(&view)?);
-            crate::study::runner::Progress::step(&bar);
+            study::runner::Progress::step(&bar);
         }
-        crate::study::runner::Progress::end(&bar);
+        study::runner::Progress::end(&bar);
         Ok((found, sets))
     }
 

@@ -4,10 +4,10 @@ use super::Failure;
 use super::places::stored_run;
 use crate::analysis::compare::{StoredRun, cells, stored_studies};
 use crate::render::comparison::cells_csv;
-use crate::study::manifest::Manifest;
-use crate::study::store::{Staged, check_records, csv};
 use clap::Args;
 use std::path::{Path, PathBuf};
+use study::manifest::Manifest;
+use study::store::{Staged, check_records, csv};
 
 /// Exports a stored run.
 #[derive(Args)]

@@ -8,12 +8,12 @@ use crate::analysis::claims;
 use crate::analysis::difference::differences;
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::Verdicts;
-use crate::study::ReadingChoice;
-use crate::study::lock::Lock;
-use crate::study::manifest::Manifest;
-use crate::study::paper::Paper;
 use clap::Args;
 use std::fs;
+use study::ReadingChoice;
+use study::lock::Lock;
+use study::manifest::Manifest;
+use study::paper::Paper;
 
 /// Judges a paper's claims again.
 #[derive(Args)]

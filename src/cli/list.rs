@@ -5,13 +5,13 @@ use super::explain::{explained, wrapped};
 use super::places::{experiments, home, papers};
 use super::{Failure, all};
 use crate::analysis::metric;
-use crate::study::paper::Paper;
-use crate::study::{Inputs, Study, recorded_mark};
 use base::robot::read_urdf;
 use base::settings::none_called;
 use clap::{Args, ValueEnum};
 use engine::kinematics::{AXES, Robot, robot::Body};
 use std::path::{Path, PathBuf};
+use study::paper::Paper;
+use study::{Inputs, Study, recorded_mark};
 
 /// Where robots are shipped.
 const ROBOTS: &str = "data/robots";

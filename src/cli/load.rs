@@ -4,8 +4,8 @@ use super::file_schema::of_any_names;
 use super::places::Places;
 use super::{Failure, How};
 use crate::analysis::claims;
-use crate::study::paper::Paper;
 use base::settings::Faults;
+use study::paper::Paper;
 
 /// The paper as far as it can be read, with every claim's checks, figure and table understood; everything that is wrong goes
 /// to `faults`.

@@ -5,10 +5,10 @@ use super::explore::explore;
 use super::rounds::{Rounds, at_work};
 use super::sharded::Sharded;
 use super::{Failure, Which};
-use crate::study::manifest::MadeBy;
-use crate::study::plan::Plan;
 use clap::Args;
 use std::path::PathBuf;
+use study::manifest::MadeBy;
+use study::plan::Plan;
 
 /// Puts parts together; those of an exploration or a confirmation are judged as well, and the next round is planned.
 #[derive(Args)]

@@ -50,12 +50,12 @@ mod trial;
 mod verdicts;
 mod witness;
 
-use crate::study::StudyError;
 use base::settings::SettingsError;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use study::StudyError;
 
 #[derive(Parser)]
 #[command(version, about, after_help = EXAMPLES, max_term_width = 100)]

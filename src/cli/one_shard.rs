@@ -6,9 +6,9 @@ use super::places::Places;
 use super::rounds::{Round, Rounds, at_work};
 use super::sharded::Sharded;
 use super::{Again, Failure, How, Which};
-use crate::study::ReadingChoice;
-use crate::study::plan::{Plan, PlannedRound};
 use std::path::Path;
+use study::ReadingChoice;
+use study::plan::{Plan, PlannedRound};
 
 /// A shard of an exploration or a confirmation, as the command line asks for it.
 pub struct OneShard<'a> {

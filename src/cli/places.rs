@@ -5,12 +5,12 @@
 
 use super::{Failure, How, Which};
 use crate::analysis::compare::stored_studies;
-use crate::study::paper::Paper;
-use crate::study::{Inputs, ReadingChoice, Study};
 use std::collections::BTreeMap;
 use std::fs;
 use std::iter;
 use std::path::{Component, Path, PathBuf};
+use study::paper::Paper;
+use study::{Inputs, ReadingChoice, Study};
 
 /// Where the papers of the project lie.
 const EXPERIMENTS: &str = "experiments";
@@ -208,9 +208,7 @@ impl How {
             parts.push("quick".to_owned());
         }
         parts.extend(self.seed.map(|seed| format!("seed-{seed}")));
-        parts.extend(
-            self.readings.as_deref().map(|readings| format!("readings-{}", crate::study::slug(readings))),
-        );
+        parts.extend(self.readings.as_deref().map(|readings| format!("readings-{}", study::slug(readings))));
         parts.join("-")
     }
 
@@ -248,7 +246,7 @@ impl How {
     ///
     /// # Errors
     /// An option that is not among a reading's. Readings that a study does not have are left to others.
-    pub fn point(&self, readings: &[crate::study::Reading]) -> Result<ReadingChoice, Failure> {
+    pub fn point(&self, readings: &[study::Reading]) -> Result<ReadingChoice, Failure> {
         let mut chosen = BTreeMap::new();
         for part in
             self.readings.as_deref().filter(|text| *text != "all").iter().flat_map(|text| text.split(','))

@@ -1,11 +1,11 @@
 //! Progress on the terminal, and Ctrl-C.
 
 use super::Failure;
-use crate::study::runner::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal as _;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use study::runner::Progress;
 
 /// Set by the first Ctrl-C: units at work, or the figure at work, are finished.
 static STOP: AtomicBool = AtomicBool::new(false);

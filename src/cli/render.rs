@@ -7,12 +7,12 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::{self, Outputs};
 use crate::render::report::{self, Chapter};
-use crate::study::ReadingChoice;
-use crate::study::lock::Lock;
-use crate::study::paper::Paper;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
+use study::ReadingChoice;
+use study::lock::Lock;
+use study::paper::Paper;
 
 /// Draws a paper's figures and tables again.
 #[derive(Args)]

@@ -9,14 +9,14 @@ use crate::analysis::verdict::Verdicts;
 use crate::page;
 use crate::render::output::Output;
 use crate::render::state;
-use crate::study::ReadingChoice;
-use crate::study::clock::timed;
-use crate::study::paper::Paper;
-use crate::study::store::write_whole;
 use clap::Args;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use study::ReadingChoice;
+use study::clock::timed;
+use study::paper::Paper;
+use study::store::write_whole;
 
 /// Writes reports as pages of HTML that need nothing else: claim, finding, trial, replay.
 ///

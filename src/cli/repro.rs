@@ -10,11 +10,11 @@ use super::{Again, Failure, How, Which, trial, verdicts};
 use super::{judge, render};
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::Outputs;
-use crate::study::lock::Lock;
-use crate::study::manifest::MadeBy;
-use crate::study::paper::Paper;
 use clap::Args;
 use std::sync::atomic::AtomicBool;
+use study::lock::Lock;
+use study::manifest::MadeBy;
+use study::paper::Paper;
 
 /// Reproduces a paper.
 #[derive(Args)]

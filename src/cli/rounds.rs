@@ -7,10 +7,10 @@
 use super::Failure;
 use super::sharded::Sharded;
 use crate::analysis::across::stored::differing;
-use crate::study::paper::Paper;
-use crate::study::plan::{Plan, PlannedRound};
-use crate::study::{ReadingChoice, StudyError};
 use std::path::{Path, PathBuf};
+use study::paper::Paper;
+use study::plan::{Plan, PlannedRound};
+use study::{ReadingChoice, StudyError};
 
 /// A round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,15 +8,15 @@ use super::sharded::Sharded;
 use super::summary::summary;
 use super::{Again, Failure, How, Which, command_line};
 use crate::analysis::claims;
-use crate::study::lock::Lock;
-use crate::study::manifest::MadeBy;
-use crate::study::paper::Paper;
-use crate::study::plan::Plan;
-use crate::study::session::{self, Options, Report};
-use crate::study::shard;
-use crate::study::{ReadingChoice, Study};
 use clap::Args;
 use std::path::Path;
+use study::lock::Lock;
+use study::manifest::MadeBy;
+use study::paper::Paper;
+use study::plan::Plan;
+use study::session::{self, Options, Report};
+use study::shard;
+use study::{ReadingChoice, Study};
 
 /// Runs the studies of a paper.
 #[derive(Args)]

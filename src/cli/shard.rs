@@ -6,11 +6,11 @@ use super::rounds::Round;
 use super::run::check_is_run;
 use super::sharded::Sharded;
 use super::{Failure, How, confirm, explore};
-use crate::study::manifest::MadeBy;
-use crate::study::plan::Plan;
-use crate::study::store::write_whole;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use study::manifest::MadeBy;
+use study::plan::Plan;
+use study::store::write_whole;
 
 /// Cuts a run into shards.
 #[derive(Args)]
@@ -153,7 +153,7 @@ fn sharded_name(paper: &str) -> String {
     let name = Path::new(paper)
         .file_name()
         .map_or_else(|| paper.to_owned(), |name| name.to_string_lossy().into_owned());
-    crate::study::slug(&name)
+    study::slug(&name)
 }
 
 /// A word as a shell reads it.

@@ -6,15 +6,15 @@ use super::progress::{Bar, stop_flag};
 use super::summary::summary;
 use super::{Again, Failure, How, Which, command_line};
 use crate::analysis::claims::claims_hash;
-use crate::study::lock::Lock;
-use crate::study::manifest::Manifest;
-use crate::study::merge::Parts;
-use crate::study::paper::Paper;
-use crate::study::plan::{Plan, PlannedRound, Wanted};
-use crate::study::runner::BuiltStudy;
-use crate::study::session::{self, Options};
-use crate::study::{ReadingChoice, Study};
 use std::path::{Path, PathBuf};
+use study::lock::Lock;
+use study::manifest::Manifest;
+use study::merge::Parts;
+use study::paper::Paper;
+use study::plan::{Plan, PlannedRound, Wanted};
+use study::runner::BuiltStudy;
+use study::session::{self, Options};
+use study::{ReadingChoice, Study};
 
 /// Studies, how they are run, and the readings of each.
 pub struct Sharded {

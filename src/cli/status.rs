@@ -2,10 +2,10 @@
 
 use super::Failure;
 use super::rounds::at_work;
-use crate::study::plan::{Plan, Progressed, State};
 use clap::Args;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+use study::plan::{Plan, Progressed, State};
 
 /// Says how far the shards are.
 #[derive(Args)]

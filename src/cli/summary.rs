@@ -1,6 +1,6 @@
 //! What a run did, for the terminal.
 
-use crate::study::session::{Report, UnexpectedStatus};
+use study::session::{Report, UnexpectedStatus};
 
 /// What a run did, in a few words.
 pub fn summary(report: &Report, why: bool) -> String {

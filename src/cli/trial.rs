@@ -2,10 +2,10 @@
 
 use super::places::Places;
 use super::{Failure, How};
-use crate::study::name::Names;
-use crate::study::paper::Paper;
-use crate::study::record::{Kept, Row};
-use crate::study::session;
+use study::name::Names;
+use study::paper::Paper;
+use study::record::{Kept, Row};
+use study::session;
 
 /// Runs the trial called `name` = `study/trial`, prints its record and path, and compares it with the stored row.
 pub fn run(paper: &Paper, places: &Places, how: &How, name: &str) -> Result<(), Failure> {

@@ -4,9 +4,6 @@ use super::progress::{Bar, safe_point, stop_flag};
 use super::{Failure, How, Which, load::load, places::Places};
 use crate::analysis::metric;
 use crate::analysis::witness::{Hunt, OnMap, Under, Wanted, Witness as Found};
-use crate::study::paper::Paper;
-use crate::study::runner::Progress as _;
-use crate::study::store::write_whole;
 use audit::exact::Print;
 use audit::printed::Digits;
 use base::grid::to_text_map;
@@ -15,6 +12,9 @@ use base::settings::{Document, none_called};
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use study::paper::Paper;
+use study::runner::Progress as _;
+use study::store::write_whole;
 
 /// Searches maps on which a set of claims holds together.
 ///
@@ -170,7 +170,7 @@ fn line(on: &OnMap) -> String {
 }
 
 /// The number that `text` asks for besides those of claims.
-fn besides(text: &str, study: &crate::study::Study) -> Result<Wanted, Failure> {
+fn besides(text: &str, study: &study::Study) -> Result<Wanted, Failure> {
     let wrong = || Failure::input(format!("--also: `{text}` is not `CONTENDER:METRIC=NUMBER`"));
     let (contender, rest) = text.rsplit_once(':').ok_or_else(wrong)?;
     let (metric, number) = rest.split_once('=').ok_or_else(wrong)?;

@@ -30,9 +30,9 @@ pub use compare::{Disagreement, FRAME_TOLERANCE, Line, TIE_M};
 pub use spec::{FILE, Picture, SPEC, Sources, Spec};
 pub use table::ANSWERED;
 
-use crate::study::StudyError;
 use base::settings::SettingsError;
 use std::path::PathBuf;
+use study::StudyError;
 
 /// Why a cross-check cannot be posed or judged.
 #[derive(Debug, thiserror::Error)]

@@ -9,7 +9,6 @@ use super::planar::PlanarArm;
 use super::sample::Sizes;
 use super::stored::StoredPaths;
 use super::subject::{Check, SerialArm, Subject};
-use crate::study::{Inputs, slug};
 use base::seed;
 use base::settings::{Accepted, Document, SettingsError, Spanned};
 use engine::geometry::{Convex, Solid};
@@ -22,6 +21,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::Arc;
+use study::{Inputs, slug};
 
 /// The file's name.
 pub const SPEC: &str = "crosscheck.toml";

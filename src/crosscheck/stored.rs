@@ -3,18 +3,18 @@
 use super::CrosscheckError;
 use super::model::Freedom;
 use super::path::Path as JointPath;
-use crate::study::key::Owner;
-use crate::study::manifest::Manifest;
-use crate::study::name::Names;
-use crate::study::record::{Kept, Row, Status};
-use crate::study::store::{open_exhibits, read_numbers};
-use crate::study::{Inputs, ReadingChoice, Study, StudyError};
 use base::settings::SettingsError;
 use engine::space::World;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use study::key::Owner;
+use study::manifest::Manifest;
+use study::name::Names;
+use study::record::{Kept, Row, Status};
+use study::store::{open_exhibits, read_numbers};
+use study::{Inputs, ReadingChoice, Study, StudyError};
 
 /// Which paths of a study are judged.
 #[derive(Debug, Deserialize, JsonSchema)]

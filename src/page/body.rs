@@ -11,7 +11,7 @@ use crate::render::RenderError;
 use crate::render::figure::caption;
 use crate::render::prose::prose;
 use crate::render::tables::{Beside, beside, short};
-use crate::study::paper::TableSpec;
+use study::paper::TableSpec;
 
 /// What the text is made of.
 pub struct Body<'a> {

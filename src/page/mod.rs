@@ -18,11 +18,11 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::Output;
 use crate::render::{RenderError, state};
-use crate::study::{Inputs, StudyError};
 use body::Body;
 pub use html::escaped;
 use packed::{Pack, Packed};
 use rayon::prelude::*;
+use study::{Inputs, StudyError};
 
 /// The most that a page may take, in bytes.
 pub const PAGE_BYTES: usize = 4_000_000;

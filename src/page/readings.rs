@@ -3,7 +3,7 @@
 use super::html::escaped;
 use crate::analysis::across::by_reading::{Axis, AxisOption, axes};
 use crate::analysis::verdict::Verdicts;
-use crate::study::paper::Paper;
+use study::paper::Paper;
 
 /// The readings of `paper`, of which `explored` can be looked at; empty if it leaves nothing open.
 pub fn section(paper: &Paper, verdicts: &Verdicts, explored: usize) -> String {

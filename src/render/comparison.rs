@@ -7,7 +7,7 @@ use super::chart::{Axis, Panel, Sheet};
 use super::style::{INK, Stroke, Width, series_color, series_marker};
 use super::vector::{Figure, Provenance};
 use crate::analysis::compare::{Cell, Change, Comparison, Measured, Outcome, Passed};
-use crate::study::store::quoted;
+use study::store::quoted;
 
 /// A table of texts, to be written in several ways.
 struct Table {

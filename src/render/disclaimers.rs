@@ -3,8 +3,8 @@
 use crate::analysis::claims::{claims_hash, records};
 use crate::analysis::evidence::{Evidence, Run, default_point};
 use crate::analysis::verdict::Verdicts;
-use crate::study::paper::Paper;
-use crate::study::{Reading, ReadingChoice, Study};
+use study::paper::Paper;
+use study::{Reading, ReadingChoice, Study};
 
 /// What every output of a quick run says.
 pub const QUICK: &str = "Quick run: few replicates, not the study's result.";

@@ -8,13 +8,13 @@ use super::vector::{Figure, Provenance};
 use super::{RenderError, marks};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
-use crate::study::StudyError;
-use crate::study::spec::FigureSpec;
-use crate::study::store::write_whole;
 use rayon::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use study::StudyError;
+use study::spec::FigureSpec;
+use study::store::write_whole;
 
 /// A file as it should be.
 #[derive(Debug, Clone, PartialEq, Eq)]

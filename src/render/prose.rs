@@ -1,7 +1,7 @@
 //! Text: a paper's own words with our numbers put in, Markdown that shows text as it is, and lines of limited length.
 
 use crate::analysis::verdict::Verdicts;
-use crate::study::paper::{OVER_READINGS, filled};
+use study::paper::{OVER_READINGS, filled};
 
 /// Paragraphs and lists are broken into lines of so many characters.
 pub const COLUMNS: usize = 120;

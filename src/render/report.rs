@@ -11,11 +11,11 @@ pub use readings::across_lines;
 use super::prose::{COLUMNS, markdown, wrapped};
 use crate::analysis::class::Verdict;
 use crate::analysis::verdict::{Judged, Verdicts};
-use crate::study::StudyError;
-use crate::study::store::write_whole;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
+use study::StudyError;
+use study::store::write_whole;
 
 /// A figure that could not be drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -6,10 +6,10 @@ use super::prose::markdown as safe;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::metric;
 use crate::analysis::tabulated::{Grid, grid, table_caption};
-use crate::study::columns_of;
-use crate::study::paper::Paper;
-use crate::study::paper::results::{ResultsSpec, Show};
 use base::settings::{Faults, SettingsError};
+use study::columns_of;
+use study::paper::Paper;
+use study::paper::results::{ResultsSpec, Show};
 
 /// Every metric of every table of results exists, and its study produces it.
 ///

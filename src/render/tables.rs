@@ -7,7 +7,7 @@ use crate::analysis::class::Verdict;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::tabulated::own_values;
 use crate::analysis::verdict::{Estimate, Judged, Verdicts};
-use crate::study::paper::{Paper, TableRow, TableSpec};
+use study::paper::{Paper, TableRow, TableSpec};
 
 /// What a row of one of the paper's tables shows: in each column what it printed, ours, and the class with its claim.
 pub struct Beside<'a> {
@@ -261,8 +261,8 @@ fn rounded(estimate: &Estimate, decimals: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::{Inputs, ReadingChoice};
     use std::path::Path;
+    use study::{Inputs, ReadingChoice};
 
     #[test]
     fn a_file_of_numbers_says_that_inputs_are_stand_ins_where_they_are() {

@@ -260,10 +260,10 @@ mod tests {
 
     #[test]
     fn every_column_that_an_entry_declares_is_listed_once() {
-        let planners = crate::study::planner::all().flat_map(|entry| entry.columns);
-        let families = crate::study::family::REGISTRY.iter().flat_map(|entry| entry.columns);
-        let prepared = crate::study::prepared::REGISTRY.iter().flat_map(|entry| entry.columns);
-        let tasks = crate::study::task::REGISTRY.iter().flat_map(|entry| entry.columns);
+        let planners = crate::planner::all().flat_map(|entry| entry.columns);
+        let families = crate::family::REGISTRY.iter().flat_map(|entry| entry.columns);
+        let prepared = crate::prepared::REGISTRY.iter().flat_map(|entry| entry.columns);
+        let tasks = crate::task::REGISTRY.iter().flat_map(|entry| entry.columns);
         for name in planners.chain(families).chain(prepared).chain(tasks) {
             assert_eq!(COLUMNS.iter().filter(|column| column.name == *name).count(), 1, "{name}");
         }

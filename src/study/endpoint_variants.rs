@@ -2,9 +2,9 @@
 //!
 //! A [`Variant`] is one way to fill it in; [`answers`] asks a question of [`engine::length_inversion`] under each.
 
-use crate::study::name::slug;
-use crate::study::prepared::lattice::CornerSetting;
-use crate::study::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
+use crate::name::slug;
+use crate::prepared::lattice::CornerSetting;
+use crate::prepared::workspace_map::{ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
 use base::grid::{Grid2, Moves};
 use engine::length_inversion::Match;
 use engine::search::{Octile, ScaledOctile, Ties};

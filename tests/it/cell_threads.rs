@@ -1,12 +1,12 @@
 //! A whole study of an arm in its cell, roadmaps included, gives equal bytes at one and at two threads.
 
-use replan::study::lock::Lock;
-use replan::study::runner::Unwatched;
-use replan::study::session::{Options, run};
-use replan::study::{Inputs, Study};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+use study::lock::Lock;
+use study::runner::Unwatched;
+use study::session::{Options, run};
+use study::{Inputs, Study};
 
 const STUDY: &str = r#"
 paper = "p"

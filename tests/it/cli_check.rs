@@ -246,7 +246,7 @@ fn a_misspelled_metric_may_be_one_that_a_reading_introduces() {
     );
     let said = bench.done(&["list", "metrics", "path_length_mm"]);
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    let column = replan::study::column::find("path_length_mm").unwrap();
+    let column = study::column::find("path_length_mm").unwrap();
     for part in [column.about, "unit: mm", "better: lower", "read from: path_length_mm"] {
         assert!(said.contains(part), "{part}\n{said}");
     }

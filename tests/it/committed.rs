@@ -3,14 +3,14 @@
 use replan::analysis::class::Verdict;
 use replan::analysis::criterion;
 use replan::analysis::verdict::Verdicts;
-use replan::study::Inputs;
-use replan::study::manifest::Manifest;
-use replan::study::paper::Paper;
-use replan::study::store::{Columns, Exhibits, Staged, read_records, stage_records};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use study::Inputs;
+use study::manifest::Manifest;
+use study::paper::Paper;
+use study::store::{Columns, Exhibits, Staged, read_records, stage_records};
 
 /// The bytes of every file below `path`.
 fn size(path: &Path) -> u64 {

@@ -8,12 +8,12 @@ use replan::analysis::rule;
 use replan::cli::catalogue::{self, Item};
 use replan::cli::file_schema;
 use replan::render::figure;
-use replan::study::paper::Paper;
-use replan::study::{Inputs, ReadingChoice, family, task};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use study::paper::Paper;
+use study::{Inputs, ReadingChoice, family, task};
 
 fn everything() -> Vec<(&'static str, Vec<Item>)> {
     vec![
@@ -65,7 +65,7 @@ fn every_key_of_everything_registered_has_a_meaning() {
 fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
     let inputs = Inputs { roots: vec![root().to_owned(), root().join("experiments/zhang")] };
     for item in catalogue::planners().iter().chain(&catalogue::stages()) {
-        let entry = replan::study::planner::find(item.name).unwrap();
+        let entry = study::planner::find(item.name).unwrap();
         let built = match entry.build {
             engine::planner::Build::Planner(build) => build(&example(item)).map(|_| ()),
             engine::planner::Build::Stage(build) => build(&example(item)).map(|_| ()),

@@ -6,11 +6,11 @@ mod marks;
 mod scripts;
 
 use crate::paper::Bench;
-use replan::study::record::Row;
-use replan::study::reuse;
 use scripts::{CASES, Case, PRELUDE, SHORTER, SILENT};
 use std::collections::BTreeMap;
 use std::fs;
+use study::record::Row;
+use study::reuse;
 
 const STUDY: &str = r#"paper = "outside"
 question = "Who misbehaves?"

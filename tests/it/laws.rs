@@ -5,7 +5,7 @@ use base::seed;
 use base::settings::Settings;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use replan::study::slug;
+use study::slug;
 use toml::{Table, Value};
 
 fn config() -> ProptestConfig {

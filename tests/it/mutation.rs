@@ -29,7 +29,7 @@ fn cases() -> u64 {
 
 /// What went wrong with a case, if anything did: `work` panicked, took too long, or refused without saying where.
 fn fault(work: impl FnOnce() -> Result<(), String>) -> Result<bool, String> {
-    let (ns, ended) = replan::study::clock::timed(|| catch_unwind(AssertUnwindSafe(work)));
+    let (ns, ended) = study::clock::timed(|| catch_unwind(AssertUnwindSafe(work)));
     let seconds = ns as f64 * 1e-9;
     match ended {
         Err(_) => Err("it panicked".to_owned()),

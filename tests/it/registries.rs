@@ -5,10 +5,10 @@ use audit::checks;
 use engine::planner;
 use replan::analysis::{criterion, metric, rule};
 use replan::render::figure;
-use replan::study::{column, family, planner as outside, prepared, task};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
+use study::{column, family, planner as outside, prepared, task};
 
 /// A registry as tests see it: its folder, the names it lists, and the names that its `find` gives back.
 struct Registry {

@@ -3,11 +3,11 @@
 use crate::paper::{Bench, committed};
 use replan::analysis::verdict::Verdicts;
 use replan::render::prose::prose;
-use replan::study::Inputs;
-use replan::study::paper::Paper;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use study::Inputs;
+use study::paper::Paper;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

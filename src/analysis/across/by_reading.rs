@@ -7,10 +7,10 @@ use super::effects::{self, each};
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
 use super::{Stored, counted_as, default_classes};
-use crate::study::Reading;
-use crate::study::paper::Paper;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use study::Reading;
+use study::paper::Paper;
 
 /// What was explored of a paper.
 #[derive(Debug, Serialize)]

@@ -5,9 +5,9 @@ use super::super::class::{Polarity, Verdict};
 use super::super::verdict::{Fit, SettingFit};
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now};
-use crate::study::paper::Paper;
-use crate::study::{Reading, Study};
 use std::collections::{BTreeMap, BTreeSet};
+use study::paper::Paper;
+use study::{Reading, Study};
 
 /// The readings of a paper.
 pub struct Axes {

@@ -3,12 +3,12 @@
 use super::super::claims::{self, Weighed};
 use super::super::class::{self, Caps, Polarity, Verdict};
 use super::super::evidence::Evidence;
-use crate::study::paper::{Claim, Paper};
 use base::hash::sha256;
 use base::settings::SettingsError;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
+use study::paper::{Claim, Paper};
 
 /// Whether a class says something of a claim under a reading, the least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]

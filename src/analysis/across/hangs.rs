@@ -4,8 +4,8 @@ use super::super::class::{Polarity, Verdict};
 use super::count::{Axes, Group};
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
-use crate::study::Reading;
 use std::collections::BTreeMap;
+use study::Reading;
 
 /// In a few words what the readings make of the claim called `id`.
 pub fn said(

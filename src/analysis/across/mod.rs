@@ -16,12 +16,12 @@ pub mod stored;
 use super::class::{Polarity, Verdict};
 use super::together::greatest;
 use super::verdict::{Across, Explored, Judged, Verdicts};
-use crate::study::StudyError;
-use crate::study::paper::Paper;
 use count::{Axes, Counted, Group};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use stored::Exploration;
+use study::StudyError;
+use study::paper::Paper;
 
 /// What is stored of a paper besides its default run.
 #[derive(Debug, Default)]

@@ -4,10 +4,6 @@ use super::super::claims::claim_hash;
 use super::super::class::Verdict;
 use super::super::verdict::Together;
 use super::glance::{Glance, Sight};
-use crate::study::explore::stamp;
-use crate::study::paper::Paper;
-use crate::study::store::write_whole;
-use crate::study::{ReadingChoice, Study, StudyError};
 use base::settings::Document;
 use flate2::Compression;
 use flate2::read::GzDecoder;
@@ -17,6 +13,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
+use study::explore::stamp;
+use study::paper::Paper;
+use study::store::write_whole;
+use study::{ReadingChoice, Study, StudyError};
 
 /// Readings of a paper under which its claims were judged.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

@@ -6,10 +6,10 @@ use super::count::{Axes, Group};
 use super::glance::{Glance, Sight};
 use super::hangs::said;
 use super::stored::{Exploration, ExploredClaim, ExploredResult, Now, results};
-use crate::study::Reading;
-use crate::study::spec::OptionSpec;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+use study::Reading;
+use study::spec::OptionSpec;
 
 fn groups(classes: &[Verdict]) -> Vec<Group> {
     let group =

@@ -5,13 +5,13 @@ use super::pair::Unit;
 use super::run::{Seen, StoredRun};
 use crate::analysis::metric::{METRICS, Metric};
 use crate::analysis::statistic::plan;
-use crate::study::key::{ReadingKey, SweepKey};
-use crate::study::name;
-use crate::study::record::{Row, Status};
 use serde::Serialize;
 use stats::bootstrap::Resampling;
 use stats::{pooled, summary};
 use std::collections::BTreeMap;
+use study::key::{ReadingKey, SweepKey};
+use study::name;
+use study::record::{Row, Status};
 
 /// One metric of one cell.
 #[derive(Debug, Clone, PartialEq, Serialize)]

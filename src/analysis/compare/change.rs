@@ -4,13 +4,13 @@ use super::pair::{Pair, Unit};
 use super::run::Times;
 use crate::analysis::metric::{Better, Metric};
 use crate::analysis::statistic::{FEWEST_DRAWS, LEVEL, plan};
-use crate::study::record::{Row, Status};
 use serde::Serialize;
 use stats::bootstrap::{Estimate, Resampling};
 use stats::interval::Interval;
 use stats::paired::{Signs, signs};
 use stats::{pooled, summary};
 use std::collections::BTreeMap;
+use study::record::{Row, Status};
 
 /// The name under which the share of solved problems is compared, in per cent; its changes are in points.
 pub const SOLVED: &str = "solved";

@@ -3,9 +3,9 @@
 //! The unit of replication is a draw: all that ran on objects drawn from one seed, under every reading, by every contender.
 //! Where a problem group has a single draw, as a map that a paper prints, each seed of a contender that draws is a unit.
 
-use crate::study::key::DrawKey;
-use crate::study::record::{Batch, Row, Status};
 use std::collections::{BTreeMap, BTreeSet};
+use study::key::DrawKey;
+use study::record::{Batch, Row, Status};
 
 /// Two trials with one key.
 pub struct Pair<'r> {

@@ -1,16 +1,16 @@
 //! Stored runs as comparisons read them: numbers without exhibits, by contender.
 
 use super::pair::Draws;
-use crate::study::StudyError;
-use crate::study::key::TrialKey;
-use crate::study::manifest::Manifest;
-use crate::study::name::Names;
-use crate::study::record::Row;
-use crate::study::store::{Records, read_numbers};
 use stats::summary;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use study::StudyError;
+use study::key::TrialKey;
+use study::manifest::Manifest;
+use study::name::Names;
+use study::record::Row;
+use study::store::{Records, read_numbers};
 
 /// A stored run: the records of every study in a folder, without exhibits.
 pub struct StoredRun {

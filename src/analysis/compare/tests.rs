@@ -1,12 +1,12 @@
 use super::*;
-use crate::study::key::{DrawKey, SweepKey, TrialKey};
-use crate::study::manifest::MadeBy;
-use crate::study::record::{Batch, PreparedRow, Values};
-use crate::study::store::Records;
 use base::seed;
 use engine::planner::Value;
 use rand::RngExt as _;
 use std::sync::Arc;
+use study::key::{DrawKey, SweepKey, TrialKey};
+use study::manifest::MadeBy;
+use study::record::{Batch, PreparedRow, Values};
+use study::store::Records;
 
 fn manifest(seed: u64) -> Manifest {
     Manifest {

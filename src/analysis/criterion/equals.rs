@@ -9,11 +9,11 @@ use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Case, Draw, Selection, cases};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, plan};
-use crate::study::record::{Row, Status};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
+use study::record::{Row, Status};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

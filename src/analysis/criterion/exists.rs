@@ -14,9 +14,6 @@ use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection_spec::Labels;
 use crate::analysis::verdict::Estimate;
-use crate::study::paper::Paper;
-use crate::study::record::Row;
-use crate::study::{ReadingChoice, Study};
 use audit::exact::Print;
 use base::settings::{Accepted, Faults, SettingsError, none_called};
 use differs::Differs;
@@ -24,6 +21,9 @@ use ran_under::ran_under;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
+use study::paper::Paper;
+use study::record::Row;
+use study::{ReadingChoice, Study};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

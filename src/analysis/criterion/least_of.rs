@@ -14,7 +14,6 @@ use crate::analysis::selection::Selection;
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::LEVEL;
 use crate::analysis::verdict::Estimate;
-use crate::study::record::{Row, Status};
 use base::seed;
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
@@ -23,6 +22,7 @@ use stats::bootstrap::{self, Resampling};
 use stats::paired::EQUAL;
 use stats::summary::median;
 use std::collections::BTreeMap;
+use study::record::{Row, Status};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -9,9 +9,6 @@ use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, how, narrows, needs, plan, turned};
 use crate::analysis::verdict::Estimate;
-use crate::study::contender::SweepPoint;
-use crate::study::name;
-use crate::study::record::Row;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,6 +16,9 @@ use stats::bands::{Band, sup_t_between};
 use stats::bootstrap::{Estimate as Estimated, Resampling};
 use stats::interval::Interval;
 use stats::paired::{self, snapped};
+use study::contender::SweepPoint;
+use study::name;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -22,8 +22,8 @@ use super::context::Context;
 use super::evidence::{Evidence, Run};
 use super::found::Found;
 use super::selection::Selection;
-use crate::study::Study;
 use base::settings::{Accepted, SettingsError};
+use study::Study;
 
 /// A criterion with its settings, every name looked up.
 pub trait Criterion {

@@ -9,12 +9,12 @@ use crate::analysis::selection::{self, Case, Draw, Selection, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, plan};
 use crate::analysis::verdict::Estimate;
-use crate::study::record::Row;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::paired::EQUAL;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -9,11 +9,11 @@ use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::OfDraw;
 use crate::analysis::verdict::Estimate;
-use crate::study::contender::SweepPoint;
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::rows::{Level, Place, monotone_probability};
+use study::contender::SweepPoint;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -8,8 +8,6 @@ use crate::analysis::found::Found;
 use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{Share, narrows, needs, plan};
-use crate::study::column;
-use crate::study::record::Row;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -18,6 +16,8 @@ use stats::interval::Interval;
 use stats::paired::EQUAL;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
+use study::column;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

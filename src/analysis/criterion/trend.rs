@@ -10,13 +10,13 @@ use crate::analysis::selection::{self, Case, Draw, Selection, by_draw, cases, so
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_DRAWS, needs, plan};
 use crate::analysis::verdict::Estimate;
-use crate::study::column;
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::Resampling;
 use stats::interval::Interval;
 use stats::{pooled, summary};
+use study::column;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -8,9 +8,9 @@ use super::FOLDER;
 use super::python::Judge;
 use crate::analysis::metric::{METRICS, Metric};
 use crate::analysis::verdict::Verdicts;
-use crate::study::store::write_whole;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
+use study::store::write_whole;
 
 /// What the judge is asked, below the folder of cross-checks.
 const REQUEST: &str = "statistics.json";

@@ -2,11 +2,11 @@
 
 use super::{SceneFormat, Spec, armed};
 use crate::crosscheck::stored::StoredPaths;
-use crate::study::Inputs;
-use crate::study::paper::Paper;
 use base::settings::{Faults, none_called};
 use engine::kinematics::{Robot, robot::Body};
 use engine::space::cell::Scene;
+use study::Inputs;
+use study::paper::Paper;
 
 impl Spec {
     /// Files, bodies, studies and problem groups that do not exist go to `faults`, with all other names that are wrong.

@@ -5,13 +5,13 @@
 use super::{Case, said};
 use crate::analysis::evidence::Evidence;
 use crate::page::PageError;
-use crate::study::Inputs;
-use crate::study::family::{Family, Stance};
-use crate::study::record::Row;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use engine::planner::Exhibit;
 use serde::Serialize;
+use study::Inputs;
+use study::family::{Family, Stance};
+use study::record::Row;
 
 /// The most frames of a replay: a motion looks steady at that.
 const FRAMES: usize = 100;

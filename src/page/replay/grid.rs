@@ -44,7 +44,7 @@ pub fn scene(case: &Case<'_>) -> Option<Scene> {
     let run = case.run;
     let kept = |name: &str| run.exhibit(&case.rows[0].key.on, name);
     let (size, blocked) = (kept("size_cells")?, kept("blocked")?);
-    let lane = |row: &&crate::study::record::Row| {
+    let lane = |row: &&study::record::Row| {
         let kept = |name: &str| run.exhibit(&row.key, name);
         Lane {
             label: row.key.contender.to_string(),

@@ -8,11 +8,11 @@ use super::{PageError, in_order};
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::Verdicts;
 use crate::render::figure;
-use crate::study::Group;
-use crate::study::Inputs;
-use crate::study::record::Row;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
+use study::Group;
+use study::Inputs;
+use study::record::Row;
 
 /// Trials on one problem.
 #[derive(Serialize)]

@@ -35,7 +35,7 @@ pub fn scene(case: &Case<'_>) -> Option<Scene> {
     let [x, y] = [ends(0), ends(1)];
     let obstacles =
         (1..).map_while(|index| run.exhibit(on, &format!("obstacle_{index}")).map(points)).collect();
-    let lane = |row: &&crate::study::record::Row| {
+    let lane = |row: &&study::record::Row| {
         let stations = run.exhibit(&row.key, "stations")?;
         let stations = stations.values.chunks(stations.width).map(|s| [s[2], s[3], s[4], s[5]]).collect();
         Some(Lane { label: row.key.contender.to_string(), said: said(row), stations })

@@ -11,11 +11,11 @@ use crate::render::style::{
     BLACK, BLUE, Fill, GREEN, GREY, INK, Marker, ORANGE, Rgb, SKY, Stroke, TextSize, VERMILLION, WHITE,
     Width, YELLOW, series_stroke,
 };
-use crate::study::record::Row;
 use base::settings::Accepted;
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -9,13 +9,13 @@ use crate::render::RenderError;
 use crate::render::chart::Panel;
 use crate::render::chart::marks::Points;
 use crate::render::style::{Marker, Rgb};
-use crate::study::key::{DrawKey, Owner, SweepKey};
-use crate::study::paper::Paper;
-use crate::study::record::Row;
-use crate::study::{Study, labels_of};
 use base::settings::{Faults, Settings, SettingsError, did_you_mean, none_called};
 use engine::planner::Exhibit;
 use std::sync::Arc;
+use study::key::{DrawKey, Owner, SweepKey};
+use study::paper::Paper;
+use study::record::Row;
+use study::{Study, labels_of};
 
 /// Refuses problem groups and contenders that `study` does not have.
 pub(super) fn known<'a>(

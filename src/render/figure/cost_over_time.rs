@@ -8,10 +8,10 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Fill, Width, series_color, series_stroke};
-use crate::study::record::Row;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

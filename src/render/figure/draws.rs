@@ -12,10 +12,10 @@ use crate::render::chart::marks::{Line, Note};
 use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{INK, Stroke, TextSize, Width, series_color, series_stroke};
-use crate::study::paper::{Claim, Paper};
 use base::settings::{Accepted, Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::paper::{Claim, Paper};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

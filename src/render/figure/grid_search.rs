@@ -9,12 +9,12 @@ use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, GREY, Marker, ORANGE, PURPLE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
-use crate::study::record::Row;
 use base::settings::Accepted;
 use engine::planner::Exhibit;
 use engine::shorten::bends;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

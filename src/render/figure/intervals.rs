@@ -12,12 +12,12 @@ use crate::render::chart::rules::Rules;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{INK, Stroke, VERMILLION, Width, series_color, series_marker};
-use crate::study::Study;
-use crate::study::key::SweepKey;
-use crate::study::paper::Paper;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::Study;
+use study::key::SweepKey;
+use study::paper::Paper;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

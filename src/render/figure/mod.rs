@@ -26,12 +26,12 @@ use super::latex::Table;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::tabulated::{Trials, trials};
 use crate::analysis::verdict::Verdicts;
-use crate::study::Study;
-use crate::study::paper::Paper;
-use crate::study::spec::FigureSpec;
 use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean};
 use serde::Serialize;
 use std::collections::BTreeSet;
+use study::Study;
+use study::paper::Paper;
+use study::spec::FigureSpec;
 use toml::Table as Toml;
 
 /// What a figure is drawn from.

@@ -5,12 +5,12 @@ use crate::render::RenderError;
 use crate::render::chart::marks::Line;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Width, series_stroke};
-use crate::study::key::SweepKey;
-use crate::study::record::Row;
 use base::settings::{Accepted, Faults};
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::key::SweepKey;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -5,11 +5,11 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{BLUE, GREY, Marker, Stroke, VERMILLION, WHITE, Width};
-use crate::study::record::Row;
 use base::settings::Accepted;
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -11,10 +11,10 @@ use crate::render::chart::rows::BoxStrip;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::style::{Dash, GREY, Stroke, Width, series_color};
-use crate::study::key::SweepKey;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::key::SweepKey;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -7,10 +7,10 @@ use crate::render::chart::{Axis, Panel, Sheet, Trim};
 use crate::render::style::{
     BLACK, BLUE, Dash, Fill, GREEN, GREY, Marker, ORANGE, SKY, Stroke, VERMILLION, WHITE, Width,
 };
-use crate::study::record::Row;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -9,14 +9,14 @@ use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark,
 use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, ORANGE, PURPLE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
-use crate::study::key::{DrawKey, SweepKey};
-use crate::study::record::{Row, Status};
 use base::settings::{Accepted, Faults};
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use study::key::{DrawKey, SweepKey};
+use study::record::{Row, Status};
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

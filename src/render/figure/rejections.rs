@@ -8,11 +8,11 @@ use crate::render::chart::marks::Note;
 use crate::render::chart::rows::Bars;
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Fill, TextSize, Width, series_color};
-use crate::study::record::PreparedRow;
 use base::settings::Accepted;
 use engine::planner::Value;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::record::PreparedRow;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

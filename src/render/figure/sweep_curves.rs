@@ -13,13 +13,13 @@ use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{
     Dash, Fill, GREY, Stroke, VERMILLION, WHITE, Width, series_color, series_marker, series_stroke,
 };
-use crate::study::Study;
-use crate::study::key::SweepKey;
-use crate::study::paper::Paper;
-use crate::study::record::Status;
 use base::settings::{Accepted, Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::Study;
+use study::key::SweepKey;
+use study::paper::Paper;
+use study::record::Status;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -250,7 +250,7 @@ impl SweepCurves {
     fn metric(&self, scene: &Scene<'_>, metric: &Metric) -> Result<Panel, RenderError> {
         let curve = |row: &RowOf| -> Vec<[f64; 2]> {
             let trials = scene.run.rows(&self.read.problems, &row.contender);
-            let point = |trial: &&crate::study::record::Row| {
+            let point = |trial: &&study::record::Row| {
                 Some([trial.key.sweep.value(&self.read.sweep)?.as_f64()?, scene.run.value(trial, metric)?])
             };
             trials.iter().filter_map(point).collect()

@@ -11,11 +11,11 @@ use crate::render::chart::labels::Labels;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{BLACK, Marker, SERIES, Stroke, WHITE, Width, series_color, series_marker};
-use crate::study::record::Row;
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -7,13 +7,13 @@ use crate::render::chart::{Key, Panel, Sheet, axis};
 use crate::render::latex::{Cell, Column, Table};
 use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
 use crate::render::style::{Dash, GREY, Rgb, Stroke, WHITE, Width, YELLOW, series_color};
-use crate::study::Study;
-use crate::study::key::DrawKey;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
+use study::Study;
+use study::key::DrawKey;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {

@@ -8,9 +8,9 @@ use crate::render::figure::caption;
 use crate::render::prose::{COLUMNS, markdown, prose, wrapped};
 use crate::render::tables::{self, short};
 use crate::render::{RenderError, results, state};
-use crate::study::paper::{CLAIMS, FIGURES, Paper};
-use crate::study::spec::FigureSpec;
 use std::collections::BTreeSet;
+use study::paper::{CLAIMS, FIGURES, Paper};
+use study::spec::FigureSpec;
 
 /// A chapter and the paper's line of the overview.
 #[derive(Debug)]

@@ -8,10 +8,10 @@ use crate::analysis::verdict::{Finding, Judged, Together, Verdicts};
 use crate::render::prose::{COLUMNS, markdown, wrapped};
 use crate::render::results;
 use crate::render::tables::{self, short};
-use crate::study::paper::LedgerRow;
-use crate::study::record::Status;
-use crate::study::recorded_mark;
 use std::collections::{BTreeMap, BTreeSet};
+use study::paper::LedgerRow;
+use study::record::Status;
+use study::recorded_mark;
 
 /// How many sets of claims that hold together are listed with those that fail.
 const LISTED_SETS: usize = 5;

@@ -4,8 +4,8 @@ use super::chapter::Page;
 use super::{item, links, paragraph};
 use crate::analysis::verdict::{Effect, Judged};
 use crate::render::prose::markdown;
-use crate::study::Reading;
-use crate::study::spec::OptionSpec;
+use study::Reading;
+use study::spec::OptionSpec;
 
 impl Page<'_> {
     /// What the paper leaves open, and what each reading does.

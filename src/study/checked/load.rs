@@ -35,7 +35,7 @@ impl Study {
     ///
     /// # Errors
     /// What the system refuses.
-    pub(in crate::study) fn gather(
+    pub(crate) fn gather(
         document: &Arc<Document>,
         inputs: &Inputs,
         faults: &mut Faults,

@@ -1,10 +1,10 @@
 //! A planar arm among obstacles, its tip on a lattice, from one start to one goal.
 
 use super::{Entry, Family, Query};
-use crate::study::StudyError;
-use crate::study::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
-use crate::study::prepared::{Prepared, lattice};
-use crate::study::verification::ARM_COLUMNS;
+use crate::StudyError;
+use crate::prepared::workspace_map::{self, ElbowSetting, HopSetting, ShapeSetting, TouchSetting};
+use crate::prepared::{Prepared, lattice};
+use crate::verification::ARM_COLUMNS;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::kinematics::planar_2r::Planar2r;
 use engine::planner::Invalid;
@@ -237,7 +237,7 @@ impl Family for Posed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::Inputs;
+    use crate::Inputs;
     use toml::Table;
 
     const PLAIN: &str = "links_cm = [30, 20]\nx_cm = [-50, 50]\ny_cm = [0, 50]\nstep_cm = 1\ninner_radius_cm = 20\n\

@@ -7,10 +7,10 @@ pub use groups::GROUPS_FILE;
 
 use super::input::{input, load_robot};
 use super::{Entry, Family, Query, Stance};
-use crate::study::prepared::Prepared;
-use crate::study::prepared::nested_roadmap::{self, Neighbours};
-use crate::study::verification::roadmap::ARM_COLUMNS;
-use crate::study::{Inputs, StudyError};
+use crate::prepared::Prepared;
+use crate::prepared::nested_roadmap::{self, Neighbours};
+use crate::verification::roadmap::ARM_COLUMNS;
+use crate::{Inputs, StudyError};
 use base::seed;
 use base::settings::{Accepted, Document, Faults, Settings, SettingsError};
 use engine::kinematics::ik::Branch;

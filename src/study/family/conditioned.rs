@@ -8,9 +8,9 @@
 mod found;
 
 use super::{Entry, Family, Query};
-use crate::study::prepared::{Prepared, lattice};
-use crate::study::verification::{LATTICE_COLUMNS, measured};
-use crate::study::{Inputs, StudyError, column};
+use crate::prepared::{Prepared, lattice};
+use crate::verification::{LATTICE_COLUMNS, measured};
+use crate::{Inputs, StudyError, column};
 use base::hash::sha256;
 use base::seed;
 use base::settings::{Accepted, AnyTable, Faults, Settings, SettingsError};

@@ -1,8 +1,8 @@
 //! What a problem family poses, and what it says of itself.
 
-use crate::study::StudyError;
-use crate::study::inputs::Inputs;
-use crate::study::prepared::Prepared;
+use crate::StudyError;
+use crate::inputs::Inputs;
+use crate::prepared::Prepared;
 use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::{Counts, Invalid};
 use engine::space::roadmap::Extent;

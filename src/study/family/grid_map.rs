@@ -1,9 +1,9 @@
 //! One map from a file of any kind, with one start and one goal.
 
 use super::{Entry, Family, Query};
-use crate::study::StudyError;
-use crate::study::prepared::{Prepared, lattice};
-use crate::study::verification::LATTICE_COLUMNS;
+use crate::StudyError;
+use crate::prepared::{Prepared, lattice};
+use crate::verification::LATTICE_COLUMNS;
 use base::grid::{Grid2, read_map};
 use base::settings::{Accepted, Faults};
 use engine::planner::Invalid;

@@ -1,6 +1,6 @@
 //! Input files that a family's settings name, each fault of one at its own place.
 
-use crate::study::Inputs;
+use crate::Inputs;
 use base::settings::{Settings, SettingsError};
 use engine::kinematics::{KinematicsError, Robot};
 use std::path::{Path, PathBuf};

@@ -4,10 +4,10 @@ mod picture;
 
 use super::input::input;
 use super::{Entry, Family, Query, Stance};
-use crate::study::prepared::Prepared;
-use crate::study::prepared::nested_roadmap::{self, Neighbours};
-use crate::study::verification::roadmap::JOINT_COLUMNS;
-use crate::study::{Inputs, StudyError};
+use crate::prepared::Prepared;
+use crate::prepared::nested_roadmap::{self, Neighbours};
+use crate::verification::roadmap::JOINT_COLUMNS;
+use crate::{Inputs, StudyError};
 use base::problem::{Ended, Problem, parse_problem};
 use base::robot::read_urdf;
 use base::seed;

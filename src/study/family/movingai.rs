@@ -5,8 +5,8 @@
 //! blocked (water, say) is an invalid problem, and its trials are rows with that status.
 
 use super::{Entry, Family, Query};
-use crate::study::StudyError;
-use crate::study::prepared::{Prepared, lattice};
+use crate::StudyError;
+use crate::prepared::{Prepared, lattice};
 use base::grid::{Grid2, Scenario, read_movingai_map, read_scenarios};
 use base::settings::{Accepted, Faults};
 use engine::planner::{Counts, Invalid, Value};
@@ -140,7 +140,7 @@ impl Family for Posed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::Inputs;
+    use crate::Inputs;
     use base::settings::Settings;
 
     const MAP: &str = "type octile\nheight 3\nwidth 4\nmap\n.@..\n.@..\n....\n";

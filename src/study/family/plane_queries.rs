@@ -1,9 +1,9 @@
 //! A particle among polygons, with one start and one goal, on roadmaps drawn from a seed.
 
 use super::{Entry, Family, Query};
-use crate::study::StudyError;
-use crate::study::prepared::{Prepared, nested_roadmap};
-use crate::study::verification::roadmap::PLANE_COLUMNS;
+use crate::StudyError;
+use crate::prepared::{Prepared, nested_roadmap};
+use crate::verification::roadmap::PLANE_COLUMNS;
 use base::seed;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use engine::geometry::Vec2;

@@ -3,9 +3,9 @@
 
 use super::input::{input, load_robot};
 use super::{Entry, Family, Query, Stance};
-use crate::study::prepared::{Prepared, polyhedra};
-use crate::study::verification::CARRIED_COLUMNS;
-use crate::study::{Inputs, StudyError};
+use crate::prepared::{Prepared, polyhedra};
+use crate::verification::CARRIED_COLUMNS;
+use crate::{Inputs, StudyError};
 use base::seed;
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::geometry::{Capsule, Vec3};

@@ -2,9 +2,9 @@
 
 use super::random_cells::{Drawn, check_range};
 use super::{Entry, Family};
-use crate::study::StudyError;
-use crate::study::prepared::lattice;
-use crate::study::verification::LATTICE_COLUMNS;
+use crate::StudyError;
+use crate::prepared::lattice;
+use crate::verification::LATTICE_COLUMNS;
 use base::grid::bars;
 use base::seed::Stream;
 use base::settings::{Accepted, Faults};

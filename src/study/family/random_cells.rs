@@ -1,9 +1,9 @@
 //! Random maps whose cells are blocked independently, with one start and one goal that are always free.
 
 use super::{Entry, Family, Query};
-use crate::study::StudyError;
-use crate::study::prepared::{Prepared, lattice};
-use crate::study::verification::LATTICE_COLUMNS;
+use crate::StudyError;
+use crate::prepared::{Prepared, lattice};
+use crate::verification::LATTICE_COLUMNS;
 use base::grid::{Grid2, GridError, independent_cells};
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Faults, Settings, SettingsError};

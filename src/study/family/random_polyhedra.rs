@@ -2,9 +2,9 @@
 
 use super::polyhedra_scene::{Contact, QuerySettings};
 use super::{Entry, Family, Query};
-use crate::study::StudyError;
-use crate::study::prepared::{Prepared, polyhedra};
-use crate::study::verification::POLYHEDRA_COLUMNS;
+use crate::StudyError;
+use crate::prepared::{Prepared, polyhedra};
+use crate::verification::POLYHEDRA_COLUMNS;
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::geometry::{Aabb, Axis, Convex, Segment, Vec3, distance_segment_convex};
@@ -269,7 +269,7 @@ impl Family for Drawn {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::inputs::Inputs;
+    use crate::inputs::Inputs;
     use toml::Table;
 
     const PLAIN: &str = "side_cm = 60\nstep_cm = 1\ncount = [1, 12]\nsize_cm = [7, 16]\nclear_cm = 2\n\

@@ -1,10 +1,10 @@
 //! What each problem group and contender depends on, as hashes.
 
-use crate::study::contender::SweepPoint;
-use crate::study::name;
-use crate::study::reading::ReadingChoice;
-use crate::study::runner::BuiltStudy;
-use crate::study::{Study, StudyError};
+use crate::contender::SweepPoint;
+use crate::name;
+use crate::reading::ReadingChoice;
+use crate::runner::BuiltStudy;
+use crate::{Study, StudyError};
 use base::hash::sha256;
 use std::collections::BTreeMap;
 

@@ -1,9 +1,9 @@
 //! What a stored manifest says that the study and its inputs do not bear out: for `replan judge --check`.
 
 use super::Manifest;
-use crate::study::reading::ReadingChoice;
-use crate::study::runner::BuiltStudy;
-use crate::study::{Inputs, Study, StudyError};
+use crate::reading::ReadingChoice;
+use crate::runner::BuiltStudy;
+use crate::{Inputs, Study, StudyError};
 
 impl Manifest {
     /// What it says otherwise than a run of `study` as it is now would, one sentence each. The record files are held against it

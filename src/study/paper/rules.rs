@@ -1,8 +1,8 @@
 //! What must hold in a paper as a whole: names that exist, tables that fit, a ledger without gaps.
 
 use super::{ClaimSpec, Paper, Parts};
-use crate::study::spec::OptionSpec;
-use crate::study::{Reading, ReadingChoice};
+use crate::spec::OptionSpec;
+use crate::{Reading, ReadingChoice};
 use base::settings::{Document, Faults, Spanned, none_called};
 use std::collections::BTreeSet;
 

@@ -4,7 +4,7 @@
 //! one of its own. Whatever a planner does is the outcome of one trial. Its trials are recorded and not repeated: they depend
 //! on a clock and on a program of others.
 
-use crate::study::clock;
+use crate::clock;
 use base::settings::{Accepted, Settings, SettingsError};
 use engine::planner::{Build, Counts, Ending, Entry, Exhibit, Invalid, Plan, Planner, Request, Value};
 use engine::space::WorldKind;

@@ -1,12 +1,12 @@
 //! The timed passes of a run.
 
 use super::{BuiltStudy, Progress, SESSION};
-use crate::study::StudyError;
-use crate::study::clock;
-use crate::study::prepared::Prepared;
-use crate::study::record::Timing;
-use crate::study::spec::TimingSpec;
-use crate::study::unit::{Entrant, Unit};
+use crate::StudyError;
+use crate::clock;
+use crate::prepared::Prepared;
+use crate::record::Timing;
+use crate::spec::TimingSpec;
+use crate::unit::{Entrant, Unit};
 use engine::planner::Request;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,8 +1,8 @@
 //! What each column of a file of records means: name, unit, meaning, as the file itself carries it.
 
-use crate::study::clock;
-use crate::study::column;
-use crate::study::key::KeyColumns;
+use crate::clock;
+use crate::column;
+use crate::key::KeyColumns;
 use serde::{Deserialize, Serialize};
 
 /// How columns of swept settings begin.

@@ -3,9 +3,9 @@
 use super::Exhibits;
 use super::read::{Draws, Stored, UNREADABLE, touched, unpanicked};
 use super::table;
-use crate::study::StudyError;
-use crate::study::key::{KeyColumns, Owner, SweepKey};
-use crate::study::record::{Kept, Row};
+use crate::StudyError;
+use crate::key::{KeyColumns, Owner, SweepKey};
+use crate::record::{Kept, Row};
 use polars::prelude::PolarsError;
 use polars_io::parquet::write::BatchedWriter;
 use polars_io::prelude::{ParquetReader, SerReader as _};

@@ -5,9 +5,9 @@
 //! megabytes they are on disk alone until the run is over.
 
 use super::exhibits::{GROUP_VALUES, sweep_of};
-use crate::study::StudyError;
-use crate::study::key::SweepKey;
-use crate::study::record::{Batch, Kept};
+use crate::StudyError;
+use crate::key::SweepKey;
+use crate::record::{Batch, Kept};
 use base::hash::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -169,8 +169,8 @@ fn parse(line: &[u8]) -> Option<Line> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::key::{DrawKey, Owner, ReadingKey};
-    use crate::study::record::Kept;
+    use crate::key::{DrawKey, Owner, ReadingKey};
+    use crate::record::Kept;
     use engine::planner::Exhibit;
 
     fn batch(number: u32) -> Batch {

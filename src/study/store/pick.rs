@@ -3,9 +3,9 @@
 use super::exhibits::{groups, read_group};
 use super::read::{Draws, Stored};
 use super::{check, hash_of, part_path};
-use crate::study::StudyError;
-use crate::study::key::Owner;
-use crate::study::record::Kept;
+use crate::StudyError;
+use crate::key::Owner;
+use crate::record::Kept;
 use engine::planner::Exhibit;
 use polars_io::prelude::{ParquetReader, SerReader as _};
 use std::collections::BTreeMap;

@@ -4,10 +4,10 @@
 //! numbers.
 
 use super::describe::{READING, SWEEP};
-use crate::study::StudyError;
-use crate::study::column::{self, Kind};
-use crate::study::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
-use crate::study::record::{Kept, PreparedRow, Row, Status, Timing, Values};
+use crate::StudyError;
+use crate::column::{self, Kind};
+use crate::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
+use crate::record::{Kept, PreparedRow, Row, Status, Timing, Values};
 use engine::planner::{Exhibit, Value};
 use polars::prelude::{AnyValue, Column, DataFrame, DataType, PolarsResult};
 use polars_io::prelude::{ParquetReader, SerReader as _};

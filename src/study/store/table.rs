@@ -1,9 +1,9 @@
 //! Records as data frames, and these as Parquet files that say what their columns mean.
 
 use super::describe::{READING, SWEEP, described};
-use crate::study::column::{self, Kind};
-use crate::study::key::{DrawKey, KeyColumns, Owner, SweepKey, SweepValue, TrialKey};
-use crate::study::record::{Kept, PreparedRow, Row, Timing, Values};
+use crate::column::{self, Kind};
+use crate::key::{DrawKey, KeyColumns, Owner, SweepKey, SweepValue, TrialKey};
+use crate::record::{Kept, PreparedRow, Row, Timing, Values};
 use engine::planner::Value;
 use polars::prelude::{Column, DataFrame, NamedFrom as _, Series};
 use polars_io::prelude::{KeyValueMetadata, ParquetCompression, ParquetWriter};

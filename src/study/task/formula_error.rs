@@ -8,9 +8,9 @@
 //! `overestimated_listed_first` has the first list of the text, which leaves out the face's closing edge too.
 
 use super::{Entry, Task};
-use crate::study::key::TrialKey;
-use crate::study::record::{Batch, Status, Values};
-use crate::study::unit::Unit;
+use crate::key::TrialKey;
+use crate::record::{Batch, Status, Values};
+use crate::unit::Unit;
 use base::seed::{self, Stream};
 use base::settings::{Accepted, Settings};
 use engine::geometry::{

@@ -1,10 +1,10 @@
 //! Looks for the pairs of lattice points that have printed lengths in all cases, under every variant asked for.
 
 use super::{Entry, Task};
-use crate::study::endpoint_variants::{self as open, Case, Question, ShapeChoice, Variant};
-use crate::study::key::{Owner, TrialKey};
-use crate::study::record::{Batch, Kept, Row, Status, Values};
-use crate::study::unit::Unit;
+use crate::endpoint_variants::{self as open, Case, Question, ShapeChoice, Variant};
+use crate::key::{Owner, TrialKey};
+use crate::record::{Batch, Kept, Row, Status, Values};
+use crate::unit::Unit;
 use base::grid::Moves;
 use base::settings::Accepted;
 use engine::length_inversion::{self, Match, NeverLowered, Pair};

@@ -1,11 +1,11 @@
 //! How often lengths that were not printed would have been met by some pair of lattice points just as well.
 
 use super::{Entry, Task};
-use crate::study::endpoint_variants::{self as endpoints, Case, Question, Variant};
-use crate::study::key::TrialKey;
-use crate::study::name::slug;
-use crate::study::record::{Batch, Row, Status, Values};
-use crate::study::unit::Unit;
+use crate::endpoint_variants::{self as endpoints, Case, Question, Variant};
+use crate::key::TrialKey;
+use crate::name::slug;
+use crate::record::{Batch, Row, Status, Values};
+use crate::unit::Unit;
 use base::grid::Moves;
 use base::settings::Accepted;
 use engine::length_inversion::{Match, Met, NeverLowered, Targets, union};

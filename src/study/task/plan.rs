@@ -1,12 +1,12 @@
 //! Every contender plans on every problem; the verifier checks what comes back.
 
 use super::{Entry, Task};
-use crate::study::family::Query;
-use crate::study::key::Owner;
-use crate::study::prepared::Prepared;
-use crate::study::record::{Batch, Kept, Row, Status};
-use crate::study::unit::{Entrant, Unit};
-use crate::study::verification::{self, Guide, Truth};
+use crate::family::Query;
+use crate::key::Owner;
+use crate::prepared::Prepared;
+use crate::record::{Batch, Kept, Row, Status};
+use crate::unit::{Entrant, Unit};
+use crate::verification::{self, Guide, Truth};
 use base::settings::{Accepted, NoSettings};
 use engine::planner::{Counts, Exhibit, Invalid, Plan, Request};
 use rayon::prelude::*;

@@ -1,9 +1,9 @@
-use crate::study::Inputs;
-use crate::study::lock::Lock;
-use crate::study::paper::Paper;
-use crate::study::rerun::rerun;
-use crate::study::runner::{BuiltStudy, Unwatched};
-use crate::study::session::{Options, run, run_one};
+use crate::Inputs;
+use crate::lock::Lock;
+use crate::paper::Paper;
+use crate::rerun::rerun;
+use crate::runner::{BuiltStudy, Unwatched};
+use crate::session::{Options, run, run_one};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -97,7 +97,7 @@ task_settings = { excess_steps = 0.5 }
 problems = 3
 repeats = 4
 ";
-    let shown = |study: &crate::study::Study| {
+    let shown = |study: &crate::Study| {
         let excess = study.task_settings.table()["excess_steps"].as_float().unwrap();
         (study.budget.expansions, study.timing.map(|timing| timing.repeats), excess)
     };

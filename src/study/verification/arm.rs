@@ -1,7 +1,7 @@
 //! An arm's path before the verifier.
 
 use super::{Verified, outcome};
-use crate::study::contender::Pipeline;
+use crate::contender::Pipeline;
 use engine::geometry::planar::Touch;
 use engine::kinematics::planar_2r::ElbowRule;
 use engine::planner::{Counts, Ending, Plan, Request, Value};

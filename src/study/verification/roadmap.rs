@@ -1,7 +1,7 @@
 //! Roadmaps in the verifier's terms.
 
 use super::Verified;
-use crate::study::record::Status;
+use crate::record::Status;
 use engine::geometry::{Frame, Solid, Vec3};
 use engine::kinematics::Joints;
 use engine::planner::{Counts, Ending, Exhibit, Plan, Request, Value};

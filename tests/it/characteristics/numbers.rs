@@ -5,8 +5,8 @@ use super::synthetic::{End, Made, Sample};
 use super::theory::{normal, one_end, one_end_of_median, one_end_of_skewed};
 use base::seed::Stream;
 use rand::RngExt as _;
-use replan::study::store::Records;
 use stats::proportion::normal_quantile;
+use study::store::Records;
 
 /// Draws of an ordinary study.
 const MANY: usize = 30;

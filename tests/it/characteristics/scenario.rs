@@ -3,8 +3,8 @@
 use super::synthetic::{Made, Synthetic};
 use base::seed::{self, Stream};
 use replan::analysis::class::Verdict;
-use replan::study::store::Records;
 use stats::proportion::clopper_pearson;
+use study::store::Records;
 
 /// One paper and our records, with what is true of the claim.
 pub struct World {

@@ -4,16 +4,16 @@ use engine::planner::Value;
 use replan::analysis::claims::judge;
 use replan::analysis::class::Verdict;
 use replan::analysis::evidence::{Evidence, default_point};
-use replan::study::Inputs;
-use replan::study::key::{DrawKey, ReadingKey, SweepKey, SweepValue, TrialKey};
-use replan::study::manifest::{MadeBy, Manifest};
-use replan::study::paper::Paper;
-use replan::study::record::{Row, Status, Timing};
-use replan::study::store::Records;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
+use study::Inputs;
+use study::key::{DrawKey, ReadingKey, SweepKey, SweepValue, TrialKey};
+use study::manifest::{MadeBy, Manifest};
+use study::paper::Paper;
+use study::record::{Row, Status, Timing};
+use study::store::Records;
 use tempfile::TempDir;
 
 /// The claim that is judged.

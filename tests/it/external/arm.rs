@@ -3,11 +3,11 @@
 use super::PAPER;
 use super::scripts::PRELUDE;
 use crate::paper::Bench;
-use replan::study::record::{Row, Status};
-use replan::study::reuse;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use study::record::{Row, Status};
+use study::reuse;
 
 /// The cell of fu2018 with its ten queries, the joints going straight.
 const CELL: &str = r#"paper = "outside"

@@ -7,12 +7,12 @@ use engine::space::World;
 use engine::space::roadmap::Local;
 use external::{Space, describe};
 use rand::RngExt as _;
-use replan::study::contender::Pipeline;
-use replan::study::family::{self, Query};
-use replan::study::record::Status;
-use replan::study::verification::{Guide, truth, verify};
-use replan::study::{Inputs, planner};
 use std::path::PathBuf;
+use study::contender::Pipeline;
+use study::family::{self, Query};
+use study::record::Status;
+use study::verification::{Guide, truth, verify};
+use study::{Inputs, planner};
 
 /// Draws a number from `low` to `high`.
 type Draw<'a> = dyn FnMut(f64, f64) -> f64 + 'a;

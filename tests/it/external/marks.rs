@@ -3,8 +3,8 @@
 use super::scripts::PRELUDE;
 use super::{PAPER, contender};
 use crate::paper::Bench;
-use replan::study::reuse;
 use std::fs;
+use study::reuse;
 
 const STUDY: &str = r#"paper = "outside"
 question = "Who goes round the bar?"

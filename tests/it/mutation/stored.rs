@@ -11,11 +11,11 @@ use replan::analysis::claims;
 use replan::analysis::evidence::{Evidence, default_point};
 use replan::analysis::verdict::Verdicts;
 use replan::render::output;
-use replan::study::paper::Paper;
-use replan::study::{Inputs, ReadingChoice};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
+use study::paper::Paper;
+use study::{Inputs, ReadingChoice};
 
 const MANIFEST: &str = "scenarios.manifest.toml";
 

@@ -4,12 +4,12 @@ use base::settings::Document;
 use replan::analysis::claims;
 use replan::crosscheck;
 use replan::render::{figure, results};
-use replan::study::paper::Paper;
-use replan::study::{Inputs, Study};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use study::paper::Paper;
+use study::{Inputs, Study};
 use tempfile::TempDir;
 
 /// A file that can be damaged.

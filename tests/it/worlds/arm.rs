@@ -9,7 +9,7 @@ use engine::kinematics::planar_2r::{ElbowRule, Planar2r};
 use engine::planner::Plan;
 use engine::space::{ArmRules, ArmWorld, TipLattice, World};
 use rand::RngExt as _;
-use replan::study::prepared::workspace_map::ShapeSetting;
+use study::prepared::workspace_map::ShapeSetting;
 use verify::arm::{Answer, Case as Query};
 
 const STEP_CM: f64 = 4.0;

@@ -8,9 +8,9 @@ use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection_spec::Labels;
-use crate::study::Study;
 use base::settings::SettingsError;
 use stats::summary::median;
+use study::Study;
 
 /// A claim that a metric is not the same on all problems of each set.
 pub(super) struct Differs<'a> {

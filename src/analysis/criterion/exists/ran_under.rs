@@ -1,7 +1,7 @@
 //! Under which readings the trials of a contender count.
 
-use crate::study::paper::Paper;
-use crate::study::{Contender, Reading, ReadingChoice, Study};
+use study::paper::Paper;
+use study::{Contender, Reading, ReadingChoice, Study};
 
 /// Whether trials of `contender`, of `study` run as far as it has the readings of `point`, are what they would be under all of
 /// `point`: what it departs from is taken as it departs, and what the study does not have is at its default or cannot touch it.

@@ -7,14 +7,14 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Band, Line};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{Dash, Fill, GREY, Stroke, Width, series_color, series_marker, series_stroke};
-use crate::study::contender::SweepPoint;
-use crate::study::key::{SweepValue, Text};
-use crate::study::paper::Paper;
-use crate::study::{Study, name};
 use base::settings::{Settings, SettingsError, none_called};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
+use study::contender::SweepPoint;
+use study::key::{SweepValue, Text};
+use study::paper::Paper;
+use study::{Study, name};
 
 /// One contender's shares in several studies.
 #[derive(Deserialize, JsonSchema)]

@@ -8,10 +8,10 @@ use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet};
 use crate::render::style::{GREY, Marker, Stroke, VERMILLION, WHITE, Width};
-use crate::study::{Study, column};
 use base::settings::{Settings, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use study::{Study, column};
 
 /// Height of a panel's plot, in points.
 const PLOT_PT: f64 = 170.0;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::study::verification;
+use crate::verification;
 use engine::planner::Plan;
 use engine::planner::{self, Build, Ending, Planner, Request};
 use engine::space::roadmap::{Near, Roadmap};
@@ -181,7 +181,7 @@ fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
     let (mut solved, mut refused) = ([0, 0], 0);
     for query in posed.queries() {
         let verification::Truth::Roadmap(case) =
-            verification::truth(&prepared.world, query, &crate::study::verification::Guide::default())
+            verification::truth(&prepared.world, query, &crate::verification::Guide::default())
         else {
             panic!("a roadmap")
         };
@@ -205,7 +205,7 @@ fn what_planners_return_is_accepted_by_the_verifier_and_changed_it_is_not() {
             solved[index] += 1;
             for (which, mutant) in mutants(&plan).iter().enumerate() {
                 let verified = case.verify(&request, mutant);
-                assert_eq!(verified.outcome.0, crate::study::record::Status::Rejected, "mutant {which}");
+                assert_eq!(verified.outcome.0, crate::record::Status::Rejected, "mutant {which}");
                 refused += 1;
             }
         }
@@ -262,7 +262,7 @@ fn a_roadmap_in_joint_space_has_paths_that_the_verifier_accepts() {
         let prepared = posed.prepare(3).unwrap();
         let (planner, mut solved) = (planner("samples = 600\nneighbour_mm = 3000"), 0);
         for query in posed.queries() {
-            let guide = crate::study::verification::Guide::default();
+            let guide = crate::verification::Guide::default();
             let verification::Truth::Roadmap(case) = verification::truth(&prepared.world, query, &guide)
             else {
                 panic!("a roadmap")

@@ -34,13 +34,9 @@ fn accepted_maps_lie_in_the_band_and_rejection_leaves_the_distribution_alone() {
     let (any, band) = (family("bends = [0, 1e9]").unwrap(), family("path_cost_cells = [11, 12]").unwrap());
     let optimum = |prepared: &Prepared| {
         let query = &any.queries()[0];
-        crate::study::verification::truth(
-            &prepared.world,
-            query,
-            &crate::study::verification::Guide::default(),
-        )
-        .optimal()
-        .unwrap()
+        crate::verification::truth(&prepared.world, query, &crate::verification::Guide::default())
+            .optimal()
+            .unwrap()
     };
     let (mut inside, mut looked_at, mut tried) = (0, 0, 0.0);
     for seed in 0..400 {
@@ -90,8 +86,8 @@ fn wrong_settings_are_refused_with_what_is_accepted() {
 fn a_listed_draw_is_what_a_search_finds() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let inputs = Inputs { roots: vec![root.to_owned()] };
-    let study = crate::study::Study::load(&root.join("experiments/zhang/conditioned.toml"), &inputs).unwrap();
-    let point = crate::study::ReadingChoice::new(&study.readings, &BTreeMap::new()).unwrap();
+    let study = crate::Study::load(&root.join("experiments/zhang/conditioned.toml"), &inputs).unwrap();
+    let point = crate::ReadingChoice::new(&study.readings, &BTreeMap::new()).unwrap();
     let mut longest = 0.0_f64;
     for group in &study.groups {
         let listed = group.family(&point, &inputs).unwrap();
