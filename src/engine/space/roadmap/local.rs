@@ -24,6 +24,16 @@ pub(super) enum Node {
     Plane([f64; 2]),
 }
 
+impl Node {
+    /// The place of the node, whose configuration is `config`: what [`Local::place_mm`] says, without asking again.
+    pub(super) fn place_mm(&self, local: &Local, config: &[f64]) -> [f64; 3] {
+        match self {
+            Self::Arm(pose) => (pose.tool.origin * 1e3).into(),
+            Self::Joints(_) | Self::Plane(_) => local.place_mm(config),
+        }
+    }
+}
+
 /// The six joint angles in `config`, if it has six numbers.
 pub fn joints(config: &[f64]) -> Option<Joints> {
     <[f64; AXES]>::try_from(config).ok()

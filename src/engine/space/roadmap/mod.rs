@@ -134,7 +134,8 @@ impl Roadmap {
     /// If a sample is not a free configuration.
     pub fn build(local: Local, samples: Vec<Sample>, near: Near, counted: Counted) -> Self {
         let nodes: Vec<Node> = samples.iter().map(|sample| local.node(&sample.config)).collect();
-        let places_mm = samples.iter().map(|sample| local.place_mm(&sample.config)).collect();
+        let placed = samples.iter().zip(&nodes);
+        let places_mm = placed.map(|(sample, node)| node.place_mm(&local, &sample.config)).collect();
         let numbers = samples.iter().zip(0..).map(|(sample, i)| (bits(&sample.config), i)).collect();
         let near = Samples::new(near, &samples, places_mm);
         let (mut tally, mut scratch) = (Tally::default(), Scratch::default());
@@ -209,7 +210,8 @@ impl Roadmap {
         if let Some(refusal) = self.local.refusal(config) {
             return Err(format!("the {what} cannot be posed: {refusal}"));
         }
-        let (node, place_mm) = (self.local.node(config), self.local.place_mm(config));
+        let node = self.local.node(config);
+        let place_mm = node.place_mm(&self.local, config);
         let mut links = Vec::new();
         for (sample, gap_mm) in self.near.of(config, &place_mm) {
             if self.local.join(&self.nodes[sample as usize], &node, &mut memory.scratch).is_ok() {

@@ -1,7 +1,8 @@
 //! Which samples are tried as neighbours: by the distance of their places, or by that of their configurations.
 //!
 //! Two configurations are as far apart as the root of the sum of squares of their coordinates' differences: radians for
-//! joints, with no turn taken off, and millimetres in the plane. All samples are measured, sixteen side by side.
+//! joints, with no turn taken off, and millimetres in the plane. All samples are measured in f32, sixteen side by side; those
+//! that may be near are measured again in f64, which decides.
 
 use super::{Sample, distance_mm, square_mm2};
 use fearless_simd::{Level, dispatch};
@@ -30,6 +31,8 @@ impl Near {
 
 /// How many samples are measured side by side.
 const GROUP: usize = 16;
+/// How far f32 may be off, as a share of a distance and of the coordinates: several of its last digits.
+const ROUGH: f64 = 1e-6;
 
 /// Samples as neighbours are looked for among them.
 #[derive(Debug)]
@@ -37,16 +40,21 @@ pub(super) struct Samples {
     near: Near,
     places_mm: Vec<[f64; 3]>,
     count: usize,
-    /// By group, then by coordinate; what fills the last group is infinitely far.
-    groups: Vec<[f64; GROUP]>,
+    /// The configurations, one after another.
+    configs: Vec<f64>,
+    /// By group, then by coordinate, in f32; what fills the last group is infinitely far.
+    groups: Vec<[f32; GROUP]>,
+    /// The greatest coordinate, either way.
+    extent: f64,
 }
 
 /// Buffers for the distances from one configuration.
 #[derive(Debug, Default)]
 struct Gaps {
-    squares: Vec<[f64; GROUP]>,
-    least: Vec<f64>,
-    ranked: Vec<u64>,
+    own: Vec<f32>,
+    squares: Vec<[f32; GROUP]>,
+    least: Vec<f32>,
+    ranked: Vec<u32>,
     nearest: Vec<(f64, u32)>,
 }
 
@@ -54,16 +62,18 @@ impl Samples {
     /// `samples` with their places.
     pub(super) fn new(near: Near, samples: &[Sample], places_mm: Vec<[f64; 3]>) -> Self {
         let axes = samples.first().map_or(0, |sample| sample.config.len());
-        let mut groups = Vec::new();
+        let (mut configs, mut groups) = (Vec::new(), Vec::new());
         if !matches!(near, Near::Places(_)) {
-            groups.resize(samples.len().div_ceil(GROUP) * axes, [f64::INFINITY; GROUP]);
+            groups.resize(samples.len().div_ceil(GROUP) * axes, [f32::INFINITY; GROUP]);
             for (i, sample) in samples.iter().enumerate() {
+                configs.extend_from_slice(&sample.config);
                 for (axis, value) in sample.config.iter().enumerate() {
-                    groups[i / GROUP * axes + axis][i % GROUP] = *value;
+                    groups[i / GROUP * axes + axis][i % GROUP] = *value as f32;
                 }
             }
         }
-        Self { near, places_mm, count: samples.len(), groups }
+        let extent = largest(&configs);
+        Self { near, places_mm, count: samples.len(), configs, groups, extent }
     }
 
     pub(super) fn radius_mm(&self) -> f64 {
@@ -78,8 +88,8 @@ impl Samples {
     /// the lower, a number at a time.
     pub(super) fn each_pair(&self, samples: &[Sample], mut visit: impl FnMut(usize, usize, f64)) {
         let Near::Places(radius_mm) = self.near else {
-            for [to, from] in self.pairs(samples) {
-                let [to, from] = [to, from].map(|number| number as usize);
+            for pair in self.pairs(samples) {
+                let [to, from] = [pair >> 32, pair & u64::from(u32::MAX)].map(|number| number as usize);
                 visit(from, to, distance_mm(&self.places_mm[from], &self.places_mm[to]));
             }
             return;
@@ -99,12 +109,13 @@ impl Samples {
         }
     }
 
-    /// The pairs of neighbours by configuration, the higher number first, in order.
-    fn pairs(&self, samples: &[Sample]) -> Vec<[u32; 2]> {
+    /// The pairs of neighbours by configuration, the higher number in the upper half, in order.
+    fn pairs(&self, samples: &[Sample]) -> Vec<u64> {
         let (mut gaps, mut pairs) = (Gaps::default(), Vec::new());
         for (own, sample) in (0..).zip(samples) {
             self.write_neighbours(&sample.config, Some(own), &mut gaps);
-            pairs.extend(gaps.nearest.iter().map(|(_, other)| [own.max(*other), own.min(*other)]));
+            let both = |other: u32| u64::from(own.max(other)) << 32 | u64::from(own.min(other));
+            pairs.extend(gaps.nearest.iter().map(|(_, other)| both(*other)));
         }
         pairs.sort_unstable();
         pairs.dedup();
@@ -126,57 +137,81 @@ impl Samples {
 
     /// Whether two configurations that are no samples would be neighbours if they were.
     pub(super) fn are_near(&self, [a, b]: [&[f64]; 2], gap_mm: f64) -> bool {
-        let apart = || a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        let apart = || square(a, b);
         match self.near {
             Near::Places(radius_mm) => gap_mm <= radius_mm,
             Near::Configurations(radius) => apart() <= radius * radius,
             Near::Nearest(count) => [a, b].iter().any(|own| {
-                let mut gaps = Gaps::default();
-                self.measure(own, &mut gaps);
-                gaps.squares.iter().flatten().filter(|gap| **gap < apart()).count() < count
+                let nearer = |other: &[f64]| square(own, other) < apart();
+                self.configs.chunks_exact(own.len()).filter(|other| nearer(other)).count() < count
             }),
         }
     }
 
+    /// Measures all samples in f32.
     fn measure(&self, config: &[f64], gaps: &mut Gaps) {
-        let groups = self.count.div_ceil(GROUP);
-        gaps.squares.resize(groups, [0.0; GROUP]);
-        gaps.least.resize(groups, 0.0);
-        dispatch!(Level::new(), _simd => write_gaps(config, &self.groups, &mut gaps.squares, &mut gaps.least));
+        let count = self.count.div_ceil(GROUP);
+        let Gaps { own, squares, least, .. } = gaps;
+        own.clear();
+        own.extend(config.iter().map(|value| *value as f32));
+        squares.resize(count, [0.0; GROUP]);
+        least.resize(count, 0.0);
+        dispatch!(Level::new(), _simd => write_gaps(own, &self.groups, squares, least));
     }
 
-    /// Writes the samples near to `config` into `nearest`, `own` left out.
+    /// Writes the samples near to `config` into `nearest`, `own` left out, in no order.
     fn write_neighbours(&self, config: &[f64], own: Option<u32>, gaps: &mut Gaps) {
         self.measure(config, gaps);
-        let Gaps { squares, least, ranked, nearest } = gaps;
-        let (bound, most) = match self.near {
+        let Gaps { squares, least, ranked, nearest, .. } = gaps;
+        let off = ROUGH * largest(config).max(self.extent) * (config.len() as f64).sqrt();
+        // So far may a sample be in f32 that is at most `gap` away.
+        let roughly = |gap: f64| (gap + off) * (1.0 + ROUGH);
+        let (bound, reach, most) = match self.near {
             Near::Nearest(count) if count < least.len() => {
                 ranked.clear();
                 ranked.extend(least.iter().map(|gap| gap.to_bits()));
-                // So many groups hold a sample within the bound that the nearest are within it, and the sample itself.
-                (f64::from_bits(*ranked.select_nth_unstable(count).1), count)
+                // So many groups hold a sample within it that the nearest are within it, and the sample itself.
+                let within = f64::from(f32::from_bits(*ranked.select_nth_unstable(count).1)).sqrt();
+                (f64::MAX, roughly(roughly(within)), count)
             }
-            Near::Nearest(count) => (f64::MAX, count),
-            Near::Configurations(radius) => (radius * radius, usize::MAX),
+            Near::Nearest(count) => (f64::MAX, f64::INFINITY, count),
+            Near::Configurations(radius) => (radius * radius, roughly(radius.abs()), usize::MAX),
             Near::Places(_) => return,
         };
+        // Rounded up, if at all.
+        let rough = ((reach * reach * (1.0 + ROUGH)) as f32).next_up();
         nearest.clear();
-        for (group, gaps) in squares.iter().enumerate().filter(|(group, _)| least[*group] <= bound) {
-            let within = (0..).zip(gaps).filter(|(_, gap)| **gap <= bound);
-            nearest.extend(within.map(|(lane, gap)| (*gap, (group * GROUP) as u32 + lane)));
+        for (group, gaps) in squares.iter().enumerate().filter(|(group, _)| least[*group] <= rough) {
+            let first = group * GROUP;
+            for sample in (first..self.count).zip(gaps).filter(|(_, gap)| **gap <= rough).map(|near| near.0) {
+                let gap = square(config, &self.configs[sample * config.len()..][..config.len()]);
+                if gap <= bound && Some(sample as u32) != own {
+                    nearest.push((gap, sample as u32));
+                }
+            }
         }
-        nearest.retain(|(_, sample)| Some(*sample) != own);
         if most < nearest.len() {
-            nearest.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            nearest.select_nth_unstable_by(most, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             nearest.truncate(most);
         }
     }
 }
 
+/// The greatest coordinate, either way.
+fn largest(config: &[f64]) -> f64 {
+    config.iter().fold(0.0, |most, value| value.abs().max(most))
+}
+
+/// The square of the distance between two configurations.
+#[inline]
+fn square(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
+}
+
 /// Writes the squares of the distances from `own` to the samples of each group, and the least of each group.
 #[expect(clippy::inline_always, reason = "it is compiled for the instructions of its caller")]
 #[inline(always)]
-fn write_gaps(own: &[f64], groups: &[[f64; GROUP]], squares: &mut [[f64; GROUP]], least: &mut [f64]) {
+fn write_gaps(own: &[f32], groups: &[[f32; GROUP]], squares: &mut [[f32; GROUP]], least: &mut [f32]) {
     for ((group, squares), least) in groups.chunks_exact(own.len()).zip(squares).zip(least) {
         let mut sums = [0.0; GROUP];
         for (values, own) in group.iter().zip(own) {

@@ -15,6 +15,7 @@ mod follow;
 mod outline;
 mod place;
 mod settle;
+mod sparse;
 mod stand;
 #[cfg(test)]
 mod tests;
@@ -72,9 +73,9 @@ struct Track {
     /// How many configurations there are.
     count: usize,
     angles: Vec<[RoughRow; AXES]>,
-    /// Placed axes, by block, then by part.
+    /// Placed axes, by block, then by part; those beyond the last block are of no path.
     placed: Vec<Axis>,
-    /// By how much each part is thickened, error band included: by block, then by part.
+    /// By how much each part is thickened, error band included: as the placed axes.
     rooms: Vec<RoughRow>,
     /// The largest thickening of each part on the whole path.
     reaches: Vec<f32>,
@@ -98,11 +99,21 @@ impl Track {
         let blocks = count.div_ceil(ROUGH_LANES);
         self.count = count;
         self.angles.resize(blocks, [[0.0; ROUGH_LANES]; AXES]);
-        self.placed.resize(blocks * parts, [[0.0; ROUGH_LANES]; 6]);
-        self.rooms.resize(blocks * parts, [0.0; ROUGH_LANES]);
+        // What is longer stays so: a first look and the whole path take turns.
+        if self.placed.len() < blocks * parts {
+            self.placed.resize(blocks * parts, [[0.0; ROUGH_LANES]; 6]);
+            self.rooms.resize(blocks * parts, [0.0; ROUGH_LANES]);
+        }
         self.reaches.resize(parts, 0.0);
         self.swept.resize(parts, [[0.0; 3]; 2]);
         self.near.resize(blocks, 0);
+    }
+
+    /// Notes that none of `count` configurations comes near anything.
+    fn leave_clear(&mut self, count: usize) {
+        self.count = count;
+        self.near.clear();
+        self.near.resize(count.div_ceil(ROUGH_LANES), 0);
     }
 
     /// Writes the angles of all configurations.
@@ -138,12 +149,31 @@ impl Memory {
     /// The verdict on the configurations of a course and, if all are free, on the motion between them.
     #[expect(clippy::inline_always, reason = "lanes are compiled for the instructions of their caller")]
     #[inline(always)]
-    fn judge<S: Simd>(&mut self, simd: S, arm: &Arm, outline: &Outline, course: &Course) -> Look {
+    fn judge<S: Simd>(
+        &mut self,
+        simd: S,
+        arm: &Arm,
+        outline: &Outline,
+        course: &Course,
+        count: usize,
+    ) -> Look {
         let track = &mut self.track;
+        let is_narrow = track.narrow(simd, outline, course, count);
+        if is_narrow && track.close.is_empty() {
+            track.leave_clear(count);
+            return Look::Free;
+        }
+        track.open(count, outline.radii_m.len());
         track.fill(simd, course);
         track.place(simd, outline);
-        track.measure(simd, outline);
-        track.collect(simd, outline);
+        if is_narrow {
+            track.measure(simd, outline, track.close.parts(outline));
+            // All that may meet was collected, however far a part strays.
+            track.reaches.fill(f32::INFINITY);
+        } else {
+            track.measure(simd, outline, u64::MAX);
+            track.collect(simd, outline);
+        }
         match track.look(simd, outline) {
             Look::Free if !track.settle(simd, arm, outline, course, &mut self.halves) => Look::Doubt,
             look => look,
@@ -184,8 +214,7 @@ impl Lines {
                 (Course::Way { way: &way, branch: from.branch, steps: (count - 1) as f64 }, count)
             }
         };
-        memory.track.open(count, outline.radii_m.len());
-        match dispatch!(level(), simd => memory.judge(simd, arm, outline, &course)) {
+        match dispatch!(level(), simd => memory.judge(simd, arm, outline, &course, count)) {
             Look::Doubt => None,
             Look::Contact(order) => {
                 *checked += order as u64 + 1;

@@ -32,6 +32,8 @@ pub(in crate::space::cell) struct Outline {
     /// Where each link's are in `axes`.
     pub(super) on_link: [Range<usize>; AXES + 1],
     pub(super) radii_m: Vec<f32>,
+    /// How far from the axis of each joint an end of a part can be, at most; 0 for a joint that does not move it.
+    levers_m: Vec<[f32; AXES]>,
     /// As in the cell.
     pub(super) exposed: Vec<usize>,
     /// The obstacles; `None` for one that has no lanes.
@@ -89,6 +91,7 @@ impl Outline {
             axes,
             on_link,
             radii_m: body.parts().iter().map(|part| part.capsule().radius as f32).collect(),
+            levers_m: body.parts().iter().map(|part| levers_m(chain, part.link(), part.capsule())).collect(),
             exposed: exposed.to_vec(),
             solids: solids.map(rough_solid).collect(),
             walls,
@@ -99,6 +102,39 @@ impl Outline {
             band_m: (ROUGHNESS * extent_m) as f32,
         }
     }
+}
+
+impl Outline {
+    /// What the joints contribute to [`bend_m`](Self::bend_m) where they change by `step` in a step.
+    #[inline]
+    pub(super) fn pulls(step: &[f32; AXES]) -> [f32; AXES] {
+        let mut before = 0.0;
+        step.map(|change| {
+            let pull = change.abs() * (change.abs() + 2.0 * before);
+            before += change.abs();
+            pull
+        })
+    }
+
+    /// The greatest second difference of an end's place on a line of the joints, per step squared.
+    ///
+    /// The second derivative by two joints' angles is a vector about the axis of the outer one, turned by the inner one: as
+    /// long as the lever of the outer one at most.
+    #[inline]
+    pub(super) fn bend_m(&self, part: usize, pulls: &[f32; AXES]) -> f32 {
+        self.levers_m[part].iter().zip(pulls).map(|(lever, pull)| lever * pull).sum()
+    }
+}
+
+/// How far from the axis of each joint the ends of a part can be.
+fn levers_m(chain: &Chain, link: usize, capsule: &Capsule) -> [f32; AXES] {
+    let end_m = capsule.segment.a.norm().max(capsule.segment.b.norm());
+    std::array::from_fn(|axis| {
+        let rows = chain.joints().get(axis + 1..link).unwrap_or_default();
+        let beyond_m: f64 = rows.iter().map(|joint| libm::hypot(joint.a_m, joint.d_m)).sum();
+        // What a joint's own row adds along its axis leaves the distance from it.
+        if axis < link { (chain.joints()[axis].a_m.abs() + beyond_m + end_m) as f32 } else { 0.0 }
+    })
 }
 
 fn is_slender(capsule: &Capsule) -> bool {

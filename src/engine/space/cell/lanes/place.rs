@@ -95,13 +95,16 @@ impl Track {
         }
     }
 
-    /// By how much each part is thickened at every configuration, and the box that it sweeps.
+    /// By how much each of the `wanted` parts (one bit each) is thickened at every configuration, and the box that it sweeps.
     #[inline(always)]
-    pub(super) fn measure<S: Simd>(&mut self, simd: S, outline: &Outline) {
+    pub(super) fn measure<S: Simd>(&mut self, simd: S, outline: &Outline, wanted: u64) {
         let (blocks, parts) = (self.angles.len(), outline.radii_m.len());
         let zero = Rough::splat(simd, 0.0);
         let numbers = Rough::load_array(simd, NUMBERS);
         for part in 0..parts {
+            if wanted >> part.min(63) & 1 == 0 {
+                continue;
+            }
             let mut own = load(simd, &self.placed[part]);
             let (mut least, mut most) = (own[0].min(own[1]), own[0].max(own[1]));
             let (mut before, mut widest) = (zero, zero);

@@ -25,9 +25,23 @@ pub(super) enum Look {
 #[derive(Debug, Default)]
 pub(super) struct Close {
     /// Parts and obstacles.
-    scene: Vec<(usize, usize)>,
+    pub(super) scene: Vec<(usize, usize)>,
     /// Pairs of parts, by their place among the outline's.
-    own: Vec<usize>,
+    pub(super) own: Vec<usize>,
+}
+
+impl Close {
+    /// Whether nothing may touch anything.
+    pub(super) fn is_empty(&self) -> bool {
+        self.scene.is_empty() && self.own.is_empty()
+    }
+
+    /// Which parts may touch something: one bit each, the last one for all further parts.
+    pub(super) fn parts(&self, outline: &Outline) -> u64 {
+        let scene = self.scene.iter().map(|(part, _)| *part);
+        let own = self.own.iter().flat_map(|pair| outline.pairs[*pair].parts);
+        scene.chain(own).fold(0, |parts, part| parts | 1 << part.min(63))
+    }
 }
 
 /// One bit a configuration.
