@@ -271,12 +271,12 @@ fn circles_are_noticed_in_a_tree_made_up_for_them() {
         let files: Vec<File> = texts.iter().map(|(path, text)| File::new(path, text)).collect();
         Package::new(&files, "replan").circles()
     };
-    let lib = ("lib.rs", "pub mod study;");
+    let lib = ("lib.rs", "pub mod page;");
     let house = "mod one;\npub mod two;\npub use one::First;";
     let of = |house: &str, one: &str, two: &str| {
-        circles(&[lib, ("study/mod.rs", house), ("study/one.rs", one), ("study/two.rs", two)])
+        circles(&[lib, ("page/mod.rs", house), ("page/one.rs", one), ("page/two.rs", two)])
     };
-    let found = "study/one.rs -> study/two.rs|study/two.rs -> study/one.rs";
+    let found = "page/one.rs -> page/two.rs|page/two.rs -> page/one.rs";
     for (one, two) in [
         (
             "use super::two::Second;\npub struct First(Second);",
@@ -284,16 +284,16 @@ fn circles_are_noticed_in_a_tree_made_up_for_them() {
         ),
         // A name that a folder passes on is the name of the file that has it.
         (
-            "use crate::study::two::Second;\npub struct First(Second);",
-            "use crate::study::First;\npub struct Second(First);",
+            "use crate::page::two::Second;\npub struct First(Second);",
+            "use crate::page::First;\npub struct Second(First);",
         ),
         // So is a path in the code, and one that starts from an imported module.
         (
             "pub struct First(super::two::Second);",
-            "use crate::study::{self};\npub struct Second(study::First);",
+            "use crate::page::{self};\npub struct Second(page::First);",
         ),
         (
-            "use crate::{\n    study::{\n        two::{self as other},\n    },\n};\npub struct First(other::Second);",
+            "use crate::{\n    page::{\n        two::{self as other},\n    },\n};\npub struct First(other::Second);",
             "use super::First as F;\npub struct Second(F);",
         ),
     ] {
@@ -309,7 +309,7 @@ fn circles_are_noticed_in_a_tree_made_up_for_them() {
         // Tests look at everything.
         (
             house,
-            "pub struct First;\n#[cfg(test)]\nmod tests {\n    use crate::study::two::Second;\n}",
+            "pub struct First;\n#[cfg(test)]\nmod tests {\n    use crate::page::two::Second;\n}",
             "use super::First;\npub struct Second(First);",
         ),
         // A folder and what lies in it are one thing to each other.
@@ -321,7 +321,7 @@ fn circles_are_noticed_in_a_tree_made_up_for_them() {
         // Another crate's names, and local ones, are no files.
         (
             house,
-            "use std::study::Second;\npub struct First;",
+            "use std::page::Second;\npub struct First;",
             "use super::First;\npub fn second() {\n    First::two::second()\n}",
         ),
     ] {
@@ -329,10 +329,10 @@ fn circles_are_noticed_in_a_tree_made_up_for_them() {
     }
     let around = [
         lib,
-        ("study/mod.rs", "mod a;\nmod b;\nmod c;"),
-        ("study/a.rs", "use super::b::B;"),
-        ("study/b.rs", "use super::c::C;"),
-        ("study/c.rs", "use super::a::A;"),
+        ("page/mod.rs", "mod a;\nmod b;\nmod c;"),
+        ("page/a.rs", "use super::b::B;"),
+        ("page/b.rs", "use super::c::C;"),
+        ("page/c.rs", "use super::a::A;"),
     ];
     assert_eq!(circles(&around).concat().len(), 3);
 }
