@@ -1,13 +1,13 @@
 //! Judges every claim of a paper, and which claims hold together.
 
-use super::class::{self, Caps, Polarity, Sessions, Verdict};
+use super::class::{self, Caps, Sessions, Verdict};
 use super::context::Context;
 use super::criterion::{self, Criterion};
 use super::evidence::{Evidence, Run, default_point};
 use super::found::Found;
 use super::metric;
 use super::rule;
-use super::settle::settles;
+use super::settle::{parts_settle, settles};
 use super::together::together;
 use super::verdict::{Estimate, Finding, Judged, Verdicts};
 use base::hash::sha256;
@@ -278,15 +278,6 @@ fn sessions(of: &dyn Criterion, evidence: &Evidence<'_>) -> (Sessions, Option<St
         .filter(|numbers| !numbers.is_empty())
         .map(|numbers| format!("sessions of the clock, each judged by itself: {}", numbers.join("; ")));
     (said, because)
-}
-
-/// What would settle a sentence whose parts leave it open.
-fn parts_settle(parts: &Parts, verdicts: &[Verdict]) -> String {
-    let speaks = |wanted| verdicts.iter().any(|verdict| verdict.polarity() == wanted);
-    if matches!(parts, Parts::MeansOneOf(_)) && speaks(Polarity::For) && speaks(Polarity::Against) {
-        return "which of its parts is meant: the paper does not say, and they speak both ways".to_owned();
-    }
-    "what settles its parts".to_owned()
 }
 
 /// How the classes of a claim's parts make its own.

@@ -1,9 +1,11 @@
 //! What would settle a claim that is undecided: more draws, more sessions of the clock, or what the paper leaves out.
 
-use super::class::{Caps, SESSIONS, Sessions};
+use super::class::{Caps, Polarity, SESSIONS, Sessions, Verdict};
 use super::found::{Found, Narrows};
 use super::statistic::LEVEL;
+use super::verdict::Across;
 use stats::proportion::{agreeing_for_width, units_for_margin};
+use study::paper::Parts;
 
 /// A hundred times as many draws tell apart what differs by a tenth of what now can be told; a larger number is an estimate of
 /// noise.
@@ -40,6 +42,34 @@ pub fn settles(found: &Found, caps: Caps) -> String {
     }
     more_draws(found)
         .unwrap_or_else(|| "the paper's own inputs: what is measured here stands neither way".to_owned())
+}
+
+/// What would settle a sentence whose parts leave it open.
+pub fn parts_settle(parts: &Parts, verdicts: &[Verdict]) -> String {
+    let speaks = |wanted| verdicts.iter().any(|verdict| verdict.polarity() == wanted);
+    if matches!(parts, Parts::MeansOneOf(_)) && speaks(Polarity::For) && speaks(Polarity::Against) {
+        return "which of its parts is meant: the paper does not say, and they speak both ways".to_owned();
+    }
+    "what settles its parts".to_owned()
+}
+
+/// What would settle a claim that the readings leave open; none if they do not.
+pub fn readings_settle(across: &Across) -> Option<String> {
+    if across.class != Verdict::Undecided {
+        return None;
+    }
+    if across.holds > 0 && across.fails > 0 {
+        return Some(format!("which reading the paper means: it {}", across.said));
+    }
+    let measured = across.open - across.unconfirmed.min(across.open);
+    let draws = (measured > 0).then(|| {
+        format!("more draws under the {measured} of {} results that stand neither way", across.counted)
+    });
+    let seeds = (across.unconfirmed > 0).then(|| {
+        format!("a second seed that says the same under the {} that it did not confirm", across.unconfirmed)
+    });
+    let ways: Vec<String> = draws.into_iter().chain(seeds).collect();
+    Some(format!("{}, or the paper's own reading if it is none of these", ways.join(", ")))
 }
 
 /// How many units would tell our number from the limit that its interval holds; none if no number would.

@@ -1,6 +1,6 @@
 //! Verdicts: what was found about each claim.
 
-use super::class::Verdict;
+use super::class::{Polarity, Verdict};
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
 use std::collections::BTreeMap;
@@ -105,6 +105,9 @@ pub struct Across {
     pub default: Verdict,
     /// `holds under 44 of 44`, or what it hangs on.
     pub said: String,
+    /// What would settle it, if the readings leave it open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub settles: Option<String>,
     /// How many different results count.
     pub counted: usize,
     /// How many readings they come from.
@@ -227,7 +230,7 @@ impl Judged {
     pub fn outcome(&self) -> &'static str {
         match (&self.theorem, self.verdict) {
             (Some(_), Verdict::Reproduced) => "asserted, holds",
-            (Some(_), Verdict::NotReproduced) => "asserted, violated",
+            (Some(_), verdict) if verdict.polarity() == Polarity::Against => "asserted, violated",
             _ => self.verdict.name(),
         }
     }
@@ -349,6 +352,13 @@ impl Verdicts {
             format!("{asserted} more must hold whatever was drawn; they are asserted and count for nothing")
         });
         Counts { classes, parts, asserted }
+    }
+
+    /// The claims that must hold whatever was drawn and do not: the program is wrong, or the theorem.
+    pub fn violated(&self) -> Vec<&str> {
+        let is_violated =
+            |judged: &&Judged| judged.theorem.is_some() && judged.verdict.polarity() == Polarity::Against;
+        self.claims.iter().filter(is_violated).map(|judged| judged.claim.as_str()).collect()
     }
 
     /// The claim called `id`.

@@ -39,8 +39,9 @@ impl Judge {
             return check(&paper, point, &places).map_err(Failure::in_check);
         }
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
-        verdicts::print(&judge(&paper, point, &places)?);
-        Ok(())
+        let judged = judge(&paper, point, &places)?;
+        verdicts::print(&judged);
+        must_hold(&judged)
     }
 }
 
@@ -56,9 +57,24 @@ fn check(paper: &Paper, point: ReadingChoice, places: &Places) -> Result<(), Fai
     }
     if found.is_empty() {
         say!("{}: {} verdicts are what the stored run gives", paper.id, now.claims.len());
-        return Ok(());
+        return must_hold(&now);
     }
     let message = format!("{}: not what the stored run gives:\n  {}", path.display(), found.join("\n  "));
+    Err(Failure::stale(message))
+}
+
+/// Refuses verdicts by which something does not hold that must hold whatever was drawn.
+pub fn must_hold(verdicts: &Verdicts) -> Result<(), Failure> {
+    let violated = verdicts.violated();
+    if violated.is_empty() {
+        return Ok(());
+    }
+    let (paper, claims) = (&verdicts.paper, violated.join("`, `"));
+    let message = format!(
+        "{paper}: `{claims}` must hold whatever was drawn, and does not: the program is wrong, or the theorem that is stated; \
+         `replan show {paper} {}` has what was found",
+        violated[0]
+    );
     Err(Failure::stale(message))
 }
 

@@ -56,7 +56,8 @@ impl Repro {
             places.plots.display(),
             places.report.display()
         );
-        render::all_drawn(&outputs)
+        render::all_drawn(&outputs)?;
+        judge::must_hold(&judged)
     }
 }
 

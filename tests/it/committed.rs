@@ -108,6 +108,9 @@ fn what_speaks_against_a_claim_names_a_trial_and_what_leaves_it_open_says_what_w
     for folder in fs::read_dir(runs).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_dir())
     {
         for judged in Verdicts::read(&folder).unwrap().claims {
+            let is_said = judged.across.as_ref().is_some_and(|across| across.settles.is_some())
+                || judged.findings.iter().any(|finding| finding.settles.is_some());
+            assert!(judged.verdict != Verdict::Undecided || is_said, "{}", judged.claim);
             for finding in &judged.findings {
                 let is_measured = criterion::find(&finding.criterion).is_some();
                 match finding.verdict {

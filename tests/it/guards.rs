@@ -1,5 +1,6 @@
 //! What guards the product: whoever touches a verdict, a record, a figure or a chapter by hand is found out.
 
+use crate::across::Toy;
 use crate::paper::Bench;
 use base::hash::sha256;
 use polars::prelude::{DataFrame, IntoColumn as _, NamedFrom as _, Series};
@@ -325,4 +326,23 @@ fn a_manifest_edited_by_hand_is_caught_by_judge() {
     }
     bench.write(file, whole.as_bytes());
     bench.done(&["judge", "./mini", "--check"]);
+}
+
+#[test]
+fn what_must_hold_and_does_not_is_refused() {
+    let own = "check.lower.of = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\", against = \
+               \"Two-sided\" }";
+    let asked = |accepted: &str| {
+        let of = "{ study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\" }";
+        let check = format!("check.within = {{ statistic = \"mean\", accepted = {accepted}, of = {of} }}");
+        Toy::unexplored(&[(own, &format!("theorem = \"nodes are counted\"\n{check}"))])
+    };
+    let true_one = asked("[0.0, 1e6]");
+    true_one.0.done(&["judge", "./toy"]);
+    true_one.0.done(&["judge", "./toy", "--check"]);
+    let false_one = asked("[1e6, 2e6]");
+    for arguments in [&["judge", "./toy"][..], &["judge", "./toy", "--check"], &["repro", "./toy"]] {
+        let said = refused(&false_one.0, arguments);
+        assert!(said.contains("toy: `fewer` must hold whatever was drawn, and does not"), "{said}");
+    }
 }

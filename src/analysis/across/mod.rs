@@ -14,6 +14,7 @@ pub mod hangs;
 pub mod stored;
 
 use super::class::{Polarity, Verdict};
+use super::settle::readings_settle;
 use super::together::greatest;
 use super::verdict::{Across, Explored, Judged, Verdicts};
 use count::{Axes, Counted, Group};
@@ -104,10 +105,11 @@ fn across(
         hangs::said(axes, first, &judged.claim, &counted.groups, &votes, class, counted.is_existential)
     };
     let unconfirmed = votes.iter().zip(&counted.groups).filter(|(vote, group)| **vote != group.class).count();
-    Some(Across {
+    let mut across = Across {
         class,
         default: judged.verdict,
         said,
+        settles: None,
         counted: votes.len(),
         looked: counted.looked,
         holds: count(Polarity::For),
@@ -120,7 +122,9 @@ fn across(
         range: None,
         effects: effects::effects(axes, first, &judged.claim, judged.verdict),
         probes: effects::probes(axes, first, &judged.claim, judged.verdict),
-    })
+    };
+    across.settles = readings_settle(&across);
+    Some(across)
 }
 
 /// The least and the greatest of our numbers beside a claim over the readings that count; the default run's stands for its own.

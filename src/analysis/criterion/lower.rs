@@ -86,7 +86,7 @@ impl<'a> Lower<'a> {
         let signs = paired::signs(&pairs.concat());
         format!(
             "{}: {metric} changes by {value:.2} % on the whole (95 % interval {:.2} to {:.2}, {} over {units} draws); lower on {}, \
-             equal on {}, higher on {} of {} cases that both solve",
+             equal on {}, higher on {} of {} cases{}",
             self.of.said(),
             interval.low,
             interval.high,
@@ -95,6 +95,7 @@ impl<'a> Lower<'a> {
             signs.equal,
             signs.higher,
             signs.lower + signs.equal + signs.higher,
+            if self.of.all_ends { "" } else { " that both solve" },
         )
     }
 

@@ -115,5 +115,7 @@ pub fn across_lines(judged: &Judged) -> impl Iterator<Item = String> {
     });
     let probes = across.filter(|across| !across.probes.is_empty());
     let probes = probes.map(|across| format!("probes, not counted: {}", across.probes.join("; ")));
-    counts.into_iter().chain(moves).chain(probes)
+    let settles = across.and_then(|across| across.settles.as_ref());
+    let settles = settles.map(|settles| format!("what would settle it: {settles}"));
+    counts.into_iter().chain(settles).chain(moves).chain(probes)
 }

@@ -277,7 +277,7 @@ mod tests {
         let mut table = PLAIN.parse::<Table>().unwrap();
         table.retain(|key, _| !without.contains(&key));
         table.extend(changes.parse::<Table>().unwrap());
-        let inputs = Inputs { roots: vec![PathBuf::from(env!("CARGO_MANIFEST_DIR"))] };
+        let inputs = Inputs { roots: vec![PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))] };
         (ENTRY.build)(&Settings::composed("plain", table), &inputs).map_err(|e| e.to_string())
     }
 

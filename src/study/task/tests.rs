@@ -227,7 +227,7 @@ fn variants_that_never_lower_open_nodes_need_an_excess_and_one_shape_and_only_th
 
 #[test]
 fn units_that_share_what_is_prepared_give_what_each_gives_alone() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let inputs = Inputs { roots: vec![root.to_owned()] };
     let paper = Paper::load(&root.join("experiments/fu2018"), &inputs).unwrap();
     for name in ["particle", "stages"] {

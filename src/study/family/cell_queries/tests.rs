@@ -28,7 +28,7 @@ end = "own"
 }
 
 fn inputs(more: Option<&std::path::Path>) -> Inputs {
-    let own = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let own = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     Inputs { roots: more.map(PathBuf::from).into_iter().chain([own]).collect() }
 }
 

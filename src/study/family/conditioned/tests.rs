@@ -84,7 +84,7 @@ fn wrong_settings_are_refused_with_what_is_accepted() {
 
 #[test]
 fn a_listed_draw_is_what_a_search_finds() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let inputs = Inputs { roots: vec![root.to_owned()] };
     let study = crate::Study::load(&root.join("experiments/zhang/conditioned.toml"), &inputs).unwrap();
     let point = crate::ReadingChoice::new(&study.readings, &BTreeMap::new()).unwrap();

@@ -9,7 +9,7 @@ use rand::RngExt as _;
 use std::path::Path as FilePath;
 
 fn lines(end: EdgeEnd) -> Lines {
-    let file = |name: &str| FilePath::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name);
+    let file = |name: &str| FilePath::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name);
     let robot = Robot::load(&file("robots/motoman_up6.toml")).unwrap();
     let scene = Scene::load(&file("scenes/fu2018_cell.toml")).unwrap();
     let rules = LineRules {
