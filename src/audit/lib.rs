@@ -21,7 +21,7 @@
 //! [`reader`] makes an [`input`] of CSV, Markdown or TOML; [`checks`] are one a file, each a question with its source;
 //! [`report`] asks them all, with power and mends; [`certificate`] and [`witness`] are what a finding rests on; [`coverage`]
 //! looks for numbers that no macro backs. What a column can be is [`meaning::ITEMS`]. [`reach`], [`form`], [`clock`],
-//! [`lattice`], [`bounds`], [`mod@turns`], [`octile_turns`], [`sight`] and [`fvalues`] are the mathematics; [`proof`] is what claims of papers ask of
+//! [`lattice`], [`bounds`], [`mod@turns`], [`octile_turns`] and [`fvalues`] are the mathematics; [`proof`] is what claims of papers ask of
 //! it, one number at a time.
 //!
 //! Nothing here reads a record. Every bound states its premises and takes the printed digits' slack in the
