@@ -119,6 +119,32 @@ fn bodies_are_placed_to_a_tenth_of_the_band() {
 }
 
 #[test]
+fn no_end_of_a_part_bends_more_than_its_bound() {
+    let (cell, mut stream, mut worst) = (fu_cell(), seed::stream(57), 0_f64);
+    for index in 0..20_000 {
+        let q = draw(&mut stream);
+        let step: Joints = std::array::from_fn(|_| stream.random_range(-0.3..0.3) * f64::from(index % 3));
+        let [before, own, after] = [-1.0, 0.0, 1.0].map(|share| {
+            let mut placed = Vec::new();
+            cell.place(&std::array::from_fn(|joint| q[joint] + share * step[joint]), &mut placed);
+            placed
+        });
+        let pulls = Outline::pulls(&step.map(|change| change as f32));
+        for part in 0..own.len() {
+            let [a, b, c] = [&before, &own, &after].map(|placed| placed[part].segment);
+            let bend_m = (a.a - b.a * 2.0 + c.a).norm().max((a.b - b.b * 2.0 + c.b).norm());
+            let most_m = f64::from(cell.outline.bend_m(part, &pulls));
+            assert!(
+                bend_m <= most_m * 1.000_01 + 1e-9,
+                "seed 57 case {index} part {part}: {bend_m} m of {most_m} m"
+            );
+            worst = worst.max(bend_m / most_m.max(1e-9));
+        }
+    }
+    assert!(worst > 0.5, "the bound is loose: {worst}");
+}
+
+#[test]
 fn angles_of_many_turns_and_what_is_no_number_are_left_to_the_scalar_code() {
     let lines = Lines::new(fu_cell(), LineRules { path: Path::Joints, ..rules() });
     let found = |from: f64, to: f64| {
