@@ -10,6 +10,9 @@ from statistics_judge.records import Paper
 # Of ten results that speak or leave open, so many must speak.
 TENTHS = 9
 
+# Readings under which nothing was seen of a claim.
+UNSEEN = ("unexplored", "unmeant")
+
 Options = dict[str, str]
 
 
@@ -157,7 +160,8 @@ class Across:
         for one in stored["results"]:
             own = [at for at in one["readings"] if at in judged]
             # The default run stands for the default reading, whatever the exploration had of it.
-            seen = own if one["sight"] == "looked" else [at for at in own if at == 0]
+            kept = own if one["sight"] == "looked" else [at for at in own if at == 0]
+            seen = kept if one["sight"] != "unmeant" else []
             found.looked += len(seen)
             found.not_looked_at += len(own) - len(seen)
             if seen:
@@ -198,7 +202,7 @@ class Across:
         holds = 0
         for claim in calibration:
             found = self.result(self.first, claim, place)
-            if found is None or found["sight"] == "unexplored":
+            if found is None or found["sight"] in UNSEEN:
                 continue
             full = self.default.get(claim) if place == 0 else None
             way = SPEAKS[full or found["class"]]
@@ -293,7 +297,7 @@ class Across:
         if base is None or not voting:
             return True
         for found in (self.alone(claim, axis, name) for name in voting):
-            if found is None or found.get("sight") == "unexplored":
+            if found is None or found.get("sight") in UNSEEN:
                 return True
             if any(found.get(key) != base.get(key) for key in ("results", "class")):
                 return True

@@ -48,6 +48,7 @@ class Claim:
     names: list[str]
     untestable: bool
     parts: tuple[str, list[str]] | None
+    meant: bool = True
 
 
 @dataclass
@@ -83,7 +84,7 @@ def of_claim(paper: Paper, claim: dict[str, Any]) -> Claim:
     if parts and parts[0] == "cells" and names:
         # A row with criteria of its own is judged by them.
         parts = None
-    return Claim(claim["id"], findings, names, "untestable" in claim, parts)
+    return Claim(claim["id"], findings, names, "untestable" in claim, parts, is_meant(paper, claim))
 
 
 def fitted_with(paper: Paper, claim: dict[str, Any]) -> list[str]:
@@ -107,7 +108,7 @@ def of_criterion(
         return criterion(Asked(paper, claim, settings, session, seed))
 
     found = find(1)
-    if not decides:
+    if not (decides and is_meant(paper, claim)):
         return Recomputed(name, frozenset([None]), found.estimate)
     studies = [paper.studies[of] for of in studies_of(settings)]
     clock = None
@@ -132,6 +133,11 @@ def of_criterion(
         for outcome, censored in itertools.product(found.possible, found.censored)
     )
     return Recomputed(name, possible, found.estimate)
+
+
+def is_meant(paper: Paper, claim: dict[str, Any]) -> bool:
+    """Whether a claim is meant under the readings that it is judged under."""
+    return all(paper.choices[axis] in options for axis, options in claim.get("holds_when", {}).items())
 
 
 # A bootstrap over fewer draws says nothing firm.
@@ -232,7 +238,9 @@ def compare_claim(
     possible, alone = known
     if claim.parts:
         kind, ids = claim.parts
-        of_parts = each(classes.PARTS[kind], [alone[part] for part in labels(ids)])
+        of_parts: Classes = frozenset([None])
+        if claim.meant:
+            of_parts = each(classes.PARTS[kind], [alone[part] for part in labels(ids)])
         finding = stored["finding"][-1] if stored.get("finding") else {}
         compare_class(f"{paper}: `{claim.id}` ({kind})", finding.get("verdict"), of_parts, said)
         possible = [*possible, of_parts]

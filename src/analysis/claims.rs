@@ -68,8 +68,9 @@ fn question(claim: &Claim) -> String {
     let asked =
         claim.asked().map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()));
     let (asked, parts) = (asked.collect::<Vec<_>>(), &claim.parts);
+    let when: String = premises(claim).map(|premise| format!(" {premise}")).collect();
     format!(
-        "{} {:?} {:?} {:?} {asked:?} {parts:?}\n",
+        "{} {:?} {:?} {:?} {asked:?} {parts:?}{when}\n",
         claim.id, claim.printed, claim.digits, claim.untestable
     )
 }
@@ -90,7 +91,7 @@ pub fn judge(evidence: &Evidence<'_>) -> Result<Verdicts, SettingsError> {
     let paper = evidence.paper;
     // Gathered in order before any error is passed on, so that it is the first claim's.
     let alone: Vec<_> = paper.claims.par_iter().map(|claim| judge_alone(evidence, claim)).collect();
-    let claims = with_parts(paper, alone.into_iter().collect::<Result<_, _>>()?);
+    let claims = with_parts(evidence, alone.into_iter().collect::<Result<_, _>>()?);
     let mut together = together(evidence)?;
     // A number that no data can give is not met by a trial that prints alike.
     let is_impossible = |id: &String| {
@@ -245,15 +246,19 @@ fn of_criterion(name: &str, of: &dyn Criterion, evidence: &Evidence<'_>, claim: 
         censored: found.censored > 0,
         few: found.needs.is_some(),
         clock,
-        without_premises: found.without_premises,
+        without_premises: !claim.is_meant(&evidence.point),
     };
     let studies = studies.iter().map(|study| study.name.clone()).collect();
     let (is_covered, is_posed) = (of.is_covered(evidence), of.is_posed(evidence));
-    let mut finding = finding(name, found, caps);
-    if caps.without_premises && finding.verdict.is_none() {
-        finding.because.push("the premises of the proof do not hold under this reading".to_owned());
-    }
+    found.premises.extend(premises(claim));
+    let finding = finding(name, found, caps);
     Weighed { finding, caps, is_covered, is_posed, results: String::new(), studies }
+}
+
+/// Where alone a claim is meant, a reading each.
+fn premises(claim: &Claim) -> impl Iterator<Item = String> {
+    let listed = |(id, options): (&String, &Vec<String>)| format!("{id} is {}", options.join(" or "));
+    claim.holds_when.iter().map(listed)
 }
 
 /// What the stored sessions of the clock say, each judged by itself, and what each of them found.
@@ -297,10 +302,10 @@ pub fn of_parts(claim: &Claim) -> Option<(&'static str, OfParts, &[String])> {
 }
 
 /// Sentences of parts and rows of cells take their class from theirs.
-fn with_parts(paper: &Paper, mut judged: Vec<Judged>) -> Vec<Judged> {
+fn with_parts(evidence: &Evidence<'_>, mut judged: Vec<Judged>) -> Vec<Judged> {
     let alone: BTreeMap<String, Verdict> =
         judged.iter().map(|one| (one.claim.clone(), one.verdict)).collect();
-    for (claim, judged) in paper.claims.iter().zip(&mut judged) {
+    for (claim, judged) in evidence.paper.claims.iter().zip(&mut judged) {
         let Some((name, of, ids)) = of_parts(claim) else { continue };
         let verdicts: Vec<Verdict> = ids.iter().map(|id| alone[id]).collect();
         let listed = |verdict: Verdict| {
@@ -309,12 +314,13 @@ fn with_parts(paper: &Paper, mut judged: Vec<Judged>) -> Vec<Judged> {
             (!ids.is_empty()).then(|| format!("{}: {}", verdict.name(), ids.join(", ")))
         };
         let because = Verdict::ALL.into_iter().filter_map(listed).collect();
-        let verdict = of(&verdicts);
+        let verdict = Some(of(&verdicts)).filter(|_| claim.is_meant(&evidence.point));
         judged.findings.push(Finding {
             criterion: name.to_owned(),
-            verdict: Some(verdict),
+            verdict,
             because,
-            settles: (verdict == Verdict::Undecided).then(|| parts_settle(&claim.parts, &verdicts)),
+            premises: premises(claim).collect(),
+            settles: (verdict == Some(Verdict::Undecided)).then(|| parts_settle(&claim.parts, &verdicts)),
             ..Finding::default()
         });
         let found = judged.findings.iter().filter(|finding| finding.criterion != "none");

@@ -125,7 +125,7 @@ pub struct Caps {
     pub few: bool,
     /// It rests on our own clock, and what its sessions say of it.
     pub clock: Option<Sessions>,
-    /// The reading is none under which the premises of the proof hold.
+    /// The reading is none under which the claim is meant.
     pub without_premises: bool,
 }
 
@@ -144,10 +144,13 @@ pub enum Sessions {
 /// readings within one show.
 pub const SESSIONS: usize = 3;
 
-/// The class of one finding; none if it is a proof whose premises do not hold.
+/// The class of one finding; none where the claim is not meant, whatever is found there.
 pub fn of_finding(outcome: Outcome, caps: Caps) -> Option<Verdict> {
+    if caps.without_premises {
+        return None;
+    }
     let measured = match outcome {
-        Outcome::Proved => return (!caps.without_premises).then_some(Verdict::Impossible),
+        Outcome::Proved => return Some(Verdict::Impossible),
         Outcome::Open => Verdict::Undecided,
         Outcome::Fails => Verdict::NotReproduced,
         Outcome::SignOnly => Verdict::DirectionOnly,

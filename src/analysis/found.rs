@@ -28,8 +28,6 @@ pub struct Found {
     pub powerless: bool,
     /// How many cases without a number could turn it.
     pub censored: usize,
-    /// The reading is none under which the premises of a proof hold.
-    pub without_premises: bool,
     /// The draws that it takes at least, where there are fewer.
     pub needs: Option<usize>,
 }

@@ -154,6 +154,42 @@ fn a_reading_under_which_too_few_draws_are_solved_has_no_power_and_is_not_looked
     assert_eq!((across.counted, across.looked, across.not_looked_at), (1, 3, 3));
 }
 
+const FEWER: &str = "says = \"A* expands fewer nodes than the search from two sides\"\n";
+
+#[test]
+fn a_claim_is_judged_only_under_the_readings_under_which_it_is_meant() {
+    let when = |option: &str| format!("{FEWER}holds_when = {{ hurry = [\"{option}\"] }}\n");
+    let toy = Toy::new(&[CITED, (FEWER, &when("three"))]);
+    // Without a weight it fails, and would leave the claim undecided.
+    let across = toy.claim("fewer").across.unwrap();
+    assert_eq!((across.counted, across.fails, across.class.name()), (1, 0, "reproduced"));
+    assert_eq!(toy.claim("fewer").findings[0].premises, ["hurry is three"]);
+    let path = toy.0.at("toy/paper.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    for (from, to, refused) in [
+        ("hurry = [\"three\"]", "hurri = [\"three\"]", "holds_when: there is no reading `hurri`"),
+        ("\"three\"", "\"tree\"", "holds_when.hurry: there is no option `tree` (did you mean `three`?)"),
+        ("[\"three\"]", "[]", "holds_when.hurry: names no option; the options are none, three"),
+    ] {
+        std::fs::write(&path, text.replace(from, to)).unwrap();
+        let said = toy.0.run(&["check", "./toy"]);
+        let line = text.lines().position(|line| line.starts_with("holds_when")).unwrap() + 1;
+        let place = format!("paper.toml:{line}:");
+        assert!(said.err.contains(refused) && said.err.contains(&place), "{to}: {}", said.err);
+    }
+}
+
+#[test]
+fn what_a_claim_would_fail_under_a_reading_under_which_it_is_not_meant_is_not_held_against_it() {
+    let more = format!("{FEWER}check.lower.is = \"higher\"\n");
+    let held = ["", "holds_when = { hurry = [\"none\"] }\n"].map(|when| {
+        let toy = Toy::unexplored(&[(FEWER, &format!("{more}{when}"))]);
+        toy.0.done(&["judge", "./toy"]);
+        toy.claim("fewer").verdict.name()
+    });
+    assert_eq!(held, ["not reproduced", "undecided"]);
+}
+
 /// A reading whose options are numbers, of which the room and the maps have the table.
 const NUMBERS: &str = "[[reading]]\nid = \"hurry\"\nwhy = \"the weight is not printed\"\ndefault = \"three\"\n\
      bounds = { least = 1.0, greatest = 4.0, source = \"a handbook\" }\n\

@@ -58,8 +58,11 @@ impl Counted {
         // The default run has more draws than an exploration.
         let is_default = own.contains(&0);
         let class = default.copied().filter(|_| is_default).unwrap_or(result.class);
-        let seen =
-            if result.sight == Sight::Looked { own.clone() } else { own[..usize::from(is_default)].to_vec() };
+        let seen = match result.sight {
+            Sight::Looked => own.clone(),
+            Sight::Unmeant => Vec::new(),
+            Sight::Unexplored | Sight::Powerless => own[..usize::from(is_default)].to_vec(),
+        };
         self.not_looked_at += own.len() - seen.len();
         self.looked += seen.len();
         if !seen.is_empty() {
@@ -251,7 +254,7 @@ fn held(
     for id in calibration {
         let Some(result) = first.result(id, place) else { continue };
         // What its studies were not explored for says nothing of other readings.
-        if result.sight == Sight::Unexplored {
+        if result.sight <= Sight::Unexplored {
             continue;
         }
         let full = default.get(*id).filter(|_| place == 0);

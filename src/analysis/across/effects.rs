@@ -39,7 +39,7 @@ pub(super) fn each(axes: &Axes, first: &Exploration, id: &str, default: Verdict,
             let Some(result) = first.place(&alone).and_then(|place| first.result(id, place)) else {
                 continue;
             };
-            if axis.votes(option) != voting || result.sight == Sight::Unexplored {
+            if axis.votes(option) != voting || result.sight <= Sight::Unexplored {
                 continue;
             }
             let effect = match (default.polarity(), result.class.polarity()) {

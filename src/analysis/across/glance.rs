@@ -8,12 +8,14 @@ use base::settings::SettingsError;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use study::paper::{Claim, Paper};
+use study::paper::Claim;
 
 /// Whether a class says something of a claim under a reading, the least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sight {
+    /// The claim is not meant there.
+    Unmeant,
     /// Its trials did not run under the reading, or the clock was not read.
     Unexplored,
     /// There are too few draws, hardly any printed value could have been refused, or no problem could be posed.
@@ -45,11 +47,22 @@ pub struct Glance {
 /// Those of [`validate`](claims::validate).
 pub fn glances(evidence: &Evidence<'_>) -> Result<BTreeMap<String, Glance>, SettingsError> {
     let paper = evidence.paper;
-    let alone =
-        |claim: &Claim| Ok((claim.id.clone(), alone(claim, &claims::weighed(evidence, claim, true)?)));
+    let alone = |claim: &Claim| {
+        let glance = alone(claim, &claims::weighed(evidence, claim, true)?);
+        Ok((claim.id.clone(), meant(evidence, claim, glance)))
+    };
     // Gathered in order before any error is passed on, so that it is the first claim's.
     let found: Vec<Result<_, SettingsError>> = paper.claims.par_iter().map(alone).collect();
-    Ok(with_parts(paper, found.into_iter().collect::<Result<_, _>>()?))
+    Ok(with_parts(evidence, found.into_iter().collect::<Result<_, _>>()?))
+}
+
+/// `glance`, but that nothing is found where the claim is not meant.
+fn meant(evidence: &Evidence<'_>, claim: &Claim, glance: Glance) -> Glance {
+    if claim.is_meant(&evidence.point) {
+        return glance;
+    }
+    let class = class::combined([], claim.untestable.is_some());
+    Glance { class, sight: Sight::Unmeant, ours: None, results: String::new(), ..glance }
 }
 
 fn alone(claim: &Claim, weighed: &[Weighed]) -> Glance {
@@ -93,9 +106,9 @@ fn sight(one: &Weighed, class: Verdict) -> Sight {
 }
 
 /// Sentences of parts and rows of cells take what they are from theirs.
-fn with_parts(paper: &Paper, mut glances: BTreeMap<String, Glance>) -> BTreeMap<String, Glance> {
+fn with_parts(evidence: &Evidence<'_>, mut glances: BTreeMap<String, Glance>) -> BTreeMap<String, Glance> {
     let alone = glances.clone();
-    for claim in &paper.claims {
+    for claim in &evidence.paper.claims {
         let Some((_, of, ids)) = claims::of_parts(claim) else { continue };
         let parts: Vec<&Glance> = ids.iter().map(|id| &alone[id]).collect();
         let of_parts = of(&parts.iter().map(|part| part.class).collect::<Vec<_>>());
@@ -119,7 +132,7 @@ fn with_parts(paper: &Paper, mut glances: BTreeMap<String, Glance>) -> BTreeMap<
             results: sha256(results.as_bytes())[..12].to_owned(),
             studies: parts.iter().flat_map(|part| part.studies.iter().cloned()).collect(),
         };
-        glances.insert(claim.id.clone(), whole);
+        glances.insert(claim.id.clone(), meant(evidence, claim, whole));
     }
     glances
 }

@@ -1,6 +1,6 @@
 //! What a paper says: claims, what they ask, and the claims that they are made of.
 
-use super::Digits;
+use super::{Digits, ReadingChoice};
 use base::settings::{AnyTable, Document, Faults, Settings, SettingsError, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -31,6 +31,9 @@ pub(super) struct ClaimSpec {
     pub(super) theorem: Option<String>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub(super) changed_after_run: Option<String>,
+    /// The readings under which alone it is meant, each with the options that count: a premise that the paper states.
+    #[serde(default)]
+    pub(super) holds_when: BTreeMap<String, Vec<String>>,
     /// How it is judged: the settings of each criterion, by the criterion's name.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, AnyTable>")]
@@ -80,6 +83,8 @@ pub struct Claim {
     pub theorem: Option<String>,
     /// What was changed in how it is judged after a run had been seen, and why.
     pub changed_after_run: Option<String>,
+    /// The readings under which alone it is meant, each with the options that count.
+    pub holds_when: BTreeMap<String, Vec<String>>,
     /// How it is judged, and what is shown beside: rules and criteria by name.
     asked: Vec<(Asked, String, Settings)>,
     /// The claims that it is made of.
@@ -126,6 +131,13 @@ impl Claim {
     /// Every rule and criterion with its settings.
     pub fn asked(&self) -> impl Iterator<Item = (Asked, &str, &Settings)> {
         self.asked.iter().map(|(asked, name, settings)| (*asked, name.as_str(), settings))
+    }
+
+    /// Whether it is meant under the reading `point`: what it takes for granted holds there.
+    pub fn is_meant(&self, point: &ReadingChoice) -> bool {
+        self.holds_when
+            .iter()
+            .all(|(id, options)| point.choices().get(id).is_some_and(|option| options.contains(option)))
     }
 
     /// Whether it holds the same number against the same trials, in the same way.
@@ -184,6 +196,7 @@ pub(super) fn claim(document: &Arc<Document>, spec: &ClaimSpec, faults: &mut Fau
         untestable: spec.untestable.clone(),
         theorem: spec.theorem.clone(),
         changed_after_run: spec.changed_after_run.clone(),
+        holds_when: spec.holds_when.clone(),
         asked,
         parts,
     }

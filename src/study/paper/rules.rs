@@ -4,7 +4,7 @@ use super::{ClaimSpec, Paper, Parts};
 use crate::spec::OptionSpec;
 use crate::{Reading, ReadingChoice};
 use base::settings::{Document, Faults, Spanned, none_called};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Paper {
     /// What is wrong with the paper as a whole goes to `faults`.
@@ -35,6 +35,7 @@ impl Paper {
         self.check_tables(faults);
         self.check_results(faults);
         self.check_readings(faults);
+        self.check_premises(faults);
         self.check_votes(faults);
         self.check_departures(faults);
         self.check_explored(faults);
@@ -101,6 +102,18 @@ impl Paper {
                     reading.id
                 );
                 faults.add(study.document.error_at(&format!("reading.{index}.id"), message));
+            }
+        }
+    }
+
+    /// A claim is meant under options that readings have.
+    fn check_premises(&self, faults: &mut Faults) {
+        let all = self.readings();
+        for (index, claim) in self.claims.iter().enumerate() {
+            for (id, message) in unknown_options(&claim.holds_when, &all) {
+                let message = format!("claim `{}`, holds_when{message}", claim.id);
+                let place = format!("claim.{index}.holds_when.{id}");
+                faults.add(self.document.error_at(&place, message).about(&id));
             }
         }
     }
@@ -256,20 +269,28 @@ fn option_faults(name: &str, option: &OptionSpec, reading: &Reading) -> Vec<Stri
     faults
 }
 
-/// What is wrong with the options that an option asks to stand with: none of that name, or of that reading.
+/// What is wrong with the options that an option asks to stand with.
 fn only_with_faults(name: &str, option: &OptionSpec, all: &[Reading]) -> Vec<String> {
-    let fault = |(id, options): (&String, &Vec<String>)| -> Vec<String> {
+    let unknown = unknown_options(&option.only_with, all).into_iter();
+    unknown.map(|(_, message)| format!("option `{name}`, only_with{message}")).collect()
+}
+
+/// Of options by reading those that are none of `all`, by reading; and readings of which none is named.
+fn unknown_options(wanted: &BTreeMap<String, Vec<String>>, all: &[Reading]) -> Vec<(String, String)> {
+    let fault = |(id, options): (&String, &Vec<String>)| -> Vec<(String, String)> {
         let Some(reading) = all.iter().find(|reading| reading.id == *id) else {
             let known = all.iter().map(|reading| reading.id.as_str());
-            return vec![format!("option `{name}`, only_with: {}", none_called("reading", id, known))];
+            return vec![(id.clone(), format!(": {}", none_called("reading", id, known)))];
         };
-        let unknown = options.iter().filter(|option| !reading.options.contains_key(*option));
         let known = || reading.options.keys().map(String::as_str);
-        unknown
-            .map(|option| {
-                format!("option `{name}`, only_with.{id}: {}", none_called("option", option, known()))
-            })
-            .collect()
+        if options.is_empty() {
+            let listed = known().collect::<Vec<_>>().join(", ");
+            return vec![(id.clone(), format!(".{id}: names no option; the options are {listed}"))];
+        }
+        let unknown = options.iter().filter(|option| !reading.options.contains_key(*option));
+        let told =
+            |option: &String| (id.clone(), format!(".{id}: {}", none_called("option", option, known())));
+        unknown.map(told).collect()
     };
-    option.only_with.iter().flat_map(fault).collect()
+    wanted.iter().flat_map(fault).collect()
 }
