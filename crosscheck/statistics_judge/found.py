@@ -59,6 +59,15 @@ def outcomes(of: Callable[[float, float], str | None], interval: Interval) -> fr
     return frozenset(of(low, high) for low, high in itertools.product(*ends) if low <= high)
 
 
+def hangs(
+    outcome: str | None, possible: frozenset[str | None], others: list[frozenset[str | None]]
+) -> frozenset[bool]:
+    """Whether an outcome hangs on what is not known, by what `others` say; both where chance decides that."""
+    always = any(not (one & possible) for one in others)
+    never = all(one | possible == {outcome} for one in others)
+    return frozenset(answer for answer, ruled_out in ((True, never), (False, always)) if not ruled_out)
+
+
 @dataclass
 class Asked:
     """A criterion's settings in a claim."""

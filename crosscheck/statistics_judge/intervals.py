@@ -17,8 +17,8 @@ from scipy import stats
 from statistics_judge.records import Places, Reals
 
 LEVEL = 0.95
-# Resamples of the stored intervals, and of the medians that least_of compares.
-STORED, STORED_OF_MEDIANS = 2000, 500
+# Resamples of the stored intervals.
+STORED = 2000
 # Our own.
 OWN = 8000
 # The probability that an end which nothing but chance moves is outside what is allowed.
@@ -115,9 +115,14 @@ def predictive(draws: Reals) -> Interval | None:
     return End.exact(float(ordered[outside - 1])), End.exact(float(ordered[-outside]))
 
 
-def bootstrap(
-    statistic: Callable[[Weights], Reals], units: int, seed: str, stored: int = STORED
-) -> Interval | None:
+def hull(intervals: list[Interval]) -> Interval:
+    """From the least low end of several intervals to the greatest high one."""
+    lows, highs = zip(*intervals, strict=True)
+    low = End(*(min(getattr(end, of) for end in lows) for of in ("at", "least", "most")))
+    return low, End(*(max(getattr(end, of) for end in highs) for of in ("at", "least", "most")))
+
+
+def bootstrap(statistic: Callable[[Weights], Reals], units: int, seed: str) -> Interval | None:
     """The percentile interval over units; `statistic` takes how often each unit is drawn, a row a resample.
 
     None below two units, or if no resample has a value (NaN).
@@ -125,7 +130,7 @@ def bootstrap(
     if units < 2:
         return None
     drawn = np.concatenate([statistic(weights) for weights in resamples(units, seed)])
-    return percentile(drawn, stored)
+    return percentile(drawn)
 
 
 def resamples(units: int, seed: str) -> list[Weights]:
@@ -140,13 +145,13 @@ def resamples(units: int, seed: str) -> list[Weights]:
     return [chunk() for _ in range(OWN // CHUNK)]
 
 
-def percentile(drawn: Reals, stored: int) -> Interval | None:
+def percentile(drawn: Reals) -> Interval | None:
     """The interval between the outer quantiles of resampled numbers."""
     tail = (1 - LEVEL) / 2
     known = np.sort(drawn[~np.isnan(drawn)])
     if len(known) == 0:
         return None
-    compared = max(1, round(stored * len(known) / len(drawn)))
+    compared = max(1, round(STORED * len(known) / len(drawn)))
     return quantile(known, tail, compared), quantile(known, 1 - tail, compared)
 
 

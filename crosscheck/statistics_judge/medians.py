@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
-from statistics_judge.found import Asked, Estimate, Found, certain, outcomes
-from statistics_judge.intervals import STORED_OF_MEDIANS, End, Interval, bootstrap, median
+from statistics_judge.found import Asked, Estimate, Found, certain, hangs, outcomes
+from statistics_judge.intervals import End, Interval, bootstrap, median
 from statistics_judge.records import Places, Reals, Study
-from statistics_judge.selection import groups_of, labels, matched, posed
+from statistics_judge.selection import CUT, groups_of, labels, matched, posed
 from statistics_judge.sizes import printed
 
 # Numbers whose ratio is nearer to one are equal.
@@ -25,12 +25,7 @@ def least_of(asked: Asked) -> Found:
     study = asked.paper.studies[of["study"]]
     groups = groups_of(study, of["problems"])
     pairs = list(itertools.product(labels(settings["lower"]), labels(settings["higher"])))
-    compared = []
-    for group in groups:
-        for one, other in pairs:
-            low, high = side(asked, group, one), side(asked, group, other)
-            if low is not None and high is not None:
-                compared.append(ratio(low, high))
+    compared = compare(asked, groups, pairs, (np.inf, np.inf))
     estimate = None
     if compared:
         # Of equally large ones the last.
@@ -43,7 +38,6 @@ def least_of(asked: Asked) -> Found:
     if len(compared) < len(pairs) * len(groups):
         return certain(OPEN, estimate)
     limit = 1 - settings.get("by_percent", 0.0) / 100
-    ends = [found.interval for found in compared if found.interval is not None]
 
     def outcome(greatest_low: float, greatest_high: float) -> str:
         if greatest_high < limit:
@@ -52,8 +46,37 @@ def least_of(asked: Asked) -> Found:
             return OPEN
         return SIGN if greatest_high < 1 else FAILS
 
-    whole = greatest(low for low, _ in ends), greatest(high for _, high in ends)
-    return Found(outcome(whole[0].at, whole[1].at), outcomes(outcome, whole), estimate)
+    def said(compared: list[Estimate]) -> tuple[str, frozenset[str | None]]:
+        ends = [found.interval for found in compared if found.interval is not None]
+        whole = greatest(low for low, _ in ends), greatest(high for _, high in ends)
+        return outcome(whole[0].at, whole[1].at), outcomes(outcome, whole)
+
+    main, possible = said(compared)
+    is_cut = any(unended(asked, group, label) for group in groups for pair in pairs for label in pair)
+    # 0 for the claim and infinite against it, then the other way round.
+    ways = ((0.0, np.inf), (np.inf, 0.0)) if is_cut else ()
+    ends = [said(compare(asked, groups, pairs, way))[1] for way in ways]
+    return Found(main, possible, estimate, censored=hangs(main, possible, ends))
+
+
+def compare(
+    asked: Asked, groups: list[str], pairs: list[tuple[str, str]], given: tuple[float, float]
+) -> list[Estimate]:
+    """Every comparison that was measured, trials without an end being given this on either side."""
+    found = []
+    for group in groups:
+        for one, other in pairs:
+            low, high = side(asked, group, one, given[0]), side(asked, group, other, given[1])
+            if low is not None and high is not None:
+                found.append(ratio(low, high))
+    return found
+
+
+def unended(asked: Asked, group: str, contender: str) -> bool:
+    """Whether some trial of a contender did not come to an end."""
+    of = asked.settings["of"]
+    study = asked.paper.studies[of["study"]]
+    return bool(np.isin(study.status[posed(study, group, contender, of)], CUT).any())
 
 
 def greatest(ends: Iterable[End]) -> End:
@@ -62,31 +85,41 @@ def greatest(ends: Iterable[End]) -> End:
     return End(*(max(getattr(end, of) for end in listed) for of in ("at", "least", "most")))
 
 
-def side(asked: Asked, group: str, contender: str) -> Estimate | None:
+def side(asked: Asked, group: str, contender: str, given: float) -> Estimate | None:
     """The median of one contender on one problem, computed once for all claims that compare it."""
     of = asked.settings["of"]
     known = asked.paper.studies[of["study"]].known
-    key = (group, contender, asked.paper.metric(of["metric"]).name, asked.session, *map(of.get, NARROWED))
+    key = (
+        group,
+        contender,
+        asked.paper.metric(of["metric"]).name,
+        asked.session,
+        given,
+        *map(of.get, NARROWED),
+    )
     if key not in known:
-        known[key] = measured_side(asked, group, contender, of)
+        known[key] = measured_side(asked, group, contender, of, given)
     return known[key]
 
 
-def measured_side(asked: Asked, group: str, contender: str, of: dict[str, Any]) -> Estimate | None:
-    """The median over seeds, failures infinite; its interval over seeds, or over readings of the clock."""
+def measured_side(
+    asked: Asked, group: str, contender: str, of: dict[str, Any], given: float
+) -> Estimate | None:
+    """The median over seeds, failures infinite, what did not end as given; an interval over seeds."""
     study, metric = asked.paper.studies[of["study"]], asked.paper.metric(of["metric"])
     rows = posed(study, group, contender, of)
     values = study.values(metric, asked.session)[rows]
     if metric.clock:
         rows, values = rows[~np.isnan(values)], values[~np.isnan(values)]
-    values = np.where(study.solved[rows] & ~np.isnan(values), values, np.inf)
+    missing = np.where(np.isin(study.status[rows], CUT), given, np.inf)
+    values = np.where(study.solved[rows] & ~np.isnan(values), values, missing)
     if len(values) == 0:
         return None
     units = values
     if metric.clock and len(values) == 1:
         units = np.array(study.repeats(int(rows[0]), metric, asked.session))
     seed = f"{study.name} {group} {contender} {metric.name}"
-    interval = bootstrap(median(np.arange(len(units)), units), len(units), seed, STORED_OF_MEDIANS)
+    interval = bootstrap(median(np.arange(len(units)), units), len(units), seed)
     own = End.exact(float(values[0]))
     return Estimate(middle(values), len(values), interval or (own, own))
 

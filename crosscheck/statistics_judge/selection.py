@@ -92,6 +92,16 @@ class Cases:
         cut = np.isin(self.study.status[self.own], CUT)
         return cut if self.base is None else cut | np.isin(self.study.status[self.base], CUT)
 
+    def ended_as(self, rows: Places, solved: bool) -> Flags:
+        """Whether trials are solved; those that did not come to an end as is said."""
+        return self.study.solved[rows] | (solved & np.isin(self.study.status[rows], CUT))
+
+    def given(self, numbers: Reals) -> "Cases":
+        """The cases as if those that did not come to an end had given these numbers."""
+        found = self.kept(np.ones(len(self.own), dtype=bool))
+        found.values = np.where(self.unended, numbers, self.values)
+        return found
+
     def solved_of_all(self) -> tuple[int, int]:
         """Cases that everyone who is compared solves, and all."""
         return int((self.own_solved & self.base_solved).sum()), len(self.own)

@@ -61,7 +61,11 @@ def equals(asked: Asked) -> Found:
     estimate = with_cases(counted(cases, known, same, asked.seed), (int(same[known].sum()), int(known.sum())))
     if not known.any():
         return certain(OPEN, estimate)
-    return certain(HOLDS if same[known].all() else FAILS, estimate)
+    cut = cases.unended & ~(known & np.isfinite(own))
+    found = certain(HOLDS if same[known].all() else FAILS, estimate)
+    # That something is wrong hangs on what did not end only if nothing else is.
+    is_wrong = bool((~same & known & ~cut).any())
+    return replace(found, censored=frozenset([not is_wrong and bool(cut.any())]))
 
 
 def on_every(asked: Asked) -> Found:
@@ -75,10 +79,11 @@ def on_every(asked: Asked) -> Found:
     kept, equal, broken = (int((says[spoken] == way).sum()) for way in (1, 0, -1))
     if kept + equal + broken == 0:
         return certain(OPEN, estimate)
-    if broken > 0 or kept == 0:
+    if broken > 0:
         return certain(FAILS, estimate)
     cut = that != "solved" and bool(cases.unended.any())
-    return replace(certain(SIGN if equal else HOLDS, estimate), censored=frozenset([cut]))
+    outcome = FAILS if kept == 0 else SIGN if equal else HOLDS
+    return replace(certain(outcome, estimate), censored=frozenset([cut]))
 
 
 def said(cases: Cases, that: str, bound: float) -> tuple[Reals, Flags]:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from statistics_judge.classes import FAILS, HOLDS, OPEN, SIGN
-from statistics_judge.found import Asked, Estimate, Found, outcomes, too_few
+from statistics_judge.found import Asked, Estimate, Found, hangs, outcomes, too_few
 from statistics_judge.intervals import (
     End,
     Interval,
@@ -13,6 +13,7 @@ from statistics_judge.intervals import (
     band,
     bootstrap,
     deviation,
+    hull,
     median,
     ratio_of_sums,
     slope,
@@ -40,11 +41,11 @@ def ratio(cases: Cases, bases: Reals, values: Reals, seed: str) -> tuple[float, 
 
 
 def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
-    """Both numbers of every case, the censored ones as far apart as the largest difference seen."""
+    """Both numbers of every case, the censored ones farther apart than all that were seen together."""
     censored, paired = cases.censored, cases.paired
     if not censored.any() or not paired.any():
         return []
-    most = np.abs(cases.values - cases.bases)[paired].max()
+    most = np.abs(cases.values - cases.bases)[paired].max() * paired.sum()
     middle = cases.bases[paired].mean()
     better = cases.metric.better if cases.metric else "neither"
     worse = {"lower": 1, "higher": -1, "neither": 0}[better]
@@ -60,20 +61,35 @@ def filled(cases: Cases) -> list[tuple[Reals, Reals]]:
     return found
 
 
-def turned(
-    cases: Cases, asked: Asked, outcome: Outcome, of: Callable[[Interval], Interval], main: Found
-) -> frozenset[bool]:
-    """Whether censored cases could turn the outcome; both where Monte-Carlo error leaves it open."""
-    always, never = False, True
-    for bases, values in filled(cases):
-        found = ratio(cases, bases, values, asked.seed + " filled")
-        if found is None:
-            continue
-        interval = of(found[1])
-        possible = outcomes(outcome, interval)
-        always |= not (possible & main.possible)
-        never &= possible | main.possible == {main.outcome}
-    return frozenset(answer for answer, ruled_out in ((True, never), (False, always)) if not ruled_out)
+def otherwise(cases: Cases, statistic: str, seed: str, of: Callable[[Interval], Interval]) -> list[Interval]:
+    """The intervals of a statistic when cases without a number had any that they may have had."""
+    if statistic in ("ratio", "reduction_percent"):
+        found = [ratio(cases, *numbers, seed + " filled") for numbers in filled(cases)]
+        return [of(one[1]) for one in found if one is not None]
+    seen = cases.values[~np.isnan(cases.values)]
+    if not cases.unended.any() or len(seen) == 0:
+        return []
+    least, far, middle = min(0.0, seen.min()), np.abs(seen).max() * len(seen), seen.mean()
+    ends = {
+        "deviation": [(middle, middle), (far, far)],
+        "median": [(least, least), (np.inf, np.inf)],
+        "ratio_of_groups": [(least, np.inf), (np.inf, least)],
+    }.get(statistic, [(least, least), (far, far)])
+    found = []
+    for first, second in ends:
+        given = np.where(cases.group == cases.group[0], first, second)
+        found.append(of_all(cases.given(given), statistic, seed + " filled"))
+    anything = (End.exact(-np.inf), End.exact(np.inf))
+    return [anything if one is None else one[1] for one in found]
+
+
+def turned(outcome: Outcome, main: Found, others: list[Interval]) -> frozenset[bool]:
+    """Whether what cases without a number may have given turns an outcome.
+
+    What they may make of it reaches from one interval to the other.
+    """
+    whole = [hull(others)] if others else []
+    return hangs(main.outcome, main.possible, [outcomes(outcome, one) for one in [*others, *whole]])
 
 
 def reduction(ratio: Interval) -> Interval:
@@ -109,7 +125,7 @@ def lower(asked: Asked) -> Found:
     interval = change(found[1])
     estimate = Estimate(100 * (found[0] - 1), found[2], interval, cases.solved_of_all())
     main = Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
-    censored = turned(cases, asked, outcome, change, main)
+    censored = turned(outcome, main, otherwise(cases, "ratio", asked.seed, change))
     return Found(main.outcome, main.possible, estimate, censored=censored)
 
 
@@ -131,35 +147,54 @@ def snapped(number: float, limit: float, size: float) -> float:
 
 def along_sweep(asked: Asked, cases: Cases, is_higher: bool) -> Found:
     """The share of solved queries is higher, or lower, all along a sweep at once."""
-    points = cases.study.sweep_points()
-    places, names = cases.study.sweep
-    curves = []
-    for point in points:
-        at = places[cases.own] == names.index(point)
-        gain = cases.own_solved[at].astype(float) - cases.base_solved[at].astype(float)
-        total, count = sums_by_unit(cases.unit[at], cases.units, gain, np.ones(int(at.sum())))
-        curves.append(np.divide(100 * total, count, out=np.full(cases.units, np.nan), where=count > 0))
-    drawn = np.stack(curves, axis=1)
-    drawn = drawn[~np.isnan(drawn).any(axis=1)]
+    drawn = curves(cases, other=False, own=False)
     if len(drawn) < 2:
         return too_few()
-    sign = 1 if is_higher else -1
+
+    def of_band(drawn: Reals) -> tuple[list[Interval], list[str]]:
+        intervals = band(drawn, asked.seed, (-100, 100))
+        # As it is, as wide, and as narrow, as the band can be.
+        ways = (("at", "at"), ("least", "most"), ("most", "least"))
+        return intervals, [all_along(intervals, is_higher, *ends) for ends in ways]
+
+    intervals, said = of_band(drawn)
+    ways = (True, False) if cases.unended.any() else ()
+    ends = [frozenset(of_band(curves(cases, other=way, own=not way))[1]) for way in ways]
     mean = drawn.mean(axis=0)
-    intervals = band(drawn, asked.seed, (-100, 100))
-
-    def outcome(of_low: str, of_high: str) -> str:
-        ends = [(getattr(low, of_low), getattr(high, of_high)) for low, high in intervals]
-        near = [low if is_higher else -high for low, high in ends]
-        far = [high if is_higher else -low for low, high in ends]
-        if min(near) > 0:
-            return HOLDS
-        return FAILS if min(far) < 0 else SIGN if max(near) > 0 else OPEN
-
-    place = int(np.argmin(sign * mean))
+    place = int(np.argmin(mean if is_higher else -mean))
     estimate = Estimate(float(mean[place]), len(drawn), intervals[place], cases.solved_of_all())
-    # As wide, and as narrow, as the band can be.
-    possible = frozenset(outcome(*ends) for ends in (("at", "at"), ("least", "most"), ("most", "least")))
-    return Found(outcome("at", "at"), possible, estimate)
+    possible = frozenset(said)
+    return Found(said[0], possible, estimate, censored=hangs(said[0], possible, ends))
+
+
+def curves(cases: Cases, *, other: bool, own: bool) -> Reals:
+    """How many points more of a draw's queries are solved than by the other contender, along the sweep.
+
+    What did not end is solved by the other, or by the contender itself, only if so wanted.
+    """
+    places, names = cases.study.sweep
+    assert cases.base is not None
+    found = []
+    for point in cases.study.sweep_points():
+        at = places[cases.own] == names.index(point)
+        solved = [
+            cases.ended_as(rows[at], wanted) for rows, wanted in ((cases.own, own), (cases.base, other))
+        ]
+        gain = solved[0].astype(float) - solved[1].astype(float)
+        total, count = sums_by_unit(cases.unit[at], cases.units, gain, np.ones(int(at.sum())))
+        found.append(np.divide(100 * total, count, out=np.full(cases.units, np.nan), where=count > 0))
+    drawn = np.stack(found, axis=1)
+    return drawn[~np.isnan(drawn).any(axis=1)]
+
+
+def all_along(intervals: list[Interval], is_higher: bool, of_low: str, of_high: str) -> str:
+    """What a band says of a claim that one contender solves more, or less, all along."""
+    ends = [(getattr(low, of_low), getattr(high, of_high)) for low, high in intervals]
+    near = [low if is_higher else -high for low, high in ends]
+    far = [high if is_higher else -low for low, high in ends]
+    if min(near) > 0:
+        return HOLDS
+    return FAILS if min(far) < 0 else SIGN if max(near) > 0 else OPEN
 
 
 def trend(asked: Asked) -> Found:
@@ -210,9 +245,8 @@ def within(asked: Asked) -> Found:
 
     estimate = Estimate(value, n, interval, cases.solved_of_all())
     main = Found(outcome(*(end.at for end in interval)), outcomes(outcome, interval), estimate)
-    if statistic not in ("ratio", "reduction_percent"):
-        return main
-    censored = turned(cases, asked, outcome, reduction if statistic == "reduction_percent" else itself, main)
+    of = reduction if statistic == "reduction_percent" else itself
+    censored = turned(outcome, main, otherwise(cases, statistic, asked.seed, of))
     return Found(main.outcome, main.possible, estimate, censored=censored)
 
 

@@ -146,5 +146,5 @@ def test_a_simultaneous_band_is_wider_than_an_interval_and_allows_for_draws_that
 
 
 def test_no_value_is_no_resample() -> None:
-    assert percentile(np.array([np.nan, np.nan]), 2000) is None
+    assert percentile(np.array([np.nan, np.nan])) is None
     assert bootstrap(ratio_of_sums(np.ones(1), np.ones(1)), 1, "one unit") is None

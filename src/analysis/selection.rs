@@ -83,9 +83,7 @@ impl Case<'_> {
 
     /// Whether some side did not come to an end: what it would have given is not known.
     pub fn is_unended(&self) -> bool {
-        let is_cut =
-            |row: &Row| matches!(row.status, Status::BudgetSpent | Status::TimeSpent | Status::Crashed);
-        is_cut(self.row) || self.base.is_some_and(is_cut)
+        is_unended(self.row) || self.base.is_some_and(is_unended)
     }
 
     /// Whether everyone who is compared solved it.
@@ -300,6 +298,11 @@ pub fn posed(run: &Run<'_>, group: &str) -> [usize; 2] {
     [queries.values().filter(|is_posed| **is_posed).count(), queries.len()]
 }
 
+/// Whether a trial did not come to an end: what it would have given is not known.
+pub fn is_unended(row: &Row) -> bool {
+    matches!(row.status, Status::BudgetSpent | Status::TimeSpent | Status::Crashed)
+}
+
 /// Every case of every draw.
 pub fn cases<'d, 'e>(draws: &'d [Draw<'e>]) -> impl Iterator<Item = &'d Case<'e>> {
     draws.iter().flat_map(|draw| &draw.cases)
@@ -359,6 +362,17 @@ pub fn filled(selection: &Selection<'_>, draws: &[Draw<'_>]) -> Vec<Vec<Vec<(f64
         case.pair().or_else(|| case.is_censored().then(filled))
     };
     [1.0, -1.0].map(|unknown| by_draw(draws, |case| number(case, unknown))).to_vec()
+}
+
+/// The draws as they would be if each case without an end had given the number that `given` says of its draw.
+pub fn ended<'e>(draws: &[Draw<'e>], given: impl Fn(&Draw<'e>) -> f64) -> Vec<Draw<'e>> {
+    let of_draw = |draw: &Draw<'e>| {
+        let number = given(draw);
+        let ended =
+            |case: &Case<'e>| if case.is_unended() { Case { value: Some(number), ..*case } } else { *case };
+        Draw { group: draw.group, cases: draw.cases.iter().map(ended).collect() }
+    };
+    draws.iter().map(of_draw).collect()
 }
 
 /// The trial whose number, as `of` takes it, is nearest to `value`.

@@ -3,7 +3,7 @@
 //! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
 
 use super::found::Narrows;
-use super::selection::{Case, Draw, by_draw, cases};
+use super::selection::{Case, Draw, Selection, by_draw, cases, ended, unended};
 use super::verdict::Estimate as VerdictEstimate;
 use base::seed;
 use schemars::JsonSchema;
@@ -158,6 +158,36 @@ impl OfAll {
             Self::Deviation => pooled::deviation(&values, plan),
             _ => pooled::ratio_of_sums(&sums(), plan),
         }
+    }
+
+    /// The intervals that it has when cases without a number had any that they may have had: in `pairs`, or else without an end and
+    /// given the least and the greatest; none if all have one.
+    pub fn otherwise(self, selection: &Selection<'_>, draws: &[Draw<'_>], plan: Resampling) -> Vec<Interval> {
+        if self.is_paired() {
+            let pairs = super::selection::filled(selection, draws).into_iter();
+            return pairs
+                .filter_map(|pairs| self.of_pairs(&pairs, plan))
+                .map(|found| found.interval)
+                .collect();
+        }
+        let seen: Vec<f64> = cases(draws).filter_map(|case| case.value).collect();
+        if seen.is_empty() || unended(draws) == 0 {
+            return Vec::new();
+        }
+        let far = seen.iter().fold(0.0, |most: f64, value| most.max(value.abs())) * seen.len() as f64;
+        let least = seen.iter().copied().fold(0.0, f64::min);
+        let middle = summary::mean(&seen).unwrap_or_default();
+        let [low, high] = match self {
+            Self::Deviation => [[middle; 2], [far; 2]],
+            Self::Median => [[least; 2], [f64::INFINITY; 2]],
+            // What lowers a ratio is a lower first group and a higher second one.
+            Self::RatioOfGroups => [[least, f64::INFINITY], [f64::INFINITY, least]],
+            _ => [[least; 2], [far; 2]],
+        };
+        let first = draws[0].group;
+        let given = |ends: [f64; 2]| ended(draws, |draw| ends[usize::from(draw.group != first)]);
+        let anything = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
+        [low, high].map(|ends| self.of(&given(ends), plan).map_or(anything, |found| found.interval)).to_vec()
     }
 
     /// That of pairs by draw, the other contender's number first; draws that all have the same ratio leave an interval with width.

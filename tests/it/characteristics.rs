@@ -3,6 +3,7 @@
 //! Each scenario draws records, and what a paper prints, from distributions that are known, and judges the claim as any
 //! other. The rates stand in `docs/OPERATING_CHARACTERISTICS.md`; `REPLAN_WRITE=1` writes them, `REPLAN_PAPERS` draws more.
 
+mod censored;
 mod numbers;
 mod page;
 mod scenario;

@@ -81,6 +81,8 @@ struct Tally<'e> {
     wrong: Option<&'e Row>,
     /// Trials without an end and without a number, which could be either.
     unended: usize,
+    /// Trials that are not the same, of others.
+    broken: usize,
 }
 
 impl Equals<'_> {
@@ -99,14 +101,16 @@ impl Equals<'_> {
             for case in &draw.cases {
                 let pair = self.pair(run, case);
                 let is_known = pair.is_some_and(|(_, own)| own.is_finite());
-                all.unended += usize::from(!is_known && case.is_unended());
+                let is_cut = !is_known && case.is_unended();
+                all.unended += usize::from(is_cut);
                 let Some((truth, own)) = pair else { continue };
                 let apart = (own - truth).abs();
                 let is_same = apart <= self.within + SAME * truth.abs();
                 count = [count[0] + f64::from(u8::from(is_same)), count[1] + 1.0];
+                all.broken += usize::from(!is_same && !is_cut);
                 all.worst = all.worst.max(apart);
                 all.sums = [all.sums[0] + own, all.sums[1] + truth];
-                all.wrong = all.wrong.or((!is_same).then_some(case.row));
+                all.wrong = all.wrong.or((!is_same && !is_cut).then_some(case.row));
             }
             if count[1] > 0.0 {
                 all.counts.push(count);
@@ -126,15 +130,13 @@ impl Criterion for Equals<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let Some(run) = self.of.run(evidence) else { return Found::default() };
         let draws = self.of.draws(evidence);
-        let Tally { counts, worst, sums, wrong, unended } = self.tally(run, &draws);
+        let Tally { counts, worst, sums, wrong, unended, broken } = self.tally(run, &draws);
         let [same, all] = counts.iter().fold([0.0, 0.0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
         let outcome = match (all > 0.0, same == all) {
             (false, _) => Outcome::Open,
             (true, true) => Outcome::Holds,
             (true, false) => Outcome::Fails,
         };
-        // That something is wrong hangs on them only if nothing else is.
-        let is_turned = outcome == Outcome::Holds || all - same <= unended as f64;
         let (metric, truth) = (self.metric.label.to_lowercase(), self.truth_said());
         let whole = 100.0 * (sums[0] / sums[1] - 1.0);
         let apart = if whole.is_finite() {
@@ -157,7 +159,8 @@ impl Criterion for Equals<'_> {
             trial,
             because,
             units: "trials",
-            censored: if is_turned { unended } else { 0 },
+            // That something is wrong hangs on them only if nothing else is.
+            censored: if broken > 0 { 0 } else { unended },
             ..Found::default()
         }
     }

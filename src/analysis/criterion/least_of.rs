@@ -10,18 +10,17 @@ use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::found::Found;
 use crate::analysis::inclusion::Inclusion;
 use crate::analysis::metric::Metric;
-use crate::analysis::selection::Selection;
+use crate::analysis::selection::{Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::LEVEL;
+use crate::analysis::statistic::plan;
 use crate::analysis::verdict::Estimate;
-use base::seed;
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::bootstrap::{self, Resampling};
 use stats::paired::EQUAL;
 use stats::summary::median;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use study::record::{Row, Status};
 
 /// The registry's entry.
@@ -63,7 +62,7 @@ struct LeastOf<'a> {
     pairs: Vec<(String, String)>,
     by_percent: f64,
     inclusions: Vec<Inclusion>,
-    seed: u64,
+    plan: Resampling,
 }
 
 /// Fewest seeds of two contenders that draw of which medians decide: of 4 each, all of one are below all of the other's by
@@ -73,6 +72,8 @@ const FEWEST_SEEDS: usize = 4;
 /// One contender on one problem.
 struct Side {
     values: Vec<f64>,
+    /// Those of trials that came to an end.
+    ended: Vec<f64>,
     median: f64,
     interval: [f64; 2],
 }
@@ -121,8 +122,8 @@ impl<'a> LeastOf<'a> {
             Inclusion::of(of.study, context.point, low, high)
         };
         let inclusions = pairs.iter().map(said).collect::<Result<_, _>>()?;
-        let seed = seed::derive(0, &context.seed_names());
-        Ok(Self { of, metric, pairs, by_percent: settings.by_percent, inclusions, seed })
+        let plan = plan(&context.seed_names());
+        Ok(Self { of, metric, pairs, by_percent: settings.by_percent, inclusions, plan })
     }
 
     /// Below this a ratio is what the claim says.
@@ -130,48 +131,52 @@ impl<'a> LeastOf<'a> {
         1.0 - self.by_percent / 100.0
     }
 
-    /// The metric of every trial; infinite where it failed.
-    fn values(&self, run: &Run<'_>, problem: &str, contender: &str) -> Vec<f64> {
+    /// The metric of every trial; infinite where it failed, and `unended` where it did not come to an end.
+    fn values(&self, run: &Run<'_>, problem: &str, contender: &str, unended: Option<f64>) -> Vec<f64> {
         let value = |row: &&Row| match (row.status, run.value(row, self.metric)) {
             // The clock is read for some seeds only: one that was not timed has not failed.
             (_, None) if self.metric.is_clock() => None,
             (Status::Solved, Some(value)) => Some(value),
+            (_, _) if is_unended(row) => unended,
             (_, _) => Some(f64::INFINITY),
         };
         self.of.rows(run, problem, contender).iter().filter_map(value).collect()
     }
 
     /// What was drawn independently: seeds, or the repeated readings of the clock where there is one seed.
-    fn units(&self, run: &Run<'_>, problem: &str, contender: &str) -> Vec<f64> {
-        let values = self.values(run, problem, contender);
+    fn units(&self, run: &Run<'_>, problem: &str, contender: &str, values: &[f64]) -> Vec<f64> {
         if !self.metric.is_clock() || values.len() > 1 {
-            return values;
+            return values.to_vec();
         }
         let rows = self.of.rows(run, problem, contender);
         rows.iter().flat_map(|row| run.repeats(row, self.metric)).collect()
     }
 
-    /// Every contender on `problem`, so that each bootstrap is made once.
-    fn sides(&self, run: &Run<'_>, problem: &str) -> BTreeMap<&str, Side> {
+    /// Every contender on `problem`, so that each bootstrap is made once: those claimed to be lower (0), then the others (1).
+    fn sides(&self, run: &Run<'_>, problem: &str, unended: [f64; 2]) -> BTreeMap<(usize, &str), Side> {
         let mut sides = BTreeMap::new();
-        for contender in self.pairs.iter().flat_map(|(low, high)| [low, high]) {
-            if sides.contains_key(contender.as_str()) {
+        for (place, contender) in self.pairs.iter().flat_map(|(low, high)| [(0, low), (1, high)]) {
+            if sides.contains_key(&(place, contender.as_str())) {
                 continue;
             }
-            let values = self.values(run, problem, contender);
+            let values = self.values(run, problem, contender, Some(unended[place]));
             if let Some(median) = median(&values) {
-                let interval = self.interval(&self.units(run, problem, contender));
-                sides.insert(contender.as_str(), Side { values, median, interval });
+                let units = self.units(run, problem, contender, &values);
+                let found = bootstrap::median(&units, self.plan).map(|found| found.interval);
+                let interval = found.map_or([units[0]; 2], |found| [found.low, found.high]);
+                let ended = self.values(run, problem, contender, None);
+                sides.insert((place, contender.as_str()), Side { values, ended, median, interval });
             }
         }
         sides
     }
 
-    /// Every comparison that both sides were measured for.
-    fn compared(&self, run: &Run<'_>) -> Vec<Compared> {
+    /// Every comparison that both sides were measured for, with what trials without an end would have given to those that are
+    /// claimed to be lower and to the others.
+    fn compared(&self, run: &Run<'_>, unended: [f64; 2]) -> Vec<Compared> {
         let mut all = Vec::new();
         for problem in &self.of.groups {
-            let sides = self.sides(run, problem);
+            let sides = self.sides(run, problem, unended);
             let compared =
                 (0..self.pairs.len()).filter_map(|index| self.compare(run, &sides, problem, index));
             all.extend(compared);
@@ -179,15 +184,39 @@ impl<'a> LeastOf<'a> {
         all
     }
 
+    /// What the comparisons say, if they are all that are asked for.
+    fn outcome(&self, all: &[Compared]) -> Outcome {
+        let is_complete = all.len() == self.pairs.len() * self.of.groups.len();
+        if is_complete { outcome(all, self.limit()) } else { Outcome::Open }
+    }
+
+    /// How many trials without an end could turn what was found: they are given 0 for the claim, and are infinite against it,
+    /// then the other way round.
+    fn censored(&self, run: &Run<'_>, found: Outcome) -> usize {
+        let labels: BTreeSet<&String> = self.pairs.iter().flat_map(|(low, high)| [low, high]).collect();
+        let in_group = |group: &String| {
+            labels
+                .iter()
+                .map(|label| {
+                    self.of.rows(run, group, label).into_iter().filter(|row| is_unended(row)).count()
+                })
+                .sum::<usize>()
+        };
+        let unended = self.of.groups.iter().map(in_group).sum();
+        let mut ends = [[0.0, f64::INFINITY], [f64::INFINITY, 0.0]].into_iter();
+        let is_turned = unended > 0 && ends.any(|ends| self.outcome(&self.compared(run, ends)) != found);
+        if is_turned { unended } else { 0 }
+    }
+
     fn compare(
         &self,
         run: &Run<'_>,
-        sides: &BTreeMap<&str, Side>,
+        sides: &BTreeMap<(usize, &str), Side>,
         problem: &str,
         index: usize,
     ) -> Option<Compared> {
         let (lower, higher) = &self.pairs[index];
-        let (one, other) = (sides.get(lower.as_str())?, sides.get(higher.as_str())?);
+        let (one, other) = (sides.get(&(0, lower.as_str()))?, sides.get(&(1, higher.as_str()))?);
         let ([from, to], inclusion) = ([one.interval, other.interval], self.inclusions[index]);
         let first = self.of.rows(run, problem, lower).into_iter().next();
         Some(Compared {
@@ -199,17 +228,8 @@ impl<'a> LeastOf<'a> {
             ends: [ratio(from[0], to[1]), ratio(from[1], to[0])],
             trials: [one.values.len(), other.values.len()],
             inclusion,
-            keeps: inclusion.is_kept(&one.values, &other.values),
+            keeps: inclusion.is_kept(&one.ended, &other.ended),
         })
-    }
-
-    /// Bootstrap interval of the median over seeds; the value itself where there is one.
-    fn interval(&self, values: &[f64]) -> [f64; 2] {
-        let plan = Resampling { resamples: 500, level: LEVEL, seed: self.seed };
-        match bootstrap::median(values, plan) {
-            Some(found) => [found.interval.low, found.interval.high],
-            None => [values[0]; 2],
-        }
     }
 
     fn because(&self, all: &[Compared]) -> Vec<String> {
@@ -231,10 +251,10 @@ impl<'a> LeastOf<'a> {
     }
 }
 
-/// What comparisons say whose ratios are all claimed to be below `limit`; nothing if one breaks a theorem.
+/// What comparisons say whose ratios are all claimed to be below `limit`; that one breaks a theorem speaks against all of it.
 fn outcome(all: &[Compared], limit: f64) -> Outcome {
     if all.iter().any(|one| !one.keeps) {
-        return Outcome::Open;
+        return Outcome::Fails;
     }
     if all.iter().all(|one| one.ends[1] < limit) {
         return Outcome::Holds;
@@ -277,9 +297,8 @@ fn theorem(all: &[Compared]) -> Option<String> {
 impl Criterion for LeastOf<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let Some(run) = self.of.run(evidence) else { return Found::default() };
-        let all = self.compared(run);
-        let is_complete = all.len() == self.pairs.len() * self.of.groups.len();
-        let outcome = if is_complete { outcome(&all, self.limit()) } else { Outcome::Open };
+        let all = self.compared(run, [f64::INFINITY; 2]);
+        let outcome = self.outcome(&all);
         let largest = all.iter().max_by(|a, b| a.ratio.total_cmp(&b.ratio));
         let ours = largest.map(|one| {
             let what = format!(
@@ -292,10 +311,12 @@ impl Criterion for LeastOf<'_> {
             let interval = is_finite.then_some(one.ends.map(|end| 100.0 * end));
             Estimate { interval, ..Estimate::bare(100.0 * one.ratio, what, one.trials[0].max(one.trials[1])) }
         });
+        let shown = all.iter().find(|one| !one.keeps).or(largest);
         Found {
             outcome: Some(outcome),
             ours,
-            trial: largest.and_then(|one| one.trial.clone()),
+            trial: shown.and_then(|one| one.trial.clone()),
+            censored: self.censored(run, outcome),
             because: self.because(&all),
             limits: vec![100.0 * self.limit()],
             units: "seeds",

@@ -5,7 +5,7 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, cases, is_unended, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, how, narrows, needs, plan, turned};
 use crate::analysis::verdict::Estimate;
@@ -129,23 +129,39 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// The curve of each draw: how many points more of its queries are solved than by the other, along the sweep.
-    fn curves(&self, draws: &[Draw<'_>]) -> Vec<Vec<f64>> {
+    /// The curve of each draw: how many points more of its queries are solved than by the other, along the sweep. What did not
+    /// end is not solved or, if so wanted, is solved on the one side alone.
+    fn curves(&self, draws: &[Draw<'_>], unended: [bool; 2]) -> Vec<Vec<f64>> {
         let points = self.of.study.sweep_points();
+        let is_solved = |row: &Row, unended: bool| row.is_solved() || unended && is_unended(row);
         let at = |draw: &Draw<'_>, point: &SweepPoint| {
             let draw = draw.at(&point.key);
-            let base = draw.percent(|case| case.base.is_some_and(Row::is_solved))?;
-            Some(draw.percent(|case| case.row.is_solved())? - base)
+            let base = draw.percent(|case| case.base.is_some_and(|base| is_solved(base, unended[0])))?;
+            Some(draw.percent(|case| is_solved(case.row, unended[1]))? - base)
         };
         draws.iter().filter_map(|draw| points.iter().map(|point| at(draw, point)).collect()).collect()
+    }
+
+    fn band(&self, draws: &[Draw<'_>], unended: [bool; 2]) -> Option<Band> {
+        sup_t_between(&self.curves(draws, unended), [-100.0, 100.0], self.plan)
+    }
+
+    /// How many cases without an end could turn what was found along the sweep: as if the other alone solved them, then this one.
+    fn unended_along(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
+        let unended = selection::unended(draws);
+        let is_other = |one: [bool; 2]| {
+            self.band(draws, one).is_some_and(|found| all_along(self.way, &found.band).0 != outcome)
+        };
+        let is_turned = unended > 0 && [[true, false], [false, true]].into_iter().any(is_other);
+        if is_turned { unended } else { 0 }
     }
 
     /// Along the sweep.
     fn along_sweep(&self, evidence: &Evidence<'_>) -> Found {
         let draws = self.of.draws(evidence);
-        let curves = self.curves(&draws);
-        let Some(Band { mean, band, .. }) = sup_t_between(&curves, [-100.0, 100.0], self.plan) else {
-            return Found::too_few(curves.len(), FEWEST_DRAWS);
+        let units = self.curves(&draws, [false; 2]).len();
+        let Some(Band { mean, band, .. }) = self.band(&draws, [false; 2]) else {
+            return Found::too_few(units, FEWEST_DRAWS);
         };
         let points = self.of.study.sweep_points();
         let at = |index: usize| name::sweep(&points[index].key);
@@ -161,19 +177,20 @@ impl<'a> Lower<'a> {
             band[least].low,
             band[least].high,
             at(least),
-            curves.len(),
+            units,
             band.len(),
         );
         let what = format!("least mean difference in points, at {}, simultaneous 95 % band", at(least));
         let case = cases(&draws).find(|case| case.row.key.sweep == points[least].key);
         Found {
             outcome: Some(outcome),
-            ours: Some(Estimate::new(mean[least], band[least], what, curves.len()).of_cases(solved(&draws))),
+            ours: Some(Estimate::new(mean[least], band[least], what, units).of_cases(solved(&draws))),
             trial: self.of.trial(evidence, case),
             because: vec![because],
             limits: vec![0.0],
             units: "draws",
-            needs: needs(curves.len()),
+            censored: self.unended_along(&draws, outcome),
+            needs: needs(units),
             ..Found::default()
         }
     }

@@ -179,7 +179,8 @@ impl Criterion for OnEvery<'_> {
             trial: shown.map(|(_, row)| run.trial(row)),
             because: std::iter::once(because).chain(left).collect(),
             units: "cases",
-            censored: if outcome == Outcome::Fails { 0 } else { self.unended(&draws) },
+            // One counterexample is enough; that cases are equal is not.
+            censored: if broken > 0 { 0 } else { self.unended(&draws) },
             ..Found::default()
         }
     }

@@ -129,14 +129,16 @@ impl<'a> Within<'a> {
 
     /// How many cases without a number could turn what was found.
     fn censored(&self, draws: &[Draw<'_>], outcome: Outcome) -> usize {
-        if !self.statistic.is_paired() {
-            return 0;
+        let others = self.statistic.otherwise(&self.of, draws, self.plan);
+        // What they may make of it reaches from the one to the other: two that both fail may do so on either side.
+        let both = |one: Interval, two: Interval| Interval::new(one.low.min(two.low), one.high.max(two.high));
+        let whole = others.iter().copied().reduce(both);
+        let turned = others.into_iter().chain(whole).any(|interval| self.outcome(interval) != outcome);
+        match turned {
+            false => 0,
+            true if self.statistic.is_paired() => selection::censored(draws),
+            true => selection::unended(draws),
         }
-        let turned = selection::filled(&self.of, draws).into_iter().any(|pairs| {
-            let found = self.statistic.of_pairs(&pairs, self.plan);
-            found.is_some_and(|found| self.outcome(found.interval) != outcome)
-        });
-        if turned { selection::censored(draws) } else { 0 }
     }
 }
 

@@ -384,6 +384,6 @@ fn least_of() -> Vec<Scenario> {
         least("underpowered", 3, 1.0, plain, never_firm()),
         least("fitted", MANY, 0.5, Made::Fitted, never_reproduced()),
         least("searched", MANY, 0.5, Made::Searched, never_reproduced()),
-        least("censored", MANY, 0.5, plain, Bounds { false_for: Some(0.0), ..none() }),
+        least("censored", MANY, 0.5, plain, never_firm()),
     ]
 }

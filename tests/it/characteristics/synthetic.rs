@@ -86,10 +86,16 @@ fn study(made: Made) -> String {
             "[[contender]]\nlabel = \"{label}\"\nplanner = \"astar\"\nsettings = {{ {settings}ties = \"fifo\" }}\n"
         )
     };
+    let group = |label: &str| {
+        format!(
+            "[[problems]]\nlabel = \"{label}\"\nfamily = \"random_cells\"\nreplicates = 1_000\nsettings = {{ size_cells = [9, 9], \
+             start = [0, 0], goal = [8, 8], blocked_share = 0.2, corner_rule = \"allow\" }}\n"
+        )
+    };
     let mut text = format!(
-        "paper = \"synthetic\"\nquestion = \"None.\"\nseed = 1\n{head}[budget]\nexpansions = 1_000\n[[problems]]\nlabel = \
-         \"map\"\nfamily = \"random_cells\"\nreplicates = 1_000\nsettings = {{ size_cells = [9, 9], start = [0, 0], goal = \
-         [8, 8], blocked_share = 0.2, corner_rule = \"allow\" }}\n{}{}",
+        "paper = \"synthetic\"\nquestion = \"None.\"\nseed = 1\n{head}[budget]\nexpansions = 1_000\n{}{}{}{}",
+        group("map"),
+        group("other"),
         contender("A"),
         contender("B")
     );
@@ -146,8 +152,13 @@ pub struct Sample {
 impl Sample {
     /// Begins the next draw.
     pub fn draw(&mut self) {
+        self.draw_on("map");
+    }
+
+    /// Begins the next draw, of one of the two groups.
+    pub fn draw_on(&mut self, group: &str) {
         let draw = self.on.as_ref().map_or(0, |on| on.draw + 1);
-        let key = DrawKey { group: "map".into(), draw, reading: ReadingKey::default() };
+        let key = DrawKey { group: group.into(), draw, reading: ReadingKey::default() };
         self.on = Some(Arc::new(key));
     }
 

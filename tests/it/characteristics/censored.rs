@@ -1,0 +1,119 @@
+//! Trials that did not come to an end: what they would have given decides, so nothing is decided unless it does not matter.
+
+use super::synthetic::End::{At, NoPath, Spent};
+use super::synthetic::{End, Made, SWEEP, Sample, Synthetic};
+
+/// The class of a claim by `criterion` after `records`.
+fn class(criterion: &str, settings: &str, made: Made, records: Sample) -> &'static str {
+    let of = "study = \"drawn\", problems = [\"map\"]";
+    let settings = settings.replace("OF", of);
+    let claim = format!(
+        "[[claim]]\nid = \"asked\"\nat = \"here\"\nprinted = \"0\"\n[claim.check.{criterion}]\n{settings}\n"
+    );
+    Synthetic::new(&claim, made).judged(records.records(), &[]).name()
+}
+
+/// A draw for each of these pairs of ends of A and B.
+fn pairs(all: &[(usize, End, End)]) -> Sample {
+    let mut sample = Sample::default();
+    for (count, own, other) in all {
+        for _ in 0..*count {
+            sample.draw();
+            sample.trial("A", *own);
+            sample.trial("B", *other);
+        }
+    }
+    sample
+}
+
+#[test]
+fn budgets_that_are_spent_do_not_make_a_median_infinite() {
+    let of = |all: &[(usize, End, End)]| {
+        let settings = "of = { OF, metric = \"path_cost_cells\" }\nlower = \"A\"\nhigher = [\"B\"]";
+        class("least_of", settings, Made::Plainly, pairs(all))
+    };
+    let rest = (9, At(50.0), At(100.0));
+    assert_eq!(of(&[(30, NoPath, At(100.0)), rest]), "not reproduced");
+    assert_eq!(of(&[(30, Spent, At(100.0)), rest]), "undecided");
+    assert_eq!(of(&[(30, At(50.0), Spent), rest]), "undecided", "nor does it count for a claim");
+    assert_eq!(of(&[(2, Spent, At(100.0)), rest, rest]), "reproduced", "whatever they would have given");
+    assert_eq!(of(&[(2, Spent, At(50.0)), (20, At(100.0), At(50.0))]), "not reproduced");
+}
+
+#[test]
+fn along_a_sweep_what_did_not_end_might_have_been_solved() {
+    let of = |own: End, other: End| {
+        let mut sample = Sample::default();
+        for _ in 0..12 {
+            sample.draw();
+            for (query, value) in (0..5).flat_map(|query| SWEEP.map(|value| (query, value))) {
+                sample.query("A", Some(query), Some(value), if query == 0 { At(1.0) } else { own });
+                sample.query("B", Some(query), Some(value), if query == 0 { At(1.0) } else { other });
+            }
+        }
+        let settings = "is = \"higher\"\nof = { OF, contender = \"A\", against = \"B\" }";
+        class("lower", settings, Made::Swept, sample)
+    };
+    assert_eq!([of(At(1.0), NoPath), of(NoPath, At(1.0))], ["reproduced", "not reproduced"]);
+    assert_eq!([of(At(1.0), Spent), of(Spent, At(1.0))], ["undecided"; 2]);
+}
+
+#[test]
+fn a_statistic_of_one_contender_hangs_on_what_did_not_end() {
+    let within = |statistic: &str, accepted: &str, all: &[(usize, End)]| {
+        let of = "of = { OF, contender = \"A\", metric = \"path_cost_cells\" }";
+        let settings = format!("{of}\nstatistic = \"{statistic}\"\naccepted = {accepted}");
+        let all: Vec<_> = all.iter().map(|(count, end)| (*count, *end, At(1.0))).collect();
+        class("within", &settings, Made::Plainly, pairs(&all))
+    };
+    let (some, others) = ((15, At(90.0)), (15, At(110.0)));
+    for (statistic, accepted) in [("mean", "[90.0, 110.0]"), ("deviation", "[5.0, 15.0]")] {
+        assert_eq!(within(statistic, accepted, &[some, others]), "reproduced", "{statistic}");
+        assert_eq!(within(statistic, accepted, &[some, others, (1, Spent)]), "undecided", "{statistic}");
+    }
+    let median = |spent| within("median", "[80.0, 120.0]", &[some, others, (spent, Spent)]);
+    assert_eq!([median(0), median(2), median(20)], ["reproduced", "reproduced", "undecided"]);
+    // Below or above: neither is within what is accepted, and what lies between may be.
+    let far = |spent| within("mean", "[100.0, 120.0]", &[(30, At(90.0)), (spent, Spent)]);
+    assert_eq!([far(0), far(5)], ["not reproduced", "undecided"]);
+    assert_eq!(within("mean", "[0.0, 40.0]", &[some, others, (1, Spent)]), "not reproduced");
+}
+
+#[test]
+fn a_ratio_of_two_groups_hangs_on_what_did_not_end() {
+    let ratio = |spent: usize| {
+        let mut sample = Sample::default();
+        for (group, value) in [("map", 100.0), ("other", 50.0)] {
+            for draw in 0..30 {
+                sample.draw_on(group);
+                sample.trial("A", if draw < spent { Spent } else { At(value) });
+            }
+        }
+        let of = "of = { study = \"drawn\", problems = [\"map\", \"other\"], contender = \"A\", metric = \"path_cost_cells\" }";
+        let settings = format!("{of}\nstatistic = \"ratio_of_groups\"\naccepted = [1.5, 2.5]");
+        class("within", &settings, Made::Plainly, sample)
+    };
+    assert_eq!([ratio(0), ratio(2), ratio(20)], ["reproduced", "reproduced", "undecided"]);
+}
+
+#[test]
+fn equal_cases_and_one_that_did_not_end_are_no_counterexample() {
+    let of = |all: &[(usize, End, End)]| {
+        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        class("on_every", &format!("{of}\nthat = \"lower\""), Made::Plainly, pairs(all))
+    };
+    let (equal, cut, broken) = ((9, At(5.0), At(5.0)), (1, Spent, At(5.0)), (1, At(6.0), At(5.0)));
+    assert_eq!([of(&[equal]), of(&[equal, broken, cut])], ["not reproduced"; 2]);
+    assert_eq!(of(&[equal, cut]), "undecided");
+}
+
+#[test]
+fn what_is_wrong_is_wrong_however_many_others_did_not_end() {
+    let of = |all: &[(usize, End, End)]| {
+        let of = "of = { OF, contender = \"A\", against = \"B\", metric = \"path_cost_cells\" }";
+        class("equals", of, Made::Plainly, pairs(all))
+    };
+    let (same, cut, wrong) = ((9, At(5.0), At(5.0)), (2, Spent, At(5.0)), (1, At(6.0), At(5.0)));
+    assert_eq!([of(&[same]), of(&[same, cut])], ["reproduced", "undecided"]);
+    assert_eq!([of(&[same, wrong]), of(&[same, wrong, cut])], ["not reproduced"; 2]);
+}
