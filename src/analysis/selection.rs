@@ -383,7 +383,17 @@ pub fn nearest(
     of: impl Fn(&Case<'_>) -> Option<f64>,
     value: f64,
 ) -> Option<String> {
-    let apart = cases(draws).filter_map(|case| Some((case, (of(case)? - value).abs())));
-    let nearest = apart.min_by(|a, b| a.1.total_cmp(&b.1));
-    selection.trial(evidence, nearest.map(|(case, _)| case))
+    least(selection, evidence, draws, |case| of(case).map(|number| (number - value).abs()))
+}
+
+/// The trial whose number, as `of` takes it, is the least; the first of equal ones.
+pub fn least(
+    selection: &Selection<'_>,
+    evidence: &Evidence<'_>,
+    draws: &[Draw<'_>],
+    of: impl Fn(&Case<'_>) -> Option<f64>,
+) -> Option<String> {
+    let numbers = cases(draws).filter_map(|case| Some((case, of(case)?)));
+    let least = numbers.min_by(|a, b| a.1.total_cmp(&b.1));
+    selection.trial(evidence, least.map(|(case, _)| case))
 }

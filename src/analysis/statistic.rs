@@ -2,8 +2,10 @@
 //!
 //! What was drawn independently is the unit: intervals resample whole draws with all that was asked of them.
 
+use super::evidence::Run;
 use super::found::Narrows;
-use super::selection::{Case, Draw, Selection, by_draw, cases, ended, unended};
+use super::metric::Metric;
+use super::selection::{Case, Draw, Selection, by_draw, cases, ended, is_unended, unended};
 use super::verdict::Estimate as VerdictEstimate;
 use base::seed;
 use schemars::JsonSchema;
@@ -16,7 +18,7 @@ use stats::proportion::{clopper_pearson, mean_of_agreed};
 use stats::summary;
 pub(super) use stats::summary::{mean, median, quantile_type7 as quantile};
 use std::collections::BTreeMap;
-use study::record::Row;
+use study::record::{Row, Status};
 
 /// Level of every interval.
 pub const LEVEL: f64 = 0.95;
@@ -49,6 +51,17 @@ pub fn needs(draws: usize) -> Option<usize> {
 /// A bootstrap as every verdict makes it, with the stream of draws that belongs to `names`.
 pub(super) fn plan(names: &[&str]) -> Resampling {
     Resampling { resamples: 2000, level: LEVEL, seed: seed::derive(0, names) }
+}
+
+/// A metric of a trial as medians take it: infinite where the trial failed, `unended` where it did not come to an end.
+pub fn or_infinite(run: &Run<'_>, row: &Row, metric: &Metric, unended: Option<f64>) -> Option<f64> {
+    match (row.status, run.value(row, metric)) {
+        // The clock is read for some seeds only: one that was not timed has not failed.
+        (_, None) if metric.is_clock() => None,
+        (Status::Solved, Some(value)) => Some(value),
+        (_, _) if is_unended(row) => unended,
+        (_, _) => Some(f64::INFINITY),
+    }
 }
 
 /// What one draw gives.

@@ -12,7 +12,7 @@ use crate::analysis::inclusion::Inclusion;
 use crate::analysis::metric::Metric;
 use crate::analysis::selection::{Selection, is_unended};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::plan;
+use crate::analysis::statistic::{or_infinite, plan};
 use crate::analysis::verdict::Estimate;
 use base::settings::{Accepted, Faults, SettingsError};
 use schemars::JsonSchema;
@@ -21,7 +21,7 @@ use stats::bootstrap::{self, Resampling};
 use stats::paired::EQUAL;
 use stats::summary::median;
 use std::collections::{BTreeMap, BTreeSet};
-use study::record::{Row, Status};
+use study::record::Row;
 
 /// The registry's entry.
 pub static ENTRY: Entry = Entry {
@@ -133,13 +133,7 @@ impl<'a> LeastOf<'a> {
 
     /// The metric of every trial; infinite where it failed, and `unended` where it did not come to an end.
     fn values(&self, run: &Run<'_>, problem: &str, contender: &str, unended: Option<f64>) -> Vec<f64> {
-        let value = |row: &&Row| match (row.status, run.value(row, self.metric)) {
-            // The clock is read for some seeds only: one that was not timed has not failed.
-            (_, None) if self.metric.is_clock() => None,
-            (Status::Solved, Some(value)) => Some(value),
-            (_, _) if is_unended(row) => unended,
-            (_, _) => Some(f64::INFINITY),
-        };
+        let value = |row: &&Row| or_infinite(run, row, self.metric, unended);
         self.of.rows(run, problem, contender).iter().filter_map(value).collect()
     }
 

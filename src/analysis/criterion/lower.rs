@@ -5,7 +5,7 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, cases, is_unended, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, is_unended, solved};
 use crate::analysis::selection_spec::SelectionSpec;
 use crate::analysis::statistic::{FEWEST_DRAWS, OfAll, how, narrows, needs, plan, turned};
 use crate::analysis::verdict::Estimate;
@@ -181,11 +181,16 @@ impl<'a> Lower<'a> {
             band.len(),
         );
         let what = format!("least mean difference in points, at {}, simultaneous 95 % band", at(least));
-        let case = cases(&draws).find(|case| case.row.key.sweep == points[least].key);
+        // On which a case speaks against the claim, and else neither way.
+        let against = |case: &Case<'_>| {
+            let [own, other] = [case.row.is_solved(), case.base.is_some_and(Row::is_solved)]
+                .map(|is| f64::from(u8::from(is)));
+            (case.row.key.sweep == points[least].key).then_some(sign * (own - other))
+        };
         Found {
             outcome: Some(outcome),
             ours: Some(Estimate::new(mean[least], band[least], what, units).of_cases(solved(&draws))),
-            trial: self.of.trial(evidence, case),
+            trial: selection::least(&self.of, evidence, &draws, against),
             because: vec![because],
             limits: vec![0.0],
             units: "draws",

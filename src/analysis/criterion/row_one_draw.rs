@@ -5,7 +5,7 @@ use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
 use crate::analysis::evidence::Evidence;
 use crate::analysis::found::Found;
-use crate::analysis::selection::{self, Case, Draw, Selection, cases, solved};
+use crate::analysis::selection::{self, Case, Draw, Selection, solved};
 use crate::analysis::selection_spec::{Labels, SelectionSpec};
 use crate::analysis::statistic::OfDraw;
 use crate::analysis::verdict::Estimate;
@@ -158,6 +158,18 @@ impl RowOneDraw<'_> {
         Some((place, level, rank, if is_ordinary { Outcome::Holds } else { Outcome::Fails }))
     }
 
+    /// The first trial of the draw whose first row is nearest to what is printed: one that is refused is far from all of ours.
+    fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>]) -> Option<String> {
+        let row = &self.rows[0];
+        let apart = |draw: &Draw<'_>| -> Option<f64> {
+            let values = row.values(std::slice::from_ref(draw), false).pop()?;
+            Some(values.iter().zip(&self.printed).map(|(own, printed)| (own - printed).powi(2)).sum())
+        };
+        let known = draws.iter().filter_map(|draw| Some((draw, apart(draw)?)));
+        let nearest = known.min_by(|a, b| a.1.total_cmp(&b.1));
+        row.of.trial(evidence, nearest.and_then(|(draw, _)| draw.cases.first()))
+    }
+
     /// Fewest draws of which either test can refuse any row: the least two-sided rank is 2 / (n + 1).
     fn fewest(&self) -> usize {
         (2.0 / self.refused_below).floor() as usize
@@ -208,7 +220,7 @@ impl Criterion for RowOneDraw<'_> {
             outcome: Some(outcome),
             censored: if is_turned { unended } else { 0 },
             ours: Some(ours.of_cases(solved(&drawn[0]))),
-            trial: self.rows[0].of.trial(evidence, cases(&drawn[0]).next()),
+            trial: self.shown(evidence, &drawn[0]),
             because: self.because(&place, &level, rank, &cells),
             units: "draws",
             needs: Some(self.fewest()).filter(|fewest| n < *fewest),

@@ -81,6 +81,16 @@ impl<'a> Trend<'a> {
         if turned { selection::unended(draws) } else { 0 }
     }
 
+    /// The trial that does most for the slope that was found.
+    fn shown(&self, evidence: &Evidence<'_>, draws: &[Draw<'_>], outcome: Outcome) -> Option<String> {
+        let (places, numbers): (Vec<f64>, Vec<f64>) =
+            cases(draws).filter_map(|case| self.point(case)).unzip();
+        let (place, number) = (summary::mean(&places)?, summary::mean(&numbers)?);
+        let sign = if self.rising == (outcome != Outcome::Fails) { -1.0 } else { 1.0 };
+        let against = |case: &Case<'_>| self.point(case).map(|(x, y)| sign * (x - place) * (y - number));
+        selection::least(&self.of, evidence, draws, against)
+    }
+
     fn point(&self, case: &Case<'_>) -> Option<(f64, f64)> {
         let number = if case.base.is_some() { case.saving_percent() } else { case.value };
         Some((case.row.value(&self.over)?, number?))
@@ -126,11 +136,10 @@ impl Criterion for Trend<'_> {
             medians,
         );
         let what = format!("slope of {subject} along {}:{unit} each, bootstrap 95 % over draws", self.over);
-        let first = cases(&draws).find(|case| self.point(case).is_some());
         Found {
             outcome: Some(outcome),
             ours: Some(Estimate::of(found, what).of_cases(solved(&draws))),
-            trial: self.of.trial(evidence, first),
+            trial: self.shown(evidence, &draws, outcome),
             because: vec![because],
             limits: vec![0.0],
             units: "draws",

@@ -42,10 +42,20 @@ rows = [
         Ok(match (read.across.take(), read.saving.take()) {
             (None, None) => Box::new(SweepCurves::new(read, settings, study, paper)?),
             (Some(across), None) => {
+                read.lacks(
+                    settings,
+                    "across",
+                    &["problems", "rows", "single_draws", "metrics", "printed_ratio"],
+                )?;
                 read.has(settings, &["sweep", "axis"])?;
                 Box::new(across.built((read.sweep, read.axis), settings, study, paper)?)
             }
-            (None, Some(saving)) => Box::new(saving.built(settings, study)?),
+            (None, Some(saving)) => {
+                let others =
+                    ["problems", "sweep", "axis", "rows", "single_draws", "metrics", "printed_ratio"];
+                read.lacks(settings, "saving", &others)?;
+                Box::new(saving.built(settings, study)?)
+            }
             (Some(_), Some(_)) => {
                 return Err(settings.error_at("saving", "across or saving is accepted, not both"));
             }
@@ -101,16 +111,31 @@ struct ReadRow {
 }
 
 impl Read {
-    /// Refuses settings without one of these keys.
-    fn has(&self, settings: &Settings, keys: &[&str]) -> Result<(), SettingsError> {
-        let is_left_out = |key: &&&str| match **key {
+    /// Whether a key is not written, or says nothing.
+    fn is_left_out(&self, key: &str) -> bool {
+        match key {
             "problems" => self.problems.is_empty(),
             "sweep" => self.sweep.is_empty(),
             "axis" => self.axis.is_empty(),
+            "single_draws" => !self.single_draws,
+            "metrics" => self.metrics.is_empty(),
+            "printed_ratio" => self.printed_ratio.is_none(),
             _ => self.rows.is_empty(),
-        };
-        match keys.iter().find(is_left_out) {
+        }
+    }
+
+    /// Refuses settings without one of these keys.
+    fn has(&self, settings: &Settings, keys: &[&str]) -> Result<(), SettingsError> {
+        match keys.iter().find(|key| self.is_left_out(key)) {
             Some(key) => Err(settings.error(format!("`{key}` is missing"))),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses settings with one of these keys, which `beside` does not look at.
+    fn lacks(&self, settings: &Settings, beside: &str, keys: &[&str]) -> Result<(), SettingsError> {
+        match keys.iter().find(|key| !self.is_left_out(key)) {
+            Some(key) => Err(settings.error_at(key, format!("`{beside}` takes no `{key}` beside it"))),
             None => Ok(()),
         }
     }

@@ -11,6 +11,7 @@ use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use stats::proportion::Rank;
 use std::sync::Arc;
 use study::Study;
 use study::key::DrawKey;
@@ -302,10 +303,11 @@ impl WorkCell {
     fn rank(&self, scene: &Scene<'_>, draw: u32) -> Option<String> {
         let savings = ask::savings(scene, &self.problems, &self.query, &self.contenders);
         let own = *savings.by_draw.get(&draw)?;
-        let below = savings.by_draw.values().filter(|saving| **saving < own).count();
+        let rank = Rank::of(own, &savings.by_draw.into_values().collect::<Vec<_>>());
         Some(format!(
-            "saving {own:.1} %: {below} of {} roadmaps save less, the median saves {:.1} %",
-            savings.by_draw.len(),
+            "saving {own:.1} %: {} of {} roadmaps save less, the median saves {:.1} %",
+            rank.below,
+            rank.draws(),
             savings.median?
         ))
     }

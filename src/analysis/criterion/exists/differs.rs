@@ -4,13 +4,16 @@ use super::super::Criterion;
 use super::{Settings, places};
 use crate::analysis::class::Outcome;
 use crate::analysis::context::Context;
-use crate::analysis::evidence::Evidence;
+use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::found::Found;
 use crate::analysis::metric::Metric;
+use crate::analysis::selection::is_unended;
 use crate::analysis::selection_spec::Labels;
+use crate::analysis::statistic::or_infinite;
 use base::settings::SettingsError;
 use stats::summary::median;
 use study::Study;
+use study::record::{Row, Status};
 
 /// A claim that a metric is not the same on all problems of each set.
 pub(super) struct Differs<'a> {
@@ -33,15 +36,24 @@ impl<'a> Differs<'a> {
     }
 }
 
+impl Differs<'_> {
+    /// The trials on one problem that could be posed.
+    fn rows<'e>(&self, run: &'e Run<'_>, group: &str) -> Vec<&'e Row> {
+        let mut rows = run.rows(group, &self.contender);
+        rows.retain(|row| row.status != Status::InvalidProblem);
+        rows
+    }
+}
+
 impl Criterion for Differs<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let Some(run) = evidence.run(&self.study.name) else { return Found::default() };
         let value = |problem: &String| {
-            let rows = run.rows(problem, &self.contender);
-            median(&rows.iter().filter_map(|row| run.value(row, self.metric)).collect::<Vec<_>>())
+            let rows = self.rows(run, problem).into_iter();
+            median(&rows.filter_map(|row| or_infinite(run, row, self.metric, None)).collect::<Vec<_>>())
         };
         let mut found = Found { existential: true, ..Found::default() };
-        let mut differ = 0;
+        let (mut differ, mut alike) = (0, None);
         for set in &self.sets {
             let values: Vec<Option<f64>> = set.iter().map(value).collect();
             let spelled = |(problem, value): (&String, &Option<f64>)| match value {
@@ -51,15 +63,21 @@ impl Criterion for Differs<'_> {
             found.because.push(set.iter().zip(&values).map(spelled).collect::<Vec<_>>().join(", "));
             let known: Vec<f64> = values.into_iter().flatten().collect();
             let is_other = |value: &f64| (value - known[0]).abs() > 1e-9;
-            differ += usize::from(known.len() == set.len() && known.iter().any(is_other));
+            let differs = known.len() == set.len() && known.iter().any(is_other);
+            differ += usize::from(differs);
+            alike = alike.or(set.last().filter(|_| !differs));
         }
         found.outcome = Some(match differ {
             0 => Outcome::Fails,
             all if all == self.sets.len() => Outcome::Holds,
             _ => Outcome::SignOnly,
         });
-        let first =
-            self.sets.iter().flatten().find_map(|group| run.rows(group, &self.contender).into_iter().next());
+        let cut =
+            self.sets.iter().flatten().flat_map(|group| self.rows(run, group)).filter(|row| is_unended(row));
+        found.censored = cut.count();
+        // A problem that should have given another number, where there is one.
+        let shown = alike.or(self.sets.iter().flatten().next());
+        let first = shown.and_then(|group| self.rows(run, group).into_iter().next());
         found.trial = first.map(|row| run.trial(row));
         let metric = self.metric.label.to_lowercase();
         found.because.push(format!(
