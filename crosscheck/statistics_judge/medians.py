@@ -2,6 +2,7 @@
 
 import itertools
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -222,13 +223,16 @@ def differs(asked: Asked) -> Found:
     settings = asked.settings
     study, metric = asked.paper.studies[settings["in"][0]["study"]], asked.paper.metric(settings["metric"])
     contender = labels(settings["contenders"])[0]
-    measured = study.values(metric, asked.session)
-    differ = 0
+    measured, cut = study.values(metric, asked.session), np.isin(study.status, CUT)
+    differ, is_cut = 0, False
     for groups in settings["differ"]:
-        found = [measured[study.rows(group, contender)] for group in groups]
-        found = [of[~np.isnan(of)] for of in found]
+        rows = [posed(study, group, contender, {}) for group in groups]
+        is_cut |= any(cut[of].any() for of in rows)
+        # Failures are infinite; what did not end is left out, and so are trials that were not timed.
+        ended = [of[~cut[of] & ~(metric.clock & np.isnan(measured[of]))] for of in rows]
+        found = [np.where(study.solved[of] & ~np.isnan(measured[of]), measured[of], np.inf) for of in ended]
         if all(len(of) for of in found):
-            medians = [np.median(of) for of in found]
-            differ += any(abs(of - medians[0]) > 1e-9 for of in medians)
+            medians = [middle(of) for of in found]
+            differ += any(of != medians[0] and abs(of - medians[0]) > 1e-9 for of in medians)
     outcome = {0: FAILS, len(settings["differ"]): HOLDS}.get(differ, SIGN)
-    return certain(outcome, existential=True)
+    return replace(certain(outcome, existential=True), censored=frozenset([is_cut]))

@@ -226,6 +226,11 @@ pub struct Judged {
 }
 
 impl Judged {
+    /// Whether it counts by itself: it is no part of a sentence or row, and no theorem.
+    pub fn is_counted(&self) -> bool {
+        self.part_of.is_none() && self.theorem.is_none()
+    }
+
     /// What tables say of it: its verdict or, of what must hold, that it was asserted.
     pub fn outcome(&self) -> &'static str {
         match (&self.theorem, self.verdict) {
@@ -328,7 +333,7 @@ pub struct Counts {
 impl Verdicts {
     /// How many sentences and table rows there are that do not hold by a theorem, and how many of each class.
     pub fn tally(&self) -> Vec<usize> {
-        let whole = self.claims.iter().filter(|judged| judged.part_of.is_none() && judged.theorem.is_none());
+        let whole = self.claims.iter().filter(|judged| judged.is_counted());
         let whole: Vec<Verdict> = whole.map(|judged| judged.verdict).collect();
         let of = |verdict: &Verdict| whole.iter().filter(|own| *own == verdict).count();
         std::iter::once(whole.len()).chain(Verdict::ALL.iter().map(of)).collect()
@@ -366,3 +371,6 @@ impl Verdicts {
         self.claims.iter().find(|judged| judged.claim == id)
     }
 }
+
+#[cfg(test)]
+mod tests;

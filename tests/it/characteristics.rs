@@ -9,6 +9,7 @@ mod page;
 mod scenario;
 mod shares;
 mod synthetic;
+mod telling;
 mod theory;
 mod universal;
 

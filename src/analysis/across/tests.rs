@@ -1,5 +1,6 @@
+use super::super::class::Polarity;
 use super::super::class::Verdict::{
-    self, Attainable, DirectionOnly, Fitted, Impossible, NotReproduced, Reproduced, Undecided, Untestable,
+    self, Attainable, Impossible, NotReproduced, Reproduced, Undecided, Untestable,
 };
 use super::combine::{combined, confirmed, flips};
 use super::count::{Axes, Group};
@@ -22,26 +23,46 @@ fn many(classes: &[(usize, Verdict)]) -> Vec<Verdict> {
     classes.iter().flat_map(|(count, class)| std::iter::repeat_n(*class, *count)).collect()
 }
 
+/// Every pair of classes.
+fn pairs() -> impl Iterator<Item = [Verdict; 2]> {
+    Verdict::ALL.into_iter().flat_map(|one| Verdict::ALL.into_iter().map(move |two| [one, two]))
+}
+
 #[test]
-fn classes_combine_as_the_table_says() {
-    for (classes, expected) in [
-        (many(&[(3, Reproduced)]), Reproduced),
-        (many(&[(3, Reproduced), (1, Fitted), (1, DirectionOnly)]), DirectionOnly),
-        (many(&[(2, NotReproduced), (1, Impossible)]), NotReproduced),
-        (many(&[(2, Impossible)]), Impossible),
-        (many(&[(9, Reproduced), (1, Undecided)]), Reproduced),
-        (many(&[(8, Reproduced), (1, Undecided)]), Undecided),
-        (many(&[(9, NotReproduced), (1, Untestable)]), NotReproduced),
-        (many(&[(8, NotReproduced), (1, Undecided)]), Undecided),
-        (many(&[(9, Impossible), (1, Undecided)]), NotReproduced),
-        (many(&[(40, Reproduced), (1, NotReproduced)]), Undecided),
-        (many(&[(1, Reproduced), (40, Impossible)]), Undecided),
-        (many(&[(4, Undecided)]), Undecided),
-        (many(&[(4, Untestable)]), Untestable),
-        (many(&[(4, Untestable), (1, Undecided)]), Undecided),
-        (Vec::new(), Undecided),
-    ] {
-        assert_eq!(combined(&classes, false), expected, "{classes:?}");
+fn two_results_decide_only_where_both_speak_one_way() {
+    for pair in pairs() {
+        let all = combined(&pair, false);
+        assert_eq!(all, combined(&[pair[1], pair[0]], false), "{pair:?}: the order does not count");
+        let expected = match pair.map(Verdict::polarity) {
+            [Polarity::For, Polarity::For] => pair[0].max(pair[1]),
+            [Polarity::Against, Polarity::Against] if pair == [Impossible; 2] => Impossible,
+            [Polarity::Against, Polarity::Against] => NotReproduced,
+            _ if pair == [Untestable; 2] => Untestable,
+            _ => Undecided,
+        };
+        assert_eq!(all, expected, "{pair:?}");
+    }
+    assert_eq!(combined(&[], false), Undecided);
+}
+
+#[test]
+fn nine_tenths_decide_against_what_is_open_and_nothing_does_against_what_speaks_the_other_way() {
+    for [most, rest] in pairs().filter(|[most, rest]| most.polarity() != rest.polarity()) {
+        let of = |count| combined(&many(&[(count, most), (1, rest)]), false);
+        let is_open = most.polarity() == Polarity::Open || rest.polarity() != Polarity::Open;
+        let expected = if is_open { Polarity::Open } else { most.polarity() };
+        assert_eq!(of(9).polarity(), expected, "nine {most:?}, one {rest:?}");
+        assert_eq!(of(8), Undecided, "eight {most:?}, one {rest:?}");
+        assert!(of(9) != Impossible, "{rest:?} is no proof");
+    }
+}
+
+#[test]
+fn of_two_results_the_stronger_witness_makes_an_existential_claim() {
+    for pair in pairs() {
+        let witnesses = pair.into_iter().filter(|class| class.polarity() == Polarity::For);
+        let expected = witnesses.min().unwrap_or_else(|| combined(&pair, false));
+        assert_eq!(combined(&pair, true), expected, "{pair:?}");
     }
 }
 

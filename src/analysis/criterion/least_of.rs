@@ -188,15 +188,9 @@ impl<'a> LeastOf<'a> {
     /// then the other way round.
     fn censored(&self, run: &Run<'_>, found: Outcome) -> usize {
         let labels: BTreeSet<&String> = self.pairs.iter().flat_map(|(low, high)| [low, high]).collect();
-        let in_group = |group: &String| {
-            labels
-                .iter()
-                .map(|label| {
-                    self.of.rows(run, group, label).into_iter().filter(|row| is_unended(row)).count()
-                })
-                .sum::<usize>()
-        };
-        let unended = self.of.groups.iter().map(in_group).sum();
+        let cases = self.of.groups.iter().flat_map(|group| labels.iter().map(move |label| (group, *label)));
+        let rows = cases.flat_map(|(group, label)| self.of.rows(run, group, label));
+        let unended = rows.filter(|row| is_unended(row)).count();
         let mut ends = [[0.0, f64::INFINITY], [f64::INFINITY, 0.0]].into_iter();
         let is_turned = unended > 0 && ends.any(|ends| self.outcome(&self.compared(run, ends)) != found);
         if is_turned { unended } else { 0 }

@@ -153,10 +153,9 @@ impl Page<'_> {
 
     fn claims(&self, text: &mut String) {
         let (paper, verdicts) = (self.evidence.paper, self.verdicts);
-        let is_counted = |judged: &&Judged| judged.part_of.is_none() && judged.theorem.is_none();
         let mut shown: Vec<&Judged> = match &paper.report.claims {
             Some(ids) => ids.iter().filter_map(|id| verdicts.claim(id.get_ref())).collect(),
-            None => verdicts.claims.iter().filter(is_counted).collect(),
+            None => verdicts.claims.iter().filter(|judged| judged.is_counted()).collect(),
         };
         shown.truncate(CLAIMS);
         *text += "| claim | in the paper | ours | class |\n|---|---|---|---|\n";

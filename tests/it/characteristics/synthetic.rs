@@ -4,6 +4,7 @@ use engine::planner::Value;
 use replan::analysis::claims::judge;
 use replan::analysis::class::Verdict;
 use replan::analysis::evidence::{Evidence, default_point};
+use replan::analysis::verdict::Judged;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -63,13 +64,18 @@ impl Synthetic {
 
     /// The class of the claim that is asked, after `records`, where the paper prints these numbers, by claim.
     pub fn judged(&mut self, records: Records, printed: &[(&str, String)]) -> Verdict {
+        self.judgement(records, printed).verdict
+    }
+
+    /// All that is found of it.
+    pub fn judgement(&mut self, records: Records, printed: &[(&str, String)]) -> Judged {
         for (id, text) in printed {
             let claim = self.paper.claims.iter_mut().find(|claim| claim.id == *id).unwrap();
             claim.printed = Some(text.clone());
         }
         let stored = BTreeMap::from([("drawn".to_owned(), (manifest(), records))]);
         let evidence = Evidence::of(&self.paper, default_point(&self.paper), stored);
-        judge(&evidence).unwrap().claim(ASKED).unwrap().verdict
+        judge(&evidence).unwrap().claim(ASKED).unwrap().clone()
     }
 }
 

@@ -43,19 +43,21 @@ impl Differs<'_> {
         rows.retain(|row| row.status != Status::InvalidProblem);
         rows
     }
+
+    /// The median on one problem, failures infinite, of the trials that came to an end.
+    fn median(&self, run: &Run<'_>, problem: &str) -> Option<f64> {
+        let rows = self.rows(run, problem).into_iter();
+        median(&rows.filter_map(|row| or_infinite(run, row, self.metric, None)).collect::<Vec<_>>())
+    }
 }
 
 impl Criterion for Differs<'_> {
     fn find(&self, evidence: &Evidence<'_>) -> Found {
         let Some(run) = evidence.run(&self.study.name) else { return Found::default() };
-        let value = |problem: &String| {
-            let rows = self.rows(run, problem).into_iter();
-            median(&rows.filter_map(|row| or_infinite(run, row, self.metric, None)).collect::<Vec<_>>())
-        };
         let mut found = Found { existential: true, ..Found::default() };
         let (mut differ, mut alike) = (0, None);
         for set in &self.sets {
-            let values: Vec<Option<f64>> = set.iter().map(value).collect();
+            let values: Vec<Option<f64>> = set.iter().map(|problem| self.median(run, problem)).collect();
             let spelled = |(problem, value): (&String, &Option<f64>)| match value {
                 Some(value) => format!("{problem} {value:.4}"),
                 None => format!("{problem} –"),
