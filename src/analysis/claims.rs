@@ -68,7 +68,7 @@ fn question(claim: &Claim) -> String {
     let asked =
         claim.asked().map(|(asked, name, settings)| format!("{asked:?} {name}: {}", settings.table()));
     let (asked, parts) = (asked.collect::<Vec<_>>(), &claim.parts);
-    let when: String = premises(claim).map(|premise| format!(" {premise}")).collect();
+    let when = premises(claim).map(|premise| format!(" {premise}")).collect::<Vec<_>>().concat();
     format!(
         "{} {:?} {:?} {:?} {asked:?} {parts:?}{when}\n",
         claim.id, claim.printed, claim.digits, claim.untestable
