@@ -82,6 +82,13 @@ impl Savings {
         let both = self.median.zip(self.by_draw.get(&draw));
         both.map_or(f64::INFINITY, |(median, saving)| (saving - median).abs())
     }
+
+    /// A draw's saving, how many of the draws save less, and how many there are; none of a draw that has no saving.
+    pub fn rank(&self, draw: u32) -> Option<[f64; 3]> {
+        let own = *self.by_draw.get(&draw)?;
+        let rank = proportion::Rank::of(own, &self.by_draw.values().copied().collect::<Vec<_>>());
+        Some([own, rank.below as f64, rank.draws() as f64])
+    }
 }
 
 /// Numbers as a box shows them, and as a table does.

@@ -241,11 +241,11 @@ pub const WRONG: &[Wrong] = &[
         "mini/paper.toml:13:12: there is no figure or table `fig2` (did you mean `fig1`?); there are fig1, tab",
     ),
     wrong(
-        "draws",
+        "room",
         "kind = \"grid_search\"\ncaption = \"A search in a room.\"\nshows = [{ problems = \"room\", replicates = 1 }]\nsettings = { problems = [\"room\"], contenders = [\"A*\"] }",
         "kind = \"sweep_curves\"\ncaption = \"What is saved.\"\nsettings = { rows = [{ contender = \"A*\" }], saving = { problems = [\"room\"], metric = \"nodes\", \
          contender = \"A*\", against = \"A*\", over = \"obstacles\" } }",
-        "mini/draws.toml:71:21: `saving` takes no `rows` beside it",
+        "mini/room.toml:26:21: `saving` takes no `rows` beside it",
     ),
     wrong("paper", "id = \"nodes\"", "id = \"cost\"", "claim `cost` stands twice"),
     wrong(

@@ -3,9 +3,10 @@
 use super::pair::{Pair, Unit};
 use super::run::Times;
 use crate::analysis::metric::{Better, Metric};
-use crate::analysis::statistic::{FEWEST_DRAWS, LEVEL, OfAll, plan, turned};
+use crate::analysis::statistic::{FEWEST_DRAWS, LEVEL, plan};
 use serde::Serialize;
 use stats::bootstrap::{Estimate, Resampling};
+use stats::interval::Interval;
 use stats::paired::{Signs, signs};
 use stats::{pooled, summary};
 use std::collections::BTreeMap;
@@ -185,11 +186,18 @@ impl<'r> Sample<'r> {
     /// What the mean changes by, in the unit, and in per cent of the first side's.
     pub fn mean_changes(&self, plan: Resampling) -> [Option<Estimate>; 2] {
         let units = self.finite();
-        let sums = |pairs: &Vec<(f64, f64)>| {
-            [pairs.iter().map(|(first, second)| second - first).sum(), pairs.len() as f64]
+        let sums = |of: fn(&(f64, f64)) -> [f64; 2]| -> Vec<[f64; 2]> {
+            let add = |sum: [f64; 2], pair: &(f64, f64)| [sum[0] + of(pair)[0], sum[1] + of(pair)[1]];
+            units.iter().map(|pairs| pairs.iter().fold([0.0, 0.0], add)).collect()
         };
-        let change = pooled::ratio_of_sums(&units.iter().map(sums).collect::<Vec<_>>(), plan);
-        [change, OfAll::ReductionPercent.of_pairs(&units, plan).map(turned)]
+        let percent = |ratio: f64| 100.0 * (ratio - 1.0);
+        let of_ratio = |ratio: Estimate| {
+            let interval = Interval::new(percent(ratio.interval.low), percent(ratio.interval.high));
+            Estimate { value: percent(ratio.value), interval, ..ratio }
+        };
+        let change = pooled::ratio_of_sums(&sums(|(first, second)| [second - first, 1.0]), plan);
+        let ratio = pooled::ratio_of_sums(&sums(|(first, second)| [*second, *first]), plan);
+        [change, ratio.map(of_ratio)]
     }
 
     /// All that is said of it.

@@ -181,12 +181,8 @@ impl<'a> Lower<'a> {
             band.len(),
         );
         let what = format!("least mean difference in points, at {}, simultaneous 95 % band", at(least));
-        // On which a case speaks against the claim, and else neither way.
-        let against = |case: &Case<'_>| {
-            let [own, other] = [case.row.is_solved(), case.base.is_some_and(Row::is_solved)]
-                .map(|is| f64::from(u8::from(is)));
-            (case.row.key.sweep == points[least].key).then_some(sign * (own - other))
-        };
+        let against =
+            |case: &Case<'_>| (case.row.key.sweep == points[least].key).then(|| sign * solved_more(case));
         Found {
             outcome: Some(outcome),
             ours: Some(Estimate::new(mean[least], band[least], what, units).of_cases(solved(&draws))),
@@ -199,6 +195,12 @@ impl<'a> Lower<'a> {
             ..Found::default()
         }
     }
+}
+
+/// By how many a case is solved more than by the other: 1, 0 or -1.
+fn solved_more(case: &Case<'_>) -> f64 {
+    let [own, other] = [case.row.is_solved(), case.base.is_some_and(Row::is_solved)];
+    f64::from(i8::from(own) - i8::from(other))
 }
 
 /// What a simultaneous band says, and at how many points it lies on the claim's side.

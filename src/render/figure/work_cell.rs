@@ -11,7 +11,6 @@ use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::planner::Exhibit;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use stats::proportion::Rank;
 use std::sync::Arc;
 use study::Study;
 use study::key::DrawKey;
@@ -302,12 +301,9 @@ impl WorkCell {
     /// What the picked draw's saving is among those of all draws, in words.
     fn rank(&self, scene: &Scene<'_>, draw: u32) -> Option<String> {
         let savings = ask::savings(scene, &self.problems, &self.query, &self.contenders);
-        let own = *savings.by_draw.get(&draw)?;
-        let rank = Rank::of(own, &savings.by_draw.into_values().collect::<Vec<_>>());
+        let [own, below, draws] = savings.rank(draw)?;
         Some(format!(
-            "saving {own:.1} %: {} of {} roadmaps save less, the median saves {:.1} %",
-            rank.below,
-            rank.draws(),
+            "saving {own:.1} %: {below:.0} of {draws:.0} roadmaps save less, the median saves {:.1} %",
             savings.median?
         ))
     }
