@@ -1,4 +1,4 @@
-//! 8-connected A* without corner cutting against the crate `pathfinding`, in its best form and as people use it.
+//! 8-connected A* without corner cutting against the crate `pathfinding`, in its best form and as people use it, and other peers.
 //!
 //! Groups: `30x30` (20 % blocked), `512_random` (30 % blocked), `512_rectangles`, and `map` for a `MovingAI` map
 //! named by `REPLAN_BENCH_MAP`. In each group every entry answers the same queries, drawn among cells that are
@@ -9,8 +9,13 @@
 //! - `general`: the kernel it specialises, over the same buckets;
 //! - `pathfinding_u32`: the crate with `u32` nodes and costs and successors from legal-move masks, unallocated;
 //! - `pathfinding_typical`: the crate with `(x, y)` nodes, `f64` costs and a `Vec` of successors;
+//! - `petgraph`: that crate's A* on a graph made before, `u32` costs;
+//! - `networkx` and `pathfinding_python`, on `30x30` alone: the Python packages, on a graph and a grid made before;
 //! - `verifier`: the verifier's own optimum, by landmarks made before, and `verifier_dijkstra`: the crate's search without an
 //!   estimate, which is what such an optimum costs otherwise.
+
+#[path = "peer/mod.rs"]
+mod peer;
 
 use base::grid::{
     Components, CornerRule, DIRECTIONS, Grid2, components, independent_cells, read_movingai_map, rectangles,
@@ -27,7 +32,10 @@ use pathfinding::{
     num_traits::Zero,
     prelude::{astar, dijkstra},
 };
+use peer::Peer;
+use petgraph::graph::{NodeIndex, UnGraph};
 use rand::RngExt as _;
+use serde_json::json;
 use std::{cmp::Ordering, hint::black_box, ops::Add, path::Path, time::Duration};
 use verify::lattice::{Case, Landmarks};
 
@@ -143,6 +151,56 @@ impl Posed {
         self.queries.iter().map(solve).sum()
     }
 
+    /// Every cell as a node and every legal step as an edge.
+    fn graph(&self) -> UnGraph<(), u32> {
+        let mut graph = UnGraph::default();
+        let cells: Vec<NodeIndex> =
+            (0..self.lattice().grid().cell_count()).map(|_| graph.add_node(())).collect();
+        for [from, to] in self.steps() {
+            let [x, y] = [from, to].map(|cell| self.lattice().grid().xy(cell));
+            let cost = ScaledOctile::distance([x[0].abs_diff(y[0]), x[1].abs_diff(y[1])]);
+            // A legal step is legal back: each pair once.
+            if from < to {
+                graph.add_edge(cells[from as usize], cells[to as usize], cost);
+            }
+        }
+        graph
+    }
+
+    fn steps(&self) -> impl Iterator<Item = [u32; 2]> {
+        let moves = self.lattice().moves();
+        (0..self.lattice().grid().cell_count())
+            .filter(|cell| self.lattice().grid().is_free(*cell))
+            .flat_map(|from| moves.from_cell(from).map(move |(to, _)| [from, to]))
+    }
+
+    fn petgraph(&self, graph: &UnGraph<(), u32>) -> u64 {
+        let place = |cell: u32| self.lattice().grid().xy(cell);
+        let solve = |&[start, goal]: &[u32; 2]| {
+            let [x, y] = place(goal);
+            let estimate = |node: NodeIndex| {
+                let at = place(node.index() as u32);
+                ScaledOctile::distance([at[0].abs_diff(x), at[1].abs_diff(y)])
+            };
+            let start = NodeIndex::new(start as usize);
+            let is_goal = |node: NodeIndex| node.index() == goal as usize;
+            let (cost, path) =
+                petgraph::algo::astar(graph, start, is_goal, |edge| *edge.weight(), estimate).unwrap();
+            black_box(path);
+            u64::from(cost)
+        };
+        self.queries.iter().map(solve).sum()
+    }
+
+    /// The map and the queries as `peer/grids.py` reads them.
+    fn question(&self, package: &str) -> serde_json::Value {
+        let grid = self.lattice().grid();
+        let row = |y| (0..grid.width()).map(|x| u8::from(grid.is_free(y * grid.width() + x))).collect();
+        let rows: Vec<Vec<u8>> = (0..grid.height()).map(row).collect();
+        let moves: Vec<_> = self.steps().collect();
+        json!({ "package": package, "rows": rows, "moves": moves, "queries": self.queries })
+    }
+
     /// A query as the verifier takes it.
     fn case<'a>(&'a self, [start, goal]: &'a [Vec<f64>; 2]) -> Case<'a> {
         Case { grid: self.lattice().grid(), corner_rule: self.lattice().corner_rule(), start, goal }
@@ -214,13 +272,27 @@ fn compare(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {
     let landmarks = Landmarks::new(&posed.case(&posed.ends[0])).expect("a map of 4 million cells at most");
     assert!((exact - posed.verified(&landmarks)).abs() < 1e-6 * exact);
     assert_eq!(posed.crate_dijkstra(), truth);
+    let graph = posed.graph();
+    assert_eq!(posed.petgraph(&graph), truth);
     group.bench_function("astar_octile", |bencher| bencher.iter(|| posed.octile(&mut fast)));
     group.bench_function("planner", |bencher| bencher.iter(|| posed.planned(planner.as_ref())));
     group.bench_function("general", |bencher| bencher.iter(|| posed.general(&mut general)));
     group.bench_function("pathfinding_u32", |bencher| bencher.iter(|| posed.crate_best()));
     group.bench_function("pathfinding_typical", |bencher| bencher.iter(|| posed.crate_typical()));
+    group.bench_function("petgraph", |bencher| bencher.iter(|| posed.petgraph(&graph)));
     group.bench_function("verifier", |bencher| bencher.iter(|| posed.verified(&landmarks)));
     group.bench_function("verifier_dijkstra", |bencher| bencher.iter(|| posed.crate_dijkstra()));
+}
+
+fn compare_python(group: &mut BenchmarkGroup<'_, WallTime>, posed: &Posed) {
+    const VENV: [&str; 3] = ["planners/venv", "grids.py", "`planners/python/install` makes it"];
+    let truth = posed.octile(&mut OctileAstar::new(posed.lattice().moves()).unwrap());
+    for (package, name) in [("networkx", "networkx"), ("pathfinding", "pathfinding_python")] {
+        if let Some((mut peer, told)) = Peer::start(VENV, &[], &posed.question(package)) {
+            assert_eq!(told, json!(truth), "{package}");
+            group.bench_function(name, |bencher| bencher.iter_custom(|rounds| peer.time(rounds)));
+        }
+    }
 }
 
 fn grid_astar(criterion: &mut Criterion) {
@@ -242,7 +314,11 @@ fn grid_astar(criterion: &mut Criterion) {
             .sample_size(10)
             .warm_up_time(Duration::from_millis(500))
             .measurement_time(Duration::from_secs(2));
-        compare(&mut group, &Posed::new(grid, query_count));
+        let posed = Posed::new(grid, query_count);
+        compare(&mut group, &posed);
+        if name == "30x30" {
+            compare_python(&mut group, &posed);
+        }
         group.finish();
     }
 }

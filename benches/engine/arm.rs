@@ -3,6 +3,7 @@
 //! - `configuration/ours` and `/parry3d`: is a random configuration free? Both place the same capsules by the same forward
 //!   kinematics; parry3d's capsules are asked behind the same axis-aligned boxes. The two are held to equal answers
 //!   first, but for the false contacts between capsules that parry3d 0.31 reports, which are counted and printed.
+//! - `configuration/mujoco`: the same from MuJoCo's Python package, which makes contacts of them: boxes are meshes there.
 //! - `configuration/ours_4096` and `/ours_4096_at_once`: 4096 of them, one by one with their limits and all at once, in lanes.
 //! - `motion/ours` and `/parry3d`: a straight motion in joint space between near configurations, every state at even steps of
 //!   1/32 rad. Ours also covers what lies between the states (see `space::cell`), parry3d's states alone are asked, so
@@ -11,10 +12,12 @@
 //! - `forward`, `inverse_on`, `inverse_all`: kinematics.
 //! - `roadmap/task_space_1500`: 1500 samples, edges up to 500 mm that end in their own configuration.
 //! - `roadmap/joint_space_1500`: 1500 samples, each tried with its 12 nearest in joint space on a straight line there at steps
-//!   of 1/32 rad; the search for neighbours is part of it.
+//!   of 1/32 rad; the search for neighbours is part of it. `roadmap/parry3d_1500`: the same pairs, given, and parry3d's states.
 //! - `query/original` and `/improved`: one query on that roadmap, its local paths already known.
 
 mod cpu;
+#[path = "../peer/mod.rs"]
+mod peer;
 
 use base::seed;
 use base::settings::Settings;
@@ -23,6 +26,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use parry3d::math::{Pose as ParryPose, Vector};
 use parry3d::query::intersection_test;
 use parry3d::shape::{self, SharedShape};
+use peer::Peer;
 use rand::RngExt as _;
 use replan_engine::geometry::{Aabb, Capsule, Solid, Vec3};
 use replan_engine::kinematics::{Joints, Robot};
@@ -179,11 +183,32 @@ fn configurations(c: &mut Criterion<CpuTime>) {
             black_box(parry.touches(&cell, &placed))
         });
     });
+    if let Some(mut mujoco) = mujoco(&cell, &drawn) {
+        group.bench_function("mujoco", |b| b.iter_custom(|rounds| mujoco.time(rounds)));
+    }
     let singly = || drawn.iter().map(|q| cell.is_free(q)).collect::<Vec<_>>();
     assert_eq!(cell.are_free(&drawn), singly());
     group.bench_function("ours_4096", |b| b.iter(|| black_box(singly())));
     group.bench_function("ours_4096_at_once", |b| b.iter(|| black_box(cell.are_free(&drawn))));
     group.finish();
+}
+
+/// MuJoCo on the cross-check's model of the same cell, once it has given the same answers.
+fn mujoco(cell: &Cell, drawn: &[Joints]) -> Option<Peer> {
+    const SCRIPT: [&str; 3] =
+        ["crosscheck/venv", "mujoco_states.py", "`cargo run -- crosscheck fu2018` makes it"];
+    const MODEL: &str = "crosscheck/fu2018/up6-in-cell/scene.xml";
+    let (peer, told) = Peer::start(SCRIPT, &[MODEL], &serde_json::json!(drawn))?;
+    let told: Vec<bool> = serde_json::from_value(told).expect("one answer a configuration");
+    let mut placed = Vec::new();
+    let mut touches = |q: &Joints| {
+        cell.place(q, &mut placed);
+        cell.standing(&placed, |_| 0.0) == Standing::Contact
+    };
+    let differ = drawn.iter().zip(&told).filter(|(q, told)| touches(q) != **told).count();
+    println!("configuration: MuJoCo differs on {differ}");
+    assert!(told.len() == drawn.len() && differ < 10, "{differ} answers differ");
+    Some(peer)
 }
 
 fn kinematics(c: &mut Criterion<CpuTime>) {
@@ -283,12 +308,25 @@ fn joint_roadmap(c: &mut Criterion<CpuTime>) {
         let local = Local::Arm(Box::new(lines.clone()));
         Roadmap::build(local, samples.clone(), Near::Nearest(NEIGHBOURS), Counted::Accepted)
     };
-    let (pairs, tally) = (neighbours(&samples).len(), *built().tally());
-    assert_eq!(tally.pairs, pairs as u64);
-    println!("joint-space roadmap: {} of {pairs} pairs are edges", tally.edges);
+    let (pairs, tally) = (neighbours(&samples), *built().tally());
+    assert_eq!(tally.pairs, pairs.len() as u64);
+    let parry = Parry::new(lines.cell());
+    let places: Vec<Joints> =
+        samples.iter().map(|s| s.config.as_slice().try_into().expect("six angles")).collect();
+    let by_parry = || {
+        let is_edge = |[a, b]: &&[usize; 2]| parry.is_free_along(lines.cell(), &places[*a], &places[*b]);
+        pairs.iter().filter(is_edge).count()
+    };
+    println!(
+        "joint-space roadmap: {} of {} pairs are edges, {} by parry3d",
+        tally.edges,
+        pairs.len(),
+        by_parry()
+    );
     let mut group = c.benchmark_group("roadmap");
     group.sample_size(10).measurement_time(Duration::from_secs(4));
     group.bench_function("joint_space_1500", |b| b.iter(|| black_box(built())));
+    group.bench_function("parry3d_1500", |b| b.iter(|| black_box(by_parry())));
     group.finish();
 }
 

@@ -9,11 +9,13 @@ use std::path::{Path, PathBuf};
 /// What is asked, where criterion files ours, and the names of the peers beside it.
 type Line = (&'static str, &'static str, &'static str, &'static [&'static str]);
 
-const PATHFINDING: &[&str] = &["pathfinding_u32", "pathfinding_typical"];
+const PATHFINDING: &[&str] = &["pathfinding_u32", "pathfinding_typical", "petgraph"];
+const ALL: &[&str] =
+    &["pathfinding_u32", "pathfinding_typical", "petgraph", "networkx", "pathfinding_python"];
 const JPS: &[&str] = &["astar_octile", "pathfinding"];
 
 const LINES: &[Line] = &[
-    ("A* on 30×30 cells, 20 % blocked", "30x30", "astar_octile", PATHFINDING),
+    ("A* on 30×30 cells, 20 % blocked", "30x30", "astar_octile", ALL),
     ("the same through the planner, from request to plan", "30x30", "planner", PATHFINDING),
     ("A* on 512×512, 30 % blocked", "512_random", "astar_octile", PATHFINDING),
     ("A* on 512×512, rectangles", "512_rectangles", "astar_octile", PATHFINDING),
@@ -31,9 +33,15 @@ const LINES: &[Line] = &[
     ("planar arm, A*, 80 neighbours", "astar_80", "ours", &["pathfinding"]),
     ("planar arm, CHS, radius 4", "astar_chs_4", "ours", &["pathfinding"]),
     ("planar arm, CHS, radius 6", "astar_chs_6", "ours", &["pathfinding"]),
-    ("six-axis arm in its cell, a configuration", "configuration", "ours", &["parry3d"]),
+    ("six-axis arm in its cell, a configuration", "configuration", "ours", &["parry3d", "mujoco"]),
     ("4096 of them at once, in lanes", "configuration", "ours_4096_at_once", &["ours_4096"]),
     ("six-axis arm, a motion straight in joint space", "motion", "ours", &["parry3d"]),
+    (
+        "six-axis arm, a roadmap of 1 500 samples in joint space",
+        "roadmap",
+        "joint_space_1500",
+        &["parry3d_1500"],
+    ),
     ("200 segments to convex polyhedra, exact", "segment_polyhedron", "exact_x200", &["parry3d_x200"]),
 ];
 
