@@ -49,7 +49,7 @@ fn entry_width(key: &Key) -> f64 {
 fn lines(keys: &[Key], width_pt: f64) -> Vec<&[Key]> {
     let fits = |row: &[Key]| {
         let entries: f64 = row.iter().map(entry_width).sum();
-        entries + APART_PT * row.len().saturating_sub(1) as f64 <= width_pt
+        entries + APART_PT * row.len().saturating_sub(1) as f64 <= width_pt - APART_PT
     };
     let counts = 1..=keys.len();
     let count = counts.clone().find(|count| keys.chunks(keys.len().div_ceil(*count)).all(fits));

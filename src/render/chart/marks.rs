@@ -276,6 +276,13 @@ impl Note {
         let set = Type { rim: true, ..Type::of(TextSize::TICK).aligned(Align::Start, Stand::Centre) };
         Self { at, shift_pt: [4.0, 0.0], text: text.into(), set }
     }
+
+    /// The same left of `at` and below it, for what has something on its right.
+    pub fn below_left(at: [f64; 2], text: impl Into<String>) -> Self {
+        let beside = Self::beside(at, text);
+        let set = beside.set.aligned(Align::End, Stand::Centre);
+        Self { shift_pt: [-3.0, 4.5], set, ..beside }
+    }
 }
 
 impl Mark for Note {

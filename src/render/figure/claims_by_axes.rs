@@ -80,9 +80,16 @@ fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
         columns: options.len(),
         colors: rows.iter().rev().flat_map(of_row).collect(),
         lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
-        keys: FITS.map(|(_, label, color)| cell_key(label, color.mixed(WHITE, 0.25))).to_vec(),
+        keys: fit_keys(rows),
     });
     Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).noted(note).with([Ok(panel)])
+}
+
+/// The legend's entries: of the fits that some cell has.
+fn fit_keys(rows: &[SettingFit]) -> Vec<Key> {
+    let is_shown = |fit: &Fit| rows.iter().any(|row| row.fits.values().any(|own| own == fit));
+    let shown = FITS.iter().filter(|(fit, ..)| is_shown(fit));
+    shown.map(|(_, label, color)| cell_key(*label, color.mixed(WHITE, 0.25))).collect()
 }
 
 /// The rows' names, from above, and in a note those that are too long to stand beside a row: there they are numbers.

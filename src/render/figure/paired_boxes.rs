@@ -106,9 +106,10 @@ impl PairedBoxes {
 
     /// One box a query and contender.
     fn boxes(&self, scene: &Scene<'_>, values: &ByQuery) -> Result<Panel, RenderError> {
-        let names = values
-            .iter()
-            .map(|(name, columns)| format!("{name} (n = {})", columns.first().map_or(0, |c| c.values.len())));
+        let names = values.iter().map(|(name, columns)| match columns.first() {
+            Some(column) => of_so_many(name, column),
+            None => name.clone(),
+        });
         let columns = || values.iter().flat_map(|(_, columns)| columns);
         let top = columns().flat_map(|column| &column.values).copied().fold(0.0, f64::max);
         // Single values beyond the whiskers are only drawn where there are strips of them.
@@ -142,7 +143,7 @@ impl PairedBoxes {
 
     fn savings_panel(&self, scene: &Scene<'_>, savings: &Savings) -> Result<Panel, RenderError> {
         let low = savings.iter().flat_map(|(_, saving)| &saving.values).copied().fold(0.0, f64::min);
-        let names = savings.iter().map(|(name, _)| name);
+        let names = savings.iter().map(|(name, saving)| of_so_many(name, saving));
         let y = Axis::linear("saving (%)", low - 5.0, 103.0)?;
         let contenders = (self.read.contenders.first(), self.read.contenders.last());
         let title = match contenders {
@@ -171,6 +172,11 @@ impl PairedBoxes {
         }
         Ok(panel)
     }
+}
+
+/// The name of a query with how many draws its numbers are from.
+fn of_so_many(name: &str, numbers: &Spread) -> String {
+    format!("{name} (n = {})", numbers.values.len())
 }
 
 impl Kind for PairedBoxes {

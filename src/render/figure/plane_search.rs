@@ -174,7 +174,9 @@ impl PlaneSearch {
         let until = if all { closed.len() } else { (shown + 1).min(closed.len()) };
         let picked = closed[1..until].to_vec();
         for (number, at) in picked.iter().enumerate() {
-            panel.add(Note::beside(*at, (number + 1).to_string()));
+            // On the right runs what is tried towards the goal.
+            let note = if goal[0] > at[0] { Note::below_left } else { Note::beside };
+            panel.add(note(*at, (number + 1).to_string()));
         }
         panel.add(Points::of(picked, Marker::Circle, 2.6, SKY).labelled("searched"));
         Ok(())
