@@ -83,11 +83,10 @@ impl Savings {
         both.map_or(f64::INFINITY, |(median, saving)| (saving - median).abs())
     }
 
-    /// A draw's saving, how many of the draws save less, and how many there are; none of a draw that has no saving.
-    pub fn rank(&self, draw: u32) -> Option<[f64; 3]> {
+    /// A draw's saving and where it stands among all; none of a draw that has no saving.
+    pub fn rank(&self, draw: u32) -> Option<(f64, proportion::Rank)> {
         let own = *self.by_draw.get(&draw)?;
-        let rank = proportion::Rank::of(own, &self.by_draw.values().copied().collect::<Vec<_>>());
-        Some([own, rank.below as f64, rank.draws() as f64])
+        Some((own, proportion::Rank::of(own, &self.by_draw.values().copied().collect::<Vec<_>>())))
     }
 }
 

@@ -174,7 +174,7 @@ pub struct SettingFit {
 }
 
 /// Whether a reading agrees with what the studies were fitted to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fit {
     /// As well as any other option of the fitted reading: it counts.

@@ -45,7 +45,7 @@ fn entry_width(key: &Key) -> f64 {
     SWATCH_PT + GAP_PT + Type::of(TextSize::LABEL).width_pt(&key.label)
 }
 
-/// Entries per line on a page `width_pt` wide: as few lines as fit, evenly filled.
+/// Entries per line on a page `width_pt` wide: as few lines as fit with half a gap at either edge, evenly filled.
 fn lines(keys: &[Key], width_pt: f64) -> Vec<&[Key]> {
     let fits = |row: &[Key]| {
         let entries: f64 = row.iter().map(entry_width).sum();

@@ -80,16 +80,9 @@ fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
         columns: options.len(),
         colors: rows.iter().rev().flat_map(of_row).collect(),
         lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
-        keys: fit_keys(rows),
+        keys: keys(&FITS, &rows.iter().flat_map(|row| row.fits.values().copied()).collect()),
     });
     Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).noted(note).with([Ok(panel)])
-}
-
-/// The legend's entries: of the fits that some cell has.
-fn fit_keys(rows: &[SettingFit]) -> Vec<Key> {
-    let is_shown = |fit: &Fit| rows.iter().any(|row| row.fits.values().any(|own| own == fit));
-    let shown = FITS.iter().filter(|(fit, ..)| is_shown(fit));
-    shown.map(|(_, label, color)| cell_key(*label, color.mixed(WHITE, 0.25))).collect()
 }
 
 /// The rows' names, from above, and in a note those that are too long to stand beside a row: there they are numbers.
@@ -111,11 +104,11 @@ fn color(across: &Across, axis: &str) -> Option<Rgb> {
     LOOKS.iter().find(|(own, ..)| *own == effect).map(|(_, _, color)| color.mixed(WHITE, 0.25))
 }
 
-/// The legend's entries: of the effects that some cell has.
-fn effect_keys(shown: &BTreeSet<Effect>) -> Vec<Key> {
-    let is_shown = |(effect, ..): &&(Effect, &str, Rgb)| shown.contains(effect);
-    let key = |(_, label, color): &(Effect, &str, Rgb)| cell_key(*label, color.mixed(WHITE, 0.25));
-    LOOKS.iter().filter(is_shown).map(key).collect()
+/// The legend's entries: of what some cell has.
+fn keys<T: Ord>(looks: &[(T, &str, Rgb)], shown: &BTreeSet<T>) -> Vec<Key> {
+    let is_shown = |(own, ..): &&(T, &str, Rgb)| shown.contains(own);
+    let key = |(_, label, color): &(T, &str, Rgb)| cell_key(*label, color.mixed(WHITE, 0.25));
+    looks.iter().filter(is_shown).map(key).collect()
 }
 
 impl ClaimsByAxes {
@@ -161,7 +154,7 @@ impl Kind for ClaimsByAxes {
             columns: axes.len(),
             colors: rows.iter().rev().flat_map(of_row).collect(),
             lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
-            keys: effect_keys(&shown),
+            keys: keys(&LOOKS, &shown),
         });
         let height = rows.len() as f64 * ROW_PT + 2.0 * ROW_PT;
         Sheet::new(Width::Double, 1, height).with([Ok(panel)])
@@ -176,7 +169,7 @@ mod tests {
     #[test]
     fn the_legend_names_the_effects_that_are_drawn_and_no_other() {
         let labels = |shown: &[Effect]| -> Vec<String> {
-            effect_keys(&shown.iter().copied().collect()).into_iter().map(|key| key.label).collect()
+            keys(&LOOKS, &shown.iter().copied().collect()).into_iter().map(|key| key.label).collect()
         };
         assert_eq!(labels(&[Effect::Turns, Effect::Number]), ["moves the number", "turns it"]);
         assert_eq!(labels(&LOOKS.map(|(effect, ..)| effect)).len(), LOOKS.len());

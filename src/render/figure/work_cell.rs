@@ -301,9 +301,11 @@ impl WorkCell {
     /// What the picked draw's saving is among those of all draws, in words.
     fn rank(&self, scene: &Scene<'_>, draw: u32) -> Option<String> {
         let savings = ask::savings(scene, &self.problems, &self.query, &self.contenders);
-        let [own, below, draws] = savings.rank(draw)?;
+        let (own, rank) = savings.rank(draw)?;
         Some(format!(
-            "saving {own:.1} %: {below:.0} of {draws:.0} roadmaps save less, the median saves {:.1} %",
+            "saving {own:.1} %: {} of {} roadmaps save less, the median saves {:.1} %",
+            rank.below,
+            rank.draws(),
             savings.median?
         ))
     }
