@@ -124,10 +124,23 @@ fn hangs(
     let Some((axis, split)) = parting.max_by_key(|(_, split)| worth(split)) else {
         return format!("hangs on several readings: {class} under {asked} of {all}");
     };
-    let shares = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0);
-    let shares: Vec<String> =
-        shares.map(|(option, [asked, others])| format!("{option} {asked} of {}", asked + others)).collect();
-    format!("hangs on {} and others: {class} under {asked} of {all} ({})", axis.id, shares.join(", "))
+    format!("hangs on {} and others: {class} under {asked} of {all} ({})", axis.id, shares(split))
+}
+
+/// Under how many of its results each option is asked for; many that have all of them are counted, not listed.
+fn shares(split: &Split<'_>) -> String {
+    const MANY: usize = 4;
+    let listed = |options: &[(&&str, &[usize; 2])]| -> String {
+        let each =
+            options.iter().map(|(option, [asked, others])| format!("{option} {asked} of {}", asked + others));
+        each.collect::<Vec<String>>().join(", ")
+    };
+    let looked: Vec<_> = split.iter().filter(|(_, counts)| counts.iter().sum::<usize>() > 0).collect();
+    let (whole, parted): (Vec<_>, Vec<_>) = looked.iter().partition(|(_, [_, others])| *others == 0);
+    if whole.len() > MANY && !parted.is_empty() {
+        return format!("{}; all under each of {} more", listed(&parted), whole.len());
+    }
+    listed(&looked)
 }
 
 /// Whether no option of `axis` has readings on both sides; a result stands under all of its readings, not under the first alone.
