@@ -2,7 +2,7 @@
 
 use super::load::gather;
 use super::places::{Places, papers};
-use super::{Failure, Which, all};
+use super::{Failure, Which, all, counted};
 use crate::analysis::evidence::default_point;
 use crate::crosscheck::Spec;
 use base::settings::Faults;
@@ -49,11 +49,11 @@ impl Check {
         }
         let Some(paper) = paper.filter(|_| faults.is_empty()) else { return Err(faults.error().into()) };
         say!(
-            "{}: {} studies, {} claims, {} ledger rows are in order",
+            "{}: {}, {}, {} are in order",
             paper.id,
-            paper.studies.len(),
-            paper.claims.len(),
-            paper.ledger.len()
+            counted(paper.studies.len(), ["study", "studies"]),
+            counted(paper.claims.len(), ["claim", "claims"]),
+            counted(paper.ledger.len(), ["ledger row", "ledger rows"])
         );
         for note in notes(&paper, &places) {
             say!("  {note}");

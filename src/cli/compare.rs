@@ -1,6 +1,7 @@
 //! `replan compare`: two stored runs, or two contenders of one, beside each other.
 
 use super::places::stored_run;
+use super::progress::doing;
 use super::{Failure, command_line};
 use crate::analysis::compare::{Asked, Comparison, Gate, Outcome, Sides, StoredRun, compare};
 use crate::render::comparison;
@@ -64,6 +65,7 @@ impl Compare {
             .collect::<Result<_, _>>()
             .map_err(Failure::input)?;
         let asked = Asked { studies: self.studies.clone(), metrics: self.metrics.clone(), gates };
+        doing("reading and comparing stored runs");
         let first = StoredRun::read(&stored_run(&self.first)?, &self.first)?;
         let second =
             self.second.as_ref().map(|name| StoredRun::read(&stored_run(name)?, name).map_err(Failure::from));

@@ -1,7 +1,7 @@
 //! `replan conformance`: tells the author of a planner from outside what of the protocol it breaks.
 
-use super::Failure;
 use super::places::home;
+use super::{Failure, counted};
 use base::settings::Settings;
 use clap::Args;
 use engine::planner::{Build, Counts, Ending, Plan, Request};
@@ -97,7 +97,10 @@ impl Trial {
     fn verdict(&self) -> Result<(), Failure> {
         match self.broken {
             0 => Ok(()),
-            broken => Err(Failure::stale(format!("{broken} rules of docs/PLANNER_PROTOCOL.md are broken"))),
+            broken => Err(Failure::stale(format!(
+                "broken: {} of docs/PLANNER_PROTOCOL.md",
+                counted(broken, ["rule", "rules"])
+            ))),
         }
     }
 

@@ -5,10 +5,12 @@ use super::progress::doing;
 use super::{Failure, How, Which, verdicts};
 use crate::analysis::across::{self, Stored};
 use crate::analysis::claims;
+use crate::analysis::compare::stored_studies;
 use crate::analysis::difference::differences;
 use crate::analysis::evidence::{Evidence, default_point};
 use crate::analysis::verdict::Verdicts;
 use clap::Args;
+use std::collections::BTreeSet;
 use std::fs;
 use study::ReadingChoice;
 use study::lock::Lock;
@@ -88,6 +90,13 @@ fn check_manifests(evidence: &Evidence<'_>, places: &Places) -> Result<(), Failu
         }
         let path = Manifest::path(&places.runs, &run.study.name);
         found.extend(untrue.iter().map(|what| format!("{}: {what}", path.display())));
+    }
+    let names: BTreeSet<&str> = evidence.paper.studies.iter().map(|study| study.name.as_str()).collect();
+    let left = stored_studies(&places.runs).into_iter().filter(|name| !names.contains(name.as_str()));
+    let left: Vec<String> = left.map(|name| format!("{}/{name}.*", places.runs.display())).collect();
+    if !left.is_empty() {
+        let message = format!("left over from a study that is no more; remove: {}", left.join(", "));
+        return Err(Failure::stale(message));
     }
     if found.is_empty() {
         return Ok(());

@@ -57,6 +57,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use study::StudyError;
 
+/// `1 study`, `2 studies`.
+fn counted(count: usize, [one, more]: [&str; 2]) -> String {
+    if count == 1 { format!("1 {one}") } else { format!("{count} {more}") }
+}
+
 #[derive(Parser)]
 #[command(version, about, after_help = EXAMPLES, max_term_width = 100)]
 struct Cli {

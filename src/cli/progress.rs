@@ -1,6 +1,6 @@
 //! Progress on the terminal, and Ctrl-C.
 
-use super::Failure;
+use super::{Failure, counted};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal as _;
 use std::sync::Mutex;
@@ -68,7 +68,7 @@ impl Progress for Bar {
         let (done, seconds) = (bar.position(), bar.elapsed().as_secs_f64());
         bar.finish_and_clear();
         if std::io::stderr().is_terminal() || done > 0 {
-            eprintln!("{what}: {done} units in {seconds:.1} s");
+            eprintln!("{what}: {} in {seconds:.1} s", counted(done as usize, ["unit", "units"]));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::places::Places;
 use super::progress::{doing, safe_point, stop_flag};
-use super::{Failure, How, Which};
+use super::{Failure, How, Which, counted};
 use crate::analysis::evidence::Evidence;
 use crate::analysis::verdict::Verdicts;
 use crate::render::output::{self, Outputs};
@@ -87,11 +87,11 @@ pub fn all_drawn(outputs: &Outputs) -> Result<(), Failure> {
         return Ok(());
     }
     let said: Vec<&str> = outputs.undrawn.iter().map(|undrawn| undrawn.why.as_str()).collect();
-    Err(Failure::stale(format!("{} could not be drawn: {}", counted(said.len(), "figure"), said.join("; "))))
-}
-
-fn counted(count: usize, what: &str) -> String {
-    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
+    Err(Failure::stale(format!(
+        "{} could not be drawn: {}",
+        counted(said.len(), ["figure", "figures"]),
+        said.join("; ")
+    )))
 }
 
 /// Refuses a report that the paper's chapter could not be put into, before anything is written.

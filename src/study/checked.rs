@@ -141,13 +141,14 @@ impl Study {
         for sweep in &self.sweeps {
             let key: Text = sweep.key.as_str().into();
             let values = sweep.key_values().expect("a checked sweep has values that records can have");
-            let values: Vec<_> = values.into_iter().zip(&sweep.values).collect();
+            let values: Vec<_> = values.into_iter().zip(&sweep.values).enumerate().collect();
             let with = |(keys, point): &(Vec<(Text, SweepValue)>, SweepPoint),
-                        (value, written): &(_, &toml::Value)| {
+                        (index, (value, written)): &(usize, (_, &toml::Value))| {
                 let (mut keys, mut next) = (keys.clone(), point.clone());
                 keys.push((key.clone(), SweepValue::clone(value)));
-                let over = next.over.entry(sweep.of.clone()).or_default();
+                let (over, places) = next.over.entry(sweep.of.clone()).or_default();
                 over.insert(sweep.key.clone(), (*written).clone());
+                places.push(sweep.place.of_value(&sweep.key, &["key"], &["values", &index.to_string()]));
                 (keys, next)
             };
             points =

@@ -3,7 +3,7 @@
 use super::key::{SweepKey, SweepValue};
 use super::reading::ReadingChoice;
 use super::{name, planner};
-use base::settings::{Faults, Settings, SettingsError};
+use base::settings::{Faults, Place, Settings, SettingsError};
 use engine::planner::{Build, Entry, Invalid, Plan, Planner, Request, Stage};
 use std::collections::BTreeMap;
 use std::mem::discriminant;
@@ -73,10 +73,7 @@ impl Contender {
     /// What else is wrong with the settings of its stages, where some of them are not accepted: one fault hides no other.
     pub fn check_rest(&self, point: &ReadingChoice, sweep: &SweepPoint, faults: &mut Faults) {
         for stage in &self.stages {
-            let built = |settings: &Settings| match stage.entry.build {
-                Build::Planner(build) => build(settings).err(),
-                Build::Stage(build) => build(settings).err(),
-            };
+            let built = |settings: &Settings| stage.built(settings).err();
             let (schema, example) = (stage.entry.settings.schema(), stage.entry.example);
             let found = stage.effective(point, sweep).faults_beside(&schema, example, built);
             for fault in found {
@@ -87,11 +84,24 @@ impl Contender {
 }
 
 impl StageUse {
+    /// Whether it can be built from `settings`.
+    ///
+    /// # Errors
+    /// Those of its entry.
+    pub fn built(&self, settings: &Settings) -> Result<(), SettingsError> {
+        match self.entry.build {
+            Build::Planner(build) => build(settings).map(drop),
+            Build::Stage(build) => build(settings).map(drop),
+        }
+    }
+
     /// Its settings with the reading's and the sweep's laid on top.
     pub fn effective(&self, point: &ReadingChoice, sweep: &SweepPoint) -> Settings {
         let read = point.over_stage(self.entry.name, self.settings.clone());
         match sweep.over.get(self.entry.name) {
-            Some(table) => read.overlaid(table, &format!("sweep {}", name::sweep(&sweep.key))),
+            Some((table, places)) => {
+                read.overlaid_from(table, &format!("sweep {}", name::sweep(&sweep.key)), places.clone())
+            }
             None => read,
         }
     }
@@ -106,6 +116,8 @@ pub struct Sweep {
     pub of: String,
     /// Its values, in the paper's order.
     pub values: Vec<toml::Value>,
+    /// Where it stands.
+    pub place: Place,
 }
 
 impl Sweep {
@@ -137,7 +149,7 @@ impl Sweep {
 pub struct SweepPoint {
     /// What names it in records; empty without sweeps.
     pub key: SweepKey,
-    pub(super) over: BTreeMap<String, Table>,
+    pub(super) over: BTreeMap<String, (Table, Vec<Place>)>,
 }
 
 impl Pipeline {

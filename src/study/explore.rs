@@ -1,7 +1,7 @@
 //! Which readings of a paper are explored: points in the product of its readings.
 
 use super::checked::Study;
-use super::contender::{Contender, StageUse};
+use super::contender::{Contender, StageUse, Sweep};
 use super::group::Group;
 use super::reading::{Reading, ReadingChoice, single_options};
 use super::spec::OptionSpec;
@@ -136,8 +136,13 @@ pub fn stamp(study: &Study) -> String {
         let options: Vec<String> = reading.options.iter().map(option).collect();
         format!("{} {} {options:?}", reading.id, reading.default)
     };
+    // As stamps always had it: where a sweep stands is no part of it.
+    let swept = |Sweep { key, of, values, .. }: &Sweep| {
+        format!("Sweep {{ key: {key:?}, of: {of:?}, values: {values:?} }}")
+    };
+    let sweeps = study.sweeps.iter().map(swept).collect::<Vec<_>>().join(", ");
     let text = format!(
-        "{} {} {} {:?} {} {} {:?} {:?} {:?}\n{:?}\n{:?}\n{:?}\n{:?}",
+        "{} {} {} {:?} {} {} {:?} {:?} {:?}\n{:?}\n{:?}\n[{sweeps}]\n{:?}",
         study.paper,
         study.name,
         study.seed,
@@ -149,7 +154,6 @@ pub fn stamp(study: &Study) -> String {
         study.explore,
         study.groups.iter().map(group).collect::<Vec<_>>(),
         study.contenders.iter().map(contender).collect::<Vec<_>>(),
-        study.sweeps,
         study.readings.iter().map(reading).collect::<Vec<_>>(),
     );
     sha256(text.as_bytes())[..16].to_owned()

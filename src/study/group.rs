@@ -4,7 +4,7 @@ use super::error::StudyError;
 use super::family::{Entry, Family};
 use super::inputs::Inputs;
 use super::reading::ReadingChoice;
-use base::settings::{Faults, Settings};
+use base::settings::{Faults, Settings, SettingsError};
 use std::sync::Arc;
 use toml::Table;
 
@@ -41,14 +41,22 @@ impl Group {
     /// What else is wrong with its settings and the files that they name, where some of them are not accepted: one fault hides no
     /// other.
     pub fn check_rest(&self, point: &ReadingChoice, inputs: &Inputs, faults: &mut Faults) {
-        let built = |settings: &Settings| match (self.family.build)(settings, inputs) {
-            Err(StudyError::Settings(error)) => Some(error),
-            _ => None,
-        };
+        let built = |settings: &Settings| self.built(settings, inputs).err();
         let (schema, example) = (self.family.settings.schema(), self.family.example);
         let found = self.settings_under(point).faults_beside(&schema, example, built);
         for fault in found {
             faults.add(fault);
+        }
+    }
+
+    /// Whether its family can be built from `settings`; what is wrong with a file is told elsewhere.
+    ///
+    /// # Errors
+    /// Those of the settings.
+    pub fn built(&self, settings: &Settings, inputs: &Inputs) -> Result<(), SettingsError> {
+        match (self.family.build)(settings, inputs) {
+            Err(StudyError::Settings(error)) => Err(error),
+            _ => Ok(()),
         }
     }
 

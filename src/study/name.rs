@@ -3,7 +3,7 @@
 pub use base::slug::slug;
 
 use super::key::{DrawKey, Owner, ReadingKey, SweepKey, SweepValue, Text, TrialKey};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How a study's records are named: what is left out of a name because it goes without saying.
 #[derive(Debug, Clone, Default)]
@@ -113,6 +113,17 @@ pub fn sweep(key: &SweepKey) -> String {
 /// `setting=value`.
 pub fn sweep_value((setting, value): &(Text, SweepValue)) -> String {
     format!("{setting}={value}")
+}
+
+/// Of the queries of one draw, those whose name another before them has, by their place: records could not tell them apart.
+pub fn repeated<'a>(queries: impl Iterator<Item = &'a str>) -> Vec<(usize, String)> {
+    let mut seen = BTreeSet::new();
+    let again = queries.enumerate().filter(|(_, name)| !seen.insert(*name));
+    let refused = |(place, name): (usize, &str)| {
+        let said = if name.is_empty() { "without a name".to_owned() } else { format!("called `{name}`") };
+        (place, format!("query {} is the second {said}; one name each is accepted", place + 1))
+    };
+    again.map(refused).collect()
 }
 
 #[cfg(test)]

@@ -187,8 +187,8 @@ impl ReadingChoice {
     #[must_use]
     pub fn over_problem(&self, settings: Settings) -> Settings {
         let laid = |settings: Settings, Change { by, option, place }: &Change| {
-            let place = place.as_ref().map(|place| place.inside(&["problem"]));
-            settings.overlaid_from(&option.problem, by, place)
+            let places = place.iter().map(|place| place.inside(&["problem"])).collect();
+            settings.overlaid_from(&option.problem, by, places)
         };
         self.changes.iter().fold(settings, laid)
     }
@@ -198,8 +198,8 @@ impl ReadingChoice {
     pub fn over_stage(&self, entry: &str, settings: Settings) -> Settings {
         let laid = |settings: Settings, Change { by, option, place }: &Change| {
             let Some(over) = option.stage.get(entry) else { return settings };
-            let place = place.as_ref().map(|place| place.inside(&["stage", entry]));
-            settings.overlaid_from(over, by, place)
+            let places = place.iter().map(|place| place.inside(&["stage", entry])).collect();
+            settings.overlaid_from(over, by, places)
         };
         self.changes.iter().fold(settings, laid)
     }

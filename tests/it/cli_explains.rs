@@ -80,6 +80,7 @@ fn list_explains_one_thing_within_eighty_columns_and_meets_a_misspelled_name() {
         ("tasks", "plan", "It has no settings."),
         ("prepared", "lattice", "free_cells"),
         ("files", "robot", "joint.alpha_deg: a number (degrees); required"),
+        ("files", "study", "{ replicates = 2 } if left out"),
     ] {
         let said = bench.done(&["list", what, name]);
         assert!(said.contains(part), "{part}\n{said}");

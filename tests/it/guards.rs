@@ -329,6 +329,20 @@ fn a_manifest_edited_by_hand_is_caught_by_judge() {
 }
 
 #[test]
+fn records_of_a_study_that_is_no_more_are_told() {
+    let bench = committed();
+    for part in ["trials.parquet", "manifest.toml"] {
+        let whole = fs::read(bench.at(&format!("{RUNS}/scenarios.{part}"))).unwrap();
+        bench.write(&format!("{RUNS}/gone.{part}"), &whole);
+    }
+    let said = refused(&bench, &["judge", "movingai_sample", "--check"]);
+    assert!(
+        said.contains("left over from a study that is no more; remove: ") && said.contains("gone.*"),
+        "{said}"
+    );
+}
+
+#[test]
 fn what_must_hold_and_does_not_is_refused() {
     let own = "check.lower.of = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\", against = \
                \"Two-sided\" }";

@@ -4,10 +4,10 @@
 use crate::paper::Bench;
 
 /// A change of a file of a template, and what must be said of it.
-type Change = (&'static str, &'static str, &'static str);
+type Change<'a> = (&'a str, &'a str, &'a str);
 
 /// What `check` says of the template with the changes made, line by line without excerpts.
-fn told(template: &str, changes: &[Change]) -> Vec<String> {
+fn told(template: &str, changes: &[Change<'_>]) -> Vec<String> {
     let bench = Bench::empty();
     bench.done(&["new", "toy", "--from", template]);
     for (file, from, to) in changes {
@@ -21,16 +21,16 @@ fn told(template: &str, changes: &[Change]) -> Vec<String> {
 }
 
 /// That exactly `wanted` is told, each line by how it begins.
-fn assert_told(template: &str, changes: &[Change], wanted: &[&str]) {
+fn assert_told(template: &str, changes: &[Change<'_>], wanted: &[&str]) {
     let told = told(template, changes);
     let fits =
         told.len() == wanted.len() && told.iter().zip(wanted).all(|(line, wanted)| line.starts_with(wanted));
     assert!(fits, "{changes:?}\nshould be told:\n{}\nis told:\n{}", wanted.join("\n"), told.join("\n"));
 }
 
-const ROBOT: Change = ("robot.toml", "upper_deg = 360", "upper_deg = -500");
-const SCENE: Change = ("scene.toml", "max_mm = [800, -300, 60]", "max_mm = [300, -300, 60]");
-const POSES: Change = ("poses.toml", "-120, -90, 0]", "-120, -90]");
+const ROBOT: Change<'_> = ("robot.toml", "upper_deg = 360", "upper_deg = -500");
+const SCENE: Change<'_> = ("scene.toml", "max_mm = [800, -300, 60]", "max_mm = [300, -300, 60]");
+const POSES: Change<'_> = ("poses.toml", "-120, -90, 0]", "-120, -90]");
 const IN_FILES: [&str; 3] = [
     "poses.toml:5:5: `A` is an array of 5",
     "robot.toml:15:1: joint 1: upper_deg is -500",
@@ -147,4 +147,57 @@ fn a_figure_of_a_pose_or_a_claim_of_a_query_that_is_not_there_is_refused() {
     let query = ("paper.toml", "problems = \"cell\", ", "problems = \"cell\", query = \"hugh\", ");
     let told = told("cell", &[query]);
     assert!(told.len() == 1 && told[0].contains("there is no query of cell `hugh`"), "{told:?}");
+}
+
+/// A sweep in the template of grids, before its reading.
+fn swept(key: &str, values: &str) -> String {
+    format!("[[sweep]]\nkey = \"{key}\"\nof = \"astar\"\nvalues = {values}\n\n[[reading]]\nid = \"ties\"")
+}
+
+/// The template of grids with that sweep, both contenders of one weight.
+fn assert_swept(key: &str, values: &str, wanted: &[&str]) {
+    let sweep = swept(key, values);
+    let agreed = ("compare.toml", "weight = 2", "weight = 1");
+    assert_told("grid", &[agreed, ("compare.toml", "[[reading]]\nid = \"ties\"", &sweep)], wanted);
+}
+
+#[test]
+fn what_is_wrong_with_a_sweep_is_told_there_and_once() {
+    assert_swept(
+        "wheight",
+        "[1, 2]",
+        &["compare.toml:41:7: unknown key `wheight` (did you mean `weight`?); accepted: "],
+    );
+    assert_swept(
+        "weight",
+        "[1, \"two\"]",
+        &["compare.toml:43:14: `weight` is \"two\"; a number or \"falling\""],
+    );
+    for twice in ["[1, 2, 1]", "[1, 1.0]"] {
+        assert_swept(
+            "weight",
+            twice,
+            &["compare.toml:41:7: sweep `weight` has a value twice; each once is accepted"],
+        );
+    }
+}
+
+#[test]
+fn a_sweep_that_would_make_two_contenders_one_is_refused() {
+    let sweep = swept("weight", "[1, 2]");
+    let wanted = "compare.toml:41:7: sweep `weight` would hide that contender `A*` says 1 and contender `Weighted A*` 2; ";
+    assert_told("grid", &[("compare.toml", "[[reading]]\nid = \"ties\"", &sweep)], &[wanted]);
+}
+
+#[test]
+fn a_misspelt_value_is_told_as_such_where_the_default_of_a_reading_would_hide_it() {
+    let misspelt = ("compare.toml", "weight = 1, ties = \"fifo\"", "weight = 1, ties = \"fifoo\"");
+    assert_told("grid", &[misspelt], &["compare.toml:31:33: `ties` is \"fifoo\" (did you mean `fifo`?); "]);
+}
+
+#[test]
+fn queries_that_records_could_not_tell_apart_are_refused() {
+    let twice = ("poses.toml", "name = \"high\"", "name = \"low\"");
+    let wanted = "poses.toml:15:8: query 2 is the second called `low`; one name each is accepted";
+    assert_told("cell", &[twice], &[wanted]);
 }

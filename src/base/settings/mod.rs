@@ -11,6 +11,7 @@ pub mod describe;
 mod document;
 mod error;
 mod nearest;
+mod place;
 mod reader;
 mod salvage;
 mod schema;
@@ -22,9 +23,9 @@ pub use accepted::{Accepted, NoSettings, generator, schema_of};
 pub use document::Document;
 pub use error::{Faults, SettingsError};
 pub use nearest::{did_you_mean, none_called};
-
+pub use place::Place;
 pub use spanned::{AnyTable, AnyValue, Spanned};
-pub use table::{Place, Settings};
+pub use table::Settings;
 
 #[cfg(test)]
 mod tests;

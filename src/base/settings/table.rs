@@ -1,6 +1,7 @@
 //! A table of settings on its way from the spec to the entry that understands it.
 
-use super::document::{in_words, inner, parse, part_of, span_of};
+use super::document::{in_words, parse};
+use super::place::{Place, Sought, Written};
 use super::reader;
 use super::schema::defaults;
 use super::validate::faults;
@@ -45,92 +46,8 @@ struct Layer {
     by: String,
     /// Its keys.
     keys: BTreeSet<String>,
-    /// Where it stands, if a file holds it.
-    place: Option<Place>,
-}
-
-/// Where a table stands: its document, and the keys and numbers of elements from 0 that lead to it.
-#[derive(Debug, Clone)]
-pub struct Place {
-    /// The document.
-    pub document: Arc<Document>,
-    /// The way to the table.
-    pub steps: Vec<String>,
-}
-
-/// Equal tables say the same wherever they stand.
-impl PartialEq for Place {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
-impl Place {
-    /// The table inside this one that `steps` lead to.
-    #[must_use]
-    pub fn inside(&self, steps: &[&str]) -> Self {
-        let mut inside = self.clone();
-        inside.steps.extend(steps.iter().map(|step| (*step).to_owned()));
-        inside
-    }
-
-    fn table(&self) -> Option<&Written<'_>> {
-        let whole = self.document.parsed().ok()?;
-        self.steps.iter().try_fold(whole, |value, step| inner(value, step))
-    }
-}
-
-/// What an error about settings is told at.
-#[derive(Clone, Copy)]
-enum Sought<'a> {
-    /// The value that a path leads to.
-    Value(&'a str),
-    /// The key that a path ends with.
-    Key(&'a str),
-    /// A text: see [`Settings::error_about`].
-    Word { within: &'a str, keys: &'a [&'a str], word: &'a str },
-}
-
-impl Sought<'_> {
-    /// The key of the table that it lies under; empty if it is the table itself or is looked for in all of it.
-    fn first(&self) -> &str {
-        match self {
-            Self::Value(path) | Self::Key(path) => path.split('.').next().unwrap_or_default(),
-            Self::Word { .. } => "",
-        }
-    }
-
-    /// Where it stands in the table, or as near to it as there is anything.
-    fn near(&self, table: &Written<'_>) -> Range<usize> {
-        self.exactly(table).unwrap_or_else(|| match self {
-            Self::Value(path) | Self::Key(path) => span_of(table, path),
-            Self::Word { within, word, .. } => {
-                let part = part_of(table, within);
-                let found = text(part, "", &[""], word).or_else(|| text(table, "", &[""], word));
-                found.unwrap_or_else(|| part.span())
-            }
-        })
-    }
-
-    /// Where it stands in the table, if it does.
-    fn exactly(&self, table: &Written<'_>) -> Option<Range<usize>> {
-        match self {
-            Self::Value(path) => {
-                inner(table, self.first()).filter(|_| !path.is_empty()).map(|_| span_of(table, path))
-            }
-            Self::Key(path) => {
-                let (before, key) = path.rsplit_once('.').unwrap_or(("", path));
-                let mut holder = before.split('.').filter(|step| !step.is_empty());
-                let holder = holder.try_fold(table, |value, step| inner(value, step))?;
-                let mut keys = holder.get_ref().as_table()?.iter().map(|(key, _)| key);
-                keys.find(|found| found.get_ref() == key).map(toml::Spanned::span)
-            }
-            Self::Word { within, keys, word } => {
-                let part = part_of(table, within);
-                text(part, "", keys, word).or_else(|| text(table, "", keys, word))
-            }
-        }
-    }
+    /// Where it stands, or the parts of it, if a file holds them.
+    places: Vec<Place>,
 }
 
 impl Settings {
@@ -172,18 +89,18 @@ impl Settings {
     /// These settings with the keys of `over` laid on top, on behalf of `by`.
     #[must_use]
     pub fn overlaid(&self, over: &Table, by: &str) -> Self {
-        self.overlaid_from(over, by, None)
+        self.overlaid_from(over, by, Vec::new())
     }
 
-    /// The same with a table that stands at `place`: what is wrong with its values is told there.
+    /// The same with a table that stands at `places`: what is wrong with its values is told there.
     #[must_use]
-    pub fn overlaid_from(&self, over: &Table, by: &str, place: Option<Place>) -> Self {
+    pub fn overlaid_from(&self, over: &Table, by: &str, places: Vec<Place>) -> Self {
         if over.iter().all(|(key, value)| self.table.get(key) == Some(value)) {
             return self.clone();
         }
         let mut table = self.table.clone();
         table.extend(over.iter().map(|(key, value)| (key.clone(), value.clone())));
-        let over = Layer { by: by.to_owned(), keys: over.keys().cloned().collect(), place };
+        let over = Layer { by: by.to_owned(), keys: over.keys().cloned().collect(), places };
         let origin = Origin::Overlaid { under: Box::new(self.clone()), over };
         Self { table, origin, filled: self.filled.clone() }
     }
@@ -292,13 +209,16 @@ impl Settings {
                 // That the table itself could not be read was said already.
                 document.error(span.clone(), format!("{whose}: {message}")).about("settings")
             }
-            Origin::Overlaid { under, over } => match over.place.as_ref() {
-                Some(place) if let Some(span) = place.table().and_then(|table| sought.exactly(table)) => {
-                    place.document.error(span, message)
+            Origin::Overlaid { under, over } => {
+                let found = over.places.iter().find_map(|place| Some((place, place.find(sought)?)));
+                if let Some((place, span)) = found {
+                    return place.document.error(span, message);
                 }
-                None if over.keys.contains(sought.first()) => under.lowest(message, sought).under(&over.by),
-                _ => under.placed(message, sought).under(&over.by),
-            },
+                let is_over = over.places.is_empty() && over.keys.contains(sought.first());
+                let error =
+                    if is_over { under.lowest(message, sought) } else { under.placed(message, sought) };
+                error.under(&over.by)
+            }
             Origin::Parts { whole, keys, whose } => {
                 let message = format!("{whose}: {message}");
                 let (Sought::Value(path) | Sought::Key(path)) = sought else {
@@ -341,9 +261,6 @@ fn part_in(table: &Table, path: &str, key: &str) -> bool {
     value.is_some_and(|value| value.get(key).is_some())
 }
 
-/// A value as a document has it.
-type Written<'t> = toml::Spanned<DeValue<'t>>;
-
 /// The keys and numbers of elements that lead to the innermost value around `span`, and whether it is its key that stands there.
 fn path_to(value: &Written<'_>, span: &Range<usize>) -> (String, bool) {
     let around = |inner: &Range<usize>| inner.start <= span.start && span.end <= inner.end;
@@ -377,22 +294,6 @@ fn find<'a, 't>(value: &'a Written<'t>, span: &Range<usize>) -> Option<&'a Writt
     match value.get_ref() {
         DeValue::Table(table) => table.iter().find_map(|(_, v)| find(v, span)),
         DeValue::Array(array) => array.iter().find_map(|v| find(v, span)),
-        _ => None,
-    }
-}
-
-/// Where the first text inside `value` that is `word` stands, of those whose nearest key starts with one of `keys`; `key` is
-/// the nearest above `value`.
-fn text(value: &Written<'_>, key: &str, keys: &[&str], word: &str) -> Option<Range<usize>> {
-    match value.get_ref() {
-        DeValue::String(found) => {
-            (found == word && keys.iter().any(|start| key.starts_with(start))).then(|| value.span())
-        }
-        DeValue::Table(table) => {
-            let found = table.iter().filter_map(|(key, inner)| text(inner, key.get_ref(), keys, word));
-            found.min_by_key(|span| span.start)
-        }
-        DeValue::Array(array) => array.iter().find_map(|inner| text(inner, key, keys, word)),
         _ => None,
     }
 }

@@ -344,7 +344,8 @@ impl Kind for WorkCell {
         let lines = ask::exhibit(scene, draw, "straight lines").ok();
         let mut lines = lines.into_iter().flat_map(|lines| lines.values.chunks(lines.width));
         for exhibit in scene.run.exhibits(draw) {
-            let Some((group, end)) = exhibit.name.strip_prefix("pose ").and_then(|name| name.split_once('/'))
+            let Some((group, end)) =
+                exhibit.name.strip_prefix("pose ").and_then(|name| name.rsplit_once('/'))
             else {
                 continue;
             };

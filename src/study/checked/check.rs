@@ -7,14 +7,15 @@ use super::super::inputs::Inputs;
 use super::super::spec::StudySpec;
 use super::super::{name, planner};
 use super::sizes::SWEPT;
-use super::{Contender, Group, ReadingChoice, Study, SweepPoint, labels_of};
-use base::settings::{Document, Faults, SettingsError, did_you_mean, none_called};
+use super::{Contender, Group, ReadingChoice, Study, Sweep, SweepPoint, labels_of};
+use base::settings::{Document, Faults, Settings, SettingsError, did_you_mean, none_called};
 use engine::space::WorldKind;
 use engine::space::roadmap::Extent;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
+use toml::Table;
 
 impl Study {
     /// Builds everything once under every single option, so that nothing can fail for its settings later. What cannot be
@@ -33,7 +34,7 @@ impl Study {
         self.check_sweeps(faults);
         self.check_defaults(faults);
         self.check_stages_of_readings(faults);
-        self.check_what_defaults_hide(faults);
+        self.check_what_defaults_hide(inputs, faults);
         let mut known = Families::default();
         if let Some(points) = keep(faults, self.single_options())? {
             for point in &points {
@@ -41,6 +42,7 @@ impl Study {
             }
             let families = self.check_ends(&points[0], inputs, &mut known, faults)?;
             self.check_sizes(&families, faults);
+            check_query_names(&families, faults);
             let queries =
                 |family: &dyn Family| family.queries().iter().map(|query| query.name.clone()).collect();
             let named: Vec<(usize, Vec<String>)> =
@@ -87,20 +89,22 @@ impl Study {
     }
 
     /// Refuses defaults that lay something else over what contenders or problems say: they would never run as they are written.
-    fn check_what_defaults_hide(&self, faults: &mut Faults) {
+    fn check_what_defaults_hide(&self, inputs: &Inputs, faults: &mut Faults) {
         for (index, reading) in self.readings.iter().enumerate() {
             let Some(default) = reading.options.get(&reading.default) else { continue };
             let uses =
                 self.contenders.iter().flat_map(|own| own.stages.iter().map(move |stage| (own, stage)));
             let stages = uses.filter_map(|(own, stage)| {
                 let over = default.stage.get(stage.entry.name)?;
-                Some((format!("contender `{}` says", own.label), stage.settings.hidden_by(over)))
+                let wrong = |settings: &Settings| stage.built(settings).err();
+                Some((format!("contender `{}` says", own.label), hidden(&stage.settings, over, wrong)))
             });
             let problems = self.groups.iter().map(|group| {
-                (format!("problems `{}` say", group.label), group.settings.hidden_by(&default.problem))
+                let wrong = |settings: &Settings| group.built(settings, inputs).err();
+                (format!("problems `{}` say", group.label), hidden(&group.settings, &default.problem, wrong))
             });
             for (whose, hidden) in stages.chain(problems) {
-                for key in hidden {
+                for key in faults.keep(hidden).unwrap_or_default() {
                     let message = format!(
                         "the default of reading `{}` changes the `{key}` that {whose}; the same, or no reading of it in this \
                          study, is accepted",
@@ -199,6 +203,9 @@ impl Study {
             let wrong = match sweep.key_values() {
                 None => Some("has a value that is neither a number nor a word nor a truth value"),
                 Some(values) if values.is_empty() => Some("has no value; one or more is accepted"),
+                Some(values) if (1..values.len()).any(|place| values[..place].contains(&values[place])) => {
+                    Some("has a value twice; each once is accepted")
+                }
                 _ => (!keys.insert(sweep.key.clone()))
                     .then_some("is the second over this setting; one is accepted"),
             };
@@ -227,14 +234,46 @@ impl Study {
                 );
                 faults.add(self.document.error_at(&format!("sweep.{index}.of"), message).about(&sweep.of));
             }
+            self.check_what_sweep_hides(&sweep, index, faults);
             kept.push(sweep);
         }
         self.sweeps = kept;
     }
 
+    /// Refuses a sweep over a setting that contenders differ in: it would make them one.
+    fn check_what_sweep_hides(&self, sweep: &Sweep, index: usize, faults: &mut Faults) {
+        let stages = self.contenders.iter().flat_map(|own| own.stages.iter().map(move |stage| (own, stage)));
+        let said: Vec<_> = stages
+            .filter(|(_, stage)| stage.entry.name == sweep.of)
+            .filter_map(|(own, stage)| Some((own, stage.settings.table().get(&sweep.key)?)))
+            .collect();
+        let Some((first, value)) = said.first() else { return };
+        if let Some((other, another)) = said.iter().find(|(_, other)| other != value) {
+            let message = format!(
+                "sweep `{}` would hide that contender `{}` says {value} and contender `{}` {another}; a setting that \
+                 contenders agree on is accepted",
+                sweep.key, first.label, other.label
+            );
+            faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
+        }
+    }
+
     fn stage_names(&self) -> BTreeSet<&'static str> {
         self.contenders.iter().flat_map(|c| &c.stages).map(|stage| stage.entry.name).collect()
     }
+}
+
+/// The keys of `settings` that `over` would hide; what is wrong with them as they are written, if that is why they differ.
+fn hidden(
+    settings: &Settings,
+    over: &Table,
+    wrong: impl Fn(&Settings) -> Option<SettingsError>,
+) -> Result<Vec<String>, SettingsError> {
+    let keys = settings.hidden_by(over);
+    let mut beside = over.clone();
+    beside.retain(|key, _| !keys.iter().any(|hidden| hidden == key));
+    let as_written = settings.overlaid(&beside, "the default of a reading");
+    if keys.is_empty() { Ok(keys) } else { wrong(&as_written).map_or(Ok(keys), Err) }
 }
 
 /// The value, if there is one; what is wrong with the study's text goes to `faults`, any other error is passed on.
@@ -246,6 +285,16 @@ fn keep<T>(faults: &mut Faults, result: Result<T, StudyError>) -> Result<Option<
             Ok(None)
         }
         Err(other) => Err(other),
+    }
+}
+
+/// Queries are told apart by their names in the keys of records.
+fn check_query_names(families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
+    for (group, family) in families {
+        let names = family.queries().iter().map(|query| query.name.as_str());
+        for (place, message) in name::repeated(names) {
+            faults.add(group.settings.error_at(&format!("queries.{place}"), message));
+        }
     }
 }
 

@@ -81,7 +81,7 @@ impl Study {
                 faults,
             ),
             name,
-            sweeps: spec.sweeps.into_iter().map(sweep).collect(),
+            sweeps: spec.sweeps.into_iter().enumerate().map(|(at, spec)| sweep(document, at, spec)).collect(),
             readings: readings(spec.readings, document),
             explore: spec.explore,
             budget: spec.budget,
@@ -169,15 +169,13 @@ fn optional(
     table.map_or_else(|| Settings::absent(document, at, whose), |table| Settings::written(document, table))
 }
 
-fn sweep(spec: SweepSpec) -> Sweep {
-    Sweep { key: spec.key.into_inner(), of: spec.of.into_inner(), values: spec.values.into_inner() }
+fn sweep(document: &Arc<Document>, index: usize, spec: SweepSpec) -> Sweep {
+    let place = Place::of_table(document, &["sweep", &index.to_string()]);
+    Sweep { key: spec.key.into_inner(), of: spec.of.into_inner(), values: spec.values.into_inner(), place }
 }
 
 fn readings(specs: Vec<ReadingSpec>, document: &Arc<Document>) -> Vec<Reading> {
-    let place = |index: usize| {
-        let steps = ["reading", &index.to_string(), "option"].map(str::to_owned).to_vec();
-        Place { document: document.clone(), steps }
-    };
+    let place = |index: usize| Place::of_table(document, &["reading", &index.to_string(), "option"]);
     specs.into_iter().enumerate().map(|(index, spec)| reading(spec, place(index))).collect()
 }
 

@@ -154,7 +154,7 @@ fn is_within(axis: &Segment, bounds: &Aabb, still: &Still, reach_m: f64) -> bool
     }
 }
 
-/// Whether the balls about two segments are further apart than `reach_m`, without a doubt: most pairs are, and need no distance.
+/// Whether the balls about two segments are surely further apart than `reach_m`: most pairs are, and need no distance.
 fn are_far(p: &Segment, q: &Segment, reach_m: f64) -> bool {
     let apart_m = ((p.a + p.b) - (q.a + q.b)).length();
     apart_m > (p.b - p.a).length() + (q.b - q.a).length() + 2.0 * (reach_m + ROUNDING_M)

@@ -1,6 +1,7 @@
 //! The file of groups: named poses of an arm, and the queries that join two of them.
 
 use super::Query;
+use crate::name;
 use base::settings::{Accepted, Document, Faults, SettingsError, Spanned};
 use engine::kinematics::Joints;
 use engine::space::cell::Cell;
@@ -27,8 +28,8 @@ struct GroupsFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GroupEntry {
-    /// Its name.
-    name: String,
+    /// Its name, which no other query has.
+    name: Spanned<String>,
     /// The pose that it starts from, by name.
     from: Spanned<String>,
     /// The pose that it goes to, by name.
@@ -59,9 +60,12 @@ pub(super) fn read_queries(document: &Document) -> Result<Placed, SettingsError>
     };
     let query = |group: &GroupEntry| {
         let (start, goal) = (pose(&group.from), pose(&group.to));
-        Some(Query { name: group.name.clone(), start: start?, goal: goal? })
+        Some(Query { name: group.name.get_ref().clone(), start: start?, goal: goal? })
     };
     let queries: Vec<Query> = file.groups.iter().filter_map(query).collect();
+    for (place, message) in name::repeated(file.groups.iter().map(|group| group.name.get_ref().as_str())) {
+        faults.add(document.error(file.groups[place].name.span(), message));
+    }
     if file.groups.is_empty() {
         faults.add(document.error_at("group", "there is no group; at least one is accepted"));
     }

@@ -1,0 +1,135 @@
+//! Where tables and values of settings stand, and what an error about them is told at.
+
+use super::Document;
+use super::document::{inner, part_of, span_of};
+use std::ops::Range;
+use std::sync::Arc;
+use toml::de::DeValue;
+
+/// A value as a document has it.
+pub(super) type Written<'t> = toml::Spanned<DeValue<'t>>;
+
+/// Where a table stands, or one value that is laid over settings: its document, and the keys and numbers of elements from 0 that
+/// lead to it.
+#[derive(Debug, Clone)]
+pub struct Place {
+    pub(super) document: Arc<Document>,
+    steps: Vec<String>,
+    /// The key that a value is laid under, and the way to where that key is named.
+    named: Option<(String, Vec<String>)>,
+}
+
+/// Equal tables say the same wherever they stand.
+impl PartialEq for Place {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Place {
+    /// The table in `document` that `steps` lead to.
+    pub fn of_table(document: &Arc<Document>, steps: &[&str]) -> Self {
+        let steps = steps.iter().map(|step| (*step).to_owned()).collect();
+        Self { document: document.clone(), steps, named: None }
+    }
+
+    /// The table inside this one that `steps` lead to.
+    #[must_use]
+    pub fn inside(&self, steps: &[&str]) -> Self {
+        let mut inside = self.clone();
+        inside.steps.extend(steps.iter().map(|step| (*step).to_owned()));
+        inside
+    }
+
+    /// The value inside this table that `value` leads to, laid under `key`, which stands where `named` leads to.
+    #[must_use]
+    pub fn of_value(&self, key: &str, named: &[&str], value: &[&str]) -> Self {
+        let named = Some((key.to_owned(), self.inside(named).steps));
+        Self { named, ..self.inside(value) }
+    }
+
+    fn at(&self, steps: &[String]) -> Option<&Written<'_>> {
+        let whole = self.document.parsed().ok()?;
+        steps.iter().try_fold(whole, |value, step| inner(value, step))
+    }
+
+    /// Where `sought` stands here, if it does.
+    pub(super) fn find(&self, sought: Sought<'_>) -> Option<Range<usize>> {
+        let Some((key, named)) = &self.named else {
+            return self.at(&self.steps).and_then(|table| sought.exactly(table));
+        };
+        let (Sought::Value(path) | Sought::Key(path)) = sought else { return None };
+        let is_key = matches!(sought, Sought::Key(_)) && path == key;
+        let is_it = sought.first() == key;
+        is_it.then(|| self.at(if is_key { named } else { &self.steps })).flatten().map(toml::Spanned::span)
+    }
+}
+
+/// What an error about settings is told at.
+#[derive(Clone, Copy)]
+pub(super) enum Sought<'a> {
+    /// The value that a path leads to.
+    Value(&'a str),
+    /// The key that a path ends with.
+    Key(&'a str),
+    /// A text: see [`Settings::error_about`].
+    Word { within: &'a str, keys: &'a [&'a str], word: &'a str },
+}
+
+impl Sought<'_> {
+    /// The key of the table that it lies under; empty if it is the table itself or is looked for in all of it.
+    pub(super) fn first(&self) -> &str {
+        match self {
+            Self::Value(path) | Self::Key(path) => path.split('.').next().unwrap_or_default(),
+            Self::Word { .. } => "",
+        }
+    }
+
+    /// Where it stands in the table, or as near to it as there is anything.
+    pub(super) fn near(&self, table: &Written<'_>) -> Range<usize> {
+        self.exactly(table).unwrap_or_else(|| match self {
+            Self::Value(path) | Self::Key(path) => span_of(table, path),
+            Self::Word { within, word, .. } => {
+                let part = part_of(table, within);
+                let found = text(part, "", &[""], word).or_else(|| text(table, "", &[""], word));
+                found.unwrap_or_else(|| part.span())
+            }
+        })
+    }
+
+    /// Where it stands in the table, if it does.
+    pub(super) fn exactly(&self, table: &Written<'_>) -> Option<Range<usize>> {
+        match self {
+            Self::Value(path) => {
+                inner(table, self.first()).filter(|_| !path.is_empty()).map(|_| span_of(table, path))
+            }
+            Self::Key(path) => {
+                let (before, key) = path.rsplit_once('.').unwrap_or(("", path));
+                let mut holder = before.split('.').filter(|step| !step.is_empty());
+                let holder = holder.try_fold(table, |value, step| inner(value, step))?;
+                let mut keys = holder.get_ref().as_table()?.iter().map(|(key, _)| key);
+                keys.find(|found| found.get_ref() == key).map(toml::Spanned::span)
+            }
+            Self::Word { within, keys, word } => {
+                let part = part_of(table, within);
+                text(part, "", keys, word).or_else(|| text(table, "", keys, word))
+            }
+        }
+    }
+}
+
+/// Where the first text inside `value` that is `word` stands, of those whose nearest key starts with one of `keys`; `key` is
+/// the nearest above `value`.
+fn text(value: &Written<'_>, key: &str, keys: &[&str], word: &str) -> Option<Range<usize>> {
+    match value.get_ref() {
+        DeValue::String(found) => {
+            (found == word && keys.iter().any(|start| key.starts_with(start))).then(|| value.span())
+        }
+        DeValue::Table(table) => {
+            let found = table.iter().filter_map(|(key, inner)| text(inner, key.get_ref(), keys, word));
+            found.min_by_key(|span| span.start)
+        }
+        DeValue::Array(array) => array.iter().find_map(|inner| text(inner, key, keys, word)),
+        _ => None,
+    }
+}
