@@ -361,8 +361,9 @@ impl Verdicts {
 
     /// The claims that must hold whatever was drawn and do not: the program is wrong, or the theorem.
     pub fn violated(&self) -> Vec<&str> {
-        let is_violated =
-            |judged: &&Judged| judged.theorem.is_some() && judged.verdict.polarity() == Polarity::Against;
+        let is_broken =
+            |verdict: Verdict| verdict.polarity() == Polarity::Against || verdict == Verdict::DirectionOnly;
+        let is_violated = |judged: &&Judged| judged.theorem.is_some() && is_broken(judged.verdict);
         self.claims.iter().filter(is_violated).map(|judged| judged.claim.as_str()).collect()
     }
 

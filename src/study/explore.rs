@@ -136,10 +136,6 @@ pub fn stamp(study: &Study) -> String {
         let options: Vec<String> = reading.options.iter().map(option).collect();
         format!("{} {} {options:?}", reading.id, reading.default)
     };
-    // As stamps always had it: where a sweep stands is no part of it.
-    let swept = |Sweep { key, of, values, .. }: &Sweep| {
-        format!("Sweep {{ key: {key:?}, of: {of:?}, values: {values:?} }}")
-    };
     let sweeps = study.sweeps.iter().map(swept).collect::<Vec<_>>().join(", ");
     let text = format!(
         "{} {} {} {:?} {} {} {:?} {:?} {:?}\n{:?}\n{:?}\n[{sweeps}]\n{:?}",
@@ -157,6 +153,11 @@ pub fn stamp(study: &Study) -> String {
         study.readings.iter().map(reading).collect::<Vec<_>>(),
     );
     sha256(text.as_bytes())[..16].to_owned()
+}
+
+/// A sweep as stamps always had it: where it stands is no part of it.
+fn swept(Sweep { key, of, values, .. }: &Sweep) -> String {
+    format!("Sweep {{ key: {key:?}, of: {of:?}, values: {values:?} }}")
 }
 
 #[cfg(test)]

@@ -201,3 +201,11 @@ fn queries_that_records_could_not_tell_apart_are_refused() {
     let wanted = "poses.toml:15:8: query 2 is the second called `low`; one name each is accepted";
     assert_told("cell", &[twice], &[wanted]);
 }
+
+#[test]
+fn a_ratio_to_a_printed_zero_is_refused() {
+    let zero = ("paper.toml", "printed = \"60\"", "printed = \"0\"");
+    let ratio = ("paper.toml", "margin = 5", "margin = 5\nprinted_ratio = [\"nodes\", \"nodes\"]");
+    let wanted = "paper.toml:61:27: claim `nodes` prints 0; a number to divide by is accepted";
+    assert_told("grid", &[zero, ratio], &[wanted]);
+}

@@ -34,7 +34,7 @@ fn a_new_paper_of_a_project_names_the_schemas_of_the_project() {
     let text = fs::read_to_string(bench.at("experiments/fresh/paper.toml")).unwrap();
     let schema = text.lines().next().unwrap().strip_prefix("#:schema ").unwrap();
     assert!(bench.at("experiments/fresh").join(schema).is_file(), "{schema}");
-    assert!(bench.done(&["check", "fresh"]).starts_with("fresh: 1 studies"));
+    assert!(bench.done(&["check", "fresh"]).starts_with("fresh: 1 study, "));
 }
 
 #[test]

@@ -37,7 +37,7 @@ struct Settings {
     rows: Vec<RowSpec>,
     /// The row is refused if fewer than this share of our draws are as far from the mean row, or if its mean is as far out
     /// on one side: the size of either test.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0))]
     refused_below: f64,
 }
 

@@ -59,6 +59,16 @@ struct Within<'a> {
 /// Means nearer to each other than by this share are equal: neither is the lower one.
 const EQUAL: f64 = 1e-3;
 
+/// The ratio of the numbers that two claims print.
+fn ratio(context: &Context<'_>, above: &str, below: &str) -> Result<f64, SettingsError> {
+    let ratio = context.print_of(above)?.printed.value() / context.print_of(below)?.printed.value();
+    if ratio.is_finite() {
+        return Ok(ratio);
+    }
+    let message = format!("claim `{below}` prints 0; a number to divide by is accepted");
+    Err(context.settings.error_at("printed_ratio.1", message))
+}
+
 impl<'a> Within<'a> {
     fn new(context: &Context<'a>) -> Result<Self, SettingsError> {
         let settings: Settings = context.settings.read()?;
@@ -75,9 +85,7 @@ impl<'a> Within<'a> {
         let (accepted, printed) = match (settings.margin, settings.accepted) {
             (Some(margin), None) => {
                 let printed = match &settings.printed_ratio {
-                    Some([above, below]) => {
-                        context.print_of(above)?.printed.value() / context.print_of(below)?.printed.value()
-                    }
+                    Some([above, below]) => ratio(context, above, below)?,
                     None => context.print()?.printed.value(),
                 };
                 (Interval::new(printed - margin, printed + margin), Some(printed))

@@ -200,15 +200,8 @@ impl Study {
         let used = self.stage_names();
         let (mut keys, mut kept, mut points) = (BTreeSet::new(), Vec::new(), 1_usize);
         for (index, sweep) in std::mem::take(&mut self.sweeps).into_iter().enumerate() {
-            let wrong = match sweep.key_values() {
-                None => Some("has a value that is neither a number nor a word nor a truth value"),
-                Some(values) if values.is_empty() => Some("has no value; one or more is accepted"),
-                Some(values) if (1..values.len()).any(|place| values[..place].contains(&values[place])) => {
-                    Some("has a value twice; each once is accepted")
-                }
-                _ => (!keys.insert(sweep.key.clone()))
-                    .then_some("is the second over this setting; one is accepted"),
-            };
+            let wrong = unnamed(&sweep).or((!keys.insert(sweep.key.clone()))
+                .then_some("is the second over this setting; one is accepted"));
             if let Some(wrong) = wrong {
                 let message = format!("sweep `{}` {wrong}", sweep.key);
                 faults.add(self.document.error_at(&format!("sweep.{index}.key"), message));
@@ -261,6 +254,18 @@ impl Study {
     fn stage_names(&self) -> BTreeSet<&'static str> {
         self.contenders.iter().flat_map(|c| &c.stages).map(|stage| stage.entry.name).collect()
     }
+}
+
+/// Why records could not name the values of `sweep`, if they could not.
+fn unnamed(sweep: &Sweep) -> Option<&'static str> {
+    let Some(values) = sweep.key_values() else {
+        return Some("has a value that is neither a number nor a word nor a truth value");
+    };
+    let is_again = |place: usize| values[..place].contains(&values[place]);
+    if values.is_empty() {
+        return Some("has no value; one or more is accepted");
+    }
+    (1..values.len()).any(is_again).then_some("has a value twice; each once is accepted")
 }
 
 /// The keys of `settings` that `over` would hide; what is wrong with them as they are written, if that is why they differ.
