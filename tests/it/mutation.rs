@@ -119,7 +119,7 @@ fn sizes_that_cannot_be_meant_are_refused_with_their_limit() {
             "fu2018/paper.toml",
             "refused_below = 0.05",
             "refused_below = 5",
-            "`refused_below` is 5; a number from 0 to 1 is",
+            "`refused_below` is 5; a number above 0 to 1 is",
         ),
     ] {
         let index = subject.find(file);

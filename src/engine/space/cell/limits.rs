@@ -16,8 +16,13 @@ pub(super) const PARTS: [f64; 3] = [0.25, 0.5, 0.75];
 /// by 0.17 mm, which is 2° of the elbow; one around the hole of 80 mm in the middle by 2.5 mm, which is 2° too.
 const EDGE_RAD: f64 = 0.05;
 
+/// How far a joint may bend out of what lies between its angles at two steps, 1°. A joint that turns back within a step passes
+/// no limit by the turn it makes: it comes and goes. What it strays by is at most an eighth of its second difference, and one of
+/// 8° is a jump where 5° are one; without this, paths that had turned back 0.003° beyond ±360° were found and then refused.
+const STRAY_RAD: f64 = PI / 180.0;
+
 impl Lines {
-    /// Whether a joint is nearer to a limit than it turns from `last` to `next`, or than that and `slack_rad`.
+    /// Whether a joint is nearer to a limit than it turns from `last` to `next` and [`STRAY_RAD`], or than that and `slack_rad`.
     #[inline]
     pub(super) fn nears_limit(&self, last: &Joints, next: &Joints, slack_rad: f64) -> bool {
         let joints = self.cell().robot().arm().chain().joints();
@@ -40,8 +45,7 @@ impl Lines {
     /// Whether joints keep to their limits, and the wrist to its reach, between two steps; `target` is where the tool is after a
     /// part of the step.
     ///
-    /// A joint is asked about only if it is nearer to a limit than it turns in the step: it would have to turn back within it
-    /// to do harm elsewhere.
+    /// A joint is asked about only if it is nearer to a limit than it turns in the step and may stray beside.
     ///
     /// # Errors
     /// [`Rejection::Limits`], or [`Rejection::Unreachable`] if the wrist cannot be there.
@@ -71,7 +75,7 @@ impl Lines {
 }
 
 fn is_near_limit(joint: &Joint, a_rad: f64, b_rad: f64, slack_rad: f64) -> bool {
-    let turn_rad = (a_rad - b_rad).abs() + slack_rad;
+    let turn_rad = (a_rad - b_rad).abs() + STRAY_RAD + slack_rad;
     a_rad.max(b_rad) + turn_rad > joint.upper_rad || a_rad.min(b_rad) - turn_rad < joint.lower_rad
 }
 
@@ -91,7 +95,7 @@ mod tests {
             speed_rad_s: 1.0,
         };
         for (a, b, near) in
-            [(0.0, 0.5, false), (1.0, 1.4, false), (1.4, 1.8, true), (1.8, 1.4, true), (-0.7, -0.2, true)]
+            [(0.0, 0.5, false), (1.0, 1.4, false), (1.4, 1.8, true), (1.8, 1.4, true), (-0.7, -0.2, true), (1.99, 1.99, true)]
         {
             assert_eq!(is_near_limit(&joint, a, b, 0.0), near, "{a} to {b}");
         }
